@@ -97,26 +97,26 @@ def link(found, reach, memory=3):
 
 
 def main():
-    print("| film | pictures with all discs | exchanges per 1000 | rms, pixels |")
+    print("| video | frames with all discs | identity swaps per 1000 | rms, pixels |")
     print("|---|---|---|---|")
     with tempfile.TemporaryDirectory(prefix="swirl-films-") as folder:
-        for name, options in track_test.FILMS:
+        for name, options in track_test.VIDEOS:
             film = os.path.join(folder, name + ".mp4")
-            done = track_test.swirl("film-test", "--camera", name, *options, "--out", film, "--quiet",
+            done = track_test.swirl("synthetic-video", "--camera", name, *options, "--out", film, "--quiet",
                                     timeout=1200)
             if done.returncode != 0:
                 sys.exit(done.stderr)
             truth = track_test.Truth(film)
             dish = [(float(row["x_ideal"]), float(row["y_ideal"]))
-                    for row in track_test.rows(film[:-4] + ".dish.csv")]
+                    for row in track_test.rows(film[:-4] + ".container.csv")]
             found = [find(picture, truth.about["scale"], truth.about["discs"], name == "steel",
                           centre, truth.about["container_radius"])
                      for picture, centre in zip(pictures(film), dish)]
             # Of the picture, not of an ideal lens: plain tracking knows of none.
-            judged = track_test.Judged(track_test.places(film[:-4] + ".truth.csv"),
+            score = track_test.Score(track_test.positions(film[:-4] + ".truth.csv"),
                                        link(found, truth.about["scale"]), truth.about)
-            print(f"| {name} | {100 * judged.complete:.1f} % | {judged.exchanges_per_thousand:.0f} | "
-                  f"{judged.rms:.2f} |", flush=True)
+            print(f"| {name} | {100 * score.complete:.1f} % | {score.swaps_per_thousand:.0f} | "
+                  f"{score.rms:.2f} |", flush=True)
 
 
 if __name__ == "__main__":

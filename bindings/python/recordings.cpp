@@ -115,7 +115,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
         throw UsageError(
             "The tracks are of a single frame, which tells no velocities; two are the "
             "least.");
-    mend(tracks, s.pixels_per_radius);
+    repair(tracks, s.pixels_per_radius);
     FittedSeries fitted = fitted_series(tracks, s, misfit);
     auto recording = std::make_unique<Recording>(std::move(fitted.series));
     recording->remarks = std::move(fitted.remarks);

@@ -1,4 +1,4 @@
-"""tracks.camera.json, the calibration next to tracks: every field is there, once, and of its type."""
+"""tracks.camera.json, the calibration next to tracks: every field is required, once, with its type."""
 
 import json
 import math
@@ -29,7 +29,7 @@ class CameraFile(InFolder):
         text = camera if isinstance(camera, str) else json.dumps({"camera": camera})
         with open(self.path("tracks.camera.json"), "w", encoding="utf-8") as file:
             file.write(text)
-        # These discs never come to the wall, which --misfit 1 permits.
+        # These discs never touch the wall, which --misfit 1 permits.
         return swirl("measure", self.path("tracks.csv"), "--misfit", 1, "--quiet", "--json", "-", *more)
 
     def rejected(self, camera, *words, more=()):
@@ -38,10 +38,10 @@ class CameraFile(InFolder):
         for word in ("tracks.camera.json", *words):
             self.assertIn(word, done.stderr)
 
-    def test_a_good_one_is_read(self):
+    def test_valid_file_is_read(self):
         done = self.measured(CAMERA)
         self.assertEqual(done.returncode, 0, done.stderr)
-        # Another phase is another result, so what is tested below matters.
+        # The phase changes the result, so the checks below matter.
         self.assertNotEqual(done.stdout, self.measured({**CAMERA, "phase": 31.0}).stdout)
 
     def test_fields_of_another_type_are_rejected(self):
@@ -54,7 +54,7 @@ class CameraFile(InFolder):
             for value in values:
                 with self.subTest(name=name, value=value):
                     self.rejected({**CAMERA, name: value}, f"{name} is ", "must be")
-        # Also where an option takes its place: the rest would be of another calibration.
+        # Rejected even if an option overrides the field.
         self.rejected({**CAMERA, "phase": None}, "phase is null", more=("--phase", 30))
 
     def test_fields_out_of_range_are_rejected(self):
@@ -73,10 +73,10 @@ class CameraFile(InFolder):
         self.rejected(json.dumps({"camera": CAMERA})[:-1] + ', "camera": {}}',
                       "'camera' appears twice")
 
-    def test_what_is_no_camera_file_is_rejected(self):
+    def test_other_json_is_rejected(self):
         for text in ("", "{}", "[]", "null", '{"camera": []}', '{"camera": {', "{\"camera\": 1e999}"):
             with self.subTest(text=text):
-                self.rejected(text, "is not what `swirl track` writes")
+                self.rejected(text, "is not a calibration by `swirl track`")
 
     def test_a_table_with_a_column_twice_is_rejected(self):
         with open(self.path("tracks.csv"), "r+", encoding="utf-8") as table:

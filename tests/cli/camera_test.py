@@ -1,7 +1,7 @@
-"""Tracks of a camera, drawn and filmed by swirl, over the camera's own frames.
+"""Images and movies of tracks, drawn over the camera's frames.
 
-The camera is ours: it takes grey pictures of bright discs whose places are known, a trackpy table
-says where they are, and the outlines that swirl draws must lie on the discs.
+The test writes grey frames of bright discs at known positions and a trackpy table of these positions.
+The outlines that swirl draws must coincide with the discs.
 """
 
 import math
@@ -15,17 +15,17 @@ from program import InFolder, swirl
 
 WIDTH, HEIGHT = 240, 200
 SCALE = 10.0                  # pixels per disc radius
-CENTRE = (118.4, 101.3)       # of the swirl
+CENTRE = (118.4, 101.3)       # of the container's path
 RADIUS, AMPLITUDE = 7.0, 1.5  # of the container, in disc radii
-CAMERA_FPS, OMEGA = 40.0, 2.0 * math.pi   # forty frames for a swirl
+CAMERA_FPS, OMEGA = 40.0, 2.0 * math.pi   # forty frames per period
 PHASE = 30.0
-BRIGHT = 0.6                  # of a disc's radius: its bright middle, all within the outline
-SIDE = 500                    # of the pictures made, in pixels
-RING = (0x7F, 0xA6, 0xCC)     # the discs' colour in the dark theme
+BRIGHT = 0.6                  # radius of a disc's bright centre, in disc radii; lies within the outline
+SIDE = 500                    # of the output images, in pixels
+RING = (0x7F, 0xA6, 0xCC)     # colour of discs in the dark theme
 
 
 def write_png(path, rows, width):
-    """Rows of bytes, one for each pixel: grey."""
+    """Write a grey image; rows are bytes objects with one byte per pixel."""
     def chunk(kind, data):
         return (struct.pack(">I", len(data)) + kind + data
                 + struct.pack(">I", zlib.crc32(kind + data)))
@@ -37,7 +37,7 @@ def write_png(path, rows, width):
 
 
 def read_png(path, side):
-    """The pixels of a square picture: (x, y, red, green, blue)."""
+    """The pixels of a square image: (x, y, red, green, blue)."""
     raw = subprocess.run(["ffmpeg", "-v", "error", "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24",
                           "-"], capture_output=True, check=True).stdout
     assert len(raw) == 3 * side * side
@@ -45,15 +45,15 @@ def read_png(path, side):
         yield (k % side, k // side, *raw[3 * k:3 * k + 3])
 
 
-def places(frame, clockwise=False):
-    """Of the discs in pixels, y down. The first moves on a circle of its own, the others ride with
-    the dish."""
+def positions(frame, clockwise=False):
+    """Positions of the discs in pixels, y down. The first moves on its own circle; the others are at rest
+    relative to the container."""
     turn = math.radians(PHASE) + OMEGA * frame / CAMERA_FPS
-    sense = -1.0 if clockwise else 1.0
+    mirror = -1.0 if clockwise else 1.0
     x, y = CENTRE
 
     def pixel(px, py):
-        return x + sense * SCALE * px, y - SCALE * py
+        return x + mirror * SCALE * px, y - SCALE * py
     cx, cy = AMPLITUDE * math.cos(turn), AMPLITUDE * math.sin(turn)
     found = [pixel(cx + 2.2 * math.cos(-0.7 * turn), cy + 2.2 * math.sin(-0.7 * turn))]
     found += [pixel(cx + 5.6 * math.cos(a), cy + 5.6 * math.sin(a)) for a in (0.4, 1.7, 3.9)]
@@ -78,19 +78,19 @@ def middle(points):
 
 class CameraTest(InFolder):
     def record(self, frames, clockwise=False, lose=None, first=0):
-        """Pictures and tracks; `lose` leaves disc 0 out of frames from that one on."""
+        """Write frames and tracks; disc 0 is missing from frame `lose` on."""
         os.makedirs(self.path("seen"), exist_ok=True)
         with open(self.path("tracks.csv"), "w", encoding="utf-8") as table:
             table.write("frame,particle,x,y\n")
             for frame in range(frames):
-                discs = places(frame, clockwise)
+                discs = positions(frame, clockwise)
                 take_picture(self.path(f"seen/{frame + first:04d}.png"), discs)
                 for k, (x, y) in enumerate(discs):
                     if not (k == 0 and lose is not None and frame >= lose):
                         table.write(f"{frame},{k},{x!r},{y!r}\n")
 
     def call(self, command, *more, over=True):
-        # In a mirrored picture the phase is that of the mirror, as one reads it off there.
+        # --phase is the angle in the mirrored image.
         phase = 180.0 - PHASE if "--clockwise" in more else PHASE
         arguments = [command, self.path("tracks.csv"), "--camera-fps", CAMERA_FPS, "--scale", SCALE,
                      "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--phase", phase,
@@ -103,17 +103,18 @@ class CameraTest(InFolder):
     def assert_good(self, result):
         self.assertEqual(result.returncode, 0, result.stderr)
 
-    def assert_wrong_call(self, result, *words):
+    def assert_usage_error(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        hints = result.stderr.splitlines()[1:]  # after one line with the error
+        self.assertTrue(all(line.startswith("hint: ") for line in hints), result.stderr)
         for word in words:
             self.assertIn(word, result.stderr)
 
     def assert_outlines_lie_on_the_discs(self, path, count=4):
-        """Blobs of bright grey, each in the middle of a ring of the discs' colour."""
+        """Each bright grey blob is at the centre of a ring in the discs' colour."""
         bright, ring = set(), set()
         for x, y, red, green, blue in read_png(path, SIDE):
-            if red == green == blue and red > 155:  # half way up its edge
+            if red == green == blue and red > 155:  # half height of its edge
                 bright.add((x, y))
             elif (red, green, blue) == RING:
                 ring.add((x, y))
@@ -127,7 +128,7 @@ class CameraTest(InFolder):
                     if near in bright:
                         bright.remove(near)
                         open_ends.append(near)
-            if len(blob) > 500:  # and not a piece of the wall
+            if len(blob) > 500:  # not a part of the wall
                 blobs.append(blob)
         self.assertEqual(len(blobs), count)
         offsets = []
@@ -138,15 +139,15 @@ class CameraTest(InFolder):
             self.assertGreater(len(around), 60)
             ring_x, ring_y = middle(around)
             offsets.append((ring_x - x, ring_y - y))
-            # Few pixels of a ring have its very colour, so each is found to some tenths of a pixel.
+            # Few pixels of a ring have its exact colour, so its centre is known to a few tenths of a pixel.
             self.assertLess(math.hypot(*offsets[-1]), 0.9)
             radius = sum(math.hypot(a - x, b - y) for a, b in around) / len(around)
             self.assertLess(abs(radius - reach / BRIGHT), 0.7)
-        # A pixel of the camera is 2.7 of ours: half of one, the usual mistake, would shift them all
-        # by 1.9.
+        # A camera pixel has 2.7 output pixels. An error of half a camera pixel, the usual mistake,
+        # would shift all rings by 1.9.
         self.assertLess(math.hypot(*middle(offsets)), 0.35)
 
-    def test_outlines_lie_on_what_the_camera_saw(self):
+    def test_outlines_coincide_with_the_discs(self):
         for clockwise in (False, True):
             self.record(14, clockwise)
             for frame in ("lab", "m"):
@@ -155,7 +156,7 @@ class CameraTest(InFolder):
                                            "--out", out, *(["--clockwise"] if clockwise else [])))
                 self.assert_outlines_lie_on_the_discs(out)
 
-    def test_a_movie_shows_each_of_the_cameras_frames_once(self):
+    def test_movie_shows_each_camera_frame_once(self):
         self.record(7, first=100)
         self.assert_good(self.call("movie", "--over-first", 100, "--bare", "--frames",
                                    self.path("made"), "--fps", 30))
@@ -164,7 +165,7 @@ class CameraTest(InFolder):
         for name in (names[0], names[6]):
             self.assert_outlines_lie_on_the_discs(self.path("made/" + name))
 
-    def test_tracks_alone_make_an_ordinary_movie_without_hands(self):
+    def test_movie_of_tracks_without_camera_frames(self):
         self.record(7)
         out = self.path("x.mp4")
         result = self.call("movie", "--pace", 0.5, "--fps", 20, "--trails", "--plot", "--frame",
@@ -174,9 +175,9 @@ class CameraTest(InFolder):
         frames = subprocess.run(
             ["ffprobe", "-v", "error", "-count_frames", "-of", "csv=p=0", "-show_entries",
              "stream=nb_read_frames", out], capture_output=True, text=True, check=True).stdout
-        self.assertEqual(frames.strip(), "7")  # 6/40 of a swirl, at 1/40 of a swirl each
+        self.assertEqual(frames.strip(), "7")  # 6/40 of a period, 1/40 of a period each
 
-    def test_a_film_gives_the_same_as_its_frames(self):
+    def test_video_and_its_frames_give_equal_movies(self):
         self.record(6)
         subprocess.run(["ffmpeg", "-v", "error", "-framerate", "10", "-i",
                         self.path("seen/%04d.png"), "-c:v", "ffv1", "-pix_fmt", "gray",
@@ -200,7 +201,7 @@ class CameraTest(InFolder):
         self.assertEqual(short.returncode, 1)
         self.assertIn("there are no more", short.stderr)
 
-    def test_jpeg_pictures_are_read_too(self):
+    def test_jpeg_frames_are_read(self):
         self.record(5)
         subprocess.run(["ffmpeg", "-v", "error", "-i", self.path("seen/%04d.png"), "-q:v", "1",
                         "-start_number", "0", self.path("seen/%04d.jpg")], check=True)
@@ -210,39 +211,39 @@ class CameraTest(InFolder):
         self.assertGreater(sum(red > 220 for _, _, red, _, _ in
                                read_png(self.path("x.png"), SIDE)), 2000)
 
-    def test_discs_may_come_and_go(self):
+    def test_tracks_may_begin_and_end(self):
         self.record(14, lose=9)
         out = self.path("x.png")
         self.assert_good(self.call("picture", "--trails", "--at", 0.3, "--out", out))
         self.assert_good(self.call("movie", "--trails", "--color", "id", "--plot", "--out",
                                    self.path("x.mp4")))
         every = self.call("picture", "--color", "pinned", "--at", 0.1, "--out", out)
-        self.assert_wrong_call(every, "not the same in every frame")
+        self.assert_usage_error(every, "not the same in every frame")
         self.record(14)
         few = self.call("picture", "--color", "pinned", "--at", 0.1, "--out", out)
         self.assert_good(few)
         self.assertIn("40 frames per swirl", few.stdout)
 
-    def test_wrong_calls(self):
+    def test_invalid_options_are_rejected(self):
         self.record(3)
         out = self.path("x.png")
-        wrong = self.assert_wrong_call
-        wrong(self.call("picture", "--color", "spin", "--out", out), "no spins")
-        wrong(self.call("picture", "--discs", 4, "--out", out), "--discs")
-        wrong(self.call("picture", "--beside", 4, "--out", out), "--beside")
-        wrong(self.call("picture", "--over", "seen.png", "--out", out, over=False), "%05d")
-        wrong(self.call("picture", "--over", "%d/%d.png", "--out", out, over=False), "%05d")
-        wrong(self.call("picture", "--at", 5, "--out", out), "5")
-        wrong(swirl("picture", "--over", "%d.png", "--out", out), "--over", "no FILE")
-        wrong(swirl("picture", self.path("tracks.csv"), "--out", out), "--omega")
-        wrong(swirl("picture", self.path("tracks.csv"), "--omega", 1, "--out", out),
+        reject = self.assert_usage_error
+        reject(self.call("picture", "--color", "spin", "--out", out), "no spins")
+        reject(self.call("picture", "--discs", 4, "--out", out), "--discs")
+        reject(self.call("picture", "--beside", 4, "--out", out), "--beside")
+        reject(self.call("picture", "--over", "seen.png", "--out", out, over=False), "%05d")
+        reject(self.call("picture", "--over", "%d/%d.png", "--out", out, over=False), "%05d")
+        reject(self.call("picture", "--at", 5, "--out", out), "5")
+        reject(swirl("picture", "--over", "%d.png", "--out", out), "--over", "no FILE")
+        reject(swirl("picture", self.path("tracks.csv"), "--out", out), "--omega")
+        reject(swirl("picture", self.path("tracks.csv"), "--omega", 1, "--out", out),
               "--container-radius")
         missing = self.call("movie", "--over-first", 7, "--out", self.path("x.mp4"))
         self.assertEqual(missing.returncode, 1)
         self.assertIn("0007.png", missing.stderr)
         self.assertEqual(self.left_behind(), ["seen", "tracks.csv"])
 
-    def test_a_picture_that_cannot_be_read_is_a_clear_error(self):
+    def test_unreadable_frames_are_reported_by_name(self):
         self.record(5)
         with open(self.path("seen/0002.png"), "wb") as file:
             file.write(b"\x89PNG\r\n\x1a\nrest missing")
@@ -255,7 +256,7 @@ class CameraTest(InFolder):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("0002.png", result.stderr)
         with open(self.path("no.avi"), "w", encoding="utf-8") as file:
-            file.write("this is no film")
+            file.write("this is no video")
         result = self.call("movie", "--over", self.path("no.avi"), "--out", out, over=False)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("no.avi", result.stderr)

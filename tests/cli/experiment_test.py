@@ -1,4 +1,4 @@
-"""swirl experiment: from films to the paper's figures beside simulation, and one page about them."""
+"""swirl experiment: the paper's figures from videos, compared with simulations, and a report."""
 
 import csv
 import json
@@ -8,10 +8,10 @@ import unittest
 
 from program import InFolder, swirl
 
-# Coarse films, quick to track: N, and the numbers that a test of a few swirls can hold.
+# Small, short videos that are tracked quickly.
 SMALL = ["--container-radius", 6.5, "--scale", 12, "--width", 240, "--height", 240,
          "--frames-per-period", 40, "--noise", 2, "--quality", 14, "--seed", 3, "--length", 1.7]
-# The discs of these films are as many per area as 28 and 39 in the paper's dish.
+# The packing fractions equal those of 28 and 39 discs in the paper's container.
 NUMBERS = (16, 22)
 SIMULATION = ["--events", "1e4", "--seeds", 2]
 
@@ -22,44 +22,44 @@ def rows(*path):
 
 
 class Experiment(InFolder):
-    def films(self):
+    def videos(self):
         made = []
         for n in NUMBERS:
             made.append(self.path(f"N{n}.mp4"))
-            done = swirl("film-test", "--discs", n, *SMALL, "--out", made[-1], "--quiet")
+            done = swirl("synthetic-video", "--discs", n, *SMALL, "--out", made[-1], "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
         return made
 
-    def run_it(self, *arguments, code=0):
+    def experiment(self, *arguments, code=0):
         done = swirl("experiment", *arguments)
-        if "has no eyes" in done.stderr:
-            self.skipTest("this build was made without OpenCV")
+        if "no camera support" in done.stderr:
+            self.skipTest("this build has no camera support")
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
 
-    def test_from_films_to_a_report(self):
-        films, out = self.films(), self.path("out")
-        done = self.run_it(*films, *SIMULATION, "--out", out)
+    def test_report_from_videos(self):
+        videos, out = self.videos(), self.path("out")
+        done = self.experiment(*videos, *SIMULATION, "--out", out)
         self.assertIn("standard errors apart", done.stdout)
-        found = rows(out, "films.csv")
+        found = rows(out, "videos.csv")
         self.assertEqual([int(row["discs"]) for row in found], list(NUMBERS))
         for row in found:
-            # In disc radii, which small discs with soft edges tell to some per cent.
+            # In disc radii; the radius of small discs with soft edges is known to a few per cent.
             self.assertAlmostEqual(float(row["container_radius"]), 6.5, delta=0.25)
-            self.assertAlmostEqual(float(row["pictures_per_swirl"]), 40, delta=0.1)
-            # Hardly two swirls: ϖ is known to a few hundredths; what is off by more is not that of
-            # the same dish.
+            self.assertAlmostEqual(float(row["frames_per_period"]), 40, delta=0.1)
+            # Less than two periods: the error of ϖ is a few hundredths, and a wrong container would
+            # change it by more than 0.15.
             self.assertLess(abs(float(row["by_time"]) - float(row["simulated"])), 0.15)
             self.assertGreater(float(row["simulated_error"]), 0.0)
         points = rows(out, "points.csv")
         self.assertEqual({(row["source"], int(row["discs"])) for row in points},
-                         {(source, n) for source in ("film", "simulation") for n in NUMBERS})
+                         {(source, n) for source in ("video", "simulation") for n in NUMBERS})
         for row in points:
             self.assertTrue(float(row["pancake"]) < 0.0)
         for n in NUMBERS:
             cells = [row for row in rows(out, f"maps_N{n}.csv") if row["map"] == "density"]
-            for source in ("film", "simulation"):
-                # Density over the area of the cells is the number of discs.
+            for source in ("video", "simulation"):
+                # The integral of the density is the number of discs.
                 part = [float(row["density"]) for row in cells if row["source"] == source]
                 reach = max(float(row["x"]) for row in cells if row["source"] == source)
                 side = 2.0 * reach / 99
@@ -70,33 +70,33 @@ class Experiment(InFolder):
                                    4000)
         with open(os.path.join(out, "report.html"), encoding="utf-8") as file:
             page = file.read()
-        self.assertNotRegex(page, r'(src|href)="(?!data:)')  # one file, nothing to fetch
+        self.assertNotRegex(page, r'(src|href)="(?!data:)')  # self-contained
         for words in ("Figure 1b", "Figure 3a", "Figure 4a", "N16", "N22",
                       "No film tells the spins", "there is no Figure 4c", "--smooth"):
             self.assertIn(words, page)
-        # The same again: nothing is tracked or simulated twice, and the tables are the same.
-        again = self.run_it(*films, *SIMULATION, "--out", out, "--json", "-")
+        # A repeated call neither tracks nor simulates again, and gives the same tables.
+        again = self.experiment(*videos, *SIMULATION, "--out", out, "--json", "-")
         about = json.loads(again.stdout)
-        self.assertEqual([film["name"] for film in about["films"]], ["N16", "N22"])
+        self.assertEqual([video["name"] for video in about["videos"]], ["N16", "N22"])
         self.assertEqual(about["runs"], 4)
         self.assertEqual(rows(out, "points.csv"), points)
         self.assertNotIn("finding discs", again.stderr)
 
-        # Tables of tracks do as well, without a simulation; a film that is none leaves a hole.
+        # Tracks are accepted instead of videos; an invalid video is omitted.
         with open(self.path("none.mp4"), "w", encoding="utf-8") as file:
-            file.write("this is no film")
-        done = self.run_it(os.path.join(out, "tracks", "N16.csv"), self.path("none.mp4"),
+            file.write("this is no video")
+        done = self.experiment(os.path.join(out, "tracks", "N16.csv"), self.path("none.mp4"),
                            "--smooth", os.path.join(out, "tracks", "N22.csv"), "--no-simulation",
                            "--out", self.path("tables"), code=1)
-        self.assertIn("1 of 3 films could not be used", done.stderr)
-        found = rows(self.path("tables"), "films.csv")
-        self.assertEqual([row["kind"] for row in found], ["rough", "rough", "smooth"])
-        self.assertIn("no pictures that can be read", found[1]["failed"])
+        self.assertIn("1 of 3 videos could not be used", done.stderr)
+        found = rows(self.path("tables"), "videos.csv")
+        self.assertEqual([row["surface"] for row in found], ["rough", "rough", "smooth"])
+        self.assertIn("no readable frames", found[1]["failed"])
         self.assertTrue(os.path.exists(self.path("tables/figure_4c.png")))
         with open(self.path("tables/report.html"), encoding="utf-8") as file:
             self.assertTrue(re.search("none could not be used", file.read()))
 
-    def test_wrong_calls(self):
+    def test_invalid_options_are_rejected(self):
         for words, arguments in (
                 ("--out", ["a.mp4"]),
                 ("--fps", ["a.mp4", "--out", self.path("x"), "--fps", -1]),

@@ -156,7 +156,7 @@ class MeasureTest(InFolder):
         self.write(table)
         found = self.assert_like_the_exact(self.measured())
         camera = found["camera"]
-        self.assertEqual((camera["renamed"], camera["filled_positions"], camera["dropped_positions"],
+        self.assertEqual((camera["relabelled"], camera["filled_positions"], camera["dropped_positions"],
                           camera["breaks"]), (3, 5 * DISCS + 4, 1, 0))
 
     def test_discs_may_appear_and_disappear(self):

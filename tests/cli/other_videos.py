@@ -1,8 +1,8 @@
-"""Films of a swirled dish made without any of the program's code: balls pushed apart by springs, pictures
-painted with numpy. Each film has its faults; the truth comes with it.
+"""Videos of a swirled container, made without any code of the program: spheres repelled by springs, frames
+painted with numpy. Options add faults; the ground truth is returned.
 
-    film = make("film.mp4", seed=3, floor=40, ball=200, vignette=0.4)
-    film.places, film.centre, film.amplitude, film.omega, …
+    video = make("video.mp4", seed=3, floor=40, ball=200, vignette=0.4)
+    video.positions, video.centre, video.amplitude, …
 """
 
 import math
@@ -13,20 +13,20 @@ import numpy
 USUAL = {
     # The scene, lengths in pixels.
     "size": (320, 320), "balls": 20, "radius": 14.0, "dish": 92.0, "amplitude": 26.0,
-    "middle": (0.0, 0.0),      # of the dish's path, off the picture's
+    "middle": (0.0, 0.0),      # of the container's path, relative to the image centre
     "small": 0, "small_radius": 0.7,
     "per_swirl": 60, "frames": 84, "still_for": 0, "clockwise": False, "seed": 1,
-    # What it looks like, in grey levels of 255.
+    # Appearance, in grey levels of 255.
     "table": 110.0, "floor": 45.0, "rim": 170.0, "rim_width": 5.0, "ball": 190.0,
-    "colours": None,           # of the balls, in turn: (red, green, blue)
+    "colours": None,           # of the spheres, cyclically: (red, green, blue)
     "tint": (1.0, 1.0, 1.0), "table_tint": (1.0, 1.0, 1.0),
     "texture": "patches",      # none, patches, dot, stripe
     "contrast": 0.35,          # of the texture
-    "flat": False,             # discs, not balls
+    "flat": False,             # discs, not spheres
     "gloss": 60.0, "shine": 20.0, "lamp": (-0.4, -0.3), "ambient": 0.45,
     "shadow": 0.0, "shadow_to": (0.25, 0.25), "shadow_soft": 2.5,
     "uneven": 0.0, "vignette": 0.0, "clutter": 0.0, "label": False, "glare": 0.0,
-    "grain": 0.0,              # of the dish's floor, moves with it
+    "grain": 0.0,              # of the container's floor, moves with it
     # The camera.
     "noise": 2.0, "blur": 0.8, "gamma": 1.0, "exposure": 0.2, "flicker": 0.0, "grey": False,
     "shake": 0.0,
@@ -39,15 +39,15 @@ USUAL = {
 
 MOTION = ("balls", "radius", "small", "small_radius", "dish", "amplitude", "per_swirl", "frames",
           "still_for", "clockwise", "seed")
-moved_before = {}  # by what the motion depends on: films that differ in their looks alone share it
+motions = {}  # cache: videos that differ only in appearance share their motion
 
 
-class Film:
-    """What was filmed, and what is true of it."""
+class Video:
+    """The ground truth of a video."""
 
 
 def random_ball(rng, kind):
-    """Levels of a texture over the directions of a sphere, −1 … 1: a function of an array (…, 3)."""
+    """A random texture: a function from directions, an array (…, 3), to levels from −1 to 1."""
     if kind == "dot":
         axis = rng.normal(size=3)
         axis /= numpy.linalg.norm(axis)
@@ -61,7 +61,7 @@ def random_ball(rng, kind):
 
 
 def course(s, frame):
-    """The dish's middle, from the middle of its path, y down, at a time in pictures."""
+    """The container's centre relative to that of its path, y down, at a time in frames."""
     t = max(0.0, frame - s["still_for"])
     turn = 2.0 * math.pi * t / s["per_swirl"] + 0.7
     if not s["clockwise"]:
@@ -70,19 +70,19 @@ def course(s, frame):
 
 
 def moved(s, radii, rng):
-    """Places, rotations by picture: springs, rubbing, a floor that drags; balls roll on it."""
+    """Positions and rotations in each frame: spring contacts, friction, drag on the floor, rolling."""
     n, steps = len(radii), 60
     dish = s["dish"]
-    places = []
+    positions = []
     grid = [(x, y) for x in numpy.arange(-dish, dish, 2.05 * radii.max())
             for y in numpy.arange(-dish, dish, 2.05 * radii.max())
             if math.hypot(x, y) + radii.max() < dish]
-    assert len(grid) >= n, "the dish is too small"
+    assert len(grid) >= n, "the container is too small"
     start = rng.permutation(len(grid))[:n]
     p = numpy.array([grid[k] for k in start]) + rng.normal(size=(n, 2)) * 0.01 * radii.max()
     p = p + course(s, 0.0)
     v = numpy.zeros((n, 2))
-    # Units: pixels and pictures. Stiff enough that nobody overlaps by more than a hundredth.
+    # Units: pixels and frames. The stiffness limits overlaps to about a hundredth of a radius.
     speed = 2.0 * math.pi * s["amplitude"] / s["per_swirl"]
     stiff = (speed / (0.012 * radii.mean())) ** 2
     dt = 1.0 / steps
@@ -97,7 +97,7 @@ def moved(s, radii, rng):
     warm = int(2.5 * s["per_swirl"])
     for frame in range(-warm, s["frames"]):
         if frame >= 0:
-            places.append(p.copy())
+            positions.append(p.copy())
             u = (course(s, frame + 0.01) - course(s, frame - 0.01)) / 0.02
             roll = v - u
             for i in range(n):
@@ -142,7 +142,7 @@ def moved(s, radii, rng):
             v = v + dt * force
             p = p + dt * v
             spin = spin + dt * (2.5 * rub_wall / radii - 0.5 * drag * spin)
-    return places, rotations
+    return positions, rotations
 
 
 def blurred(picture, sigma):
@@ -167,7 +167,7 @@ class Painter:
         self.x, self.y = numpy.meshgrid(numpy.arange(width, dtype=float),
                                         numpy.arange(height, dtype=float))
         self.table = s["table"] * numpy.ones((height, width, 3)) * numpy.array(s["table_tint"])
-        if s["clutter"] > 0.0:  # things that lie about: bars, coins, and grain of wood
+        if s["clutter"] > 0.0:  # bars, coins and wood grain on the table
             wood = blurred(rng.normal(size=(height, width)), 3.0)
             self.table += s["clutter"] * 2.0 * wood[..., None]
             for _ in range(14):
@@ -197,7 +197,7 @@ class Painter:
         return numpy.array(s["colours"][i % len(s["colours"])], float) if s["colours"] else \
             s["ball"] * numpy.array(s["tint"])
 
-    def paint(self, middle, places, turned):
+    def paint(self, middle, positions, turned):
         s = self.s
         picture = self.table.copy()
         far = numpy.hypot(self.x - middle[0], self.y - middle[1])
@@ -210,7 +210,7 @@ class Painter:
             gy = (self.y - middle[1] + self.grain.shape[0] / 2).astype(int) % self.grain.shape[0]
             floor = floor + s["grain"] * 5.0 * self.grain[gy, gx]
         if s["shadow"] > 0.0:
-            for p, a in zip(places, self.radii):
+            for p, a in zip(positions, self.radii):
                 q = p + a * numpy.array(s["shadow_to"])
                 d = numpy.hypot(self.x - q[0], self.y - q[1])
                 floor = floor * (1.0 - s["shadow"]
@@ -221,7 +221,7 @@ class Painter:
         rim = s["rim"] * (1.0 + 0.25 * side)
         picture = picture * (1.0 - in_rim) + in_rim * rim[..., None]
         picture = picture * (1.0 - in_dish) + in_dish * floor[..., None]
-        for i, p in enumerate(places):
+        for i, p in enumerate(positions):
             self.paint_ball(picture, p, self.radii[i], turned[i], i)
         return picture
 
@@ -285,9 +285,9 @@ def make(path, **faults):
     radii = numpy.full(s["balls"], float(s["radius"]))
     radii[:s["small"]] *= s["small_radius"]
     motion = tuple(s[name] for name in MOTION)
-    if motion not in moved_before:
-        moved_before[motion] = moved(s, radii, numpy.random.default_rng(s["seed"]))
-    places, rotations = moved_before[motion]
+    if motion not in motions:
+        motions[motion] = moved(s, radii, numpy.random.default_rng(s["seed"]))
+    positions, rotations = motions[motion]
     painter = Painter(s, radii, rng)
     width, height = s["size"]
     middle = numpy.array([0.5 * (width - 1) + s["middle"][0], 0.5 * (height - 1) + s["middle"][1]])
@@ -300,8 +300,8 @@ def make(path, **faults):
     else:
         command += ["-pix_fmt", s["pixels"]]
     command += ["-c:v", *s["codec"], str(path)]
-    film = Film()
-    film.settings, film.radii, film.places = s, radii, []
+    video = Video()
+    video.settings, video.radii, video.positions = s, radii, []
     writer = subprocess.Popen(command, stdin=subprocess.PIPE)
     for k in range(s["frames"]):
         shake = s["shake"] * rng.normal(size=2)
@@ -309,15 +309,15 @@ def make(path, **faults):
                    (numpy.array([-0.33, 0.0, 0.33]) * s["exposure"] if s["exposure"] > 0 else [0.0])]
         sum_of = 0.0
         for shift, o in between:
-            v = places[min(k + 1, s["frames"] - 1)] - places[max(k - 1, 0)]
+            v = positions[min(k + 1, s["frames"] - 1)] - positions[max(k - 1, 0)]
             sum_of = sum_of + painter.paint(middle + shake + course(s, k) + shift,
-                                            places[k] + 0.5 * o * v + middle + shake, rotations[k])
+                                            positions[k] + 0.5 * o * v + middle + shake, rotations[k])
         picture = painter.finished(sum_of / len(between), k)
         for _ in range(0 if k in s["drop"] else 2 if k in s["double"] else 1):
             writer.stdin.write(picture.tobytes())
-            film.places.append(places[k] + middle + shake)
+            video.positions.append(positions[k] + middle + shake)
     writer.stdin.close()
     assert writer.wait() == 0, "ffmpeg failed"
-    film.centre, film.amplitude, film.dish = middle, s["amplitude"], s["dish"]
-    film.per_swirl, film.clockwise = s["per_swirl"], s["clockwise"]
-    return film
+    video.centre, video.amplitude, video.container = middle, s["amplitude"], s["dish"]
+    video.frames_per_period, video.clockwise = s["per_swirl"], s["clockwise"]
+    return video

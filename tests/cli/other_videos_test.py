@@ -1,5 +1,5 @@
-"""swirl track on films that were made without it (other_videos.py): other dynamics, other looks, other
-faults. What is found is near the truth, or the film is refused with the cause."""
+"""swirl track on videos made by independent code (other_videos.py), with other dynamics, appearance and
+faults. Tracks match the ground truth, or the video is rejected with the cause."""
 
 import csv
 import json
@@ -17,18 +17,18 @@ except ImportError:
 from program import InFolder, swirl
 
 
-class OtherFilms(InFolder):
+class OtherVideos(InFolder):
     def call(self, *more, **faults):
-        path = self.path("film.mp4")
-        film = other_videos.make(path, **faults)
+        path = self.path("video.mp4")
+        video = other_videos.make(path, **faults)
         done = swirl("track", path, "--out", self.path("tracks.csv"), "--overwrite", *more)
-        if "has no eyes" in done.stderr:
-            self.skipTest("this build was made without OpenCV")
-        return film, done
+        if "no camera support" in done.stderr:
+            self.skipTest("this build has no camera support")
+        return video, done
 
-    def found(self, most, amplitude=0.3, **faults):
-        """All balls in all pictures, under the same names, within `most` pixels rms."""
-        film, done = self.call(**faults)
+    def check_tracks(self, max_rms, amplitude=0.3, **faults):
+        """All spheres are tracked in all frames, without identity swaps, within max_rms pixels."""
+        video, done = self.call(**faults)
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
             camera = json.load(file)
@@ -37,59 +37,59 @@ class OtherFilms(InFolder):
             for row in csv.DictReader(file):
                 here.setdefault(int(row["frame"]), []).append(
                     (float(row["x"]), float(row["y"]), int(row["particle"])))
-        self.assertEqual(camera["discs"], len(film.radii))
-        self.assertEqual(camera["path"]["clockwise"], film.clockwise)
-        names, off = {}, []
-        for frame, places in enumerate(film.places):
+        self.assertEqual(camera["discs"], len(video.radii))
+        self.assertEqual(camera["path"]["clockwise"], video.clockwise)
+        tracks, off = {}, []
+        for frame, positions in enumerate(video.positions):
             seen = numpy.array([p[:2] for p in here[frame]])
-            self.assertEqual(len(seen), len(places), frame)
-            for ball, place in enumerate(places):
-                d = seen - place
+            self.assertEqual(len(seen), len(positions), frame)
+            for sphere, position in enumerate(positions):
+                d = seen - position
                 nearest = int(numpy.hypot(d[:, 0], d[:, 1]).argmin())
-                self.assertLess(math.hypot(*d[nearest]), 0.5 * film.radii[ball])
-                name = here[frame][nearest][2]
-                self.assertEqual(names.setdefault(ball, name), name)
+                self.assertLess(math.hypot(*d[nearest]), 0.5 * video.radii[sphere])
+                track = here[frame][nearest][2]
+                self.assertEqual(tracks.setdefault(sphere, track), track)
                 off.append(d[nearest])
-        self.assertLess(math.sqrt(numpy.mean(numpy.square(off))), most)
-        omega = camera["path"]["omega"] / camera["fps"] * film.per_swirl / (2.0 * math.pi)
+        self.assertLess(math.sqrt(numpy.mean(numpy.square(off))), max_rms)
+        omega = camera["path"]["omega"] / camera["fps"] * video.frames_per_period / (2.0 * math.pi)
         self.assertLess(abs(omega - 1.0), 1e-3)
-        self.assertLess(math.dist(camera["path"]["centre"], film.centre), 0.3)
-        self.assertLess(abs(camera["path"]["amplitude"] - film.amplitude), amplitude)
+        self.assertLess(math.dist(camera["path"]["centre"], video.centre), 0.3)
+        self.assertLess(abs(camera["path"]["amplitude"] - video.amplitude), amplitude)
         return camera, done.stdout
 
-    # A hundredth of a radius is what edges can tell; balls in patches err by twice that.
-    def test_bright_balls_among_things_that_lie_about(self):
-        self.found(0.3, clutter=50, label=True, vignette=0.5, codec=("libx264", "-crf", "24"))
+    # Edges give positions to 1/100 of a radius; patches of texture double the error.
+    def test_bright_spheres_with_clutter(self):
+        self.check_tracks(0.3, clutter=50, label=True, vignette=0.5, codec=("libx264", "-crf", "24"))
 
-    def test_dark_balls_that_go_round_clockwise_in_a_tall_picture(self):
-        camera, _ = self.found(0.2, floor=205, ball=60, rim=90, table=150, clockwise=True,
+    def test_dark_spheres_clockwise_in_a_portrait_video(self):
+        camera, _ = self.check_tracks(0.2, floor=205, ball=60, rim=90, table=150, clockwise=True,
                                size=(280, 420), middle=(0, 60))
         self.assertEqual(camera["discs_are"], "dark")
 
-    def test_balls_without_texture_do_not_pass_for_a_lens(self):
-        camera, _ = self.found(0.25, texture="none")
+    def test_spheres_without_texture_do_not_imply_lens_distortion(self):
+        camera, _ = self.check_tracks(0.25, texture="none")
         self.assertEqual(camera["lens"]["distortion"], 0.0)
 
-    def test_pictures_that_are_lost_or_there_twice_are_told(self):
+    def test_dropped_and_duplicated_frames_are_rejected(self):
         for word, faults in (("missing", {"drop": (20, 41, 42)}),
-                             ("there twice", {"double": (20, 41, 60)}),
-                             ("there twice", {"double": tuple(range(84)), "fps": "60"})):
+                             ("duplicated", {"double": (20, 41, 60)}),
+                             ("duplicated", {"double": tuple(range(84)), "fps": "60"})):
             _, done = self.call(**faults)
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(word, done.stderr)
-            self.assertIn("cut the film", done.stderr)
-            self.assertEqual(self.left_behind(), ["film.mp4"])
+            self.assertIn("cut the video", done.stderr)
+            self.assertEqual(self.left_behind(), ["video.mp4"])
 
-    def test_a_shaking_camera_is_reported_and_no_frame_is_there_twice(self):
-        film, done = self.call(shake=1.7)
+    def test_camera_shake_is_reported_but_not_as_duplicated_frames(self):
+        video, done = self.call(shake=1.7)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("shakes by", done.stdout)
-        self.assertNotIn("twice", done.stdout)
+        self.assertIn("shakes by", done.stderr)
+        self.assertNotIn("duplicated", done.stderr)
         with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
             camera = json.load(file)
-        self.assertAlmostEqual(camera["dish"]["shake"], 1.7, delta=0.5)  # of 84 frames
-        self.assertEqual(camera["discs"], len(film.radii))
-        omega = 2.0 * math.pi / film.per_swirl * camera["fps"]
+        self.assertAlmostEqual(camera["container"]["shake"], 1.7, delta=0.5)  # of 84 frames
+        self.assertEqual(camera["discs"], len(video.radii))
+        omega = 2.0 * math.pi / video.frames_per_period * camera["fps"]
         self.assertLess(abs(camera["path"]["omega"] - omega), 3.0 * camera["path"]["omega_error"])
 
 

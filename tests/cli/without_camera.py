@@ -1,4 +1,4 @@
-"""A build without OpenCV, as the first ./swirl makes it: it compiles, runs, and says what it lacks."""
+"""A build without OpenCV, as the first ./swirl makes it: it compiles, runs and names what is missing."""
 
 import os
 import unittest
@@ -16,18 +16,18 @@ class WithoutCamera(InFolder):
         self.addCleanup(setattr, program, "SWIRL", with_camera)
         program.SWIRL = WITHOUT
 
-    def test_tracking_says_what_to_install(self):
-        done = swirl("track", "film.mp4", "--out", os.path.join(self.folder, "tracks.csv"))
+    def test_track_names_the_packages_to_install(self):
+        done = swirl("track", "video.mp4", "--out", os.path.join(self.folder, "tracks.csv"))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("libopencv-core-dev", done.stderr)
 
-    def test_an_experiment_from_a_film_says_so_too(self):
-        done = swirl("experiment", "film.mp4", "--no-simulation", "--out",
+    def test_experiment_names_the_packages_to_install(self):
+        done = swirl("experiment", "video.mp4", "--no-simulation", "--out",
                      os.path.join(self.folder, "report"))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("libopencv-core-dev", done.stderr)
 
-    def test_runs_are_those_of_the_whole_program(self):
+    def test_runs_equal_those_of_the_full_build(self):
         call = ("--discs", "28", "--mu", "1", "--events", "5000", "--seed", "3")
         without = result_of(*call)["state_hash"]
         program.SWIRL = os.environ["SWIRL"]

@@ -12,7 +12,7 @@
 namespace swirl {
 namespace {
 
-/// Three discs in three pictures; one is not seen in the second, and its spin is not known.
+/// Three discs in three frames; one disc is missing in the second, and another has no spin.
 Tracks some_tracks() {
     Tracks tracks;
     tracks.y_down = true;
@@ -42,7 +42,7 @@ void write(const std::filesystem::path& path) {
     write_track_recording(path, tracks, {0.4, 0.5, 0.7}, {radius, spin}, {{"version", "1"}});
 }
 
-TEST(TrackRecording, WhatIsWrittenIsReadToTheBit) {
+TEST(TrackRecording, RoundTripIsExact) {
     const Scratch scratch;
     write(scratch / "tracks.h5");
     EXPECT_TRUE(is_track_recording(scratch / "tracks.h5"));
@@ -65,7 +65,7 @@ TEST(TrackRecording, WhatIsWrittenIsReadToTheBit) {
     }
 }
 
-TEST(TrackRecording, NothingIsLeftOfOneThatCannotBeWritten) {
+TEST(TrackRecording, AFailedWriteLeavesNoFile) {
     const Scratch scratch;
     std::filesystem::create_directory(scratch / "tracks.h5");  // cannot be replaced by a file
     EXPECT_THROW(write(scratch / "tracks.h5"), FileError);
@@ -74,7 +74,7 @@ TEST(TrackRecording, NothingIsLeftOfOneThatCannotBeWritten) {
     EXPECT_EQ(std::distance(begin(left), end(left)), 1);
 }
 
-TEST(TrackRecording, ADiscKeepsItsPlaceInTheRowAndStepAndTimeAreThePictures) {
+TEST(TrackRecording, EachDiscKeepsItsColumnAndStepsAreFrameNumbers) {
     const Scratch scratch;
     write(scratch / "tracks.h5");
     const Hdf5File file(scratch / "tracks.h5", JournaledFile::Mode::read);
@@ -88,7 +88,7 @@ TEST(TrackRecording, ADiscKeepsItsPlaceInTheRowAndStepAndTimeAreThePictures) {
     EXPECT_TRUE(std::isnan(file.column("/particles/tracks/radius/value").read<double>()[4]));
 }
 
-std::string refusal(const std::filesystem::path& path) {
+std::string error_message(const std::filesystem::path& path) {
     try {
         read_track_recording(path);
     } catch (const FileError& error) {
@@ -97,8 +97,8 @@ std::string refusal(const std::filesystem::path& path) {
     return "";
 }
 
-// Negative: of another kind, cut off, and one whose discs are twice in a picture.
-TEST(TrackRecording, WhatIsNoneIsRefusedInASentence) {
+// Negative: another kind of file, a truncated file, and a disc that appears twice in a frame.
+TEST(TrackRecording, InvalidFilesAreRejected) {
     const Scratch scratch;
     {
         Hdf5File other(scratch / "other.h5.partial", JournaledFile::Mode::create);
@@ -106,13 +106,13 @@ TEST(TrackRecording, WhatIsNoneIsRefusedInASentence) {
         other.finish(scratch / "other.h5");
     }
     EXPECT_FALSE(is_track_recording(scratch / "other.h5"));
-    EXPECT_NE(refusal(scratch / "other.h5").find("holds no tracks"), std::string::npos);
+    EXPECT_NE(error_message(scratch / "other.h5").find("holds no tracks"), std::string::npos);
 
     write(scratch / "cut.h5");
     std::filesystem::resize_file(scratch / "cut.h5",
                                  std::filesystem::file_size(scratch / "cut.h5") / 2);
     EXPECT_FALSE(is_track_recording(scratch / "cut.h5"));
-    EXPECT_NE(refusal(scratch / "cut.h5"), "");
+    EXPECT_NE(error_message(scratch / "cut.h5"), "");
 
     write(scratch / "twice.h5");
     {
@@ -122,8 +122,8 @@ TEST(TrackRecording, WhatIsNoneIsRefusedInASentence) {
         ids.change<std::int64_t>(0, 1, same.data());
         file.flush();
     }
-    EXPECT_NE(refusal(scratch / "twice.h5").find("order of their numbers"), std::string::npos);
-    EXPECT_EQ(refusal(scratch / "none.h5").find("contradicts"), std::string::npos);
+    EXPECT_NE(error_message(scratch / "twice.h5").find("do not ascend"), std::string::npos);
+    EXPECT_EQ(error_message(scratch / "none.h5").find("contradicts"), std::string::npos);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ Tracks tracks_in(const std::string& text) {
 }
 Tracks repaired(const std::string& text, double radius) {
     Tracks tracks = tracks_in(text);
-    mend(tracks, radius);
+    repair(tracks, radius);
     return tracks;
 }
 Tracks dump_in(const std::string& text) {
@@ -28,7 +28,7 @@ Tracks dump_in(const std::string& text) {
     return read_lammps_dump(scratch / "a.dump");
 }
 template <class Read>
-std::string refusal(Read read, const std::string& text) {
+std::string error_message(Read read, const std::string& text) {
     try {
         read(text);
     } catch (const FileError& error) {
@@ -44,7 +44,7 @@ Snapshot seen(double x, double y, const TrackScale& scale, int frame = 0) {
     return series_of(tracks_in(text), scale).frame(0);
 }
 
-TEST(TrackpyTable, ReadsColumnsInAnyOrderAmongOthersAndRowsInAnyOrder) {
+TEST(TrackpyTable, ColumnsAndRowsMayHaveAnyOrder) {
     const Tracks tracks = tracks_in(
         "mass,y,x,frame,particle,ep\n"
         "9,20.5,10,1.0,7,\n"
@@ -62,7 +62,7 @@ TEST(TrackpyTable, ReadsColumnsInAnyOrderAmongOthersAndRowsInAnyOrder) {
     EXPECT_EQ(tracks.frames[1].position[0].x, 7.0);
 }
 
-TEST(TrackpyTable, ReadsWhatSpreadsheetsWrite) {
+TEST(TrackpyTable, AcceptsSpreadsheetExports) {
     const Tracks tracks = tracks_in(
         "\xef\xbb\xbf\"frame\",\"particle\", x ,\"y\",\"note\"\r\n"
         "\"0\",\"7\",1.5, 2.5,\"near, the wall\"\r\n");
@@ -72,8 +72,8 @@ TEST(TrackpyTable, ReadsWhatSpreadsheetsWrite) {
     EXPECT_EQ(tracks.frames[0].position.at(0).y, 2.5);
 }
 
-TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
-    const auto rejected = [](const std::string& text) { return refusal(tracks_in, text); };
+TEST(TrackpyTable, ErrorsNameTheLine) {
+    const auto rejected = [](const std::string& text) { return error_message(tracks_in, text); };
     const std::string head = "frame,particle,x,y\n";
     EXPECT_NE(rejected("").find("a header line with frame, particle, x, y"), std::string::npos);
     EXPECT_NE(rejected(head).find("holds no positions"), std::string::npos);
@@ -93,8 +93,7 @@ TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
     EXPECT_NE(rejected(head + "0,0,,2\n").find("line 2: '' is not a finite number"),
               std::string::npos);
     EXPECT_NE(rejected(head + "0,0,1e999,2\n").find("line 2"), std::string::npos);
-    EXPECT_NE(rejected(head + "0.5,0,1,2\n").find("'0.5' is not a whole number"),
-              std::string::npos);
+    EXPECT_NE(rejected(head + "0.5,0,1,2\n").find("'0.5' is not a whole number"), std::string::npos);
     EXPECT_NE(rejected(head + "0,0,1\n").find("line 2: 3 values, but the header names 4 columns"),
               std::string::npos);
     EXPECT_NE(rejected(head + "0,5,1,2\n1,5,1,2\n0,5,1,2\n")
@@ -103,12 +102,12 @@ TEST(TrackpyTable, RefusesWhatIsNoTableOfPositionsWithTheLine) {
               std::string::npos);
 }
 
-TEST(MendedTracks, ShortGapsAreFilledOnAStraightLineAndLongOnesAreNot) {
-    // Missing in frames 2 … 6; and then in six frames.
+TEST(RepairedTracks, OnlyShortGapsAreInterpolated) {
+    // Missing in frames 2 … 6, and then in six frames.
     const Tracks tracks = repaired(
         "frame,particle,x,y\n0,0,-1,14\n1,0,0,12\n7,0,6,0\n8,0,6,0\n15,0,6,0\n16,0,6,0\n", 100.0);
     EXPECT_EQ(tracks.repaired.filled, 5u);
-    EXPECT_EQ(tracks.repaired.renamed, 0u);
+    EXPECT_EQ(tracks.repaired.relabelled, 0u);
     ASSERT_EQ(tracks.frames.size(), 11u);
     for (int k = 1; k <= 7; ++k) {
         EXPECT_EQ(tracks.frames[std::size_t(k)].number, k);
@@ -119,7 +118,7 @@ TEST(MendedTracks, ShortGapsAreFilledOnAStraightLineAndLongOnesAreNot) {
     EXPECT_EQ(tracks.frames[9].number, 15);
 }
 
-TEST(MendedTracks, EverySecondPictureIsNoGap) {
+TEST(RepairedTracks, EverySecondFrameIsNoGap) {
     const Tracks tracks =
         repaired("frame,particle,x,y\n0,0,0,0\n2,0,1,0\n4,0,2,0\n8,0,4,0\n10,0,5,0\n", 10.0);
     EXPECT_EQ(tracks.repaired.filled, 1u);  // frame 6
@@ -148,17 +147,17 @@ void expect_two_whole_discs(const Tracks& tracks) {
     }
 }
 
-TEST(MendedTracks, ExchangedNamesAreGivenBack) {
+TEST(RepairedTracks, IdentitySwapsAreUndone) {
     const Tracks tracks =
         repaired(two_discs([](int k, int d) { return (k < 17) == (d == 0) ? 3 : 8; },
                            [](int, int) { return 0; }),
                  10.0);
     expect_two_whole_discs(tracks);
-    EXPECT_EQ(tracks.repaired.renamed, 2u);
+    EXPECT_EQ(tracks.repaired.relabelled, 2u);
     EXPECT_EQ(tracks.repaired.filled, 0u);
 }
 
-TEST(MendedTracks, ADiscLostAndFoundAgainUnderAnotherNameIsTheSame) {
+TEST(RepairedTracks, ADiscThatReappearsWithAnotherIdKeepsItsOwn) {
     const Tracks tracks =
         repaired(two_discs([](int k, int d) { return d == 0   ? 3
                                                      : k < 20 ? 8
@@ -166,24 +165,24 @@ TEST(MendedTracks, ADiscLostAndFoundAgainUnderAnotherNameIsTheSame) {
                            [](int k, int d) { return int(d == 1 && k >= 20 && k < 24); }),
                  10.0);
     expect_two_whole_discs(tracks);
-    EXPECT_EQ(tracks.repaired.renamed, 1u);
+    EXPECT_EQ(tracks.repaired.relabelled, 1u);
     EXPECT_EQ(tracks.repaired.filled, 4u);
 }
 
-TEST(MendedTracks, WhatIsLostForLongerComesAsAnotherDisc) {
+TEST(RepairedTracks, ADiscLostForLongerGetsANewId) {
     const Tracks tracks =
         repaired(two_discs([](int k, int d) { return d == 0   ? 3
                                                      : k < 20 ? 8
                                                               : 11; },
                            [](int k, int d) { return int(d == 1 && k >= 20 && k < 26); }),
                  10.0);
-    EXPECT_EQ(tracks.repaired.renamed, 0u);
+    EXPECT_EQ(tracks.repaired.relabelled, 0u);
     EXPECT_EQ(tracks.frames[22].id, (std::vector<std::int64_t>{3}));
     EXPECT_EQ(tracks.frames[30].id, (std::vector<std::int64_t>{3, 11}));
     EXPECT_EQ(series_of(tracks, {}).breaks, (std::vector<std::uint64_t>{20, 26}));
 }
 
-TEST(MendedTracks, APositionFarFromAllOthersOfItsDiscHasNoVelocityAndIsLeftOut) {
+TEST(RepairedTracks, IsolatedPositionsAreDropped) {
     const Tracks tracks = repaired(
         "frame,particle,x,y\n0,0,0,0\n1,0,1,0\n2,0,2,0\n9,0,9,0\n16,0,16,0\n17,0,17,0\n", 10.0);
     EXPECT_EQ(tracks.repaired.dropped, 1u);
@@ -191,14 +190,14 @@ TEST(MendedTracks, APositionFarFromAllOthersOfItsDiscHasNoVelocityAndIsLeftOut) 
     EXPECT_EQ(tracks.frames[3].number, 16);
 }
 
-TEST(MendedTracks, WhatTellsMoreThanPositionsIsLeftAsItIs) {
+TEST(RepairedTracks, TracksWithMoreThanPositionsAreUnchanged) {
     Tracks tracks = tracks_in("frame,particle,x,y\n0,0,0,0\n1,0,1,0\n3,0,3,0\n4,0,3,0\n");
     for (TrackFrame& frame : tracks.frames) frame.mass = {1.0};
-    mend(tracks, 10.0);
+    repair(tracks, 10.0);
     EXPECT_EQ(tracks.frames.size(), 4u);
 }
 
-TEST(MendedTracks, AFlashInASingleFrameIsNoDisc) {
+TEST(RepairedTracks, ADetectionInASingleFrameIsDropped) {
     const Tracks tracks =
         repaired(two_discs([](int, int d) { return d == 0 ? 3 : 8; }, [](int, int) { return 0; }) +
                      "12,99,300,0\n",
@@ -207,7 +206,7 @@ TEST(MendedTracks, AFlashInASingleFrameIsNoDisc) {
     EXPECT_EQ(tracks.repaired.dropped, 1u);
 }
 
-TEST(MendedTracks, WhereDiscsMoveFarFromFrameToFrameTheNamesAreBelieved) {
+TEST(RepairedTracks, GivenIdsAreKeptIfMovesAreLarge) {
     std::string text = "frame,particle,x,y\n";
     for (int k = 0; k < 40; ++k)
         text += std::to_string(k) + ",3," + std::to_string(15 * k) + ",0\n";
@@ -216,7 +215,7 @@ TEST(MendedTracks, WhereDiscsMoveFarFromFrameToFrameTheNamesAreBelieved) {
     EXPECT_TRUE(series_of(tracks, {}).same_discs());
 }
 
-TEST(TrackScale, PixelsBecomeRadiiAboutTheSwirlCentreAndYPointsUp) {
+TEST(TrackScale, ConvertsPixelsToRadiiWithYUp) {
     TrackScale scale{.container_radius = 8.5};
     scale.pixels_per_radius = 20.0;
     scale.swirl_centre = {500.0, 400.0};
@@ -229,7 +228,7 @@ TEST(TrackScale, PixelsBecomeRadiiAboutTheSwirlCentreAndYPointsUp) {
     EXPECT_EQ(seen(540.0, 370.0, scale).position(0).y, 1.5);
 }
 
-TEST(TrackScale, FramesPerTimeAndThePeriodGiveTheClock) {
+TEST(TrackScale, ClockFollowsFromFrameRateAndPeriod) {
     TrackScale scale{.container_radius = 8.5};
     scale.frames_per_time = 10.0;
     scale.period = 4.0;
@@ -239,7 +238,7 @@ TEST(TrackScale, FramesPerTimeAndThePeriodGiveTheClock) {
     EXPECT_EQ(s.period, 4.0);
 }
 
-TEST(TrackScale, TheContainerIsWhereTheSwirlPutsIt) {
+TEST(TrackScale, ContainerPositionFollowsFromTheSwirl) {
     TrackScale scale;
     scale.frames_per_time = 8.0;
     scale.period = 1.0;
@@ -258,8 +257,8 @@ TEST(TrackScale, TheContainerIsWhereTheSwirlPutsIt) {
     EXPECT_NEAR(s.clock, s.period / 4.0, 1e-14);
 }
 
-// Upright or in a mirror: --phase is what one reads off the picture.
-TEST(TrackScale, ThePhaseIsThatOfThePictureAlsoWhereTheSwirlRanClockwise) {
+// --phase is the angle in the image, mirrored or not.
+TEST(TrackScale, PhaseIsMeasuredInTheImageForBothDirections) {
     TrackScale scale;
     scale.amplitude = 3.0;
     scale.container_radius = 8.5;
@@ -268,7 +267,7 @@ TEST(TrackScale, ThePhaseIsThatOfThePictureAlsoWhereTheSwirlRanClockwise) {
         for (const double degrees : {0.0, 70.0, 200.0}) {
             scale.clockwise = clockwise;
             scale.phase = degrees * pi / 180.0;
-            // A disc in the middle of the dish, in pixels with y down.
+            // A disc at the centre of the container, in pixels with y down.
             const Snapshot s =
                 seen(30.0 * std::cos(scale.phase), -30.0 * std::sin(scale.phase), scale);
             EXPECT_NEAR(s.position(0).x, s.container_centre.x, 1e-6);  // six digits in the text
@@ -276,8 +275,8 @@ TEST(TrackScale, ThePhaseIsThatOfThePictureAlsoWhereTheSwirlRanClockwise) {
         }
 }
 
-// A disc that rides with the container has its velocity, whatever the camera's unit of time.
-TEST(TrackScale, VelocitiesAreInUnitsOfTheContainers) {
+// A disc at rest relative to the container has its velocity, for any camera unit of time.
+TEST(TrackScale, VelocitiesAreInUnitsOfTheContainersSpeed) {
     for (const double fps : {1.0, 960.0}) {
         TrackScale scale{.container_radius = 8.5};
         scale.frames_per_time = fps;
@@ -295,7 +294,7 @@ TEST(TrackScale, VelocitiesAreInUnitsOfTheContainers) {
     }
 }
 
-TEST(TrackScale, VelocitiesAndSpinsOfADumpAreTranslatedToo) {
+TEST(TrackScale, VelocitiesAndSpinsOfADumpAreConverted) {
     TrackScale scale{.container_radius = 8.5};
     scale.period = pi;  // Ω = 2
     scale.amplitude = 4.0;
@@ -310,14 +309,14 @@ TEST(TrackScale, VelocitiesAndSpinsOfADumpAreTranslatedToo) {
     EXPECT_NEAR(s.spin[0] * s.period / (2.0 * pi), 3.0, 1e-13);  // three times Ω
 }
 
-TEST(TrackScale, NoVelocityIsTakenAcrossALongGap) {
+TEST(TrackScale, NoVelocityIsComputedAcrossALongGap) {
     TrackScale scale{.container_radius = 8.5};
     const auto series = series_of(
         tracks_in("frame,particle,x,y\n0,0,0,0\n1,0,1,0\n2,0,2,0\n50,0,80,0\n51,0,81,0\n"), scale);
     for (const std::uint64_t k : {2u, 3u}) EXPECT_NEAR(series.frame(k).vx[0], 960.0, 1e-9);
 }
 
-TEST(TrackScale, VelocitiesAreCentralDifferencesOneSidedAtTheEnds) {
+TEST(TrackScale, VelocitiesAreCentralDifferencesAndOneSidedAtTheEnds) {
     TrackScale scale{.container_radius = 8.5};
     scale.frames_per_time = 2.0;
     scale.pixels_per_radius = 10.0;
@@ -334,7 +333,7 @@ TEST(TrackScale, VelocitiesAreCentralDifferencesOneSidedAtTheEnds) {
 }
 
 // (ΩΔt)²/6 is what a central difference misses of a circular motion.
-TEST(TrackScale, TheVelocityOfACircularMotionMissesWhatTheHeaderSays) {
+TEST(TrackScale, ErrorOfCircularMotionIsAsDocumented) {
     std::string text = "frame,particle,x,y\n";
     const double step = 2.0 * pi / 50.0;
     for (int k = 0; k < 3; ++k)
@@ -351,7 +350,7 @@ TEST(TrackScale, TheVelocityOfACircularMotionMissesWhatTheHeaderSays) {
 const std::string dump_head =
     "ITEM: TIMESTEP\n4\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff pp\n-1 1\n-1 1\n-1 1\n";
 
-TEST(LammpsDump, ReadsWhatIsGiven) {
+TEST(LammpsDump, ReadsAllColumns) {
     const Tracks tracks = dump_in(dump_head +
                                   "ITEM: ATOMS id type x y vx vy radius mass omegaz\n"
                                   "9 1 1.5 2.5 3.5 4.5 1.25 7 -1\n"
@@ -369,16 +368,15 @@ TEST(LammpsDump, ReadsWhatIsGiven) {
     EXPECT_TRUE(dump_in(dump_head + "ITEM: ATOMS id xu yu\n1 0 0\n2 1 1\n").frames[0].mass.empty());
 }
 
-TEST(LammpsDump, RefusesWithTheLine) {
-    const auto rejected = [](const std::string& text) { return refusal(dump_in, text); };
+TEST(LammpsDump, ErrorsNameTheLine) {
+    const auto rejected = [](const std::string& text) { return error_message(dump_in, text); };
     EXPECT_NE(rejected("").find("holds no frames"), std::string::npos);
     EXPECT_NE(rejected("1,2,3\n").find("line 1: this is not a LAMMPS text dump"),
               std::string::npos);
     EXPECT_NE(rejected(dump_head + "ITEM: ATOMS type x y\n").find("columns id, x and y"),
               std::string::npos);
-    EXPECT_NE(
-        rejected(dump_head + "ITEM: ATOMS id x y\n1 0 0\n").find("where an atom was expected"),
-        std::string::npos);
+    EXPECT_NE(rejected(dump_head + "ITEM: ATOMS id x y\n1 0 0\n").find("but an atom was expected"),
+              std::string::npos);
     EXPECT_NE(
         rejected(dump_head + "ITEM: ATOMS id x y\n1 0 0\n1 1 1\n").find("atom 1 appears twice"),
         std::string::npos);

@@ -25,31 +25,32 @@ double mean(const nlohmann::ordered_json& run, const char* which) {
     return run["rotation"][which]["mean"].get<double>();
 }
 
-TEST(SeenRun, ManyExactPicturesSayWhatTheRunSays) {
+TEST(CameraSampledRun, DenseExactSamplingMatchesTheRun) {
     const auto exact = result_json(run(small_container()));
-    const auto seen = seen_run(small_container(), {511, 0.0}, {"temperature"});
-    EXPECT_EQ(seen["state_hash"], exact["state_hash"]);  // looking changes no bit
-    // Velocities between collisions are exact but for the frames with a collision in them.
+    const auto seen = camera_sampled_run(small_container(), {511, 0.0}, {"temperature"});
+    EXPECT_EQ(seen["state_hash"],
+              exact["state_hash"]);  // sampling leaves the trajectory bitwise identical
+    // Velocities are exact except in frames with a collision.
     EXPECT_NEAR(mean(seen, "rigid_by_time"), mean(exact, "rigid_by_time"), 0.003);
 }
 
-TEST(SeenRun, PoorPlacesHeatTheDiscsByWhatTheyAdd) {
+TEST(CameraSampledRun, PositionErrorsAddTheExpectedTemperature) {
     RunConfig config = small_container();
     config.path = PathShape::polygon;
     const auto temperature = [&config](double error) {
-        return seen_run(config, {64, error},
-                        {"temperature"})["measured"]["temperature"]["granular"]["mean"]
+        return camera_sampled_run(config, {64, error},
+                                  {"temperature"})["measured"]["temperature"]["granular"]["mean"]
             .get<double>();
     };
-    // A velocity over two steps of T/64 has the variance 2σ²/(2T/64)² a coordinate.
+    // A velocity over two steps of T/64 has the variance 2σ²/(2T/64)² per coordinate.
     const double step = config.period / 64.0, error = 0.02;
     const double added = 2.0 * error * error / (4.0 * step * step);
-    // One run tells it to a sixth or so: its discs are seen in other cells than with exact places.
+    // One run gives it to about a sixth: noise moves discs to other cells than exact positions.
     std::vector<double> shares;
     for (config.seed = 1; config.seed <= 16; ++config.seed)
         shares.push_back((temperature(error) - temperature(0.0)) / added);
     const Estimate share = estimate_of(shares);
-    // Of some 4000 places seen, each of up to 314 cells of the dish takes one for its mean flow.
+    // The mean flow of up to 314 cells takes one degree of freedom each from about 4000 positions.
     EXPECT_NEAR(share.mean, 0.96, 0.04 + 3.0 * share.error);
     EXPECT_LT(share.error, 0.06);
 }

@@ -1,4 +1,4 @@
-// A simulated run as a camera would see it, with a known noise: what smoothing gives back.
+// Smoothing of a simulated run, sampled like a camera with known noise.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,16 +18,16 @@
 namespace swirl {
 namespace {
 
-constexpr double pixels = 26.0;  // a radius, as in the laboratory
+constexpr double pixels = 26.0;  // per radius, as in the laboratory
 
-std::vector<Snapshot> recorded_run(int frames_per_swirl) {
+std::vector<Snapshot> recorded_run(int frames_per_period) {
     RunConfig config;
     config.discs = 48;
     config.periods = 12;
     config.warmup = 4;
     config.seed = 3;
     Run run(config);
-    SampleTimes times = run.sample_times(frames_per_swirl);
+    SampleTimes times = run.sample_times(frames_per_period);
     std::vector<Snapshot> frames;
     while (run.next_event()) {
         while (run.next_sample(times))
@@ -54,8 +54,8 @@ TrackScale scale_of(const std::vector<Snapshot>& frames) {
     return scale;
 }
 
-/// What a camera sees of it, with a normal error of so many pixels in every coordinate.
-Tracks seen(const std::vector<Snapshot>& frames, double noise) {
+/// Camera tracks of the run, with a normal error of `noise` pixels per coordinate.
+Tracks camera_tracks(const std::vector<Snapshot>& frames, double noise) {
     Random random(5);
     Tracks tracks;
     for (const Snapshot& s : frames) {
@@ -73,8 +73,8 @@ Tracks seen(const std::vector<Snapshot>& frames, double noise) {
 
 struct Found {
     Estimate temperature, becoming_pinned, becoming_free;
-    Estimate wandered;  // square of the way relative to the dish, in a seventy-third of a swirl
-    Estimate speed;     // of the profile, the mean over its slices
+    Estimate squared_path;  // relative to the container, in 1/73 of a period
+    Estimate speed;         // of the profile, mean over its slices
 };
 
 /// Mean and mean error of a column over the rows that were visited.
@@ -112,7 +112,7 @@ Found exactly(const std::vector<Snapshot>& frames) {
 
 Found smoothed(const std::vector<Snapshot>& frames, double noise) {
     TrackSmoothing ignored;
-    return found_in(smoothed_series(seen(frames, noise), scale_of(frames), ignored));
+    return found_in(smoothed_series(camera_tracks(frames, noise), scale_of(frames), ignored));
 }
 
 void expect_same_angle(const Estimate& found, const Estimate& exact) {
@@ -120,15 +120,15 @@ void expect_same_angle(const Estimate& found, const Estimate& exact) {
     EXPECT_LT(std::abs(apart), 2.0 * std::hypot(found.error, exact.error)) << found.mean;
 }
 
-// Negative: this is what is mended.
-TEST(SmoothedTracks, DifferencesOfNoisyPlacesAreWrongInBoth) {
+// Negative: without smoothing, both results are wrong.
+TEST(SmoothedTracks, FiniteDifferencesBiasPinningAndTemperature) {
     const Found exact = exactly(laboratory());
-    const Found raw = found_in(series_of(seen(laboratory(), 0.2), scale_of(laboratory())));
+    const Found raw = found_in(series_of(camera_tracks(laboratory(), 0.2), scale_of(laboratory())));
     EXPECT_GT(raw.becoming_pinned.mean - exact.becoming_pinned.mean, 20.0);
     EXPECT_GT(raw.temperature.mean, 1.3 * exact.temperature.mean);
 }
 
-TEST(SmoothedTracks, WhereDiscsBecomePinnedAndFreeComesBackWithinItsError) {
+TEST(SmoothedTracks, RecoversAnglesOfPinningWithinTheirErrors) {
     const Found exact = exactly(laboratory());
     for (const double noise : {0.0, 0.1, 0.2}) {
         const Found found = smoothed(laboratory(), noise);
@@ -137,9 +137,9 @@ TEST(SmoothedTracks, WhereDiscsBecomePinnedAndFreeComesBackWithinItsError) {
     }
 }
 
-// Collisions that the noise hides take some of the temperature with them, at 0.2 pixels 12 % in
-// this crowded dish, where differences have 37 % too much: docs/camera.md.
-TEST(SmoothedTracks, TheTemperatureComesBack) {
+// Collisions hidden by the noise reduce the temperature: by 12 % at 0.2 pixels in this dense
+// container, where finite differences give 37 % too much (docs/camera.md).
+TEST(SmoothedTracks, RecoversTheTemperature) {
     const Found exact = exactly(laboratory());
     for (const double noise : {0.0, 0.1, 0.2}) {
         const Found found = smoothed(laboratory(), noise);
@@ -153,16 +153,17 @@ void expect_same(const Estimate& found, const Estimate& exact, double noise) {
     EXPECT_LT(std::abs(found.mean - exact.mean), found.error + exact.error) << noise;
 }
 
-// Ways of few pictures hold the noise of both ends, and speeds are lengths, to which noise adds.
-TEST(SmoothedTracks, DiffusionAndTheSpeedOfTheProfileComeBackWithinTheirErrors) {
+// Displacements over few frames contain the noise of both ends, and noise increases speeds.
+TEST(SmoothedTracks, RecoversDiffusionAndSpeedWithinTheirErrors) {
     const Found exact = exactly(laboratory());
     for (const double noise : {0.0, 0.1, 0.2, 0.4}) {
         const Found found = smoothed(laboratory(), noise);
-        expect_same(found.wandered, exact.wandered, noise);
+        expect_same(found.squared_path, exact.squared_path, noise);
         expect_same(found.speed, exact.speed, noise);
     }
-    const Found raw = found_in(series_of(seen(laboratory(), 0.4), scale_of(laboratory())));
-    EXPECT_GT(raw.wandered.mean - exact.wandered.mean, raw.wandered.error + exact.wandered.error);
+    const Found raw = found_in(series_of(camera_tracks(laboratory(), 0.4), scale_of(laboratory())));
+    EXPECT_GT(raw.squared_path.mean - exact.squared_path.mean,
+              raw.squared_path.error + exact.squared_path.error);
     EXPECT_GT(raw.temperature.mean, 2.0 * exact.temperature.mean);
 }
 
@@ -174,14 +175,15 @@ std::string line_of(const char* how, double noise, const Found& found) {
     };
     return fmt::format("| {:.1f} | {} | {} | {} | {} | {} | {} |\n", noise, how,
                        text(found.temperature, 3), text(found.becoming_pinned, 1),
-                       text(found.becoming_free, 1), text(found.wandered, 4), text(found.speed, 3));
+                       text(found.becoming_free, 1), text(found.squared_path, 4),
+                       text(found.speed, 3));
 }
 
 // The table of docs/camera.md, from "exactly" on.
-TEST(SmoothedTracks, TheTable) {
+TEST(SmoothedTracks, TableInTheDocsIsUpToDate) {
     std::string table = line_of("exactly", 0.0, exactly(laboratory()));
     for (const double noise : {0.0, 0.1, 0.2, 0.4}) {
-        const Tracks tracks = seen(laboratory(), noise);
+        const Tracks tracks = camera_tracks(laboratory(), noise);
         table += line_of("differences", noise, found_in(series_of(tracks, scale_of(laboratory()))));
         table += line_of("smoothed", noise, smoothed(laboratory(), noise));
     }
@@ -191,7 +193,7 @@ TEST(SmoothedTracks, TheTable) {
 }
 
 struct Deviations {
-    double velocity_rms = 0.0, place_rms = 0.0, within_one = 0.0, within_two = 0.0;
+    double velocity_rms = 0.0, position_rms = 0.0, within_one = 0.0, within_two = 0.0;
 };
 
 Deviations deviations(const std::vector<Snapshot>& frames, const Tracks& tracks) {
@@ -212,42 +214,42 @@ Deviations deviations(const std::vector<Snapshot>& frames, const Tracks& tracks)
                 sum.within_two += off < 2.0 * error;
             }
             sum.velocity_rms += dot(d, d);
-            sum.place_rms += dot(p, p);
+            sum.position_rms += dot(p, p);
             count += 2.0;
         }
     }
-    return {std::sqrt(sum.velocity_rms / count), std::sqrt(sum.place_rms / count),
+    return {std::sqrt(sum.velocity_rms / count), std::sqrt(sum.position_rms / count),
             sum.within_one / count, sum.within_two / count};
 }
 
-TEST(SmoothedTracks, PlacesAndVelocitiesAreTwiceAsGoodAndTellTheirErrors) {
-    const Tracks raw = seen(laboratory(), 0.2);
-    Tracks smooth_ones = raw;
-    const TrackSmoothing smoothing = smooth(smooth_ones, scale_of(laboratory()));
+TEST(SmoothedTracks, HalvesErrorsAndEstimatesThem) {
+    const Tracks raw = camera_tracks(laboratory(), 0.2);
+    Tracks smoothed_tracks = raw;
+    const TrackSmoothing smoothing = smooth(smoothed_tracks, scale_of(laboratory()));
     ASSERT_TRUE(smoothing.done);
     EXPECT_NEAR(smoothing.noise, 0.2, 0.01);  // collisions add some per cent
     EXPECT_GT(smoothing.window, 4.0);
     const Deviations before = deviations(laboratory(), raw),
-                     after = deviations(laboratory(), smooth_ones);
-    EXPECT_LT(after.place_rms, 0.5 * before.place_rms);
-    EXPECT_NEAR(smoothing.place_error, after.place_rms, 0.25 * after.place_rms);
-    // At a collision there is a velocity before and one after, which no picture tells apart.
+                     after = deviations(laboratory(), smoothed_tracks);
+    EXPECT_LT(after.position_rms, 0.5 * before.position_rms);
+    EXPECT_NEAR(smoothing.position_error, after.position_rms, 0.25 * after.position_rms);
+    // At a collision, the velocities before and after cannot be separated within one frame.
     EXPECT_LT(after.velocity_rms, 0.6 * before.velocity_rms);
-    // 68 and 95 % of normal errors; collisions too weak to be told are not in them.
+    // 68 and 95 % for normal errors; the errors omit collisions too weak to be detected.
     EXPECT_GT(after.within_one, 0.55);
     EXPECT_GT(after.within_two, 0.75);
     EXPECT_LT(after.within_one, 0.75);
 }
 
-TEST(SmoothedTracks, ExactPlacesStayWhereTheyAre) {
-    Tracks tracks = seen(laboratory(), 0.0);
+TEST(SmoothedTracks, ExactPositionsAreUnchanged) {
+    Tracks tracks = camera_tracks(laboratory(), 0.0);
     ASSERT_TRUE(smooth(tracks, scale_of(laboratory())).done);
-    EXPECT_LT(deviations(laboratory(), tracks).place_rms, 0.005);  // of 26 pixels
+    EXPECT_LT(deviations(laboratory(), tracks).position_rms, 0.005);  // of 26 pixels
 }
 
-// A swirl that ran clockwise in the picture, with y down: the course is the dish's.
-TEST(SmoothedTracks, AMirroredPictureIsSmoothedAlike) {
-    Tracks upright = seen(laboratory(), 0.1), mirrored = upright;
+// Clockwise motion in an image with y down must use the matching container path.
+TEST(SmoothedTracks, MirroredTracksGiveMirroredVelocities) {
+    Tracks upright = camera_tracks(laboratory(), 0.1), mirrored = upright;
     TrackScale scale = scale_of(laboratory());
     smooth(upright, scale);
     for (TrackFrame& f : mirrored.frames)
@@ -267,33 +269,33 @@ TEST(SmoothedTracks, AMirroredPictureIsSmoothedAlike) {
     scale.phase = pi - scale.phase;
     const Tracks once = mirrored;
     smooth(mirrored, scale);
-    // Smoothed twice, so the places hardly move any more; with a wrong course they would by pixels.
+    // A second smoothing hardly moves positions; with a wrong path it would, by pixels.
     EXPECT_NEAR(mirrored.frames[700].velocity[7].x, -v.x, 0.05 * std::hypot(v.x, v.y));
     EXPECT_NEAR(mirrored.frames[700].velocity[7].y, -v.y, 0.05 * std::hypot(v.x, v.y));
 }
 
-// Negative: nothing is done where nothing can be known.
-TEST(SmoothedTracks, FewPicturesAndGivenVelocitiesAreLeftAlone) {
+// Negative: too few frames, given velocities, too few positions.
+TEST(SmoothedTracks, UnsuitableTracksAreNotSmoothed) {
     const auto few = recorded_run(64);
-    Tracks tracks = seen(few, 0.2);
+    Tracks tracks = camera_tracks(few, 0.2);
     const Vec2 place = tracks.frames[9].position[3];
     EXPECT_FALSE(smooth(tracks, scale_of(few)).done);
     EXPECT_EQ(tracks.frames[9].position[3].x, place.x);
     EXPECT_TRUE(tracks.frames[9].velocity.empty());
 
-    Tracks given = seen(laboratory(), 0.2);
+    Tracks given = camera_tracks(laboratory(), 0.2);
     for (TrackFrame& f : given.frames) f.velocity.assign(f.id.size(), {1.0, 2.0});
     EXPECT_FALSE(smooth(given, scale_of(laboratory())).done);
     EXPECT_EQ(given.frames[9].velocity[3].x, 1.0);
 
-    Tracks two = seen(laboratory(), 0.2);
+    Tracks two = camera_tracks(laboratory(), 0.2);
     two.frames.resize(2);
     EXPECT_FALSE(smooth(two, scale_of(laboratory())).done);
 }
 
-// A disc that is not seen for long has no place between; what is before and after is two stretches.
-TEST(SmoothedTracks, AGapIsNotBridged) {
-    Tracks tracks = seen(laboratory(), 0.2);
+// A long gap separates two independent segments.
+TEST(SmoothedTracks, GapsAreNotBridged) {
+    Tracks tracks = camera_tracks(laboratory(), 0.2);
     for (std::size_t k = 500; k < 540; ++k) {
         TrackFrame& f = tracks.frames[k];
         f.id.erase(f.id.begin() + 5);

@@ -13,7 +13,7 @@ namespace {
 
 double exponential(Random& random, double mean) { return -mean * std::log(1.0 - random.uniform()); }
 
-TEST(Contact, IsFoundInDistancesThatErr) {
+TEST(ContactDistance, IsFoundFromNoisyDistances) {
     Random random(5);
     for (const double error : {0.004, 0.012, 0.02})
         for (const double decay : {0.03, 0.1}) {
@@ -29,8 +29,8 @@ TEST(Contact, IsFoundInDistancesThatErr) {
     EXPECT_FALSE(contact_of({1.0, 1.01, 0.99}, 0.9, 1.1));
 }
 
-/// A row of discs, in contact or nearly, along a line.
-TEST(Contact, DiscsThatLieInEachOtherAreMovedApartAndOthersAreLeft) {
+// Discs on a line, some of them in contact.
+TEST(MoveApart, SeparatesOverlappingDiscsOnly) {
     std::vector<HardDisc> discs{{{0.0, 0.0}, 0.01, 10.0},
                                 {{19.5, 0.0}, 0.01, 10.0},
                                 {{60.0, 0.0}, 0.01, 10.0},
@@ -38,18 +38,18 @@ TEST(Contact, DiscsThatLieInEachOtherAreMovedApartAndOthersAreLeft) {
     move_apart(discs, 1.0, {0.0, 0.0});
     const double apart = discs[1].centre.x - discs[0].centre.x;
     EXPECT_GE(apart, 20.0);
-    EXPECT_LT(apart, 20.2);  // by an error of the distance, 0.14, at most
-    EXPECT_NEAR(discs[0].centre.x + discs[1].centre.x, 19.5, 1e-9);  // equally sure
+    EXPECT_LT(apart, 20.2);  // at most the error of the distance, 0.14
+    EXPECT_NEAR(discs[0].centre.x + discs[1].centre.x, 19.5, 1e-9);  // equal errors
     EXPECT_EQ(discs[2].centre.x, 60.0);
     EXPECT_LE(discs[3].centre.x, 89.0);
     EXPECT_GT(discs[3].centre.x, 88.8);
 }
 
-TEST(Contact, PlacesOfACrowdBecomeBetter) {
-    // A hexagonal crowd with gaps, seen with errors.
+TEST(MoveApart, ImprovesPositionsInACrowd) {
+    // A hexagonal crowd with gaps and noisy positions.
     Random random(9);
     double before = 0.0, after = 0.0;
-    for (int picture = 0; picture < 40; ++picture) {
+    for (int frame = 0; frame < 40; ++frame) {
         std::vector<HardDisc> discs;
         std::vector<Vec2> truth;
         for (int row = 0; row < 5; ++row)
@@ -71,14 +71,14 @@ TEST(Contact, PlacesOfACrowdBecomeBetter) {
     EXPECT_LT(after, 0.75 * before);
 }
 
-/// Pairs in contact all over a dish, seen through a lens.
-TEST(Contact, TellsTheDistortion) {
+// Pairs in contact all over a container, seen through a lens.
+TEST(ContactDistance, DeterminesTheLensDistortion) {
     constexpr Vec2 middle{319.5, 239.5};
     Random random(4);
     for (const double k : {0.0, 0.03, -0.02}) {
         Lens lens{middle, 240.0};
         lens.k = k;
-        std::vector<SeenPair> pairs;
+        std::vector<DiscPair> pairs;
         for (int n = 0; n < 8000; ++n) {
             const Vec2 p = middle + random.in_disc(190.0);
             const double apart = 42.0 + exponential(random, 1.5);
@@ -86,10 +86,10 @@ TEST(Contact, TellsTheDistortion) {
             const Vec2 noise{0.3 * deviate(random), 0.3 * deviate(random)};
             pairs.push_back({lens.seen(p - d) + noise, lens.seen(p + d), 42.0});
         }
-        const auto told = distortion_of(pairs, middle, 240.0);
-        ASSERT_TRUE(told);
-        EXPECT_LT(told->error, 0.006);
-        EXPECT_NEAR(told->k, k, 2.0 * told->error) << k;
+        const auto found = distortion_of(pairs, middle, 240.0);
+        ASSERT_TRUE(found);
+        EXPECT_LT(found->error, 0.006);
+        EXPECT_NEAR(found->k, k, 2.0 * found->error) << k;
     }
 }
 

@@ -14,7 +14,7 @@
 namespace swirl {
 namespace {
 
-TEST(BestAssignment, IsTheBestOfAllPermutations) {
+TEST(BestAssignment, MatchesTheBestPermutation) {
     Random random(1);
     for (int trial = 0; trial < 200; ++trial) {
         const std::size_t rows = 1 + random.below(5), columns = 1 + random.below(5);
@@ -22,7 +22,7 @@ TEST(BestAssignment, IsTheBestOfAllPermutations) {
         for (auto& row : cost)
             for (double& c : row) c = random.uniform();
         const std::vector<int> found = best_assignment(cost);
-        // As many as can be are assigned, each column once.
+        // As many pairs as possible are assigned, and each column at most once.
         double sum = 0.0;
         std::vector<char> used(columns, 0);
         std::size_t assigned = 0;
@@ -36,7 +36,7 @@ TEST(BestAssignment, IsTheBestOfAllPermutations) {
             ++assigned;
         }
         EXPECT_EQ(assigned, std::min(rows, columns));
-        // Every way of putting the longer side's members to the shorter one's.
+        // All assignments of the longer side to the shorter one.
         std::vector<std::size_t> order(std::max(rows, columns));
         std::iota(order.begin(), order.end(), std::size_t{0});
         double best = 1e300;
@@ -50,7 +50,7 @@ TEST(BestAssignment, IsTheBestOfAllPermutations) {
     }
 }
 
-/// The best of all partial assignments: as many pairs as possible, then the least sum.
+/// The best partial assignment: as many pairs as possible, then the least sum.
 struct Best {
     std::size_t pairs = 0;
     double sum = 0.0;
@@ -72,7 +72,7 @@ Best by_trial(const std::vector<std::vector<double>>& cost, std::size_t row,
     return best;
 }
 
-TEST(BestAssignment, IsTheBestOfAllPairsThatAreAllowedAndEndsForAnyCosts) {
+TEST(BestAssignment, MatchesExhaustiveSearchAndTerminatesForAnyCosts) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const double odd[] = {std::numeric_limits<double>::quiet_NaN(), infinite, -infinite, 1e300,
                           -1e300};
@@ -99,33 +99,33 @@ TEST(BestAssignment, IsTheBestOfAllPairsThatAreAllowedAndEndsForAnyCosts) {
         std::vector<char> none(columns, 0);
         const Best best = by_trial(cost, 0, none);
         ASSERT_EQ(mine.pairs, best.pairs);
-        // Five costs below 1, next to forbidden ones of at most 18: rounding is below 1e-13.
+        // Five costs below 1 next to forbidden ones of at most 18: rounding stays below 1e-13.
         ASSERT_NEAR(mine.sum, best.sum, 1e-12);
     }
 }
 
-TEST(BestAssignment, ListensForEveryRow) {
+TEST(BestAssignment, ChecksForAStopInEveryRow) {
     const std::vector<std::vector<double>> cost(9, std::vector<double>(9, 1.0));
-    int heard = 0;
-    best_assignment(cost, [&] { ++heard; });
-    EXPECT_EQ(heard, 9);
+    int calls = 0;
+    best_assignment(cost, [&] { ++calls; });
+    EXPECT_EQ(calls, 9);
     EXPECT_THROW(best_assignment(cost, [] { throw std::runtime_error("stop"); }),
                  std::runtime_error);
 }
 
-/// A cluster that goes round with the given angular velocity about the middle of a swirled dish,
-/// seen so rarely that the nearest disc is the wrong one.
+/// A cluster that rotates about the centre of a swirled container, with so few frames that the
+/// nearest disc is the wrong one.
 struct Scene {
     TrackedPath path{{200.0, 180.0}, 28.0, 0.2, 0.3, false};
-    std::vector<std::vector<SeenDisc>> pictures;
+    std::vector<std::vector<DetectedDisc>> frames;
     std::vector<double> times;
 
-    /// `turn`: of the cluster relative to the dish, in units of Ω, counter-clockwise.
+    /// `turn`: angular velocity relative to the container, in units of Ω, counter-clockwise.
     Scene(double turn, int count, bool clockwise = false) {
         path.clockwise = clockwise;
         for (int k = 0; k < count; ++k) {
             times.push_back(k);
-            std::vector<SeenDisc> here;
+            std::vector<DetectedDisc> here;
             for (int row = -4; row <= 4; ++row)
                 for (int column = -4; column <= 4; ++column) {
                     const Vec2 p{33.0 * (column + 0.5 * (row & 1)) + 3.0 * row, 29.0 * row};
@@ -136,14 +136,14 @@ struct Scene {
                     const Vec2 at{u.x * p.x + u.y * p.y, -u.y * p.x + u.x * p.y};
                     here.push_back({path.at(k) + at});
                 }
-            pictures.push_back(here);
+            frames.push_back(here);
         }
     }
-    LinkSettings settings() const { return {{15.0}, {pictures.front().size()}, 0.95}; }
+    LinkSettings settings() const { return {{15.0}, {frames.front().size()}, 0.95}; }
 };
 
-/// How often a disc's track is another than in the first picture.
-int exchanged(const Scene& scene, const Links& links) {
+/// The number of detections whose track differs from that in the first frame.
+int identity_swaps(const Scene& scene, const Links& links) {
     int count = 0;
     for (const auto& tracks : links.track)
         for (std::size_t d = 0; d < tracks.size(); ++d) count += tracks[d] != links.track[0][d];
@@ -151,95 +151,94 @@ int exchanged(const Scene& scene, const Links& links) {
     return count;
 }
 
-TEST(Linking, FollowsRotationAndCounterrotationAtFewPicturesASwirl) {
+TEST(Linking, FollowsRotationAndCounterrotationAtALowFrameRate) {
     for (const bool clockwise : {false, true})
         for (const double turn : {1.0, 0.5, 0.0, -0.1}) {
-            // In a picture where the swirl is clockwise the cluster's sense is mirrored, too.
+            // In an image where the swirl is clockwise, the cluster's rotation is mirrored, too.
             const Scene scene(clockwise ? -turn : turn, 60, clockwise);
-            const Links links =
-                link_discs(scene.pictures, scene.times, scene.path, scene.settings());
-            EXPECT_EQ(exchanged(scene, links), 0) << turn << clockwise;
-            EXPECT_EQ(links.kind.size(), scene.pictures.front().size());
+            const Links links = link_discs(scene.frames, scene.times, scene.path, scene.settings());
+            EXPECT_EQ(identity_swaps(scene, links), 0) << turn << clockwise;
+            EXPECT_EQ(links.species.size(), scene.frames.front().size());
         }
 }
 
-TEST(Linking, WithAWrongPathItFails) {
-    // The test above can fail: without the dish's motion the lattice is taken for its neighbour,
-    // unless it is known that all are seen.
+TEST(Linking, FailsWithAWrongPath) {
+    // Shows that the test above can fail: without the container's motion the lattice is linked to
+    // its neighbour sites, unless all discs are known to be seen.
     Scene scene(1.0, 40);
     TrackedPath still = scene.path;
     still.amplitude = 0.0;
     still.omega = 1e-9;
     LinkSettings settings = scene.settings();
     settings.numbers.clear();
-    const Links links = link_discs(scene.pictures, scene.times, still, settings);
-    EXPECT_GT(exchanged(scene, links), 0);
+    const Links links = link_discs(scene.frames, scene.times, still, settings);
+    EXPECT_GT(identity_swaps(scene, links), 0);
 }
 
-TEST(Linking, ADiscThatIsHiddenForAWhileKeepsItsName) {
+TEST(Linking, ABrieflyHiddenDiscKeepsItsTrack) {
     Scene scene(0.4, 60);
     const std::size_t hidden = 7;
-    for (std::size_t k = 20; k < 26; ++k)
-        scene.pictures[k].erase(scene.pictures[k].begin() + hidden);
-    const Links links = link_discs(scene.pictures, scene.times, scene.path, scene.settings());
-    EXPECT_EQ(links.kind.size(), scene.pictures.front().size());
+    for (std::size_t k = 20; k < 26; ++k) scene.frames[k].erase(scene.frames[k].begin() + hidden);
+    const Links links = link_discs(scene.frames, scene.times, scene.path, scene.settings());
+    EXPECT_EQ(links.species.size(), scene.frames.front().size());
     EXPECT_EQ(links.track[59], links.track[0]);
 }
 
-TEST(Linking, WhoWasUnderAHandForLongIsFoundAgain) {
-    // For two swirls a hand lies over the left half, with circles on it that are no discs.
+TEST(Linking, DiscsCoveredForTwoPeriodsResumeTheirTracks) {
+    // For two periods a hand covers the left half, with circles on it that are not discs.
     Scene scene(0.4, 120);
     Random random(5);
-    const std::size_t number = scene.pictures.front().size();
+    const std::size_t number = scene.frames.front().size();
     for (std::size_t k = 20; k < 82; ++k) {
-        auto& here = scene.pictures[k];
-        std::erase_if(here, [&](const SeenDisc& d) { return d.place.x < scene.path.centre.x; });
+        auto& here = scene.frames[k];
+        std::erase_if(here,
+                      [&](const DetectedDisc& d) { return d.position.x < scene.path.centre.x; });
         for (int n = 0; n < 6; ++n)
             here.push_back(
                 {scene.path.centre + Vec2{-20.0 * n, 90.0 * random.uniform()}, 0, false});
     }
-    const Links links = link_discs(scene.pictures, scene.times, scene.path, scene.settings());
-    EXPECT_EQ(links.kind.size(), number);
+    const Links links = link_discs(scene.frames, scene.times, scene.path, scene.settings());
+    EXPECT_EQ(links.species.size(), number);
     for (std::size_t k = 82; k < 120; ++k) {
         std::vector<int> tracks = links.track[k];
         std::sort(tracks.begin(), tracks.end());
         std::vector<int> all(number);
         std::iota(all.begin(), all.end(), 0);
-        EXPECT_EQ(tracks, all) << k;  // each disc is somebody, and nobody is two
+        EXPECT_EQ(tracks, all) << k;  // each track has exactly one disc
     }
 }
 
-TEST(Linking, AStrayTrackIsTakenBackByTheDiscThatNobodyExplains) {
-    // One disc is hidden, and beside it something that is none goes with the dish and draws its
-    // track away; then the disc is there again, but another is not, so that not all are sure.
+TEST(Linking, AStrayTrackReturnsToTheUnexplainedDisc) {
+    // One disc is hidden while an unsure detection next to it moves with the container and attracts
+    // its track. Then the disc reappears, but another one is hidden, so not all discs are sure.
     Scene scene(0.0, 60);
     const std::size_t lost = 7, other = 0;
     for (std::size_t k = 20; k < 60; ++k) {
-        auto& here = scene.pictures[k];
-        const Vec2 place = here[lost].place;
-        here.push_back({place + Vec2{9.0 + 0.5 * double(k - 20), 0.0}, 0, false});
-        if (k < 30) here[lost].place = {-1e3, -1e3};
-        here[other].place = {-1e3, -1e3};
+        auto& here = scene.frames[k];
+        const Vec2 position = here[lost].position;
+        here.push_back({position + Vec2{9.0 + 0.5 * double(k - 20), 0.0}, 0, false});
+        if (k < 30) here[lost].position = {-1e3, -1e3};
+        here[other].position = {-1e3, -1e3};
         here[other].sure = false;
         if (k < 30) here[lost].sure = false;
     }
-    const Links links = link_discs(scene.pictures, scene.times, scene.path, scene.settings());
+    const Links links = link_discs(scene.frames, scene.times, scene.path, scene.settings());
     EXPECT_EQ(links.track[59][lost], links.track[0][lost]);
 }
 
-TEST(Linking, NobodyIsBornBeyondTheNumber) {
+TEST(Linking, NumberOfTracksIsLimitedToTheNumberOfDiscs) {
     Scene scene(0.4, 30);
     for (std::size_t k = 10; k < 20; ++k)
         for (const double x : {170.0, 210.0})
-            scene.pictures[k].push_back({{scene.path.centre.x + x, scene.path.centre.y}});
-    const Links links = link_discs(scene.pictures, scene.times, scene.path, scene.settings());
-    EXPECT_EQ(links.kind.size(), scene.pictures.front().size());
+            scene.frames[k].push_back({{scene.path.centre.x + x, scene.path.centre.y}});
+    const Links links = link_discs(scene.frames, scene.times, scene.path, scene.settings());
+    EXPECT_EQ(links.species.size(), scene.frames.front().size());
     EXPECT_EQ(links.rejected, 20u);
-    EXPECT_EQ(links.crowded, 10u);  // frames, however many each has
+    EXPECT_EQ(links.crowded, 10u);  // frames, not detections
     LinkSettings open = scene.settings();
     open.numbers.clear();
-    EXPECT_EQ(link_discs(scene.pictures, scene.times, scene.path, open).kind.size(),
-              scene.pictures.front().size() + 2);
+    EXPECT_EQ(link_discs(scene.frames, scene.times, scene.path, open).species.size(),
+              scene.frames.front().size() + 2);
 }
 
 TEST(Linking, TimesThatDoNotAscendAreRejected) {
@@ -247,13 +246,13 @@ TEST(Linking, TimesThatDoNotAscendAreRejected) {
                                std::numeric_limits<double>::infinity()}) {
         Scene scene(0.4, 40);
         scene.times[20] = wrong;
-        EXPECT_THROW(link_discs(scene.pictures, scene.times, scene.path, scene.settings()),
+        EXPECT_THROW(link_discs(scene.frames, scene.times, scene.path, scene.settings()),
                      std::invalid_argument);
     }
 }
 
-TEST(Linking, EndsAfterStepsOfAnySize) {
-    // Discs cannot be followed across such a step, but every one is still followed at most once.
+TEST(Linking, TerminatesForTimeStepsOfAnySize) {
+    // Discs cannot be followed across such a step, but each track still has at most one disc.
     for (const double step : {1e-300, 1e-15, 1e15, 1e300})
         for (const bool counted : {true, false}) {
             Scene scene(0.4, 40);
@@ -264,7 +263,7 @@ TEST(Linking, EndsAfterStepsOfAnySize) {
                     scene.times[k] = std::nextafter(scene.times[k - 1], 1e308);
             LinkSettings settings = scene.settings();
             if (!counted) settings.numbers.clear();
-            const Links links = link_discs(scene.pictures, scene.times, scene.path, settings);
+            const Links links = link_discs(scene.frames, scene.times, scene.path, settings);
             ASSERT_EQ(links.track.size(), 40u);
             for (const auto& tracks : links.track) {
                 std::vector<int> sorted;
@@ -276,15 +275,15 @@ TEST(Linking, EndsAfterStepsOfAnySize) {
         }
 }
 
-TEST(Linking, StopsWhenItIsTold) {
+TEST(Linking, StopsOnRequest) {
     const Scene scene(0.4, 40);
     LinkSettings settings = scene.settings();
-    int heard = 0;
-    settings.listen = [&] {
-        if (++heard == 30) throw std::runtime_error("stop");
+    int calls = 0;
+    settings.throw_if_stopped = [&] {
+        if (++calls == 30) throw std::runtime_error("stop");
     };
-    EXPECT_THROW(link_discs(scene.pictures, scene.times, scene.path, settings), std::runtime_error);
-    EXPECT_EQ(heard, 30);
+    EXPECT_THROW(link_discs(scene.frames, scene.times, scene.path, settings), std::runtime_error);
+    EXPECT_EQ(calls, 30);
 }
 
 }  // namespace

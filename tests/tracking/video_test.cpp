@@ -17,21 +17,21 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Numbers = std::vector<std::size_t>;
 
-TEST(AscendingTimes, GoodTimesStayAsTheyAre) {
+TEST(AscendingTimes, ValidTimesAreUnchanged) {
     const std::vector<double> uneven{0.5, 1.0, 1.25, 4.0, 4.1};
     const AscendingTimes found = ascending_times(uneven);
     EXPECT_EQ(found.seconds, uneven);
     EXPECT_TRUE(found.untimed.empty());
 }
 
-TEST(AscendingTimes, FramesThatShareATimeGetTimesBetweenTheirNeighbours) {
-    // Whichever of the two was wrong.
+TEST(AscendingTimes, FramesThatShareATimeAreSpreadBetweenTheirNeighbours) {
+    // Either of the two frames may have the wrong time.
     for (const double shared : {3.0, 4.0}) {
         const AscendingTimes found = ascending_times({0.0, 1.0, 2.0, shared, shared, 5.0, 6.0});
         EXPECT_EQ(found.seconds, (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
         EXPECT_EQ(found.untimed, (Numbers{3, 4}));
     }
-    // A step that is too small to be one, and three equal times at either end.
+    // A step below the minimum, and three equal times at either end.
     EXPECT_EQ(ascending_times({0.0, 1.0, 1.0 + 1e-9, 3.0, 4.0}).untimed, (Numbers{1, 2}));
     EXPECT_EQ(ascending_times({2.0, 2.0, 2.0, 3.0, 4.0}).seconds,
               (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
@@ -39,7 +39,7 @@ TEST(AscendingTimes, FramesThatShareATimeGetTimesBetweenTheirNeighbours) {
               (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
 }
 
-TEST(AscendingTimes, TimesThatAreNotFiniteOrGoBackAreReplaced) {
+TEST(AscendingTimes, NonFiniteAndDescendingTimesAreReplaced) {
     const AscendingTimes found = ascending_times({0.0, 1.0, nan, 3.0, -infinite, 5.0, 6.0});
     EXPECT_EQ(found.seconds, (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
     const AscendingTimes back = ascending_times({0.0, 1.0, 2.0, 3.0, 2.5, 5.0, 6.0});
@@ -47,7 +47,7 @@ TEST(AscendingTimes, TimesThatAreNotFiniteOrGoBackAreReplaced) {
     EXPECT_TRUE(std::is_sorted(back.seconds.begin(), back.seconds.end(), std::less_equal<>()));
 }
 
-TEST(AscendingTimes, AnyTimesAscendOrAreRejected) {
+TEST(AscendingTimes, ResultsAscendOrAreRejected) {
     const double odd[] = {nan, infinite, -infinite, 0.0, -1e300, 1e300, 1.0, 2.0};
     Random random(7);
     int rejected = 0;
@@ -72,7 +72,7 @@ TEST(AscendingTimes, AnyTimesAscendOrAreRejected) {
     EXPECT_LT(rejected, 2000);
 }
 
-TEST(AscendingTimes, OneTimeForAllIsRejected) {
+TEST(AscendingTimes, EqualTimesAreRejected) {
     EXPECT_THROW(ascending_times({1.0, 1.0, 1.0}), Failure);
     EXPECT_THROW(ascending_times({nan, nan}), Failure);
     EXPECT_THROW(ascending_times({}), Failure);

@@ -10,23 +10,26 @@
 namespace swirl {
 namespace {
 
-std::vector<Frame> frames_named(const std::string& name) {
+constexpr std::int64_t min_side = 16, max_side = 8192;  // of an image, pixels
+constexpr double longest_trail = 100.0;                 // periods
+
+std::vector<Frame> parse_frames(const std::string& name) {
     if (name == "lab") return {Frame::lab};
     if (name == "m") return {Frame::m};
     if (name == "both") return {Frame::lab, Frame::m};
     throw UsageError(fmt::format("--frame is '{}', but it must be lab, m or both.", name));
 }
 
-Size size_from(const std::string& text) {
-    const auto cross = std::min(text.find('x'), text.size());
-    const auto width = read_whole_number(text.substr(0, cross)).value_or(0);
+Size parse_size(const std::string& text) {
+    const auto separator = std::min(text.find('x'), text.size());
+    const auto width = read_whole_number(text.substr(0, separator)).value_or(0);
     const auto height =
-        cross < text.size() ? read_whole_number(text.substr(cross + 1)).value_or(0) : 0;
-    if (std::min(width, height) < 16 || std::max(width, height) > 8192)
+        separator < text.size() ? read_whole_number(text.substr(separator + 1)).value_or(0) : 0;
+    if (std::min(width, height) < min_side || std::max(width, height) > max_side)
         throw UsageError(fmt::format(
-            "--size is '{}', but it must be WIDTHxHEIGHT with sides from 16 to 8192 pixels, for "
+            "--size is '{}', but it must be WIDTHxHEIGHT with sides from {} to {} pixels, for "
             "example 1920x1080.",
-            text));
+            text, min_side, max_side));
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 
@@ -35,87 +38,68 @@ Size size_from(const std::string& text) {
 std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) {
     auto texts = std::make_shared<AppearanceTexts>();
     texts->frame = "lab";
-    const auto group = "Appearance";
-    subcommand
-        .add_option("--frame", texts->frame,
-                    "lab; m: turning with the swirl, the point M at the bottom; or both [lab]")
-        ->type_name("lab|m|both")
-        ->group(group);
-    subcommand
-        .add_option("--color", texts->color,
-                    "what the discs' colours tell: pinned, spin, speed, slip (of spheres on the "
-                    "floor), none, id [none]")
-        ->type_name("NAME")
-        ->group(group);
-    subcommand.add_flag("--trails", texts->trails, "draw where the discs come from")->group(group);
-    subcommand
-        .add_option("--trail-length", texts->trail_length,
-                    "draw them, reaching back so many swirls [0.3]")
-        ->type_name("SWIRLS")
-        ->group(group);
-    subcommand
-        .add_flag("--forces", texts->forces,
-                  "centrifugal and Coriolis force on each disc (M-frame)")
-        ->group(group);
-    subcommand
-        .add_flag("--turned", texts->turned,
-                  "an arc round the dish: how far the cluster has turned (lab frame)")
-        ->group(group);
-    subcommand.add_flag("--angles", texts->angles, "the angle θ along the wall (M-frame)")
-        ->group(group);
-    subcommand.add_flag("--plot", texts->plot, "the cluster's rotation against time")->group(group);
-    subcommand.add_option("--theme", texts->theme, "dark or light [dark]")
-        ->type_name("NAME")
-        ->group(group);
-    subcommand.add_option("--title", texts->title, "a headline")->type_name("TEXT")->group(group);
-    subcommand.add_flag("--bare", texts->bare, "no text, no points: dish and discs only")
-        ->group(group);
-    subcommand.add_option("--size", texts->size, "in pixels [1920x1080]")
-        ->type_name("WxH")
-        ->group(group);
+    const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
+        subcommand.add_option(name, into, description)->type_name(type)->group("Appearance");
+    };
+    const auto flag = [&](const char* name, bool& into, const char* description) {
+        subcommand.add_flag(name, into, description)->group("Appearance");
+    };
+    add("--frame", texts->frame, "lab|m|both",
+        "Frame of reference: lab, co-rotating (M), or both [lab]");
+    add("--color", texts->color, "NAME", "Colour by pinned, spin, speed, slip, id or none [none]");
+    flag("--trails", texts->trails, "Draw the recent path of each disc");
+    add("--trail-length", texts->trail_length, "PERIODS", "Draw trails of this length [0.3]");
+    flag("--forces", texts->forces, "Centrifugal and Coriolis force on each disc (M-frame)");
+    flag("--turned", texts->turned, "Arc for the angle that the cluster has turned (lab)");
+    flag("--angles", texts->angles, "Scale of the angle θ along the wall (M-frame)");
+    flag("--plot", texts->plot, "Plot of the cluster's rotation against time");
+    add("--theme", texts->theme, "NAME", "Colour theme: dark or light [dark]");
+    add("--title", texts->title, "TEXT", "Title above the image");
+    flag("--bare", texts->bare, "Container and discs only, no text or markers");
+    add("--size", texts->size, "WxH", "Image size in pixels [1920x1080]");
     return texts;
 }
 
 Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
-    Appearance look;
-    look.frames = frames_named(texts.frame);
+    Appearance result;
+    result.frames = parse_frames(texts.frame);
     const auto coloring = coloring_named(texts.color);
     if (!coloring)
         throw UsageError(fmt::format(
             "--color is '{}', but it must be pinned, spin, speed, slip, none or id.", texts.color));
-    look.coloring = *coloring;
+    result.coloring = *coloring;
     const auto theme = theme_named(texts.theme);
     if (!theme)
         throw UsageError(
             fmt::format("--theme is '{}', but it must be dark or light.", texts.theme));
-    look.theme = *theme;
-    look.size = texts.size.empty() ? otherwise : size_from(texts.size);
+    result.theme = *theme;
+    result.size = texts.size.empty() ? otherwise : parse_size(texts.size);
     if (texts.trail_length) {
-        if (!(*texts.trail_length > 0.0) || *texts.trail_length > 100.0)
+        if (!(*texts.trail_length > 0.0) || *texts.trail_length > longest_trail)
             throw UsageError(
-                fmt::format("--trail-length is {}, but it must be above 0 and at most 100 swirls.",
-                            *texts.trail_length));
-        look.trail_length = *texts.trail_length;
+                fmt::format("--trail-length is {}, but it must be above 0 and at most {} periods.",
+                            *texts.trail_length, longest_trail));
+        result.trail_length = *texts.trail_length;
     }
-    look.trails = texts.trails || texts.trail_length;
-    look.forces = texts.forces;
-    look.plot = texts.plot;
-    look.turned = texts.turned;
-    look.angles = texts.angles;
-    look.title = texts.title;
-    look.texts = !texts.bare;
-    look.points = !texts.bare;
-    look.path = !texts.bare;
-    if (look.turned && texts.frame == "m")
+    result.trails = texts.trails || texts.trail_length;
+    result.forces = texts.forces;
+    result.plot = texts.plot;
+    result.turned = texts.turned;
+    result.angles = texts.angles;
+    result.title = texts.title;
+    result.texts = !texts.bare;
+    result.points = !texts.bare;
+    result.path = !texts.bare;
+    if (result.turned && texts.frame == "m")
         throw UsageError(
-            "--turned shows the rotation in the lab: it needs --frame lab or --frame both.");
-    if (look.angles && texts.frame == "lab")
+            "--turned shows the rotation in the lab frame.\nhint: use --frame lab or --frame "
+            "both.");
+    if (result.angles && texts.frame == "lab")
+        throw UsageError("--angles shows θ in the M-frame.\nhint: use --frame m or --frame both.");
+    if (result.forces && texts.frame == "lab")
         throw UsageError(
-            "--angles shows the θ of the turning frame: it needs --frame m or --frame both.");
-    if (look.forces && texts.frame == "lab")
-        throw UsageError(
-            "--forces shows the forces of the turning frame: it needs --frame m or --frame both.");
-    return look;
+            "--forces shows forces in the M-frame.\nhint: use --frame m or --frame both.");
+    return result;
 }
 
 }  // namespace swirl

@@ -1,4 +1,4 @@
-// The options that say how a picture or a movie looks, the same for both.
+// The options for the appearance of an image or a movie.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace swirl {
 
-/// As given; appearance() reads it.
+/// Options as given; appearance() parses them.
 struct AppearanceTexts {
     std::string frame, color = "none", theme = "dark", title, size;
     std::optional<double> trail_length;
@@ -19,7 +19,7 @@ struct AppearanceTexts {
 
 std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand);
 
-/// Throws WrongCall. `otherwise` is the size if none was given.
+/// Throws UsageError. `otherwise` is the size if none was given.
 Appearance appearance(const AppearanceTexts& texts, Size otherwise);
 
 }  // namespace swirl

@@ -1,4 +1,4 @@
-// swirl experiment: from a set of films to the paper's figures beside simulation, and a report.
+// swirl experiment: the paper's figures from a set of videos, compared with simulations.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ struct ExperimentCall {
 
 std::string name_of_video(const std::string& video) {
     fs::path path = video;
-    // Of numbered pictures the folder: 'frames/%05d.png'.
+    // For numbered images ('frames/%05d.png'), the name of their folder.
     if (video.find('%') != video.npos && path.has_parent_path())
         return path.parent_path().filename();
     return path.stem().string();
@@ -51,11 +51,11 @@ std::string name_of_video(const std::string& video) {
 
 #ifdef SWIRL_CAMERA
 
-/// What tells whether tracks that are there are of this film as it is now.
-nlohmann::ordered_json identity_of(const ExperimentCall& call, const std::string& video) {
+/// Identifies the video and the options that its tracks were made with.
+nlohmann::ordered_json tracking_key(const ExperimentCall& call, const std::string& video) {
     std::error_code ignored;
     const bool file = fs::is_regular_file(video, ignored);
-    return {{"film", video},
+    return {{"video", video},
             {"size", file ? fs::file_size(video, ignored) : 0},
             {"modified", file ? fs::last_write_time(video, ignored).time_since_epoch().count() : 0},
             {"fps", call.fps ? nlohmann::ordered_json(*call.fps) : nullptr},
@@ -64,52 +64,54 @@ nlohmann::ordered_json identity_of(const ExperimentCall& call, const std::string
             {"version", version()}};
 }
 
-/// Tracks the film unless that was done; returns the table.
+/// Returns the table of tracks; reuses one from an earlier call with the same video and options.
 fs::path tracks_of(const ExperimentCall& call, const std::string& video,
                    FilmedContainer& container) {
     const fs::path folder = fs::path(call.out) / "tracks";
     make_folder(folder);
     const fs::path table = folder / (container.name + ".csv"),
                    about = folder / (container.name + ".json"),
-                   picture = fs::path(call.out) / fmt::format("film_{}.png", container.name);
-    container.pictures = {picture.filename()};
-    const std::string identity = identity_of(call, video).dump(2) + "\n";
-    const bool known = video.find('%') == video.npos && fs::exists(about) && fs::exists(table) &&
-                       fs::exists(picture) && fs::exists(camera_file(table)) &&
-                       read_whole_file(about) == identity;
-    if (known) return table;
+                   image = fs::path(call.out) / fmt::format("video_{}.png", container.name);
+    container.pictures = {image.filename()};
+    const std::string key = tracking_key(call, video).dump(2) + "\n";
+    const bool reusable = video.find('%') == video.npos && fs::exists(about) && fs::exists(table) &&
+                          fs::exists(image) && fs::exists(camera_file(table)) &&
+                          read_whole_file(about) == key;
+    if (reusable) return table;
     ProgressLine line(container.name, call.quiet);
     const TrackingSettings settings = tracking_settings(video, call.fps, call.frames, line);
     const TrackedVideo found = track_video(settings);
     std::optional<VideoSpins> spins;
-    if (call.spin) spins = spins_of(found, settings);
+    if (call.spin) spins = measure_spins(found, settings);
     line.clear();
-    // From here on until it is written anew, what is there is of no film.
+    // Until the key is written again, the other files do not belong to any video.
     std::error_code absent;
     fs::remove(about, absent);
     write_tracks(found, {video, {}, {}}, table, spins ? &*spins : nullptr);
-    draw_found(found, video, name_of_video(video), picture);
-    write_output(about, identity);
+    draw_found(found, video, name_of_video(video), image);
+    write_output(about, key);
     return table;
 }
 
 #else
 
-fs::path tracks_of(const ExperimentCall&, const std::string&, FilmedContainer&) { throw_no_eyes(); }
+fs::path tracks_of(const ExperimentCall&, const std::string&, FilmedContainer&) {
+    throw_no_camera_support();
+}
 
 #endif
 
 void measure(const ExperimentCall& call, const fs::path& table, FilmedContainer& container) {
-    const fs::path beside = camera_file(table);
-    if (!fs::exists(beside))
-        throw Failure(fmt::format(
-            "beside '{}' there is no '{}', which says how the dish moved; `swirl track` writes it.",
-            table.string(), beside.filename().string()));
-    container.found = nlohmann::ordered_json::parse(read_whole_file(beside), nullptr, false);
+    const fs::path calibration = camera_file(table);
+    if (!fs::exists(calibration))
+        throw Failure(
+            fmt::format("'{}' has no calibration '{}' next to it, which `swirl track` writes.",
+                        table.string(), calibration.filename().string()));
+    container.found = nlohmann::ordered_json::parse(read_whole_file(calibration), nullptr, false);
     if (!container.found.is_object() || !container.found.contains("camera") ||
         !container.found.contains("discs"))
-        throw Failure(fmt::format("'{}' is not what `swirl track` writes beside its tracks.",
-                                  beside.string()));
+        throw Failure(
+            fmt::format("'{}' is not a calibration by `swirl track`.", calibration.string()));
     for (const auto& warning : container.found.value("warnings", nlohmann::ordered_json::array()))
         if (warning.is_string()) container.remarks.push_back(warning.get<std::string>());
     const OpenedSeries opened = open_tracks(table.string(), {});
@@ -117,20 +119,20 @@ void measure(const ExperimentCall& call, const fs::path& table, FilmedContainer&
         end = opened.remarks.find('\n', begin);
         container.remarks.push_back(opened.remarks.substr(begin, end - begin));
     }
-    const bool followed = holds_tracks(opened.series);
+    const bool tracked = holds_tracks(opened.series);
     ProgressLine line(container.name, call.quiet);
     MeasuringControl control;
     control.stop = &stop_signal();
     control.progress = [&](std::uint64_t k, std::uint64_t of) {
         line.show(double(k) / double(of), "measuring");
     };
-    const MeasuredSeries measured = measure_series(
-        opened.series, measurable(measurements_of_a_video(), followed), 0.0, control);
+    const MeasuredSeries measured =
+        measure_series(opened.series, measurable(measurements_of_a_video(), tracked), 0.0, control);
     if (!fits_criteria(measured.frames_per_period()))
         container.remarks.push_back(fmt::format(
-            "There are {:.0f} pictures per swirl; the criteria for pinned discs are made for {}. "
-            "The simulation is seen as often, so the two can be compared with each other, but not "
-            "with the paper.",
+            "The video has {:.0f} frames per period, but the criteria for pinned discs assume {}. "
+            "The simulation is sampled at the same rate, so the two can be compared with each "
+            "other, but not with the paper.",
             measured.frames_per_period(), samples_per_period));
     container.result = {{"periods", measured.periods},
                         {"rotation",
@@ -139,7 +141,7 @@ void measure(const ExperimentCall& call, const fs::path& table, FilmedContainer&
                         {"measured", measured_json(measured.reports)}};
 }
 
-FilmedContainer filmed(const ExperimentCall& call, const std::string& video, bool smooth) {
+FilmedContainer measure_video(const ExperimentCall& call, const std::string& video, bool smooth) {
     FilmedContainer container;
     container.name = name_of_video(video);
     container.smooth = smooth;
@@ -150,23 +152,23 @@ FilmedContainer filmed(const ExperimentCall& call, const std::string& video, boo
                 container);
     } catch (const Interrupted&) {
         throw;
-    } catch (const std::exception& failure) {  // of a file, a film, a drawing: a hole
+    } catch (const std::exception& failure) {  // the report then omits this video
         container.result = {{"failed", failure.what()}};
-        if (!call.quiet) fmt::print(stderr, "{}: {}\n", video, failure.what());
+        fmt::print(stderr, "warning: {}: {}\n", video, failure.what());
     }
     return container;
 }
 
-void check(const ExperimentCall& call) {
-    if (call.out.empty())
-        throw UsageError("There is nowhere for the report to go: give --out DIR.");
+void validate(const ExperimentCall& call) {
+    if (call.out.empty()) throw UsageError("missing required option --out DIR.");
     check_video_options(call.fps, call.frames);
     std::set<std::string> names;
     for (const auto* videos : {&call.rough, &call.smooth})
         for (const std::string& video : *videos)
             if (!names.insert(name_of_video(video)).second)
                 throw UsageError(fmt::format(
-                    "Two films are called '{}', and so would be their files; rename one.",
+                    "two videos are called '{}', so their output files would have the same names.\n"
+                    "hint: rename one.",
                     name_of_video(video)));
     if (!call.json.empty() && call.json != "-") reject_unwritable(call.json);
     std::vector<fs::path> all{call.json};
@@ -176,7 +178,7 @@ void check(const ExperimentCall& call) {
     check(call.settings);
 }
 
-std::string text_of(const ExperimentResult& result) {
+std::string summary(const ExperimentResult& result) {
     std::string text;
     for (const std::string& finding : result.findings) text += finding + "\n";
     if (result.runs > 0)
@@ -184,8 +186,8 @@ std::string text_of(const ExperimentResult& result) {
                             result.remembered > 0 ? fmt::format(", {} of them from an earlier call",
                                                                 result.remembered)
                                                   : "");
-    return text + fmt::format("wrote {} and {} more files there\n", result.files.back().string(),
-                              result.files.size() - 1);
+    return text + fmt::format("wrote {} and {} more files in the same folder\n",
+                              result.files.back().string(), result.files.size() - 1);
 }
 
 void make_experiment_report(ExperimentCall& call) {
@@ -193,20 +195,21 @@ void make_experiment_report(ExperimentCall& call) {
     call.settings.parameters = *call.parameters;
     call.settings.simulate = !call.no_simulation;
     call.settings.command = command_line();
-    check(call);
+    validate(call);
     make_folder(call.out);
     std::vector<FilmedContainer> videos;
-    for (const std::string& video : call.rough) videos.push_back(filmed(call, video, false));
-    for (const std::string& video : call.smooth) videos.push_back(filmed(call, video, true));
+    for (const std::string& video : call.rough) videos.push_back(measure_video(call, video, false));
+    for (const std::string& video : call.smooth) videos.push_back(measure_video(call, video, true));
     const auto good = std::count_if(videos.begin(), videos.end(),
                                     [](const FilmedContainer& video) { return video.good(); });
     if (good == 0)
-        throw Failure(videos.size() == 1
-                          ? fmt::format("The film could not be used: {}",
-                                        videos.front().result["failed"].get<std::string>())
-                          : fmt::format("None of the {} films could be used; the first, {}: {}",
-                                        videos.size(), videos.front().video,
-                                        videos.front().result["failed"].get<std::string>()));
+        throw Failure(
+            videos.size() == 1
+                ? fmt::format("the video could not be used: {}",
+                              videos.front().result["failed"].get<std::string>())
+                : fmt::format("none of the {} videos could be used; the first one, {}: {}",
+                              videos.size(), videos.front().video,
+                              videos.front().result["failed"].get<std::string>()));
     ExperimentResult result;
     {
         ProgressLine line("simulation", call.quiet);
@@ -219,63 +222,56 @@ void make_experiment_report(ExperimentCall& call) {
         print_all(result.json.dump(2) + "\n");
     else if (!call.json.empty())
         write_output(call.json, result.json.dump(2) + "\n");
-    if (!call.quiet && call.json != "-") print_all(text_of(result));
+    if (!call.quiet && call.json != "-") print_all(summary(result));
     if (good < std::ptrdiff_t(videos.size()))
-        throw Failure(fmt::format("{} of {} films could not be used; the report says why.",
-                                  videos.size() - std::size_t(good), videos.size()));
+        throw Failure(
+            fmt::format("{} of {} videos could not be used; the report lists the reasons.",
+                        videos.size() - std::size_t(good), videos.size()));
 }
 
 void add_experiment_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExperimentCall>();
-    const auto add = [&](const char* name, auto& into, const char* type, const char* description,
-                         const char* group) {
+    const char* group = "Videos";
+    const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
         return subcommand.add_option(name, into, description)->type_name(type)->group(group);
     };
-    const char* const videos = "The films";
+    const auto flag = [&](const char* name, bool& into, const char* description) {
+        subcommand.add_flag(name, into, description)->group(group);
+    };
     subcommand
-        .add_option("films", call->rough,
-                    "films as `swirl track` takes them, or tables that it wrote (.csv, .h5)")
+        .add_option("videos", call->rough, "Videos or image sequences, or tracks (.csv, .h5)")
         ->type_name("VIDEO")
         ->required();
-    add("--smooth", call->smooth, "VIDEO",
-        "films of a second, smoother kind of disc (Figure 4c); may be given several times", videos);
-    add("--fps", call->fps, "NUMBER", "pictures per second, of all films [as each film says]",
-        videos);
-    add("--frames", call->frames, "NUMBER", "only the first so many pictures of each", videos);
-    subcommand
-        .add_flag("--spin", call->spin,
-                  "measure how fast discs turn, from their texture (Figure 4b)")
-        ->group(videos);
+    add("--smooth", call->smooth, "VIDEO", "Videos of smoother discs (Figure 4c); repeatable");
+    add("--fps", call->fps, "N", "Frames per second of all videos [from each video]");
+    add("--frames", call->frames, "N", "Number of frames of each video [all]");
+    flag("--spin", call->spin, "Measure spins from textures (Figure 4b)");
     call->parameters = add_run_options(subcommand, {"discs", "mixture", "radius"},
                                        {{"events", "5e5"},
-                                        {"container_radius", "the films'"},
-                                        {"amplitude", "the films'"},
+                                        {"container_radius", "from the videos"},
+                                        {"amplitude", "from the videos"},
                                         {"period", "such that the speed is 1"},
                                         {"path", "circle"}});
-    const char* const simulation = "The simulation beside them";
-    add("--seeds", call->settings.seeds, "NUMBER", "runs at each number of discs [3]", simulation);
+    group = "Simulation";
+    add("--seeds", call->settings.seeds, "N", "Runs for each number of discs [3]");
     add("--smooth-mu", call->settings.smooth_mu, "NUMBER",
-        "friction of the discs of --smooth films [0.1]", simulation);
-    subcommand.add_flag("--no-simulation", call->no_simulation, "the films alone")
-        ->group(simulation);
-    add("--out", call->out, "DIR",
-        "the report, its figures and tables; what is there of an earlier call and still holds is "
-        "not done again",
-        "Output");
-    add("--json", call->json, "FILE|-", "write everything found to FILE, or - for stdout",
-        "Output");
-    subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group("Output");
+        "Friction coefficient of the --smooth discs [0.1]");
+    flag("--no-simulation", call->no_simulation, "Videos only, without simulations");
+    group = "Output";
+    add("--out", call->out, "DIR", "Folder for report and figures; valid results are reused");
+    add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
+    flag("--quiet", call->quiet, "No progress line and no summary");
     subcommand.set_examples(
         {"swirl experiment N24.mp4 N36.mp4 N48.mp4 --mu 0.5 --out marbles",
-         "swirl experiment films/*.mp4 --preset experiment --out marbles",
+         "swirl experiment videos/*.mp4 --preset experiment --out marbles",
          "swirl experiment rough36.mp4 rough48.mp4 --smooth smooth36.mp4 --smooth smooth48.mp4 "
          "--out both",
-         "swirl experiment tracks.csv --no-simulation --out look"});
+         "swirl experiment tracks.csv --no-simulation --out measured"});
     subcommand.callback([call] { make_experiment_report(*call); });
 }
 
 const Command experiment_command(42, "experiment",
-                                 "From a set of films to the paper's figures beside simulation.",
+                                 "Compare videos with simulations in the paper's figures.",
                                  add_experiment_command);
 
 }  // namespace

@@ -1,4 +1,4 @@
-// swirl track: from a film to tracks, and to everything about the dish that can be seen in it.
+// swirl track: finds the container, its path and the discs in a video, and tracks the discs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,83 +40,87 @@ struct TrackCall {
 
 #ifndef SWIRL_CAMERA
 
-void track(const TrackCall&) { throw_no_eyes(); }
+void track(const TrackCall&) { throw_no_camera_support(); }
 
 #else
 
-/// What is said of the camera. Throws WrongCall.
-KnownCamera camera_of(const TrackCall& call) {
-    constexpr double radians = pi / 180.0;
+/// The camera's tilt and view angle as given. Throws UsageError.
+KnownCamera known_camera(const TrackCall& call) {
+    constexpr double radians = pi / 180.0, max_tilt = 45.0, max_view_angle = 150.0;  // degrees
     KnownCamera camera;
     if (call.view_angle) {
-        if (!(*call.view_angle >= 0.0 && *call.view_angle <= 150.0))
-            throw UsageError(fmt::format(
-                "--view-angle is {}, but it must be from 0 to 150 degrees.", *call.view_angle));
+        if (!(*call.view_angle >= 0.0 && *call.view_angle <= max_view_angle))
+            throw UsageError(fmt::format("--view-angle is {}, but it must be from 0 to {} degrees.",
+                                         *call.view_angle, max_view_angle));
         camera.view_angle = radians * *call.view_angle;
     }
     if (call.tilt.empty()) return camera;
     const std::size_t comma = call.tilt.find(',');
+    const bool has_side = comma != call.tilt.npos;
     const auto angle = read_number(call.tilt.substr(0, comma));
-    const auto towards =
-        comma == call.tilt.npos ? std::optional(0.0) : read_number(call.tilt.substr(comma + 1));
-    if (!angle || !towards || !(*angle >= 0.0 && *angle <= 45.0) ||
-        (comma == call.tilt.npos && *angle > 0.0))
+    const auto towards = has_side ? read_number(call.tilt.substr(comma + 1)) : std::optional(0.0);
+    if (!angle || !towards || !(*angle >= 0.0 && *angle <= max_tilt) || (!has_side && *angle > 0.0))
         throw UsageError(fmt::format(
-            "--tilt is '{}', but it must be 0, or two angles in degrees: up to 45, and the side "
-            "where the camera stands, as in 5,270.",
-            call.tilt));
+            "--tilt is '{}', but it must be 0, or two angles in degrees: the tilt (at most {}) and "
+            "the side of the camera, for example 5,270.",
+            call.tilt, max_tilt));
     camera.tilt = radians * *angle;
     camera.towards = radians * *towards;
     return camera;
 }
 
-std::string text_of(const TrackedVideo& video, const TrackCall& call) {
-    const std::string unit = video.fps > 0.0 ? "s" : "picture";
-    std::string sizes;
-    for (const TrackedKind& kind : video.kinds)
-        sizes += fmt::format("{}{} of {:.2f} pixels radius", sizes.empty() ? "" : ", ", kind.number,
-                             kind.radius);
+std::string species_text(const TrackedVideo& video) {
+    std::string text;
+    for (const TrackedSpecies& one : video.species)
+        text += fmt::format("{}{} of radius {:.2f} pixels", text.empty() ? "" : ", ", one.number,
+                            one.radius);
+    return text;
+}
+
+/// The summary on the terminal.
+std::string summary(const TrackedVideo& video, const TrackCall& call) {
+    const std::string unit = video.fps > 0.0 ? "s" : "frame";
     const double period = 2.0 * pi / video.path.omega;
     const double step = video.times.size() > 1 ? (video.times.back() - video.times.front()) /
                                                      double(video.times.size() - 1)
                                                : 1.0;
     std::string text = fmt::format(
-        "{}: {} discs in {} pictures of {}x{}.\n"
+        "{}: {} discs in {} frames of {}x{} pixels\n"
         "  discs       {}, {} on {} floor\n"
-        "  dish        radius {:.2f} pixels, {:.3f} disc radii\n"
-        "  swirl       centre {}, {}; amplitude {} pixels, {:.3f} disc radii; {}\n"
-        "  path        {}\n"
-        "  period      {} {}, {:.1f} pictures; Ω = {} rad/{}\n"
-        "  phase       {} degrees at the first picture\n"
+        "  container   radius {:.2f} pixels, {:.3f} disc radii\n"
+        "  path        {}, {}\n"
+        "  centre      {}, {} pixels\n"
+        "  amplitude   {} pixels, {:.3f} disc radii\n"
+        "  period      {} {}, {:.1f} frames; Ω = {} rad/{}\n"
+        "  phase       {} degrees in the first frame\n"
         "  lens        distortion {}{}\n"
         "  camera      {}\n"
-        "  all seen    in {:.2f} % of the pictures; {} positions filled in\n"
-        "  error       {:.3f} pixels of a place, from {}\n",
-        call.source.video, video.number, video.pictures, video.width, video.height, sizes,
-        video.bright ? "bright" : "dark", video.bright ? "a dark" : "a bright",
-        video.container_radius, video.container_radius / video.radius,
+        "  complete    {:.2f} % of frames have all discs; {} positions filled in\n"
+        "  error       {:.3f} pixels per position, from {}\n",
+        call.source.video, video.number, video.frame_count, video.width, video.height,
+        species_text(video), video.bright ? "bright" : "dark", video.bright ? "a dark" : "a bright",
+        video.container_radius, video.container_radius / video.radius, path_shape_text(video),
+        video.path.clockwise ? "clockwise in the image" : "counter-clockwise",
         with_error(video.path.centre.x, video.path.centre_error),
         with_error(video.path.centre.y, video.path.centre_error),
         with_error(video.path.amplitude, video.path.amplitude_error),
         video.path.amplitude / video.radius,
-        video.path.clockwise ? "clockwise in the picture" : "counter-clockwise", shape_text(video),
         with_error(period, period * video.path.omega_error / video.path.omega), unit, period / step,
         with_error(video.path.omega, video.path.omega_error), unit,
-        with_error(phase_of(video), video.path.phase_error * 180.0 / pi),
+        with_error(first_phase(video), video.path.phase_error * 180.0 / pi),
         with_error(video.lens.k, video.lens.k_error), video.lens.k != 0.0 ? ", corrected" : "",
-        tilt_text(video), 100.0 * video.complete, video.filled, video.position_error,
-        video.position_error > video.overlap_error ? "the edges" : "overlaps that cannot be");
+        tilt_text(video), 100.0 * video.complete_share, video.filled, video.position_error,
+        video.position_error > video.overlap_error ? "edges" : "overlaps");
     if (call.source.disc_diameter)
-        text += fmt::format("  scale       {:.5f} mm a pixel, from the discs\n",
+        text += fmt::format("  scale       {:.5f} mm per pixel, from the discs\n",
                             *call.source.disc_diameter / (2.0 * video.radius));
     if (call.source.container_diameter)
-        text += fmt::format("  scale       {:.5f} mm a pixel, from the dish\n",
+        text += fmt::format("  scale       {:.5f} mm per pixel, from the container\n",
                             *call.source.container_diameter / (2.0 * video.container_radius));
-    for (const std::string& warning : video.warnings) text += warning + "\n";
     return text;
 }
 
-/// The film with the discs that were found drawn over it, picture by picture.
+/// Writes the video with the detected discs drawn over it.
 void make_overlay(const TrackedVideo& video, const TrackCall& call) {
     MovieConfig config;
     config.out = call.overlay;
@@ -130,7 +134,7 @@ void make_overlay(const TrackedVideo& video, const TrackCall& call) {
     config.frames_per_second = movie_format(call.overlay) == MovieFormat::gif ? 25 : 60;
     config.pace = config.frames_per_second / source.frames_per_swirl;
     config.start = source.from.value_or(0.0);
-    config.frames = static_cast<int>(video.pictures);
+    config.frames = static_cast<int>(video.frame_count);
     if (const auto wrong = problem(config)) throw UsageError(*wrong);
     ProgressLine line(call.overlay, call.quiet);
     MovieControl control;
@@ -140,27 +144,26 @@ void make_overlay(const TrackedVideo& video, const TrackCall& call) {
     line.clear();
     if (!result.complete)
         throw Interrupted(
-            fmt::format("Stopped while the overlay was drawn; the tracks are in '{}', and swirl "
-                        "movie {} --over "
-                        "{} --out {} draws it.",
+            fmt::format("stopped before the overlay was complete; the tracks are in '{}'.\n"
+                        "hint: to draw the overlay, use swirl movie {} --over {} --out {}",
                         call.out, shell_word(call.out), shell_word(call.source.video),
                         shell_word(call.overlay)));
 }
 
-void track(const TrackCall& call) {
-    if (call.out.empty())
-        throw UsageError("There is nowhere for the tracks to go: give --out FILE.csv or FILE.h5.");
+/// Throws UsageError or Failure before any work is done.
+void validate(const TrackCall& call) {
+    if (call.out.empty()) throw UsageError("missing required option --out FILE.csv|FILE.h5.");
     if (!is_named_as_tracks(call.out))
         throw UsageError(
             fmt::format("--out is '{}', but its name must end with .csv or .h5.", call.out));
     check_video_options(call.fps, call.frames);
     if (call.discs && !(*call.discs > 0))
         throw UsageError(fmt::format("--discs is {}, but it must be at least 1.", *call.discs));
-    for (const auto& [name, given] : {std::pair("dish-diameter", call.source.container_diameter),
-                                      std::pair("disc-diameter", call.source.disc_diameter)})
+    for (const auto& [name, given] :
+         {std::pair("container-diameter", call.source.container_diameter),
+          std::pair("disc-diameter", call.source.disc_diameter)})
         if (given && !(*given > 0.0))
             throw UsageError(fmt::format("--{} is {}, but it must be above 0.", name, *given));
-    const KnownCamera camera = camera_of(call);
     reject_unwritable(call.out);
     if (!call.overlay.empty()) {
         if (!movie_format(call.overlay))
@@ -178,41 +181,56 @@ void track(const TrackCall& call) {
     reject_same_files(all);
     if (!call.report.empty()) make_folder(call.report);
     if (!call.overwrite && std::filesystem::exists(call.out))
-        throw Failure(fmt::format("'{}' is there already; --overwrite replaces it.", call.out));
+        throw Failure(
+            fmt::format("'{}' already exists.\nhint: use --overwrite to replace it.", call.out));
+}
 
+void warn_of_missing_spins(const VideoSpins& spins, TrackedVideo& video) {
+    constexpr double enough = 0.9;  // fraction of the steps
+    if (spins.measured >= enough) return;
+    video.warnings.push_back(fmt::format(
+        "Spins could be measured in only {:.0f} % of the steps of {} frame{}. A clearer pattern on "
+        "the discs, sharper images or a higher frame rate would help.",
+        100.0 * spins.measured, spins.step, spins.step == 1 ? "" : "s"));
+}
+
+void warn_of_contradictory_diameters(const VideoSource& source, TrackedVideo& video) {
+    constexpr double tolerance = 0.03;  // of the ratio; radii are found to about 1 %
+    if (!source.container_diameter || !source.disc_diameter) return;
+    const double given = *source.container_diameter / *source.disc_diameter;
+    const double found = video.container_radius / video.radius;
+    if (std::abs(given / found - 1.0) <= tolerance) return;
+    video.warnings.push_back(fmt::format(
+        "The ratio of container diameter to disc diameter is {:.3f} as given, but {:.3f} in the "
+        "video. One of them may be wrong, or the container's is the outer diameter.",
+        given, found));
+}
+
+void track(const TrackCall& call) {
+    const KnownCamera camera = known_camera(call);
+    validate(call);
     ProgressLine line(call.source.video, call.quiet);
     TrackingSettings settings = tracking_settings(call.source.video, call.fps, call.frames, line);
     settings.discs = call.discs;
     settings.camera = camera;
     TrackedVideo video = track_video(settings);
     std::optional<VideoSpins> spins;
-    if (call.spin) spins = spins_of(video, settings);
+    if (call.spin) spins = measure_spins(video, settings);
     line.clear();
-    if (spins && spins->measured < 0.9)
-        video.warnings.push_back(fmt::format(
-            "The texture of the discs tells their turning in {:.0f} % of the steps of {} picture{} "
-            "only: more of a pattern on them, sharper pictures or more of them would help.",
-            100.0 * spins->measured, spins->step, spins->step == 1 ? "" : "s"));
-    if (call.source.container_diameter && call.source.disc_diameter) {
-        const double given = *call.source.container_diameter / *call.source.disc_diameter;
-        const double seen = video.container_radius / video.radius;
-        if (std::abs(given / seen - 1.0) > 0.03)
-            video.warnings.push_back(fmt::format(
-                "The diameters given are as {:.3f} to 1, but the dish in the film is {:.3f} times "
-                "as wide as a disc: one of them is wrong, or the dish's is that of its outside.",
-                given, seen));
-    }
+    if (spins) warn_of_missing_spins(*spins, video);
+    warn_of_contradictory_diameters(call.source, video);
 
     const nlohmann::ordered_json json =
         write_tracks(video, call.source, call.out, spins ? &*spins : nullptr);
     if (!call.overlay.empty()) make_overlay(video, call);
     std::filesystem::path report;
     if (!call.report.empty()) report = write_video_report(video, call.source, json, call.report);
+    for (const std::string& text : video.warnings) fmt::print(stderr, "warning: {}\n", text);
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
-    if (!call.quiet)
-        print_all(text_of(video, call) +
-                  (report.empty() ? "" : fmt::format("wrote {}\n", report.string())));
+    if (call.quiet) return;
+    print_all(summary(video, call));
+    if (!report.empty()) print_all(fmt::format("wrote {}\n", report.string()));
 }
 
 #endif
@@ -222,35 +240,28 @@ void add_track_command(Subcommand& subcommand) {
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
         return subcommand.add_option(name, into, description)->type_name(type);
     };
-    add("film", call->source.video, "VIDEO",
-        "a film that ffmpeg reads, numbered pictures ('frames/%05d.png'), or a camera "
-        "(/dev/video0)")
+    add("video", call->source.video, "VIDEO",
+        "Video file, numbered images (%05d.png) or camera device")
         ->required();
     add("--out", call->out, "FILE.csv|FILE.h5",
-        "the tracks, as trackpy writes them, or as HDF5 (H5MD); what was found of the dish goes "
-        "beside them "
-        "(.camera.json), where swirl measure finds it");
-    add("--fps", call->fps, "NUMBER", "pictures per second [as the film says]");
-    add("--dish-diameter", call->source.container_diameter, "MM",
-        "of the dish inside, in millimetres");
-    add("--disc-diameter", call->source.disc_diameter, "MM", "of a disc, in millimetres");
-    add("--discs", call->discs, "NUMBER", "how many there are [counted]");
-    add("--tilt", call->tilt, "DEGREES,TOWARDS",
-        "of the camera, and the side where it stands, counter-clockwise from the right; 0: looks "
-        "straight down [found from the rim]");
-    add("--view-angle", call->view_angle, "DEGREES",
-        "that the camera sees over the height of a picture; balls far from the middle look longer "
-        "by it [found if the camera is tilted]");
-    add("--frames", call->frames, "NUMBER", "only the first so many pictures");
-    add("--overlay", call->overlay, "FILE", "a movie of the film with the discs drawn over it");
-    add("--report", call->report, "DIR",
-        "a report of the film, DIR/report.html: what was found, how well, and where not");
-    add("--json", call->json, "FILE|-", "write everything found to FILE, or - for stdout");
+        "Tracks; calibration goes next to them (.camera.json)");
+    add("--fps", call->fps, "N", "Frames per second [from the video]");
+    add("--container-diameter", call->source.container_diameter, "MM",
+        "Inner diameter of the container");
+    add("--disc-diameter", call->source.disc_diameter, "MM", "Diameter of a disc");
+    add("--discs", call->discs, "N", "Number of discs [counted]");
+    add("--tilt", call->tilt, "DEG,SIDE",
+        "Camera tilt, and its side counter-clockwise from +x [found]");
+    add("--view-angle", call->view_angle, "DEG",
+        "Vertical view angle of the camera [found if tilted]");
+    add("--frames", call->frames, "N", "Number of frames to track [all]");
+    add("--overlay", call->overlay, "FILE", "Movie of the video with the discs drawn over it");
+    add("--report", call->report, "DIR", "Folder for a report on the tracking, report.html");
+    add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
     subcommand.add_flag("--spin", call->spin,
-                        "how fast each disc turns, from its texture: columns spin (about the "
-                        "vertical), spin_x, spin_y, and the paper's PIV");
-    subcommand.add_flag("--overwrite", call->overwrite, "replace tracks that are there");
-    subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
+                        "Measure spins from textures; adds columns to the tracks");
+    subcommand.add_flag("--overwrite", call->overwrite, "Replace existing tracks");
+    subcommand.add_flag("--quiet", call->quiet, "No progress line and no summary");
     subcommand.set_examples({"swirl track dish.mp4 --out tracks.csv",
                              "swirl track slow-motion.mp4 --fps 960 --out tracks.csv",
                              "swirl measure tracks.csv --measure density,flow,slip",
@@ -258,7 +269,7 @@ void add_track_command(Subcommand& subcommand) {
     subcommand.callback([call] { track(*call); });
 }
 
-const Command track_command(40, "track", "From a film of a dish to the tracks of its discs.",
+const Command track_command(40, "track", "Track the discs in a video of a swirled container.",
                             add_track_command);
 
 }  // namespace

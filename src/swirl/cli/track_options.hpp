@@ -1,4 +1,4 @@
-// The options that say how the tracks of a camera, or of another program, translate.
+// Options for the unit conversion of tracks from a camera or another program.
 #pragma once
 
 #include <filesystem>
@@ -9,34 +9,35 @@
 
 namespace swirl {
 
-/// As given, so that what was not given is known.
+/// Options as given; empty if not given.
 struct TrackTexts {
     std::string fps, scale, omega, centre, phase;
     std::string amplitude, container_radius;
     bool clockwise = false;
 };
 
-/// The number given with --name, at least `from`; `otherwise` if none was. Throws WrongCall.
+/// The number given with --name, or `otherwise` if `text` is empty. Throws UsageError for a number
+/// below `from`.
 double number_option(const std::string& name, const std::string& text, double otherwise,
                      double from);
 
-/// --amplitude and --container-radius are left to the caller, who may have them already.
+/// Adds all options of TrackTexts except --amplitude and --container-radius, which some subcommands
+/// define themselves.
 void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::string& group);
 
-/// FILE.csv or FILE.h5; whether it is there or not.
+/// Whether the name ends with .csv or .h5.
 bool is_named_as_tracks(const std::string& file);
-/// Whether the file is one of ours (HDF5) and no tracks. Throws Failure if it cannot be read.
+/// Whether the file is HDF5 or named so, but does not hold tracks. Throws Failure if unreadable.
 bool is_trajectory(const std::string& file);
-/// Tracks of ours (HDF5), a table of trackpy or a LAMMPS dump, by what it begins with, mended
+/// Reads tracks (HDF5, trackpy table or LAMMPS dump, by their first bytes) and repairs them
 /// (io/track_repair.hpp). Throws FileError.
 Tracks read_tracks(const std::string& file, const TrackScale& scale);
-/// Of a .camera.json, its key `format`. Files without it are in format 1.
+/// Key `format` of a .camera.json; a file without it has format 1.
 inline constexpr int camera_format = 1;
-/// tracks.csv or tracks.h5 → tracks.camera.json: what `swirl track` found of the dish, beside the
-/// tracks.
+/// tracks.csv or tracks.h5 → tracks.camera.json: the calibration that `swirl track` found.
 std::filesystem::path camera_file(std::filesystem::path tracks);
-/// What is not given is taken from there, if there is such a file. Throws WrongCall for what is
-/// missing or wrong.
+/// Options that are not given are read from camera_file(file), if it exists. Throws UsageError for
+/// a missing or invalid option, Failure for an invalid file.
 TrackScale track_scale(const TrackTexts& given, const std::string& file);
 
 }  // namespace swirl

@@ -26,11 +26,11 @@
 
 namespace swirl {
 
-void throw_no_eyes() {
+void throw_no_camera_support() {
     throw Failure(
-        "This build of swirl has no eyes: it was made without OpenCV, or with SWIRL_CAMERA=OFF. "
-        "Install libopencv-core-dev and libopencv-imgproc-dev, and build again; ./swirl track does "
-        "both.");
+        "this build has no camera support (OpenCV was not found, or SWIRL_CAMERA is OFF).\n"
+        "hint: install libopencv-core-dev and libopencv-imgproc-dev and rebuild; ./swirl track "
+        "does both.");
 }
 
 void check_video_options(const std::optional<double>& fps,
@@ -73,26 +73,26 @@ Json lens_json(const TrackedVideo& video) {
     return json;
 }
 
-Json json_of(const TrackedVideo& video, const VideoSource& source) {
-    Json kinds = Json::array();
-    for (const TrackedKind& kind : video.kinds)
-        kinds.push_back(
-            {{"number", kind.number}, {"radius", kind.radius}, {"radius_scatter", kind.scatter}});
+Json video_json(const TrackedVideo& video, const VideoSource& source) {
+    Json species = Json::array();
+    for (const TrackedSpecies& one : video.species)
+        species.push_back(
+            {{"number", one.number}, {"radius", one.radius}, {"radius_scatter", one.scatter}});
     const TrackScale scale = video.scale();
     return {{"format", camera_format},
-            {"film", source.video},
-            {"pictures", video.pictures},
+            {"video", source.video},
+            {"frames", video.frame_count},
             {"size", {video.width, video.height}},
             {"fps", video.fps > 0.0 ? Json(video.fps) : Json(nullptr)},
             {"discs", video.number},
-            {"kinds", kinds},
+            {"species", species},
             {"discs_are", video.bright ? "bright" : "dark"},
-            {"dish",
+            {"container",
              {{"radius", video.container_radius},
               {"rim_radius", video.rim_radius},
-              {"reach_of_the_discs", video.reach},
-              {"rim_seen", video.rim_support},
-              {"rims_missed", video.rims_missed},
+              {"disc_reach", video.reach},
+              {"rim_support", video.rim_support},
+              {"frames_without_rim", video.rims_missed},
               {"shake", video.shake}}},
             {"path",
              {{"centre", vector_json(video.path.centre)},
@@ -101,44 +101,45 @@ Json json_of(const TrackedVideo& video, const VideoSource& source) {
               {"amplitude_error", video.path.amplitude_error},
               {"omega", video.path.omega},
               {"omega_error", video.path.omega_error},
-              {"phase", phase_of(video)},
+              {"phase", first_phase(video)},
               {"phase_error", degrees(video.path.phase_error)},
               {"clockwise", video.path.clockwise},
               {"residual", video.path.residual},
-              {"pictures_that_agree", video.path.used},
+              {"agreeing_frames", video.path.used},
               {"sides", video.polygon.sides > 0 ? Json(video.polygon.sides) : Json(nullptr)},
-              {"sides_up_to_which_would_be_seen", video.polygon.max_sides},
-              {"corners", video.polygon.sides > 0 ? Json(video.polygon.corners) : Json(nullptr)}}},
+              {"max_detectable_sides", video.polygon.max_sides},
+              {"vertex_distance",
+               video.polygon.sides > 0 ? Json(video.polygon.vertex_distance) : Json(nullptr)}}},
             {"lens", lens_json(video)},
             {"quality",
-             {{"touching_discs_are_apart", video.touching},
-              {"pictures_with_all_discs", video.complete},
+             {{"contact_ratio", video.contact_ratio},
+              {"complete_share", video.complete_share},
               {"position_error", video.position_error},
-              {"position_error_from_overlaps", video.overlap_error},
+              {"overlap_error", video.overlap_error},
               {"filled_positions", video.filled},
-              {"discs_too_many", video.rejected},
-              {"pictures_with_discs_too_many", video.crowded}}},
+              {"excess_discs", video.rejected},
+              {"frames_with_excess_discs", video.crowded}}},
             {"millimetres_per_pixel",
              source.disc_diameter ? Json(*source.disc_diameter / (2.0 * video.radius))
              : source.container_diameter
                  ? Json(*source.container_diameter / (2.0 * video.container_radius))
                  : Json(nullptr)},
             {"warnings", video.warnings},
-            // What `swirl measure` and `swirl movie` take the tracks with.
+            // The calibration, which `swirl measure` and `swirl movie` read.
             {"camera",
              {{"camera-fps", scale.frames_per_time},
               {"scale", scale.pixels_per_radius},
               {"omega", video.path.omega},
               {"centre", vector_json(scale.swirl_centre)},
-              {"phase", phase_of(video)},
+              {"phase", first_phase(video)},
               {"amplitude", scale.amplitude},
               {"container-radius", scale.container_radius},
               {"clockwise", scale.clockwise}}},
             {"version", version()}};
 }
 
-/// What is known of a disc in a picture beside its place, in the order of the table.
-std::vector<TrackColumn> columns_of(const TrackedVideo& video, const VideoSpins* spins) {
+/// The columns of the table after frame, particle, x and y.
+std::vector<TrackColumn> extra_columns(const TrackedVideo& video, const VideoSpins* spins) {
     std::vector<TrackColumn> columns;
     const auto add = [&](const char* name, auto value) {
         TrackColumn column{name, {}};
@@ -158,7 +159,7 @@ std::vector<TrackColumn> columns_of(const TrackedVideo& video, const VideoSpins*
     add("error", [&](std::size_t k, std::size_t i) { return video.errors[k][i]; });
     add("seen", [&](std::size_t k, std::size_t i) { return video.seen[k][i] ? 1.0 : 0.0; });
     if (!spins) return columns;
-    // Per second, where the film says how long that is.
+    // Per second if the frame rate is known, else per frame.
     const double rate = 1.0 / video.step();
     const auto add_spin = [&](const char* name, auto value) {
         add(name, [&](std::size_t k, std::size_t i) { return value(spins->discs[k][i]); });
@@ -172,7 +173,7 @@ std::vector<TrackColumn> columns_of(const TrackedVideo& video, const VideoSpins*
     return columns;
 }
 
-Table table_of(const Tracks& tracks, const std::vector<TrackColumn>& columns) {
+Table tracks_table(const Tracks& tracks, const std::vector<TrackColumn>& columns) {
     std::vector<std::string> names{"frame", "particle", "x", "y"};
     for (const TrackColumn& column : columns) names.push_back(column.name);
     Table table(names);
@@ -187,20 +188,20 @@ Table table_of(const Tracks& tracks, const std::vector<TrackColumn>& columns) {
     return table;
 }
 
-/// The tracks as what the file's name says.
-void write_tracks_alone(const TrackedVideo& video, const VideoSource& source,
-                        const std::filesystem::path& out, const VideoSpins* spins) {
-    const std::vector<TrackColumn> columns = columns_of(video, spins);
-    if (out.extension() != ".h5") return table_of(video.tracks, columns).write(out);
+/// Writes the tracks as HDF5 or CSV, by the extension of `out`.
+void write_tracks_file(const TrackedVideo& video, const VideoSource& source,
+                       const std::filesystem::path& out, const VideoSpins* spins) {
+    const std::vector<TrackColumn> columns = extra_columns(video, spins);
+    if (out.extension() != ".h5") return tracks_table(video.tracks, columns).write(out);
     write_track_recording(
         out, video.tracks, video.times, columns,
         {{"version", version()}, {"command", command_line()}, {"film", source.video}});
 }
 
-/// For each picture: what is there, and how well.
-Table pictures_of(const TrackedVideo& video) {
+/// One row per frame: number of discs and quality of their positions.
+Table frames_table(const TrackedVideo& video) {
     Table table(
-        {"picture", "time", "seen", "filled", "missing", "error", "deepest_overlap", "rim_off"});
+        {"frame", "time", "seen", "filled", "missing", "error", "deepest_overlap", "rim_off"});
     for (std::size_t k = 0; k < video.tracks.frames.size(); ++k) {
         const TrackFrame& f = video.tracks.frames[k];
         std::int64_t seen = 0;
@@ -218,13 +219,14 @@ Table pictures_of(const TrackedVideo& video) {
         const auto there = static_cast<std::int64_t>(f.id.size());
         table.add({f.number, video.times[k], seen, there - seen,
                    static_cast<std::int64_t>(video.number) - there,
-                   seen > 0 ? std::sqrt(square / double(seen)) : 0.0, deepest, video.rim_off[k]});
+                   seen > 0 ? std::sqrt(square / double(seen)) : 0.0, deepest,
+                   video.rim_offsets[k]});
     }
     return table;
 }
 
-/// For each disc: how often it was seen.
-Table discs_of(const TrackedVideo& video) {
+/// One row per disc: how often it was seen.
+Table discs_table(const TrackedVideo& video) {
     struct Disc {
         std::int64_t seen = 0, filled = 0, first = -1, last = -1;
         double square = 0.0, radius = 0.0;
@@ -258,7 +260,7 @@ TrackingSettings tracking_settings(const std::string& video, const std::optional
     TrackingSettings settings;
     settings.video = video;
     settings.fps = fps;
-    settings.max_pictures = frames.value_or(0);
+    settings.max_frames = frames.value_or(0);
     settings.stop = &stop_signal();
     settings.progress = [&line](const std::string& what, double share) { line.show(share, what); };
     return settings;
@@ -279,44 +281,44 @@ std::filesystem::path write_video_report(const TrackedVideo& video, const VideoS
                                          const Json& found, const std::filesystem::path& folder) {
     make_folder(folder);
     std::error_code absent;
-    fs::remove(folder / "report.html", absent);  // what it told of will not be there any more
-    pictures_of(video).write(folder / "pictures.csv");
-    discs_of(video).write(folder / "discs.csv");
+    fs::remove(folder / "report.html", absent);  // it would describe the old tables
+    frames_table(video).write(folder / "frames.csv");
+    discs_table(video).write(folder / "discs.csv");
     Json about = found;
     about["command"] = command_line();
-    about["path"]["shape"] = shape_text(video);
+    about["path"]["shape"] = path_shape_text(video);
     about["lens"]["camera"] = tilt_text(video);
     write_output(folder / "found.json", about.dump(2) + "\n");
     draw_found(video, source.video, std::filesystem::path(source.video).filename().string(),
-               folder / "film.png");
+               folder / "video.png");
     run_python_script("track.py", {folder.string()}, &stop_signal());
     return folder / "report.html";
 }
 
-std::string shape_text(const TrackedVideo& video) {
+std::string path_shape_text(const TrackedVideo& video) {
     if (video.polygon.sides > 0)
-        return fmt::format("a polygon of {} sides, corners at {:.2f} pixels", video.polygon.sides,
-                           video.polygon.corners);
+        return fmt::format("a polygon with {} sides, vertices at {:.2f} pixels",
+                           video.polygon.sides, video.polygon.vertex_distance);
     if (video.polygon.max_sides >= 3)
-        return fmt::format("a circle, or a polygon of more than {} sides", video.polygon.max_sides);
-    return "not known: too few pictures, or too rough a rim, to tell a polygon from a circle";
+        return fmt::format("a circle, or a polygon with more than {} sides",
+                           video.polygon.max_sides);
+    return "n/a: too few frames or a rim too rough to distinguish a polygon from a circle";
 }
 
 std::string tilt_text(const TrackedVideo& video) {
     const Tilt& tilt = video.tilt;
     if (!video.lens.tilted())
         return tilt.squeeze_error > 0.0
-                   ? fmt::format("no tilt, which would be below {:.1f} degrees",
-                                 degrees(tilt.below))
+                   ? fmt::format("no tilt found, below {:.1f} degrees", degrees(tilt.below))
                    : "no tilt";
     if (tilt.angle > 0.0 && tilt.angle_error == 0.0)
-        return fmt::format("tilt {:g} degrees, from the side of {:g} degrees, as given; corrected",
+        return fmt::format("tilt {:g} degrees towards {:g} degrees, as given; corrected",
                            degrees(tilt.angle), whole_turn(degrees(tilt.towards)));
     std::string text =
         tilt.angle > 0.0
             ? "tilt " + with_error(degrees(tilt.angle), degrees(tilt.angle_error)) + " degrees"
             : fmt::format("tilt below {:.1f} degrees", degrees(tilt.below));
-    text += ", from the side of " +
+    text += " towards " +
             with_error(whole_turn(degrees(tilt.towards)), degrees(tilt.towards_error)) + " degrees";
     if (tilt.view_angle > 0.0)
         text +=
@@ -324,25 +326,25 @@ std::string tilt_text(const TrackedVideo& video) {
     return text + "; corrected";
 }
 
-double phase_of(const TrackedVideo& video) {
+double first_phase(const TrackedVideo& video) {
     return whole_turn(degrees(video.path.angle(video.times.front())));
 }
 
 Json write_tracks(const TrackedVideo& video, const VideoSource& source,
                   const std::filesystem::path& out, const VideoSpins* spins) {
-    Json json = json_of(video, source);
+    Json json = video_json(video, source);
     if (spins)
         json["spins"] = {{"step", spins->step},
                          {"steps_measured", spins->measured},
                          {"texture_match", spins->match}};
     const auto write_camera = [&] { write_output(camera_file(out), json.dump(2) + "\n"); };
-    // However a kill divides the two, no tracks stand beside what is said of other ones, and the
-    // same call can be made again.
+    // Whenever the process is killed, tracks are never next to the calibration of other tracks, and
+    // the same call works again.
     std::error_code ignored;
     const bool replaces = fs::exists(out);
     replaces ? void(fs::remove(camera_file(out), ignored)) : write_camera();
     try {
-        write_tracks_alone(video, source, out, spins);
+        write_tracks_file(video, source, out, spins);
     } catch (...) {
         if (!replaces) fs::remove(camera_file(out), ignored);
         throw;

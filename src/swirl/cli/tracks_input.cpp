@@ -12,21 +12,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Null where nothing was smoothed.
+/// Null if the tracks were not smoothed.
 Json smoothing_json(const TrackSmoothing& s) {
     if (!s.done) return nullptr;
     return {{"noise_pixels", s.noise},
-            {"window_pictures", s.window},
+            {"window_frames", s.window},
             {"bend_pixels", s.bend},
-            {"place_error_pixels", s.place_error},
+            {"position_error_pixels", s.position_error},
             {"velocity_error", s.velocity_error()},
-            {"kicks_per_picture", s.kicks},
+            {"kicks_per_frame", s.kicks},
             {"added_to_temperature", s.missing_energy}};
 }
 
 Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
     return {{"filled_positions", tracks.repaired.filled},
-            {"renamed", tracks.repaired.renamed},
+            {"relabelled", tracks.repaired.relabelled},
             {"dropped_positions", tracks.repaired.dropped},
             {"breaks", fitted.series.breaks.size()},
             {"frames_outside", fitted.fit.outside},
@@ -42,8 +42,8 @@ OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, doub
     const TrackScale scale = track_scale(camera, file);
     const Tracks tracks = read_tracks(file, scale);
     if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
-        throw Failure(fmt::format(
-            "'{}' holds a single frame, which tells no velocities; two are the least.", file));
+        throw Failure(
+            fmt::format("'{}' holds a single frame, but velocities need at least two.", file));
     FittedSeries fitted = fitted_series(tracks, scale, misfit);
     const Json found = camera_json(tracks, fitted);
     return {std::move(fitted.series), std::move(fitted.remarks), found};

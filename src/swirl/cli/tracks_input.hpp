@@ -1,5 +1,4 @@
-// A camera's tracks, read, mended, brought into our units, and held against what was said of the
-// dish.
+// Reads the tracks of a camera: repairs them, converts units and checks them against the container.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,15 +11,15 @@
 
 namespace swirl {
 
-/// The frames, and what is to be said of them.
+/// Frames, with remarks on them.
 struct OpenedSeries {
     SnapshotSeries series;
-    std::string remarks;            // a line each
-    nlohmann::ordered_json camera;  // of tracks only
+    std::string remarks;            // one per line
+    nlohmann::ordered_json camera;  // repairs, fit and smoothing; tracks only
 };
 
-/// Throws WrongCall, Failure: also where more than the share `misfit` of the frames contradicts
-/// what was said of the dish.
+/// Throws UsageError and Failure, also if more than the fraction `misfit` of the frames contradicts
+/// the given container.
 OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera,
                          double misfit = default_misfit);
 

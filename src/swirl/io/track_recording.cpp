@@ -15,13 +15,13 @@
 namespace swirl {
 namespace {
 
-constexpr std::int64_t nobody = -1;
+constexpr std::int64_t no_disc = -1;
 constexpr std::uint64_t frames_in_a_chunk = 256;
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-std::string place_of(const std::string& name) { return h5md::tracks + "/" + name; }
+std::string path_of(const std::string& name) { return h5md::tracks + "/" + name; }
 
-/// Which place in a row is whose: a disc keeps its own.
+/// The column of each disc ID; a disc keeps its column in all frames.
 std::map<std::int64_t, std::size_t> slots_of(const Tracks& tracks) {
     std::map<std::int64_t, std::size_t> slots;
     for (const TrackFrame& f : tracks.frames)
@@ -31,7 +31,7 @@ std::map<std::int64_t, std::size_t> slots_of(const Tracks& tracks) {
     return slots;
 }
 
-/// Writes columns of one row per frame; a row has a place for every disc there ever is.
+/// Writes datasets with one row per frame and one column per disc ID of the whole recording.
 class TrackWriter {
   public:
     TrackWriter(Hdf5File& file, const Tracks& tracks)
@@ -40,9 +40,9 @@ class TrackWriter {
     void write_times(const std::vector<double>& times) {
         std::vector<std::int64_t> numbers;
         for (const TrackFrame& f : tracks_.frames) numbers.push_back(f.number);
-        file_.create_group(place_of("position"));
-        file_.write(place_of("position/step"), numbers, {numbers.size()});
-        file_.write(place_of("position/time"), times, {times.size()});
+        file_.create_group(path_of("position"));
+        file_.write(path_of("position/step"), numbers, {numbers.size()});
+        file_.write(path_of("position/time"), times, {times.size()});
     }
     void write_positions() {
         std::vector<double> rows(tracks_.frames.size() * slots_.size() * 3, 0.0);
@@ -51,25 +51,25 @@ class TrackWriter {
             rows[3 * at] = f.position[i].x;
             rows[3 * at + 1] = f.position[i].y;
         });
-        put<double>("position", {slots_.size(), 3}, rows);
+        write_rows<double>("position", {slots_.size(), 3}, rows);
     }
     void write_ids() {
-        std::vector<std::int64_t> rows(tracks_.frames.size() * slots_.size(), nobody);
+        std::vector<std::int64_t> rows(tracks_.frames.size() * slots_.size(), no_disc);
         visit([&](std::size_t at, const TrackFrame& f, std::size_t, std::size_t i) {
             rows[at] = f.id[i];
         });
-        put_beside("id", rows);
+        write_values("id", rows);
     }
     void write_column(const TrackColumn& column) {
         std::vector<double> rows(tracks_.frames.size() * slots_.size(), no_value);
         visit([&](std::size_t at, const TrackFrame&, std::size_t k, std::size_t i) {
             rows[at] = column.values.at(k).at(i);
         });
-        put_beside(column.name, rows);
+        write_values(column.name, rows);
     }
 
   private:
-    /// Calls with the place in the rows, the frame, its number in the tracks and the disc's in it.
+    /// Calls call(index into the rows, frame, index of the frame, index of the disc in the frame).
     template <class Visit>
     void visit(Visit&& call) const {
         for (std::size_t k = 0; k < tracks_.frames.size(); ++k) {
@@ -79,16 +79,16 @@ class TrackWriter {
         }
     }
     template <class T>
-    void put_beside(const std::string& name, const std::vector<T>& rows) {
-        file_.create_group(place_of(name));
-        h5md::link_times(file_, place_of("position"), place_of(name));
-        put<T>(name, {slots_.size()}, rows);
+    void write_values(const std::string& name, const std::vector<T>& rows) {
+        file_.create_group(path_of(name));
+        h5md::link_times(file_, path_of("position"), path_of(name));
+        write_rows<T>(name, {slots_.size()}, rows);
     }
     template <class T>
-    void put(const std::string& name, const Dimensions& row, const std::vector<T>& rows) {
+    void write_rows(const std::string& name, const Dimensions& row, const std::vector<T>& rows) {
         Dimensions chunk{frames_in_a_chunk, row[0]};
         if (row.size() > 1) chunk.push_back(1);
-        file_.create_column<T>(place_of(name + "/value"), row, chunk, Packing::deflate)
+        file_.create_column<T>(path_of(name + "/value"), row, chunk, Packing::deflate)
             .append(rows.data(), tracks_.frames.size());
     }
 
@@ -101,23 +101,23 @@ class TrackWriter {
     throw FileError(fmt::format("'{}' contradicts itself: {}.", path.string(), what));
 }
 
-/// The columns of a file, each of as many values as there are ids.
+/// Reads the datasets of a file; all of them have as many values as `id`.
 class TrackReader {
   public:
     explicit TrackReader(const std::filesystem::path& path)
         : path_(path), file_(path, JournaledFile::Mode::read) {
-        if (!file_.has(place_of("position/value")) || !file_.has(place_of("id/value")))
+        if (!file_.has(path_of("position/value")) || !file_.has(path_of("id/value")))
             throw FileError(fmt::format("'{}' is an HDF5 file, but holds no tracks: it has no {}.",
-                                        path.string(), place_of("position")));
+                                        path.string(), path_of("position")));
         h5md::require_known_format(file_, path);
-        number_ = file_.column(place_of("position/step")).read<std::int64_t>();
-        id_ = file_.column(place_of("id/value")).read<std::int64_t>();
-        position_ = file_.column(place_of("position/value")).read<double>();
+        number_ = file_.column(path_of("position/step")).read<std::int64_t>();
+        id_ = file_.column(path_of("id/value")).read<std::int64_t>();
+        position_ = file_.column(path_of("position/value")).read<double>();
         if (number_.empty() || id_.size() % number_.size() != 0 ||
             position_.size() != 3 * id_.size())
             contradicts(path, "its columns differ in length");
         if (!std::is_sorted(number_.begin(), number_.end(), std::less_equal<>()))
-            contradicts(path, "its pictures do not ascend");
+            contradicts(path, "its frame numbers do not ascend");
     }
     Tracks read() {
         const auto radius = column("radius"), spin = column("spin");
@@ -128,15 +128,15 @@ class TrackReader {
             TrackFrame f;
             f.number = number_[k];
             for (std::size_t at = k * row; at < (k + 1) * row; ++at) {
-                if (id_[at] == nobody) continue;
+                if (id_[at] == no_disc) continue;
                 if (!f.id.empty() && id_[at] <= f.id.back())
-                    contradicts(path_, fmt::format("the discs of picture {} are not in the order "
-                                                   "of their numbers",
-                                                   f.number));
+                    contradicts(path_,
+                                fmt::format("the disc IDs of frame {} do not ascend", f.number));
                 f.id.push_back(id_[at]);
-                f.position.push_back({known(position_[3 * at]), known(position_[3 * at + 1])});
-                if (!radius.empty()) f.radius.push_back(known(radius[at]));
-                // Counter-clockwise in the picture, where y is down.
+                f.position.push_back(
+                    {require_finite(position_[3 * at]), require_finite(position_[3 * at + 1])});
+                if (!radius.empty()) f.radius.push_back(require_finite(radius[at]));
+                // The file counts spins counter-clockwise in the image; y down flips the sign.
                 if (!spin.empty()) f.spin.push_back(-spin[at]);
             }
             if (!f.id.empty()) tracks.frames.push_back(std::move(f));
@@ -147,15 +147,15 @@ class TrackReader {
     }
 
   private:
-    /// Empty where there is none.
+    /// Values of an optional column; empty if the file does not have it.
     std::vector<double> column(const std::string& name) const {
-        if (!file_.has(place_of(name + "/value"))) return {};
-        auto values = file_.column(place_of(name + "/value")).read<double>();
+        if (!file_.has(path_of(name + "/value"))) return {};
+        auto values = file_.column(path_of(name + "/value")).read<double>();
         if (values.size() != id_.size()) contradicts(path_, "its columns differ in length");
         return values;
     }
-    double known(double value) const {
-        if (!std::isfinite(value)) contradicts(path_, "a disc is there, but not its place");
+    double require_finite(double value) const {
+        if (!std::isfinite(value)) contradicts(path_, "a disc has an ID but no position or radius");
         return value;
     }
 
@@ -182,7 +182,7 @@ void write_track_recording(const std::filesystem::path& path, const Tracks& trac
         for (const TrackColumn& column : columns) writer.write_column(column);
         file.finish(path);
     } catch (const FileError&) {
-        // Unlike a run's, tracks are written at once, and nobody goes on from a part of them.
+        // Tracks are written at once and never resumed, so an incomplete file is useless.
         std::error_code ignored;
         std::filesystem::remove(partial, ignored);
         std::filesystem::remove(partial.string() + ".journal", ignored);
@@ -192,7 +192,7 @@ void write_track_recording(const std::filesystem::path& path, const Tracks& trac
 
 bool is_track_recording(const std::filesystem::path& path) {
     try {
-        return Hdf5File(path, JournaledFile::Mode::read).has(place_of("position/value"));
+        return Hdf5File(path, JournaledFile::Mode::read).has(path_of("position/value"));
     } catch (const FileError&) {
         return false;
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -27,14 +28,16 @@ std::map<std::int64_t, Track> by_id(const Tracks& tracks) {
     return found;
 }
 
-/// Whether a disc hardly ever moves by more than half a radius from frame to frame.
-bool dense_enough(const std::map<std::int64_t, Track>& tracks, std::int64_t step, double radius) {
+/// Whether at most one move in ten exceeds half a radius per frame.
+bool is_densely_sampled(const std::map<std::int64_t, Track>& tracks, std::int64_t step,
+                        double radius) {
+    constexpr double far_move = 0.5;  // radii
     std::uint64_t moves = 0, far = 0;
     for (const auto& [id, track] : tracks)
         for (auto a = track.begin(), b = std::next(a); b != track.end(); a = b++)
             if (b->first - a->first == step) {
                 ++moves;
-                if (distance(a->second, b->second) > 0.5 * radius) ++far;
+                if (distance(a->second, b->second) > far_move * radius) ++far;
             }
     return far * 10 <= moves;
 }
@@ -58,10 +61,10 @@ std::vector<Piece> cut_at_jumps(const std::map<std::int64_t, Track>& tracks, std
     return pieces;
 }
 
-/// Ends that go on as beginnings; returns how many changed their name by it.
+/// Joins ends of pieces to beginnings of others; returns the number of joins that change an ID.
 std::uint64_t join(std::vector<Piece>& pieces, std::int64_t step, double radius) {
     struct Joint {
-        bool is_far;  // believed for its name's sake, if nobody nearer is there
+        bool is_far;  // beyond one radius: only joined because both pieces have the same ID
         std::int64_t frames;
         double distance;
         std::size_t end, beginning;
@@ -74,9 +77,9 @@ std::uint64_t join(std::vector<Piece>& pieces, std::int64_t step, double radius)
         const auto& [frame, position] = *pieces[k].track.rbegin();
         const auto last = beginnings.upper_bound(frame + (longest_gap + 1) * step);
         for (auto b = beginnings.upper_bound(frame); b != last; ++b) {
-            const Piece& begun = pieces[b->second];
-            const double d = distance(position, begun.track.begin()->second);
-            if (d < radius || begun.id == pieces[k].id)
+            const Piece& follower = pieces[b->second];
+            const double d = distance(position, follower.track.begin()->second);
+            if (d < radius || follower.id == pieces[k].id)
                 joints.push_back({d >= radius, b->first - frame, d, k, b->second});
         }
     }
@@ -84,24 +87,24 @@ std::uint64_t join(std::vector<Piece>& pieces, std::int64_t step, double radius)
         return std::tie(a.is_far, a.frames, a.distance, a.end, a.beginning) <
                std::tie(b.is_far, b.frames, b.distance, b.end, b.beginning);
     });
-    std::vector<bool> goes_on(pieces.size(), false), is_begun(pieces.size(), false);
+    std::vector<bool> continues(pieces.size(), false), is_continuation(pieces.size(), false);
     std::vector<std::size_t> next(pieces.size(), pieces.size());
-    std::uint64_t renamed = 0;
+    std::uint64_t relabelled = 0;
     for (const Joint& joint : joints) {
-        if (goes_on[joint.end] || is_begun[joint.beginning]) continue;
-        goes_on[joint.end] = is_begun[joint.beginning] = true;
+        if (continues[joint.end] || is_continuation[joint.beginning]) continue;
+        continues[joint.end] = is_continuation[joint.beginning] = true;
         next[joint.end] = joint.beginning;
-        if (pieces[joint.end].id != pieces[joint.beginning].id) ++renamed;
+        if (pieces[joint.end].id != pieces[joint.beginning].id) ++relabelled;
     }
-    std::vector<Piece> whole;
+    std::vector<Piece> joined;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-        if (is_begun[k]) continue;
-        whole.push_back(std::move(pieces[k]));
+        if (is_continuation[k]) continue;
+        joined.push_back(std::move(pieces[k]));
         for (std::size_t n = next[k]; n < pieces.size(); n = next[n])
-            whole.back().track.merge(pieces[n].track);
+            joined.back().track.merge(pieces[n].track);
     }
-    pieces = std::move(whole);
-    return renamed;
+    pieces = std::move(joined);
+    return relabelled;
 }
 
 std::uint64_t fill_gaps(std::vector<Piece>& pieces, std::int64_t step) {
@@ -120,33 +123,33 @@ std::uint64_t fill_gaps(std::vector<Piece>& pieces, std::int64_t step) {
     return filled;
 }
 
-/// Positions without another of the same disc near enough for a velocity.
-std::uint64_t drop_lonely(std::vector<Piece>& pieces, std::int64_t step) {
+/// Removes positions without another one of their disc within the longest gap; returns how many.
+std::uint64_t drop_isolated(std::vector<Piece>& pieces, std::int64_t step) {
     std::uint64_t dropped = 0;
     for (Piece& piece : pieces) {
-        std::vector<std::int64_t> lonely;
+        std::vector<std::int64_t> isolated;
         std::int64_t before = std::numeric_limits<std::int64_t>::min() / 2;
         for (auto at = piece.track.begin(); at != piece.track.end(); ++at) {
             const auto after = std::next(at);
             const std::int64_t reach = (longest_gap + 1) * step;
             const bool followed = after != piece.track.end() && after->first - at->first <= reach;
-            if (at->first - before > reach && !followed) lonely.push_back(at->first);
+            if (at->first - before > reach && !followed) isolated.push_back(at->first);
             before = at->first;
         }
-        for (const std::int64_t frame : lonely) piece.track.erase(frame);
-        dropped += lonely.size();
+        for (const std::int64_t frame : isolated) piece.track.erase(frame);
+        dropped += isolated.size();
     }
     std::erase_if(pieces, [](const Piece& piece) { return piece.track.empty(); });
     return dropped;
 }
 
-/// Names that are still there twice get numbers nobody has.
-void name_anew(std::vector<Piece>& pieces) {
-    std::int64_t free = 0;
-    for (const Piece& piece : pieces) free = std::max(free, piece.id + 1);
-    std::map<std::int64_t, bool> taken;
+/// Pieces that still share an ID with an earlier piece get unused IDs.
+void make_ids_unique(std::vector<Piece>& pieces) {
+    std::int64_t unused = 0;
+    for (const Piece& piece : pieces) unused = std::max(unused, piece.id + 1);
+    std::set<std::int64_t> taken;
     for (Piece& piece : pieces)
-        if (!taken.try_emplace(piece.id, true).second) piece.id = free++;
+        if (!taken.insert(piece.id).second) piece.id = unused++;
 }
 
 }  // namespace
@@ -161,22 +164,22 @@ std::int64_t commonest_step(const Tracks& tracks) {
     return commonest.first;
 }
 
-void mend(Tracks& tracks, double radius) {
+void repair(Tracks& tracks, double radius) {
     if (tracks.frames.size() < 2) return;
     for (const TrackFrame& f : tracks.frames)
         if (!(f.velocity.empty() && f.radius.empty() && f.mass.empty() && f.spin.empty())) return;
     const std::int64_t step = commonest_step(tracks);
     const auto given = by_id(tracks);
     std::vector<Piece> pieces;
-    if (dense_enough(given, step, radius)) {
+    if (is_densely_sampled(given, step, radius)) {
         pieces = cut_at_jumps(given, step, radius);
-        tracks.repaired.renamed = join(pieces, step, radius);
+        tracks.repaired.relabelled = join(pieces, step, radius);
     } else {
         for (const auto& [id, track] : given) pieces.push_back({id, track});
     }
     tracks.repaired.filled = fill_gaps(pieces, step);
-    tracks.repaired.dropped = drop_lonely(pieces, step);
-    name_anew(pieces);
+    tracks.repaired.dropped = drop_isolated(pieces, step);
+    make_ids_unique(pieces);
     std::sort(pieces.begin(), pieces.end(),
               [](const Piece& a, const Piece& b) { return a.id < b.id; });
     std::map<std::int64_t, TrackFrame> frames;

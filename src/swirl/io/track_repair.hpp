@@ -1,31 +1,29 @@
-// What a tracker of particles gets wrong, put right where the tracks themselves say how.
+// Repairs tracking errors that the tracks themselves reveal.
 //
-//   exchanged    hard discs keep their centres two radii apart, so a disc that moves by less than
-//                one radius from a frame to the next cannot be taken for another. Where a track
-//                jumps farther it is cut: there the names were exchanged
-//   joined       a track that ends, by a cut or because the disc was lost, goes on as the track
-//                that begins within one radius of its end, at most six frames later; the nearest in
-//                time come first; if there is none, as the track of its own name
-//   filled       a disc missing for up to five frames is put back on the straight line between
-//   dropped      a disc seen in a single frame, nowhere in the six before and after, has no
-//                velocity, and is left out
+//   swaps     Centres of hard discs are two radii apart. A disc that moves by less than one radius
+//             per frame cannot be confused with another. A larger jump within a track is an
+//             identity swap, and the track is cut there.
+//   joins     A track that ends, by a cut or because the disc was lost, continues as a track that
+//             begins within one radius of its end, at most six frames later. The earliest and then
+//             the nearest beginning is chosen. If there is none, the pieces of one ID are rejoined.
+//   gaps      Gaps of up to five frames are filled by linear interpolation.
+//   drops     A position without another one of its disc in the six frames before and after has no
+//             velocity and is removed.
 //
-// A frame is a step of the commonest length between the numbers of two frames, so a table of every
-// second picture is no table of gaps. Limits: discs of equal size; where discs move by more than
-// half a radius from frame to frame in over one case of ten, names cannot be judged by places
-// and are believed.
+// One frame is the most common difference between two frame numbers, so a table of every second
+// frame has no gaps. Limits: all discs have one size. If more than one move in ten exceeds half a
+// radius per frame, positions cannot identify discs, and the given IDs are kept.
 #pragma once
 
 #include "swirl/io/tracks.hpp"
 
 namespace swirl {
 
-/// Discs of the given radius, in pixels. Only frames of positions alone, as a camera has them, are
-/// mended; what was done is counted in tracks.mended.
-void mend(Tracks& tracks, double radius);
+/// Repairs tracks of discs with the given radius in pixels, and counts the changes in
+/// tracks.repaired. Only tracks of positions alone are changed.
+void repair(Tracks& tracks, double radius);
 
-/// The commonest difference between the numbers of two frames that follow each other; 1 for fewer
-/// than two frames.
+/// The most common difference between consecutive frame numbers; 1 for fewer than two frames.
 std::int64_t commonest_step(const Tracks& tracks);
 
 }  // namespace swirl

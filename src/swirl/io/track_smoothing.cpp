@@ -11,225 +11,230 @@
 namespace swirl {
 namespace {
 
-constexpr std::size_t min_places = 400;  // for a noise known to some per cent
-constexpr int rounds = 8;
-constexpr double rarest_kick = 1e-6;
-// A kick is of the speeds there are; those of many weak collisions count as three swirls'
-// curvature.
+constexpr std::size_t min_samples = 400;  // gives the noise to a few per cent
+constexpr int rounds = 8;                 // of kicks and smoothing; they have converged by then
+constexpr int undamped_rounds = 2;
+constexpr double rarest_kick = 1e-6;  // keeps log odds finite
+constexpr double initial_share = 0.1;
+// A kick has the size of typical speeds. Many weak collisions count as a push of three times the
+// change of velocity along the container's circle.
 constexpr double kick_in_speeds = 3.0, push_in_turns = 3.0;
 
-/// What one disc does between two gaps, relative to the dish. Times are in steps between pictures.
-struct Stretch {
-    std::vector<std::size_t> frame, disc;                   // where in the tracks
-    std::vector<double> elapsed;                            // to the next place
-    std::vector<Vec2> place, velocity;                      // the latter per step
-    std::vector<double> place_variance, velocity_variance;  // of a coordinate
-    std::vector<double> kick;                               // variance of that to the next place
+/// The track of one disc between two gaps, relative to the container. The unit of time is one
+/// frame.
+struct TrackSegment {
+    std::vector<std::size_t> frame, disc;                      // indices into the tracks
+    std::vector<double> elapsed;                               // to the next position
+    std::vector<Vec2> position, velocity;                      // velocity per frame
+    std::vector<double> position_variance, velocity_variance;  // per coordinate
+    std::vector<double> kick;  // variance of the kick before the next position
 
-    std::size_t size() const { return place.size(); }
+    std::size_t size() const { return position.size(); }
 };
 
-/// The dish's centre in the picture, and its velocity per unit of time.
-class Course {
+/// The container's centre in the image, and its velocity per unit of time.
+class ContainerMotion {
   public:
-    Course(const TrackScale& scale, bool y_down)
-        : scale_(scale), up_(y_down ? -1.0 : 1.0), sense_(scale.clockwise ? -1.0 : 1.0) {}
-    Vec2 place(double time) const {
+    ContainerMotion(const TrackScale& scale, bool y_down)
+        : scale_(scale), up_(y_down ? -1.0 : 1.0), rotation_(scale.clockwise ? -1.0 : 1.0) {}
+    Vec2 position(double time) const {
         const Vec2 d = direction(time);
         return scale_.swirl_centre + radius() * Vec2{d.x, up_ * d.y};
     }
     Vec2 velocity(double time) const {
         const Vec2 d = perpendicular(direction(time));
-        return (sense_ * radius() * 2.0 * pi / scale_.period) * Vec2{d.x, up_ * d.y};
+        return (rotation_ * radius() * 2.0 * pi / scale_.period) * Vec2{d.x, up_ * d.y};
     }
 
   private:
     double radius() const { return scale_.amplitude * scale_.pixels_per_radius; }
     Vec2 direction(double time) const {
-        return unit_circle(scale_.phase / (2.0 * pi) + sense_ * time / scale_.period);
+        return unit_circle(scale_.phase / (2.0 * pi) + rotation_ * time / scale_.period);
     }
     const TrackScale& scale_;
-    double up_, sense_;
+    double up_, rotation_;  // signs: of y, and of the direction of rotation
 };
 
-std::vector<Stretch> stretches_of(const Tracks& tracks, const TrackScale& scale) {
+std::vector<TrackSegment> segments_of(const Tracks& tracks, const TrackScale& scale) {
     const auto step = static_cast<double>(commonest_step(tracks));
-    const Course course(scale, tracks.y_down);
-    std::map<std::int64_t, std::size_t> last;  // stretch of each disc
-    std::vector<Stretch> stretches;
+    const ContainerMotion container(scale, tracks.y_down);
+    std::map<std::int64_t, std::size_t> last;  // latest segment of each disc
+    std::vector<TrackSegment> segments;
     for (std::size_t k = 0; k < tracks.frames.size(); ++k) {
         const TrackFrame& f = tracks.frames[k];
-        const Vec2 centre = course.place(double(f.number) / scale.frames_per_time);
+        const Vec2 centre = container.position(double(f.number) / scale.frames_per_time);
         for (std::size_t i = 0; i < f.id.size(); ++i) {
-            const auto [known, fresh] = last.try_emplace(f.id[i], stretches.size());
+            const auto [known, fresh] = last.try_emplace(f.id[i], segments.size());
             double elapsed = 0.0;
             if (!fresh)
                 elapsed =
-                    double(f.number - tracks.frames[stretches[known->second].frame.back()].number) /
+                    double(f.number - tracks.frames[segments[known->second].frame.back()].number) /
                     step;
             if (fresh || elapsed > double(longest_gap + 1)) {
-                known->second = stretches.size();
-                stretches.emplace_back();
+                known->second = segments.size();
+                segments.emplace_back();
             } else {
-                stretches[known->second].elapsed.push_back(elapsed);
+                segments[known->second].elapsed.push_back(elapsed);
             }
-            Stretch& stretch = stretches[known->second];
-            stretch.frame.push_back(k);
-            stretch.disc.push_back(i);
-            stretch.place.push_back(f.position[i] - centre);
+            TrackSegment& segment = segments[known->second];
+            segment.frame.push_back(k);
+            segment.disc.push_back(i);
+            segment.position.push_back(f.position[i] - centre);
         }
     }
-    for (Stretch& stretch : stretches) stretch.elapsed.push_back(1.0);
-    return stretches;
+    for (TrackSegment& segment : segments) segment.elapsed.push_back(1.0);
+    return segments;
 }
 
-/// The variance of a coordinate's noise: 12σ² ln(4/3) is the lower quartile of |second
-/// difference|².
-double noise_of(const std::vector<Stretch>& stretches) {
+/// Noise variance per coordinate: 12σ² ln(4/3) is the lower quartile of |second difference|².
+/// Negative if there are too few samples.
+double noise_of(const std::vector<TrackSegment>& segments) {
     std::vector<double> squares;
-    for (const Stretch& p : stretches)
+    for (const TrackSegment& p : segments)
         for (std::size_t k = 1; k + 1 < p.size(); ++k) {
             if (p.elapsed[k - 1] != 1.0 || p.elapsed[k] != 1.0) continue;
-            const Vec2 d = p.place[k + 1] - 2.0 * p.place[k] + p.place[k - 1];
+            const Vec2 d = p.position[k + 1] - 2.0 * p.position[k] + p.position[k - 1];
             squares.push_back(dot(d, d));
         }
-    if (squares.size() < min_places) return -1.0;
+    if (squares.size() < min_samples) return -1.0;
     const auto quartile = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 4);
     std::nth_element(squares.begin(), quartile, squares.end());
     return *quartile / (12.0 * std::log(4.0 / 3.0));
 }
 
-/// ⟨|step|²⟩ without what the noise of both ends adds.
-double mean_square_step(const std::vector<Stretch>& stretches, double noise) {
+/// ⟨|step|²⟩ minus the contribution of the noise at both ends.
+double mean_square_step(const std::vector<TrackSegment>& segments, double noise) {
     double sum = 0.0, count = 0.0;
-    for (const Stretch& s : stretches)
+    for (const TrackSegment& s : segments)
         for (std::size_t k = 0; k + 1 < s.size(); ++k) {
             if (s.elapsed[k] != 1.0) continue;
-            const Vec2 d = s.place[k + 1] - s.place[k];
+            const Vec2 d = s.position[k + 1] - s.position[k];
             sum += dot(d, d);
             count += 1.0;
         }
     return sum / std::max(count, 1.0) - 4.0 * noise;
 }
 
-/// A symmetric matrix of place and velocity.
-struct Square {
+/// Symmetric 2×2 matrix of position (x) and velocity (v).
+struct Symmetric {
     double xx, xv, vv;
 };
 
-/// Of a kick: its square over both coordinates, and the variance of each with which that is told.
-struct Told {
+/// Estimate of a kick: its square over both coordinates, and the variance of each coordinate.
+struct KickEstimate {
     double square, variance;
 };
 
-/// One stretch, filtered forwards and smoothed backwards. Both coordinates share their variances.
+/// Filters one segment forwards and smooths it backwards. Both coordinates have equal variances.
 class Smoother {
   public:
-    Smoother(Stretch& stretch, double noise, double velocity_variance)
-        : stretch_(stretch), noise_(noise), first_{100.0 * noise, 0.0, velocity_variance} {}
+    Smoother(TrackSegment& segment, double noise, double velocity_variance)
+        : segment_(segment), noise_(noise), first_{100.0 * noise, 0.0, velocity_variance} {}
 
-    /// Fills the stretch's velocities and variances, and its places if asked to.
-    void run(bool smooth_places) {
+    /// Sets the segment's velocities and variances, and its positions if `smooth_positions`.
+    void run(bool smooth_positions) {
         filter();
-        smooth(smooth_places);
+        smooth(smooth_positions);
     }
-    /// What all places say of the kick after place k, not knowing how large such kicks are.
-    Told told_of_kick(std::size_t k) const {
-        const double n = std::max(information_[k], 1e-12 / noise_);  // 0 behind the last place
+    /// Estimate of the kick after position k from all positions, without a prior for its size.
+    KickEstimate estimate_kick(std::size_t k) const {
+        const double n = std::max(information_[k], 1e-12 / noise_);  // 0 after the last position
         const Vec2 mean = (1.0 / n) * score_[k];
-        return {dot(mean, mean), std::max(1.0 / n - stretch_.kick[k], 0.0)};
+        return {dot(mean, mean), std::max(1.0 / n - segment_.kick[k], 0.0)};
     }
 
   private:
     void filter() {
-        const std::size_t n = stretch_.size();
+        const std::size_t n = segment_.size();
         expected_.resize(n);
-        Vec2 place = stretch_.place[0], velocity{0.0, 0.0};
-        Square P = first_;
+        Vec2 position = segment_.position[0], velocity{0.0, 0.0};
+        Symmetric P = first_;
         for (std::size_t k = 0; k < n; ++k) {
-            expected_[k] = {place, velocity, P};
+            expected_[k] = {position, velocity, P};
             const double gain = P.xx / (P.xx + noise_), rate_gain = P.xv / (P.xx + noise_);
-            const Vec2 surprise = stretch_.place[k] - place;
-            const double t = stretch_.elapsed[k], q = stretch_.kick[k];
-            velocity = velocity + rate_gain * surprise;
-            place = place + gain * surprise + t * velocity;
-            const Square now{P.xx * (1.0 - gain), P.xv * (1.0 - gain), P.vv - rate_gain * P.xv};
+            const Vec2 innovation = segment_.position[k] - position;
+            const double t = segment_.elapsed[k], q = segment_.kick[k];
+            velocity = velocity + rate_gain * innovation;
+            position = position + gain * innovation + t * velocity;
+            const Symmetric now{P.xx * (1.0 - gain), P.xv * (1.0 - gain), P.vv - rate_gain * P.xv};
             P = {now.xx + t * (2.0 * now.xv + t * now.vv) + q * t * t / 3.0,
                  now.xv + t * now.vv + 0.5 * q * t, now.vv + q};
         }
     }
-    void smooth(bool smooth_places) {
-        const std::size_t n = stretch_.size();
-        for (auto* column : {&information_, &stretch_.place_variance, &stretch_.velocity_variance})
+    void smooth(bool smooth_positions) {
+        const std::size_t n = segment_.size();
+        for (auto* column :
+             {&information_, &segment_.position_variance, &segment_.velocity_variance})
             column->resize(n);
         score_.resize(n);
-        stretch_.velocity.resize(n);
-        Vec2 rx{0.0, 0.0}, rv{0.0, 0.0};  // of place and velocity, as they are expected next
-        Square N{0.0, 0.0, 0.0};
+        segment_.velocity.resize(n);
+        Vec2 rx{0.0, 0.0}, rv{0.0, 0.0};  // of the next position and velocity
+        Symmetric N{0.0, 0.0, 0.0};
         for (std::size_t k = n; k-- > 0;) {
-            const double t = stretch_.elapsed[k];
+            const double t = segment_.elapsed[k];
             score_[k] = 0.5 * t * rx + rv;
             information_[k] = 0.25 * t * t * N.xx + t * N.xv + N.vv;
-            const auto& [place, velocity, P] = expected_[k];
+            const auto& [position, velocity, P] = expected_[k];
             const double F = P.xx + noise_, gain = P.xx / F, rate_gain = P.xv / F;
             const double lx = 1.0 - gain - t * rate_gain, lv = -rate_gain;
-            const Vec2 seen = stretch_.place[k];
+            const Vec2 seen = segment_.position[k];
             const Vec2 before = rx;
-            rx = (1.0 / F) * (seen - place) + lx * before + lv * rv;
+            rx = (1.0 / F) * (seen - position) + lx * before + lv * rv;
             rv = t * before + rv;
             N = {lx * lx * N.xx + 2.0 * lx * lv * N.xv + lv * lv * N.vv + 1.0 / F,
                  lx * (t * N.xx + N.xv) + lv * (t * N.xv + N.vv),
                  t * t * N.xx + 2.0 * t * N.xv + N.vv};
-            if (smooth_places) stretch_.place[k] = place + P.xx * rx + P.xv * rv;
-            stretch_.velocity[k] = velocity + P.xv * rx + P.vv * rv;
-            stretch_.place_variance[k] = reduced(P.xx, {P.xx, P.xv}, N);
-            stretch_.velocity_variance[k] = reduced(P.vv, {P.xv, P.vv}, N);
+            if (smooth_positions) segment_.position[k] = position + P.xx * rx + P.xv * rv;
+            segment_.velocity[k] = velocity + P.xv * rx + P.vv * rv;
+            segment_.position_variance[k] = reduced(P.xx, {P.xx, P.xv}, N);
+            segment_.velocity_variance[k] = reduced(P.vv, {P.xv, P.vv}, N);
         }
     }
-    static double reduced(double variance, const Vec2& row, const Square& N) {
+    static double reduced(double variance, const Vec2& row, const Symmetric& N) {
         return std::max(
             variance - (row.x * row.x * N.xx + 2.0 * row.x * row.y * N.xv + row.y * row.y * N.vv),
             0.0);
     }
 
     struct Expected {
-        Vec2 place, velocity;
-        Square variance;
+        Vec2 position, velocity;
+        Symmetric variance;
     };
-    Stretch& stretch_;
+    TrackSegment& segment_;
     double noise_;
-    Square first_;
+    Symmetric first_;
     std::vector<Expected> expected_;
     std::vector<Vec2> score_;
     std::vector<double> information_;
 };
 
-/// Between two pictures a disc is kicked, or only pushed a little: the variances of both.
-struct Kicks {
+/// Variances of the velocity change between two frames, for a small push and for a kick.
+struct KickModel {
     double push, kick;
-    double share;  // of the pictures that are followed by a kick
+    double share;  // of frames that are followed by a kick
 
     double mean(double probable) const { return probable * kick + (1.0 - probable) * push; }
-    /// How probable a kick is where the others tell its square, with that variance.
-    double probability(const Told& told) const {
-        const double kicked = told.variance + kick, pushed = told.variance + push;
+    /// Probability of a kick, given its estimate.
+    double probability(const KickEstimate& estimate) const {
+        const double kicked = estimate.variance + kick, pushed = estimate.variance + push;
         const double odds = std::log((1.0 - share) / share) + std::log(kicked / pushed) -
-                            0.5 * told.square * (1.0 / pushed - 1.0 / kicked);
+                            0.5 * estimate.square * (1.0 / pushed - 1.0 / kicked);
         return 1.0 / (1.0 + std::exp(odds));
     }
 };
 
-/// One round: who was kicked after which place, given what the round before thought of the others.
-void find_kicks(std::vector<Stretch>& stretches, Kicks& kicks, double noise, bool halfway) {
+/// One round: updates the kick variance after each position, given those of the previous round.
+void update_kicks(std::vector<TrackSegment>& segments, KickModel& kicks, double noise,
+                  bool damped) {
     double sum = 0.0, all = 0.0;
-    for (Stretch& stretch : stretches) {
-        Smoother smoother(stretch, noise, kicks.kick);
+    for (TrackSegment& segment : segments) {
+        Smoother smoother(segment, noise, kicks.kick);
         smoother.run(false);
-        for (std::size_t k = 0; k + 1 < stretch.size(); ++k) {
-            const double probable = kicks.probability(smoother.told_of_kick(k));
+        for (std::size_t k = 0; k + 1 < segment.size(); ++k) {
+            const double probable = kicks.probability(smoother.estimate_kick(k));
             const double variance = kicks.mean(probable);
-            // Half the way, lest neighbours take turns in having it.
-            stretch.kick[k] = halfway ? std::sqrt(stretch.kick[k] * variance) : variance;
+            // Damping prevents neighbouring frames from exchanging a kick in alternate rounds.
+            segment.kick[k] = damped ? std::sqrt(segment.kick[k] * variance) : variance;
             sum += probable;
             all += 1.0;
         }
@@ -237,15 +242,15 @@ void find_kicks(std::vector<Stretch>& stretches, Kicks& kicks, double noise, boo
     kicks.share = std::clamp(sum / std::max(all, 1.0), rarest_kick, 1.0 - rarest_kick);
 }
 
-/// Puts a smoothed stretch back; per step becomes per unit of time.
-void put_back(const Stretch& stretch, const Course& course, const TrackScale& scale, double rate,
-              Tracks& tracks) {
-    for (std::size_t k = 0; k < stretch.size(); ++k) {
-        TrackFrame& f = tracks.frames[stretch.frame[k]];
+/// Stores a smoothed segment in the tracks; `rate` converts from per frame to per unit of time.
+void store(const TrackSegment& segment, const ContainerMotion& container, const TrackScale& scale,
+           double rate, Tracks& tracks) {
+    for (std::size_t k = 0; k < segment.size(); ++k) {
+        TrackFrame& f = tracks.frames[segment.frame[k]];
         const double time = double(f.number) / scale.frames_per_time;
-        f.position[stretch.disc[k]] = course.place(time) + stretch.place[k];
-        f.velocity[stretch.disc[k]] = course.velocity(time) + rate * stretch.velocity[k];
-        f.velocity_error[stretch.disc[k]] = rate * std::sqrt(stretch.velocity_variance[k]);
+        f.position[segment.disc[k]] = container.position(time) + segment.position[k];
+        f.velocity[segment.disc[k]] = container.velocity(time) + rate * segment.velocity[k];
+        f.velocity_error[segment.disc[k]] = rate * std::sqrt(segment.velocity_variance[k]);
     }
 }
 
@@ -256,44 +261,46 @@ TrackSmoothing smooth(Tracks& tracks, const TrackScale& scale) {
     const auto given = [](const TrackFrame& f) { return !f.velocity.empty(); };
     if (std::any_of(tracks.frames.begin(), tracks.frames.end(), given)) return found;
     const double rate = scale.frames_per_time / double(commonest_step(tracks));
-    if (rate * scale.period < min_pictures) return found;
-    std::vector<Stretch> stretches = stretches_of(tracks, scale);
-    const double measured = noise_of(stretches);
+    if (rate * scale.period < min_frames_per_period) return found;
+    std::vector<TrackSegment> segments = segments_of(tracks, scale);
+    const double measured = noise_of(segments);
     if (!(measured >= 0.0)) return found;
-    const double square = mean_square_step(stretches, measured);
+    const double square = mean_square_step(segments, measured);
     if (!(square > 0.0)) return found;
 
-    // In a step velocities turn by that much without a kick, as the swirl does.
+    // Angle by which the velocity of the container turns per frame.
     const double turn = 2.0 * pi / (rate * scale.period), coordinate = 0.5 * square;
     const double noise = std::max(measured, turn * turn * coordinate);
-    Kicks kicks{push_in_turns * push_in_turns * turn * turn * coordinate,
-                kick_in_speeds * kick_in_speeds * coordinate, 0.1};
-    for (Stretch& stretch : stretches) stretch.kick.assign(stretch.size(), kicks.mean(kicks.share));
-    for (int round = 0; round < rounds; ++round) find_kicks(stretches, kicks, noise, round >= 2);
+    KickModel kicks{push_in_turns * push_in_turns * turn * turn * coordinate,
+                    kick_in_speeds * kick_in_speeds * coordinate, initial_share};
+    for (TrackSegment& segment : segments)
+        segment.kick.assign(segment.size(), kicks.mean(kicks.share));
+    for (int round = 0; round < rounds; ++round)
+        update_kicks(segments, kicks, noise, round >= undamped_rounds);
 
     for (TrackFrame& f : tracks.frames) {
         f.velocity.resize(f.id.size());
         f.velocity_error.resize(f.id.size());
     }
-    const Course course(scale, tracks.y_down);
-    double places = 0.0, place_square = 0.0, velocity_square = 0.0;
-    for (Stretch& stretch : stretches) {
-        Smoother(stretch, noise, kicks.kick).run(true);
-        put_back(stretch, course, scale, rate, tracks);
-        for (std::size_t k = 0; k < stretch.size(); ++k) {
-            places += 1.0;
-            place_square += stretch.place_variance[k];
-            velocity_square += stretch.velocity_variance[k];
+    const ContainerMotion container(scale, tracks.y_down);
+    double samples = 0.0, position_square = 0.0, velocity_square = 0.0;
+    for (TrackSegment& segment : segments) {
+        Smoother(segment, noise, kicks.kick).run(true);
+        store(segment, container, scale, rate, tracks);
+        for (std::size_t k = 0; k < segment.size(); ++k) {
+            samples += 1.0;
+            position_square += segment.position_variance[k];
+            velocity_square += segment.velocity_variance[k];
         }
     }
     const double unit = rate / (scale.pixels_per_radius * scale.camera_time());
     found.done = true;
     found.noise = std::sqrt(measured);
     found.bend = turn * std::sqrt(coordinate);
-    found.place_error = std::sqrt(place_square / places);
-    found.window = noise / (place_square / places);
+    found.position_error = std::sqrt(position_square / samples);
+    found.window = noise / (position_square / samples);
     found.kicks = kicks.share;
-    found.missing_energy = unit * unit * velocity_square / places;
+    found.missing_energy = unit * unit * velocity_square / samples;
     return found;
 }
 

@@ -1,33 +1,34 @@
-// Places and velocities of tracks freed from the noise of places, as far as the tracks let one.
+// Positions and velocities of tracks with less noise.
 //
-// A camera's places scatter, and differences between pictures blow that up: at 26 pixels a radius
-// and 511 pictures a swirl 0.2 pixels of noise are a quarter of the dish's speed in every velocity.
-// A fixed window would blunt the collisions, at which velocities jump, so the window follows them.
+// Camera positions are noisy, and differences between frames amplify the noise. With 26 pixels per
+// radius and 511 frames per period, 0.2 pixels of noise add a quarter of the container's speed to
+// every velocity. A fixed window would blur collisions, where velocities jump, so the window
+// adapts.
 //
-//   course      what is smoothed is a place relative to the dish, which rides on its circle; so the
-//               swirl itself is not smoothed away
-//   noise       of a coordinate, from the lower quartile of the second differences: those with a
-//               collision in them are the upper ones. What hardly changes from picture to picture,
-//               as the shade of a ball does, is none, and does not hurt velocities
-//   smoother    Kalman's filter and de Jong's smoother (1989, doi:10.1080/01621459.1989.10478853)
-//               for a disc that goes straight on and is kicked now and then: at some moment between
-//               two pictures its velocity changes by a normal vector of variance q
-//   kicks       q is large or small, of a rebound or of a push as the swirl's curvature asks for.
-//               Which it was, between each two pictures, is told by how much of a kick all places
-//               ask for there (the disturbance smoother's u/n, of variance 1/n − q), and how
-//               often kicks are by all tracks; a few rounds of both
-//   energy      a smoothed velocity is the mean of those that the places allow, so the mean square
-//               of velocities is larger than the square of the mean, by the variance of each
-//               coordinate: `missing_energy`, which belongs to whatever is made of squares of
-//               velocities
+//   path        Positions are smoothed relative to the container, which moves on its circle. So the
+//               motion of the container itself is not smoothed away.
+//   noise       Per coordinate, from the lower quartile of the second differences; those with a
+//               collision lie above it. An offset that hardly changes from frame to frame, such as
+//               the shading of a sphere, is not noise and does not affect velocities.
+//   smoother    Kalman filter and de Jong's smoother (1989, doi:10.1080/01621459.1989.10478853) for
+//               a disc that moves in a straight line and is kicked occasionally: at some time
+//               between two frames its velocity changes by a normal vector of variance q.
+//   kicks       q has two values: large for a rebound, small for a push that matches the curvature
+//               of the path. For each pair of frames, the disturbance smoother's u/n, of variance
+//               1/n − q, and the overall frequency of kicks give the probability of a kick. Kicks
+//               and smoothing are iterated a few times.
+//   energy      A smoothed velocity is the mean over the velocities that the positions allow. So
+//               the mean square of velocities exceeds the square of the mean by the variance of
+//               each coordinate. `missing_energy` is this excess; add it to any mean of squared
+//               velocities.
 //
-// The standard errors are those of the smoother, for the kicks as they were found: of a disc in
-// flight. At a collision the velocity jumps within one picture, and is off by a part of the jump.
+// The standard errors are those of the smoother with the kicks as found, for a disc in flight. At a
+// collision the velocity jumps within one frame, and the error is a part of the jump.
 //
-// Units: pixels, and velocities in pixels per unit of time, as in TrackFrame. Limits: below
-// `fewest_pictures` per swirl a disc collides about as often as it is seen, noise cannot be told
-// from that, and nothing is done; nor where velocities are given, or places are fewer than some
-// hundred.
+// Units: pixels, and pixels per unit of time for velocities, as in TrackFrame. Limits: below
+// `min_frames_per_period` a disc collides about once per frame, which cannot be
+// distinguished from noise. Then nothing is smoothed, nor if velocities are given or there are only
+// a few hundred positions.
 #pragma once
 
 #include <cmath>
@@ -36,23 +37,26 @@
 
 namespace swirl {
 
-inline constexpr double min_pictures = 100.0;
+/// Tracks with fewer frames per period are not smoothed.
+inline constexpr double min_frames_per_period = 100.0;
 
 struct TrackSmoothing {
     bool done = false;
-    // Of a coordinate, over all discs and pictures; pixels.
-    double noise = 0.0, place_error = 0.0;
-    /// By which courses bend between two pictures, pixels: a noise below that is taken to be that.
+    // Per coordinate, over all discs and frames; pixels.
+    double noise = 0.0, position_error = 0.0;
+    /// Deviation of paths from a straight line between two frames, pixels. A lower noise estimate
+    /// is replaced by this value.
     double bend = 0.0;
-    double window = 1.0;          // pictures whose mean would be as good as a smoothed place
-    double kicks = 0.0;           // per disc and picture, those that could be told
-    double missing_energy = 0.0;  // ½⟨u²⟩ is so much more than that of the velocities, in our units
+    double window = 1.0;  // frames whose mean would be as accurate as a smoothed position
+    double kicks = 0.0;   // detected kicks per disc and frame
+    double missing_energy =
+        0.0;  // excess of ½⟨u²⟩ over that of the velocities, units of the result
 
-    /// Of a coordinate, in the container's speed.
+    /// Standard error per coordinate, relative to the container's speed.
     double velocity_error() const { return std::sqrt(missing_energy); }
 };
 
-/// Puts smoothed places and velocities with errors into the tracks.
+/// Replaces positions by smoothed ones and sets velocities with standard errors.
 TrackSmoothing smooth(Tracks& tracks, const TrackScale& scale);
 
 }  // namespace swirl

@@ -22,11 +22,11 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The lines of a text, with their numbers.
+/// Iterates over the lines of a text and reports errors with the line number.
 class Lines {
   public:
     Lines(const std::filesystem::path& path, std::string_view text) : path_(path), rest_(text) {
-        // Some editors and spreadsheets begin a text with a byte order mark.
+        // Some editors and spreadsheets write a byte order mark first.
         constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
         if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
     }
@@ -35,11 +35,11 @@ class Lines {
         if (rest_.empty()) return false;
         const std::size_t end = rest_.find('\n');
         ++number_;
-        // Cut in the middle of a number, the last line would hold another.
+        // If a file was truncated within a number, its last line would hold a wrong number.
         if (end == rest_.npos)
-            wrong(
-                "the line does not end, as if the file had been cut here; if it is whole, a line "
-                "break behind it would be right");
+            error(
+                "the last line has no line break, so the file may be truncated here.\n"
+                "hint: if the file is complete, append a line break");
         line = rest_.substr(0, end);
         rest_.remove_prefix(end + 1);
         if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
@@ -48,26 +48,26 @@ class Lines {
     std::string_view expect(std::string_view what) {
         std::string_view line;
         if (!next(line))
-            throw FileError(fmt::format("'{}' ends after line {}, where {} was expected.",
+            throw FileError(fmt::format("'{}' ends after line {}, but {} was expected.",
                                         path_.string(), number_, what));
         return line;
     }
-    [[noreturn]] void wrong(std::string_view what) const {
+    [[noreturn]] void error(std::string_view what) const {
         throw FileError(fmt::format("'{}', line {}: {}.", path_.string(), number_, what));
     }
     double number(std::string_view text) const {
         while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
         while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
         double value;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-            wrong(fmt::format("'{}' is not a finite number", text));
+        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+            error(fmt::format("'{}' is not a finite number", text));
         return value;
     }
-    std::int64_t whole(std::string_view text) const {
-        const double value = number(text);  // pandas writes frame 3 as 3.0 when a column had gaps
+    std::int64_t integer(std::string_view text) const {
+        const double value = number(text);  // pandas writes frame 3 as 3.0 if a column has gaps
         if (value != std::floor(value) || std::abs(value) > 0x1p53)
-            wrong(fmt::format("'{}' is not a whole number", text));
+            error(fmt::format("'{}' is not a whole number", text));
         return static_cast<std::int64_t>(value);
     }
 
@@ -88,7 +88,7 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
     }
 }
 
-/// The values of a line of a table, without the spaces and quotes around them.
+/// Splits a CSV line at its commas; surrounding spaces and quotes are removed.
 std::vector<std::string_view> cells(std::string_view line) {
     std::vector<std::string_view> parts;
     for (;;) {
@@ -104,17 +104,18 @@ std::vector<std::string_view> cells(std::string_view line) {
     }
 }
 
-/// Where the header line just read has this column.
+/// Index of column `name` in the header line `names`; none if absent. A repeated column is an
+/// error.
 std::optional<std::size_t> index_of(const Lines& lines, const std::vector<std::string_view>& names,
                                     std::string_view name) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) return {};
     if (std::find(found + 1, names.end(), name) != names.end())
-        lines.wrong(fmt::format("there are two columns '{}'", name));
+        lines.error(fmt::format("there are two columns '{}'", name));
     return std::size_t(found - names.begin());
 }
 
-/// Snapshots out of frames, with the velocities that are missing taken from the neighbours.
+/// Converts frames to snapshots; missing velocities are finite differences.
 class TrackSeries {
   public:
     TrackSeries(Tracks tracks, const TrackScale& scale)
@@ -145,32 +146,32 @@ class TrackSeries {
         s.container_velocity = (scale_.amplitude * 2.0 * pi / s.period) * perpendicular(direction);
         for (std::size_t i = 0; i < s.size(); ++i) {
             const double mass = f.mass.empty() ? 1.0 : f.mass[i];
-            s.set(i,
-                  {lab(f.position[i]), velocity(k, i), unknown,
-                   f.spin.empty() ? unknown : sense() * f.spin[i] / scale_.camera_time(), s.clock,
-                   f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius, mass, unknown});
+            s.set(i, {lab(f.position[i]), velocity(k, i), unknown,
+                      f.spin.empty() ? unknown : spin_sign() * f.spin[i] / scale_.camera_time(),
+                      s.clock, f.radius.empty() ? 1.0 : f.radius[i] / scale_.pixels_per_radius,
+                      mass, unknown});
         }
         require_possible(s, Spins::maybe_unknown);
         return s;
     }
 
   private:
-    double sense() const { return tracks_.y_down != scale_.clockwise ? -1.0 : 1.0; }
-    /// Mirrored with the picture.
+    double spin_sign() const { return tracks_.y_down != scale_.clockwise ? -1.0 : 1.0; }
+    /// A clockwise motion is mirrored, and its phase with it.
     double phase() const { return scale_.clockwise ? pi - scale_.phase : scale_.phase; }
     double time_of(std::uint64_t k) const {
         return double(tracks_.frames[k].number) / scale_.frames_per_time * scale_.camera_time();
     }
-    bool follow(std::uint64_t k, std::uint64_t next) const {
+    bool adjacent(std::uint64_t k, std::uint64_t next) const {
         return tracks_.frames[next].number - tracks_.frames[k].number <= (longest_gap + 1) * step_;
     }
-    Vec2 turned(const Vec2& v) const {
+    Vec2 to_lab_axes(const Vec2& v) const {
         return {(scale_.clockwise ? -1.0 : 1.0) * v.x / scale_.pixels_per_radius,
                 (tracks_.y_down ? -1.0 : 1.0) * v.y / scale_.pixels_per_radius};
     }
-    Vec2 lab(const Vec2& p) const { return turned(p - scale_.swirl_centre); }
+    Vec2 lab(const Vec2& p) const { return to_lab_axes(p - scale_.swirl_centre); }
 
-    std::optional<Vec2> seen(std::uint64_t k, std::int64_t id) const {
+    std::optional<Vec2> find_position(std::uint64_t k, std::int64_t id) const {
         if (k >= tracks_.frames.size()) return {};
         const TrackFrame& f = tracks_.frames[k];
         const auto at = std::lower_bound(f.id.begin(), f.id.end(), id);
@@ -179,21 +180,21 @@ class TrackSeries {
     }
     Vec2 velocity(std::uint64_t k, std::size_t i) const {
         const TrackFrame& f = tracks_.frames[k];
-        if (!f.velocity.empty()) return (1.0 / scale_.camera_time()) * turned(f.velocity[i]);
+        if (!f.velocity.empty()) return (1.0 / scale_.camera_time()) * to_lab_axes(f.velocity[i]);
         std::uint64_t from = k, to = k;
         Vec2 first = f.position[i], last = first;
-        if (k > 0 && follow(k - 1, k))
-            if (const auto before = seen(k - 1, f.id[i])) from = k - 1, first = *before;
-        if (k + 1 < tracks_.frames.size() && follow(k, k + 1))
-            if (const auto after = seen(k + 1, f.id[i])) to = k + 1, last = *after;
+        if (k > 0 && adjacent(k - 1, k))
+            if (const auto before = find_position(k - 1, f.id[i])) from = k - 1, first = *before;
+        if (k + 1 < tracks_.frames.size() && adjacent(k, k + 1))
+            if (const auto after = find_position(k + 1, f.id[i])) to = k + 1, last = *after;
         if (from == to) return {0.0, 0.0};
-        return (1.0 / (time_of(to) - time_of(from))) * turned(last - first);
+        return (1.0 / (time_of(to) - time_of(from))) * to_lab_axes(last - first);
     }
 
     Tracks tracks_;
     TrackScale scale_;
-    std::int64_t step_;  // between the numbers of two frames
-    double period_;      // in our unit of time
+    std::int64_t step_;  // usual difference between two frame numbers
+    double period_;      // in units of the result
 };
 
 }  // namespace
@@ -206,19 +207,19 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
                particle = index_of(lines, names, "particle");
     const auto x = index_of(lines, names, "x"), y = index_of(lines, names, "y");
     if (!frame || !particle || !x || !y)
-        lines.wrong(
+        lines.error(
             "the header must name the columns frame, particle, x and y, separated by commas");
 
-    struct Place {
+    struct Entry {
         Vec2 position;
         double radius, spin;
     };
-    std::map<std::int64_t, std::map<std::int64_t, Place>> tracks;  // by particle and frame
-    const auto of_ours = [&](std::string_view name) {
+    std::map<std::int64_t, std::map<std::int64_t, Entry>> tracks;  // by particle and frame
+    const auto swirl_column = [&](std::string_view name) {
         return index_of(lines, names, "seen") ? index_of(lines, names, name) : std::nullopt;
     };
-    const auto radius = of_ours("radius"), spin = of_ours("spin");
-    // Counter-clockwise in the picture, where y is down.
+    const auto radius = swirl_column("radius"), spin = swirl_column("spin");
+    // The table counts spins counter-clockwise in the image; y points down, which flips the sign.
     const auto spin_in = [&](std::string_view cell) {
         return cell.empty() ? unknown : -lines.number(cell);
     };
@@ -227,17 +228,17 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         if (line.empty()) continue;
         const auto parts = cells(line);
         if (parts.size() != names.size())
-            lines.wrong(fmt::format("{} values, but the header names {} columns", parts.size(),
+            lines.error(fmt::format("{} values, but the header names {} columns", parts.size(),
                                     names.size()));
         const bool fresh =
-            tracks[lines.whole(parts[*particle])]
-                .try_emplace(lines.whole(parts[*frame]),
-                             Place{{lines.number(parts[*x]), lines.number(parts[*y])},
+            tracks[lines.integer(parts[*particle])]
+                .try_emplace(lines.integer(parts[*frame]),
+                             Entry{{lines.number(parts[*x]), lines.number(parts[*y])},
                                    radius ? lines.number(parts[*radius]) : 0.0,
                                    spin ? spin_in(parts[*spin]) : 0.0})
                 .second;
         if (!fresh)
-            lines.wrong(fmt::format("particle {} appears twice in frame {}", parts[*particle],
+            lines.error(fmt::format("particle {} appears twice in frame {}", parts[*particle],
                                     parts[*frame]));
     }
     if (tracks.empty()) throw FileError(fmt::format("'{}' holds no positions.", path.string()));
@@ -246,86 +247,104 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     result.y_down = true;
     std::map<std::int64_t, TrackFrame> frames;
     for (const auto& [id, track] : tracks)
-        for (const auto& [number, place] : track) {
+        for (const auto& [number, entry] : track) {
             TrackFrame& f = frames[number];
             f.number = number;
             f.id.push_back(id);
-            f.position.push_back(place.position);
-            if (radius) f.radius.push_back(place.radius);
-            if (spin) f.spin.push_back(place.spin);
+            f.position.push_back(entry.position);
+            if (radius) f.radius.push_back(entry.radius);
+            if (spin) f.spin.push_back(entry.spin);
         }
     for (auto& [number, f] : frames) result.frames.push_back(std::move(f));
     return result;
 }
 
+namespace {
+
+/// The columns of a LAMMPS dump that are read; the optional ones may be absent.
+struct DumpColumns {
+    std::size_t count;
+    std::size_t id, x, y;
+    std::optional<std::size_t> vx, vy, radius, mass, omega;
+};
+
+DumpColumns dump_columns(const Lines& lines, const std::vector<std::string_view>& names) {
+    const auto column = [&](std::string_view name) { return index_of(lines, names, name); };
+    const auto wrapped_or_not = [&](std::string_view wrapped, std::string_view unwrapped) {
+        const auto index = column(wrapped);
+        return index ? index : column(unwrapped);
+    };
+    const auto id = column("id"), x = wrapped_or_not("x", "xu"), y = wrapped_or_not("y", "yu");
+    if (!id || !x || !y) lines.error("the atoms must have the columns id, x and y (or xu and yu)");
+    return {
+        names.size(),    *id, *x, *y, column("vx"), column("vy"), column("radius"), column("mass"),
+        column("omegaz")};
+}
+
+/// Reads the atoms after an "ITEM: ATOMS" line into `frame`, sorted by ID.
+void read_atoms(Lines& lines, std::string_view names, std::int64_t atoms, TrackFrame& frame) {
+    const DumpColumns columns = dump_columns(lines, split(names, ' '));
+    struct Atom {
+        Vec2 position, velocity;
+        double radius, mass, spin;
+    };
+    std::map<std::int64_t, Atom> by_id;
+    for (std::int64_t k = 0; k < atoms; ++k) {
+        const auto parts = split(lines.expect("an atom"), ' ');
+        if (parts.size() != columns.count)
+            lines.error(fmt::format("{} values for {} columns", parts.size(), columns.count));
+        const auto value = [&](const std::optional<std::size_t>& column, double otherwise) {
+            return column ? lines.number(parts[*column]) : otherwise;
+        };
+        const Atom atom{{lines.number(parts[columns.x]), lines.number(parts[columns.y])},
+                        {value(columns.vx, 0.0), value(columns.vy, 0.0)},
+                        value(columns.radius, 1.0),
+                        value(columns.mass, 1.0),
+                        value(columns.omega, 0.0)};
+        if (!by_id.emplace(lines.integer(parts[columns.id]), atom).second)
+            lines.error(fmt::format("atom {} appears twice", parts[columns.id]));
+    }
+    for (const auto& [id, atom] : by_id) {
+        frame.id.push_back(id);
+        frame.position.push_back(atom.position);
+        if (columns.vx && columns.vy) frame.velocity.push_back(atom.velocity);
+        if (columns.radius) frame.radius.push_back(atom.radius);
+        if (columns.mass) frame.mass.push_back(atom.mass);
+        if (columns.omega) frame.spin.push_back(atom.spin);
+    }
+}
+
+}  // namespace
+
 Tracks read_lammps_dump(const std::filesystem::path& path) {
+    constexpr std::string_view atoms_item = "ITEM: ATOMS";
     const std::string text = read_whole_file(path);
     Lines lines(path, text);
     Tracks result;
     TrackFrame frame;
-    std::int64_t atoms = -1;
+    std::int64_t atoms = -1;  // −1: not given yet for this frame
     std::string_view line;
     while (lines.next(line)) {
         if (line == "ITEM: TIMESTEP") {
             frame = {};
             atoms = -1;
-            frame.number = lines.whole(lines.expect("a time step"));
+            frame.number = lines.integer(lines.expect("a time step"));
             if (!result.frames.empty() && frame.number <= result.frames.back().number)
-                lines.wrong("the time steps do not ascend");
+                lines.error("the time steps do not ascend");
         } else if (line == "ITEM: NUMBER OF ATOMS") {
-            atoms = lines.whole(lines.expect("the number of atoms"));
+            atoms = lines.integer(lines.expect("the number of atoms"));
             if (atoms < 0 || atoms > std::int64_t(text.size()))
-                lines.wrong(fmt::format("{} atoms cannot be in this file", atoms));
+                lines.error(fmt::format("{} atoms cannot be in this file", atoms));
         } else if (line.starts_with("ITEM: BOX BOUNDS")) {
             for (int k = 0; k < 3; ++k) lines.expect("the bounds of the box");
-        } else if (line.starts_with("ITEM: ATOMS")) {
-            if (atoms < 0) lines.wrong("ITEM: NUMBER OF ATOMS is missing before ITEM: ATOMS");
-            const auto names = split(line.substr(11), ' ');
-            const auto id = index_of(lines, names, "id");
-            const auto x = index_of(lines, names, "x") ? index_of(lines, names, "x")
-                                                       : index_of(lines, names, "xu");
-            const auto y = index_of(lines, names, "y") ? index_of(lines, names, "y")
-                                                       : index_of(lines, names, "yu");
-            if (!id || !x || !y)
-                lines.wrong("the atoms must have the columns id, x and y (or xu and yu)");
-            const auto vx = index_of(lines, names, "vx"), vy = index_of(lines, names, "vy");
-            const auto radius = index_of(lines, names, "radius"),
-                       mass = index_of(lines, names, "mass");
-            const auto omega = index_of(lines, names, "omegaz");
-            struct Row {
-                Vec2 position, velocity;
-                double radius, mass, spin;
-            };
-            std::map<std::int64_t, Row> rows;
-            for (std::int64_t k = 0; k < atoms; ++k) {
-                const auto parts = split(lines.expect("an atom"), ' ');
-                if (parts.size() != names.size())
-                    lines.wrong(
-                        fmt::format("{} values for {} columns", parts.size(), names.size()));
-                const auto value = [&](const std::optional<std::size_t>& at, double otherwise) {
-                    return at ? lines.number(parts[*at]) : otherwise;
-                };
-                const Row row{{value(x, 0), value(y, 0)},
-                              {value(vx, 0), value(vy, 0)},
-                              value(radius, 1.0),
-                              value(mass, 1.0),
-                              value(omega, 0.0)};
-                if (!rows.emplace(lines.whole(parts[*id]), row).second)
-                    lines.wrong(fmt::format("atom {} appears twice", parts[*id]));
-            }
-            for (const auto& [number, row] : rows) {
-                frame.id.push_back(number);
-                frame.position.push_back(row.position);
-                if (vx && vy) frame.velocity.push_back(row.velocity);
-                if (radius) frame.radius.push_back(row.radius);
-                if (mass) frame.mass.push_back(row.mass);
-                if (omega) frame.spin.push_back(row.spin);
-            }
+        } else if (line.starts_with(atoms_item)) {
+            if (atoms < 0) lines.error("ITEM: NUMBER OF ATOMS is missing before ITEM: ATOMS");
+            read_atoms(lines, line.substr(atoms_item.size()), atoms, frame);
             result.frames.push_back(frame);
         } else if (line == "ITEM: UNITS" || line == "ITEM: TIME") {
             lines.expect("a value");
         } else if (!line.empty()) {
-            lines.wrong("this is not a LAMMPS text dump: 'ITEM: …' was expected");
+            lines.error("this is not a LAMMPS text dump: 'ITEM: …' was expected");
         }
     }
     if (result.frames.empty()) throw FileError(fmt::format("'{}' holds no frames.", path.string()));

@@ -1,21 +1,20 @@
-// Tracks recorded by a camera, or by another program, as snapshots.
+// Snapshots from tracks that a camera or another program recorded.
 //
-//   trackpy CSV   a header line with at least frame, particle, x, y (any order, further columns
-//                 ignored); x to the right and y downwards, in pixels. With the columns seen and
-//                 radius, as `swirl track` writes them, the discs have these radii; with spin
-//                 these spins, counter-clockwise in the picture, per unit of time
-//   LAMMPS dump   text; id, x and y (or xu, yu), and where given vx, vy, radius, mass, omegaz
+//   trackpy CSV   A header line with at least frame, particle, x, y. Columns may have any order;
+//                 other columns are ignored. x points right and y down, in pixels. A table with
+//                 the column `seen`, as `swirl track` writes it, may also give `radius` and `spin`
+//                 (counter-clockwise in the image, per unit of time).
+//   LAMMPS dump   Text with id, x and y (or xu, yu), and optionally vx, vy, radius, mass, omegaz.
 //
-// Velocities that are not given are central differences over the frame before and the frame after
-// (one-sided at the ends of a track): they miss a fraction (ΩΔt)²/6 of a circular motion. Of a disc
-// that is in neither they are not known, and 0. Better ones are those of track_smoothing.hpp.
+// Velocities that are not given are central differences over the frame before and the frame after,
+// one-sided at the ends of a track. They miss a fraction (ΩΔt)²/6 of a circular motion. A disc that
+// is in neither neighbouring frame gets velocity 0. track_smoothing.hpp gives better velocities.
 //
-// Units of the result are those of everything here: length in disc radii, the speed AΩ of the
-// container = 1 (docs/physics.md), so the period is 2πA. Of a container that stands still, with
-// amplitude 0, time stays in the unit of `frames_per_time`. Masses are as given, 1 if they are not.
-// The container is where a swirl of the given amplitude, period and phase puts it; the swirl centre
-// is the origin. Orientation of a tracked disc is not known (NaN), and its spin
-// is not unless the table has it.
+// Units of the result: length in disc radii, speed AΩ of the container = 1 (docs/physics.md), so
+// the period is 2πA. For a container at rest (amplitude 0), time keeps the unit of
+// `frames_per_time`. Masses are as given, otherwise 1. Amplitude, period and phase give the
+// position of the container; the centre of its path is the origin. Tracks have no orientation (NaN)
+// and, unless the file gives it, no spin (NaN).
 #pragma once
 
 #include <cstdint>
@@ -28,47 +27,47 @@
 
 namespace swirl {
 
-/// What a camera saw, in its own coordinates.
+/// The discs of one frame, in camera coordinates.
 struct TrackFrame {
     std::int64_t number = 0;
     std::vector<std::int64_t> id;  // ascending
     std::vector<Vec2> position;
-    std::vector<Vec2> velocity;  // empty where not given, like those below
+    std::vector<Vec2> velocity;  // empty if not given, like the vectors below
     std::vector<double> radius, mass, spin;
-    std::vector<double> velocity_error;  // standard error of a coordinate, of smoothed velocities
+    std::vector<double> velocity_error;  // standard error per coordinate, set by smooth()
 };
 
 struct Tracks {
     std::vector<TrackFrame> frames;  // in order of time
     bool y_down = false;
     struct {
-        std::uint64_t filled = 0;   // positions put back into short gaps
-        std::uint64_t renamed = 0;  // tracks that went on under another name
-        std::uint64_t dropped = 0;  // positions of discs seen in a single frame
-    } repaired;                     // by track_repair.hpp
+        std::uint64_t filled = 0;      // positions interpolated in short gaps
+        std::uint64_t relabelled = 0;  // pieces of tracks that got the ID of an earlier piece
+        std::uint64_t dropped = 0;     // positions without a neighbour in time
+    } repaired;                        // counted by repair() (track_repair.hpp)
 };
 
-/// A disc missing for longer is not put back, and has no velocity across the gap.
+/// Longer gaps are not filled, and no velocity is computed across them.
 inline constexpr std::int64_t longest_gap = 5;  // frames
 
-/// How the camera's coordinates translate. The paper's camera: 960 frames per second.
+/// Conversion from camera coordinates. The paper's camera takes 960 frames per second.
 struct TrackScale {
     double frames_per_time = 960.0;
     double pixels_per_radius = 1.0;
     Vec2 swirl_centre{0.0, 0.0};    // in pixels
     double period = 1.0;            // T, in time units
-    double amplitude = 0.0;         // of the swirl, in disc radii
-    double phase = 0.0;             // of the container at frame 0 as the camera sees it, rad,
-                                    // counter-clockwise from the right
+    double amplitude = 0.0;         // of the container's path, in disc radii
+    double phase = 0.0;             // of the container at frame 0, as seen in the image, rad,
+                                    // counter-clockwise from +x
     double container_radius = 0.0;  // in disc radii
-    bool clockwise = false;         // the camera saw the swirl run clockwise: mirror x
+    bool clockwise = false;         // the container moves clockwise in the image: mirror x
 
-    /// T, and the camera's unit of time, in ours.
+    /// T, and the camera's unit of time, in units of the result.
     double our_period() const;
     double camera_time() const { return our_period() / period; }
 };
 
-/// Both throw FileError with the number of the line.
+/// Throw FileError with the line number.
 Tracks read_trackpy_csv(const std::filesystem::path& path);
 Tracks read_lammps_dump(const std::filesystem::path& path);
 

@@ -73,7 +73,7 @@ const char* kind_of(bool smooth) { return smooth ? "smooth" : "rough"; }
 struct Counterpart {
     bool smooth;
     RunConfig config;
-    SeenAs seen;
+    CameraSampling sampling;
     std::vector<PaperTask> runs;
     Json result = nullptr;
 };
@@ -142,10 +142,11 @@ RunConfig config_of(const FilmedContainer& video, const ExperimentSettings& sett
         texts["container_radius"] = fmt::format("{:.4f}", radius);
     if (!texts.contains("amplitude")) texts["amplitude"] = fmt::format("{:.4f}", amplitude);
     if (!texts.contains("period") && !texts.contains("speed")) texts["speed"] = "1";
-    if (const Json& kinds = at(video.found, {"kinds"}); kinds.is_array() && kinds.size() == 2) {
+    if (const Json& species = at(video.found, {"species"});
+        species.is_array() && species.size() == 2) {
         // The commoner size is the unit of length.
-        const bool first = number(kinds[0]["number"]) >= number(kinds[1]["number"]);
-        const Json &unit = kinds[first ? 0 : 1], &other = kinds[first ? 1 : 0];
+        const bool first = number(species[0]["number"]) >= number(species[1]["number"]);
+        const Json &unit = species[first ? 0 : 1], &other = species[first ? 1 : 0];
         texts["mixture"] = fmt::format("{}:{:.4f}", other["number"].get<std::int64_t>(),
                                        number(other["radius"]) / number(unit["radius"]));
     }
@@ -164,11 +165,12 @@ void Experiment::add_counterpart(std::size_t k) {
                                shared(video, "amplitude", amplitude_)),
                      {},
                      {}};
-    made.seen.frames_per_swirl = std::max(4, int(std::lround(frames_per_swirl(video))));
-    made.seen.position_error =
+    made.sampling.frames_per_period = std::max(4, int(std::lround(frames_per_swirl(video))));
+    made.sampling.position_error =
         std::round(1e4 * position_error(video) / of_camera(video, "scale")) * 1e-4;
-    const std::string what = fmt::format("{} {} {}", config_text(made.config),
-                                         made.seen.frames_per_swirl, made.seen.position_error);
+    const std::string what =
+        fmt::format("{} {} {}", config_text(made.config), made.sampling.frames_per_period,
+                    made.sampling.position_error);
     const std::string key = fmt::format("seen_{}_N{}_{:016x}", kind_of(video.smooth),
                                         made.config.discs, checksum(what));
     for (std::size_t c = 0; c < counterparts_.size(); ++c)
@@ -180,8 +182,9 @@ void Experiment::add_counterpart(std::size_t k) {
         RunConfig config = made.config;
         config.seed += static_cast<std::uint64_t>(seed);
         made.runs.push_back({fmt::format("{}_seed{}", key, config.seed), double(config.events),
-                             [config, seen = made.seen](const RunControl& control) {
-                                 return seen_run(config, seen, measurements_of_a_video(), control);
+                             [config, sampling = made.sampling](const RunControl& control) {
+                                 return camera_sampled_run(config, sampling,
+                                                           measurements_of_a_video(), control);
                              }});
     }
     counterpart_of_[k] = counterparts_.size();
@@ -242,7 +245,7 @@ template <class Visit>
 void Experiment::each_side(Visit&& visit) const {
     for (const FilmedContainer& video : videos_)
         if (video.good())
-            visit("film", kind_of(video.smooth), video.name, discs_of(video), video.result);
+            visit("video", kind_of(video.smooth), video.name, discs_of(video), video.result);
     for (const Counterpart& c : counterparts_)
         if (!c.result.is_null() && !failed(c.result))
             visit("simulation", kind_of(c.smooth), std::string(), c.config.discs, c.result);
@@ -276,18 +279,18 @@ std::vector<NamedCurve> Experiment::curves() const {
 }
 
 fs::path Experiment::write_videos() const {
-    Table table({"film",
-                 "kind",
+    Table table({"video",
+                 "surface",
                  "discs",
-                 "pictures",
-                 "swirls",
-                 "pictures_per_swirl",
+                 "frames",
+                 "periods",
+                 "frames_per_period",
                  "radius",
                  "container_radius",
                  "amplitude",
                  "omega",
                  "omega_error",
-                 "all_seen",
+                 "complete_share",
                  "position_error",
                  "by_time",
                  "by_time_error",
@@ -307,7 +310,7 @@ fs::path Experiment::write_videos() const {
         table.add({video.name,
                    std::string(kind_of(video.smooth)),
                    whole(at(video.found, {"discs"})),
-                   whole(at(video.found, {"pictures"})),
+                   whole(at(video.found, {"frames"})),
                    number(at(video.result, {"periods"})),
                    frames_per_swirl(video),
                    of_camera(video, "scale"),
@@ -315,7 +318,7 @@ fs::path Experiment::write_videos() const {
                    of_camera(video, "amplitude"),
                    found({"path", "omega"}),
                    found({"path", "omega_error"}),
-                   found({"quality", "pictures_with_all_discs"}),
+                   found({"quality", "complete_share"}),
                    found({"quality", "position_error"}),
                    mean(video.result, "by_time", "mean"),
                    mean(video.result, "by_time", "error"),
@@ -325,13 +328,13 @@ fs::path Experiment::write_videos() const {
                    mean(simulated(k), "by_time", "error"),
                    video.good() ? std::string() : video.result["failed"].get<std::string>()});
     }
-    const fs::path file = settings_.out / "films.csv";
+    const fs::path file = settings_.out / "videos.csv";
     table.write(file);
     return file;
 }
 
 fs::path Experiment::write_points() const {
-    Table table(joined(joined({"source", "kind", "film", "discs", "by_time", "by_time_error",
+    Table table(joined(joined({"source", "surface", "video", "discs", "by_time", "by_time_error",
                                "rigid_by_time", "rigid_by_time_error"},
                               number_columns(numbers_against_n())),
                        {"steady_state"}));
@@ -343,7 +346,7 @@ fs::path Experiment::write_points() const {
                 row.emplace_back(number(at(result, {"rotation", which, what})));
         add_numbers(row, numbers_against_n(), result);
         // Whether a film's dish was steady is for who took it to know.
-        row.emplace_back(source == std::string("film") ? "steady" : steadiness(result));
+        row.emplace_back(source == std::string("video") ? "steady" : steadiness(result));
         table.add(std::move(row));
     });
     const fs::path file = settings_.out / "points.csv";
@@ -355,7 +358,7 @@ fs::path Experiment::write_profiles() const {
     const std::vector<std::string> columns{
         "theta",      "visits",           "varpi_m", "varpi_m_error", "wall",
         "normalised", "normalised_error", "speed",   "speed_error"};
-    Table table(joined({"source", "kind", "film", "discs"}, columns));
+    Table table(joined({"source", "surface", "video", "discs"}, columns));
     each_side([&](const char* source, const char* kind, const std::string& name, std::int64_t discs,
                   const Json& result) {
         const Json& profile = at(result, {"measured", "profile"});
@@ -387,7 +390,7 @@ fs::path Experiment::write_maps(std::size_t k) const {
                        number(flow["y"][r]), not_available, number(flow["u_x"][r]),
                        number(flow["u_y"][r]), number(flow["visits"][r])});
     };
-    add("film", discs_of(videos_[k]), videos_[k].result);
+    add("video", discs_of(videos_[k]), videos_[k].result);
     add("simulation", discs_of(videos_[k]), simulated(k));
     const fs::path file = settings_.out / fmt::format("maps_{}.csv", videos_[k].name);
     table.write(file);
@@ -486,17 +489,17 @@ Json Experiment::json() const {
         Json pictures = Json::array();
         for (const fs::path& picture : video.pictures) pictures.push_back(picture.string());
         videos.push_back({{"name", video.name},
-                          {"kind", kind_of(video.smooth)},
-                          {"film", video.video},
+                          {"surface", kind_of(video.smooth)},
+                          {"video", video.video},
                           {"result", video.result},
                           {"simulation", simulated(k)},
                           {"found", video.found},
                           {"remarks", video.remarks},
-                          {"pictures", pictures}});
+                          {"images", pictures}});
     }
     return {{"command", settings_.command}, {"version", version()},
             {"build", build_description()}, {"seeds", settings_.seeds},
-            {"findings", findings()},       {"films", videos}};
+            {"findings", findings()},       {"videos", videos}};
 }
 
 }  // namespace

@@ -19,17 +19,17 @@ struct Preset {
 
 std::vector<Preset> presets() {
     CameraSettings laboratory;
-    CameraSettings telephone;
-    telephone.size = {568, 520};
-    telephone.scale = 21.0;
-    telephone.frames_per_period = 128;
-    telephone.glare = 70.0;
-    telephone.distortion = 0.03;
-    telephone.noise = 4.0;
-    telephone.blur = 1.0;
-    telephone.exposure = 0.25;
-    telephone.flicker = 0.03;
-    telephone.table = 150.0;
+    CameraSettings phone;
+    phone.size = {568, 520};
+    phone.scale = 21.0;
+    phone.frames_per_period = 128;
+    phone.glare = 70.0;
+    phone.distortion = 0.03;
+    phone.noise = 4.0;
+    phone.blur = 1.0;
+    phone.exposure = 0.25;
+    phone.flicker = 0.03;
+    phone.table = 150.0;
     CameraSettings bad;
     bad.size = {400, 400};
     bad.scale = 15.0;
@@ -60,7 +60,7 @@ std::vector<Preset> presets() {
     steel.noise = 3.0;
     steel.blur = 0.9;
     steel.exposure = 0.2;
-    return {{"laboratory", laboratory}, {"telephone", telephone}, {"bad", bad}, {"steel", steel}};
+    return {{"laboratory", laboratory}, {"phone", phone}, {"bad", bad}, {"steel", steel}};
 }
 
 Rotation product(const Rotation& a, const Rotation& b) {

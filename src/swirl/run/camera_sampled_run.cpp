@@ -14,13 +14,13 @@
 namespace swirl {
 namespace {
 
-/// Box and Muller's pair of normal numbers.
+/// Two independent standard normal numbers (Box–Muller).
 Vec2 normal_pair(Random& random) {
     const double size = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
     return size * unit_circle(random.uniform());
 }
 
-TrackFrame picture_of(const Snapshot& s, std::int64_t number, double error, Random& random) {
+TrackFrame camera_frame(const Snapshot& s, std::int64_t number, double error, Random& random) {
     TrackFrame frame;
     frame.number = number;
     for (std::size_t i = 0; i < s.size(); ++i) {
@@ -34,11 +34,11 @@ TrackFrame picture_of(const Snapshot& s, std::int64_t number, double error, Rand
 
 }  // namespace
 
-nlohmann::ordered_json seen_run(const RunConfig& config, const SeenAs& seen,
-                                const std::vector<std::string>& measurements,
-                                const RunControl& control) {
+nlohmann::ordered_json camera_sampled_run(const RunConfig& config, const CameraSampling& sampling,
+                                          const std::vector<std::string>& measurements,
+                                          const RunControl& control) {
     Run run(config, control);
-    SampleTimes times = run.sample_times(seen.frames_per_swirl);
+    SampleTimes times = run.sample_times(sampling.frames_per_period);
     Random random(config.seed);
     Tracks tracks;
     TrackScale scale;
@@ -50,18 +50,18 @@ nlohmann::ordered_json seen_run(const RunConfig& config, const SeenAs& seen,
             const Snapshot& s = run.snapshot();
             if (tracks.frames.empty())
                 scale.phase = std::atan2(s.container_centre.y, s.container_centre.x);
-            tracks.frames.push_back(picture_of(s, number, seen.position_error, random));
+            tracks.frames.push_back(camera_frame(s, number, sampling.position_error, random));
         }
         run.pass_event();
     }
-    if (!run.complete()) throw Interrupted("Stopped.");
-    const auto wanted = static_cast<std::size_t>(seen.frames_per_swirl);
-    if (tracks.frames.size() < wanted)
-        throw Failure("No swirl was left after the warm-up; more events are needed.");
+    if (!run.complete()) throw Interrupted("stopped.");
+    if (tracks.frames.size() < static_cast<std::size_t>(sampling.frames_per_period))
+        throw Failure(
+            "the run has less than one period after the warm-up.\nhint: increase --events.");
     const std::int64_t first = tracks.frames.front().number;
     for (TrackFrame& frame : tracks.frames) frame.number -= first;
     scale.period = config.period;
-    scale.frames_per_time = seen.frames_per_swirl / config.period;
+    scale.frames_per_time = sampling.frames_per_period / config.period;
     scale.amplitude = config.amplitude;
     scale.container_radius = config.container_radius;
     TrackSmoothing smoothing;

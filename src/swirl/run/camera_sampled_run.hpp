@@ -1,6 +1,7 @@
-// A run as a camera would see it: places alone, so many pictures a swirl, with an error of so much.
-// Then they are smoothed and measured as a camera's tracks are, and what few pictures and poor
-// places do to a number they do to both sides of a comparison.
+// A simulated run measured as a camera would: from noisy positions at a finite frame rate.
+//
+// The sampled positions are smoothed and measured like the tracks of a video. So the effects of the
+// frame rate and of position errors are the same on both sides of a comparison with a video.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,15 +13,15 @@
 
 namespace swirl {
 
-struct SeenAs {
-    int frames_per_swirl = 511;
-    double position_error = 0.0;  // of a coordinate, in disc radii, normally distributed
+struct CameraSampling {
+    int frames_per_period = 511;
+    double position_error = 0.0;  // standard deviation per coordinate, in disc radii
 };
 
-/// As result_json() of the run, with the averages by time and "measured" from its pictures. Throws
-/// Failure where no swirl is left after the warm-up, Interrupted.
-nlohmann::ordered_json seen_run(const RunConfig& config, const SeenAs& seen,
-                                const std::vector<std::string>& measurements,
-                                const RunControl& control = {});
+/// Returns result_json() of the run, in which the averages by time and "measured" come from the
+/// sampled frames. Throws Interrupted, and Failure if less than one period follows the warm-up.
+nlohmann::ordered_json camera_sampled_run(const RunConfig& config, const CameraSampling& sampling,
+                                          const std::vector<std::string>& measurements,
+                                          const RunControl& control = {});
 
 }  // namespace swirl

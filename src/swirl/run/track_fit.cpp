@@ -98,7 +98,7 @@ std::string smoothing_text(const TrackSmoothing& s) {
                   "smoothed over {:.1f} frames only",
                   s.bend, s.window)
             : fmt::format("and were smoothed over {:.1f} frames, to {:.2g} pixels", s.window,
-                          s.place_error);
+                          s.position_error);
     const char* const rounded = s.window > longest_window
                                     ? " This rounds sharp turns: it cannot be determined where "
                                       "discs become pinned, and the "

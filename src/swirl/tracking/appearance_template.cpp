@@ -13,18 +13,19 @@ namespace swirl {
 
 namespace {
 
-constexpr float nowhere = -1e30f;    // no excess there
-constexpr double step = 0.5;         // of the mean ball's grid, pixels
-constexpr double beyond = 3.5;       // pixels that are looked at outside of the edge
-constexpr double near_others = 1.0;  // pixels next to another ball that its blur reaches
-constexpr double gain_varies = 0.2, mode_varies = 0.15;
+constexpr float nowhere = -1e30f;    // excess is not defined there
+constexpr double step = 0.5;         // of the template's grid, pixels
+constexpr double beyond = 3.5;       // width of the ring outside the edge that is used, pixels
+constexpr double near_others = 1.0;  // width of the blur of a neighbour's edge, pixels
+constexpr double gain_varies = 0.2, mode_varies = 0.15;  // standard deviations of the priors
 constexpr std::size_t modes = 4;
-/// Neighbouring pixels leave the same rest: texture, and what compression makes of it.
+constexpr std::size_t min_particles = 150;  // of each species, in all examples
+/// Texture and compression correlate the residuals of about so many neighbouring pixels.
 constexpr double pixels_of_a_patch = 4.0;
 
 int half_of(double radius) { return static_cast<int>((radius + beyond + 1.5) / step) + 1; }
 
-/// T, its slopes, and nothing, of a point of the grid; side by side in a register.
+/// T, ∂ₓT, ∂ᵧT and 0 at a grid point, in one vector register.
 typedef float OnGrid __attribute__((vector_size(16)));
 OnGrid four_at(const float* from) {
     OnGrid four;
@@ -32,8 +33,8 @@ OnGrid four_at(const float* from) {
     return four;
 }
 
-/// A row of pixels on the grid: heights and offsets are in pixels from the ball's middle. Linear
-/// between the grid's points.
+/// One row of the template at height y, interpolated linearly between grid points. Offsets are in
+/// pixels from the centre.
 class GridRow {
   public:
     GridRow(const cv::Mat& grid, double y)
@@ -62,13 +63,13 @@ class GridRow {
     float half_, last_, q_;
 };
 
-/// tanh to a fortieth, smooth up to where it ends at ±1; several at once.
+/// Approximates tanh within 1/40 and reaches ±1 smoothly; the compiler vectorises it.
 inline float bounded(float x) {
     const float y = std::min(std::max(x, -3.0f), 3.0f), square = y * y;
     return y * (27.0f + square) / (27.0f + 9.0f * square);
 }
 
-/// Solves A x = b, symmetric and positive, in place; false if it is not.
+/// Solves A x = b in place, for symmetric positive definite A; false otherwise.
 template <std::size_t n>
 bool solve_system(std::array<std::array<double, n>, n>& a, std::array<double, n>& b) {
     for (std::size_t c = 0; c < n; ++c) {
@@ -86,58 +87,64 @@ bool solve_system(std::array<std::array<double, n>, n>& a, std::array<double, n>
     return true;
 }
 
-/// Those beads at other places.
-std::vector<Particle> at_places(std::vector<Particle> particles, const std::vector<Vec2>& places) {
-    for (std::size_t i = 0; i < particles.size(); ++i) particles[i].centre = places[i];
+std::vector<Particle> with_positions(std::vector<Particle> particles,
+                                     const std::vector<Vec2>& positions) {
+    for (std::size_t i = 0; i < particles.size(); ++i) particles[i].centre = positions[i];
     return particles;
 }
 
-/// Mean square by which hard discs lie in each other, of those that are near.
+/// Mean square overlap of pairs of discs near contact; 0 if there are too few pairs. `weight`: of
+/// the template's positions.
 double overlap(const std::vector<AppearanceTemplate::Example>& examples,
                const std::vector<std::vector<Vec2>>& edges,
-               const std::vector<std::vector<Vec2>>& ball, double counts,
-               const ParticleLook& look) {
+               const std::vector<std::vector<Vec2>>& by_template, double weight,
+               const ParticleAppearance& appearance) {
+    constexpr double near_contact = 0.125;  // of the sum of radii
+    constexpr std::size_t min_pairs = 100;
     double square = 0.0;
     std::size_t pairs = 0;
     for (std::size_t k = 0; k < examples.size(); ++k) {
         const std::vector<Particle>& particles = examples[k].particles;
-        std::vector<Vec2> places;
+        std::vector<Vec2> positions;
         for (std::size_t i = 0; i < particles.size(); ++i)
-            places.push_back(look.lens
-                                 .ideal({(1.0 - counts) * edges[k][i] + counts * ball[k][i],
-                                         look.kinds[particles[i].kind].radius})
-                                 .centre);
+            positions.push_back(
+                appearance.lens
+                    .ideal({(1.0 - weight) * edges[k][i] + weight * by_template[k][i],
+                            appearance.species[particles[i].species].radius})
+                    .centre);
         for (std::size_t a = 0; a < particles.size(); ++a)
             for (std::size_t b = a + 1; b < particles.size(); ++b) {
                 if (!particles[a].sure || !particles[b].sure) continue;
-                const double sum =
-                    look.kinds[particles[a].kind].radius + look.kinds[particles[b].kind].radius;
-                const double gap = length(places[a] - places[b]) - sum;
-                if (std::abs(gap) > 0.125 * sum) continue;
+                const double sum = appearance.species[particles[a].species].radius +
+                                   appearance.species[particles[b].species].radius;
+                const double gap = length(positions[a] - positions[b]) - sum;
+                if (std::abs(gap) > near_contact * sum) continue;
                 ++pairs;
                 square += gap < 0.0 ? gap * gap : 0.0;
             }
     }
-    return pairs < 100 ? 0.0 : square / double(pairs);
+    return pairs < min_pairs ? 0.0 : square / double(pairs);
 }
 
 }  // namespace
 
 std::vector<NearCircle> sure_others(const std::vector<Particle>& all, const Particle& self,
-                                    const ParticleLook& look) {
-    constexpr double looked_at = 7.0;  // pixels beyond both
+                                    const ParticleAppearance& appearance) {
+    constexpr double margin = 7.0;  // pixels: two rings of `beyond`
     std::vector<NearCircle> others;
-    const double own = look.lens.seen_radius(self.centre, look.kinds[self.kind].radius);
+    const double own =
+        appearance.lens.seen_radius(self.centre, appearance.species[self.species].radius);
     for (const Particle& b : all) {
         if (&b == &self || !b.sure) continue;
-        const double radius = look.lens.seen_radius(b.centre, look.kinds[b.kind].radius);
-        if (length(b.centre - self.centre) < own + radius + looked_at)
+        const double radius =
+            appearance.lens.seen_radius(b.centre, appearance.species[b.species].radius);
+        if (length(b.centre - self.centre) < own + radius + margin)
             others.push_back({b.centre, radius});
     }
     return others;
 }
 
-/// 255 where the floor can be seen.
+/// Mask: 255 where no particle covers the floor.
 cv::Mat AppearanceTemplate::free_floor(const cv::Size& size, const CircleFit& rim,
                                        const std::vector<Particle>& particles) const {
     cv::Mat mask = cv::Mat::zeros(size, CV_8U);
@@ -146,7 +153,8 @@ cv::Mat AppearanceTemplate::free_floor(const cv::Size& size, const CircleFit& ri
                    cv::FILLED);
     };
     fill(rim.centre, reach_ - 3.0, 255);
-    for (const Particle& b : particles) fill(b.centre, look_.kinds[b.kind].radius + 4.0, 0);
+    for (const Particle& b : particles)
+        fill(b.centre, appearance_.species[b.species].radius + 4.0, 0);
     return mask;
 }
 
@@ -156,6 +164,7 @@ double AppearanceTemplate::illumination(const cv::Mat& sharp, const CircleFit& r
     const cv::Mat open = free_floor(sharp.size(), rim, particles);
     std::vector<double> ratios;
     constexpr int stride = 3;
+    constexpr std::size_t min_pixels = 30;
     for (int row = 0; row < sharp.rows; row += stride) {
         const std::uint8_t* free = open.ptr(row);
         const float *here = sharp.ptr<float>(row), *floor = floor_.ptr<float>(row);
@@ -163,67 +172,80 @@ double AppearanceTemplate::illumination(const cv::Mat& sharp, const CircleFit& r
             if (free[column] && floor[column] > 1.0f)
                 ratios.push_back(double(here[column] / floor[column]));
     }
-    return ratios.size() < 30 ? 1.0 : median(ratios);
+    return ratios.size() < min_pixels ? 1.0 : median(ratios);
+}
+
+/// Per pixel, the median over the examples in which no particle covers it; `known` is 1 there.
+cv::Mat AppearanceTemplate::median_floor(const std::vector<Example>& examples, unsigned threads,
+                                         cv::Mat& known) const {
+    const cv::Size size = examples.front().sharp.size();
+    std::vector<float> of_illumination;
+    std::vector<cv::Mat> is_free;
+    for (const Example& e : examples) {
+        of_illumination.push_back(
+            static_cast<float>(1.0 / illumination(e.sharp, e.rim, e.particles)));
+        is_free.push_back(free_floor(size, e.rim, e.particles));
+    }
+    cv::Mat sum = cv::Mat::zeros(size, CV_32F);
+    known = cv::Mat::zeros(size, CV_32F);
+    constexpr int rows_per_task = 16;
+    const auto median_of_rows = [&](std::size_t part) {
+        std::vector<float> levels;
+        const int begin = rows_per_task * static_cast<int>(part);
+        for (int row = begin; row < std::min(begin + rows_per_task, size.height); ++row)
+            for (int column = 0; column < size.width; ++column) {
+                levels.clear();
+                for (std::size_t k = 0; k < examples.size(); ++k)
+                    if (is_free[k].at<std::uint8_t>(row, column))
+                        levels.push_back(examples[k].sharp.at<float>(row, column) *
+                                         of_illumination[k]);
+                if (levels.empty()) continue;
+                const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
+                std::nth_element(levels.begin(), middle, levels.end());
+                sum.at<float>(row, column) = *middle;
+                known.at<float>(row, column) = 1.0f;
+            }
+    };
+    parallel_for(static_cast<std::size_t>((size.height + rows_per_task - 1) / rows_per_task),
+                 median_of_rows, threads);
+    return sum;
 }
 
 void AppearanceTemplate::learn_floor(const std::vector<Example>& examples, unsigned threads) {
     const cv::Size size = examples.front().sharp.size();
-    // Twice: the lamp of a picture is known after its floor.
+    const double narrow_width = 2.0, wide_width = 0.7 * appearance_.radius();  // pixels
+    constexpr float min_narrow = 0.3f, min_wide = 1e-4f;  // fraction of known pixels
+    // Two rounds: the illumination of a frame follows from the floor.
     for (int round = 0; round < 2; ++round) {
-        std::vector<float> of_lamps;
-        for (const Example& e : examples)
-            of_lamps.push_back(static_cast<float>(1.0 / illumination(e.sharp, e.rim, e.particles)));
-        cv::Mat sum = cv::Mat::zeros(size, CV_32F), known = cv::Mat::zeros(size, CV_32F);
-        std::vector<cv::Mat> taken;
-        for (const Example& e : examples) taken.push_back(free_floor(size, e.rim, e.particles));
-        constexpr int rows_at_once = 16;
-        const auto median_of_rows = [&](std::size_t part) {
-            std::vector<float> levels;
-            const int begin = rows_at_once * static_cast<int>(part);
-            for (int row = begin; row < std::min(begin + rows_at_once, size.height); ++row)
-                for (int column = 0; column < size.width; ++column) {
-                    levels.clear();
-                    for (std::size_t k = 0; k < examples.size(); ++k)
-                        if (taken[k].at<std::uint8_t>(row, column))
-                            levels.push_back(examples[k].sharp.at<float>(row, column) *
-                                             of_lamps[k]);
-                    if (levels.empty()) continue;
-                    const auto middle =
-                        levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
-                    std::nth_element(levels.begin(), middle, levels.end());
-                    sum.at<float>(row, column) = *middle;
-                    known.at<float>(row, column) = 1.0f;
-                }
-        };
-        parallel_for(static_cast<std::size_t>((size.height + rows_at_once - 1) / rows_at_once),
-                     median_of_rows, threads);
-        // Where nobody ever made room it is as nearby.
+        cv::Mat known;
+        const cv::Mat sum = median_floor(examples, threads, known);
+        // Pixels that are always covered take the level of their surroundings.
         cv::Mat narrow_sum, narrow, wide_sum, wide;
-        cv::GaussianBlur(sum, narrow_sum, {}, 2.0);
-        cv::GaussianBlur(known, narrow, {}, 2.0);
-        cv::GaussianBlur(sum, wide_sum, {}, 0.7 * look_.radius());
-        cv::GaussianBlur(known, wide, {}, 0.7 * look_.radius());
-        cv::Mat made = cv::Mat::zeros(size, CV_32F);
+        cv::GaussianBlur(sum, narrow_sum, {}, narrow_width);
+        cv::GaussianBlur(known, narrow, {}, narrow_width);
+        cv::GaussianBlur(sum, wide_sum, {}, wide_width);
+        cv::GaussianBlur(known, wide, {}, wide_width);
+        cv::Mat floor = cv::Mat::zeros(size, CV_32F);
         for (int row = 0; row < size.height; ++row)
             for (int column = 0; column < size.width; ++column) {
                 const float n = narrow.at<float>(row, column), w = wide.at<float>(row, column);
-                if (n > 0.3f)
-                    made.at<float>(row, column) = narrow_sum.at<float>(row, column) / n;
-                else if (w > 1e-4f)
-                    made.at<float>(row, column) = wide_sum.at<float>(row, column) / w;
+                if (n > min_narrow)
+                    floor.at<float>(row, column) = narrow_sum.at<float>(row, column) / n;
+                else if (w > min_wide)
+                    floor.at<float>(row, column) = wide_sum.at<float>(row, column) / w;
             }
-        floor_ = made;
+        floor_ = floor;
     }
 }
 
 AppearanceTemplate::Excess AppearanceTemplate::excess(
     const cv::Mat& sharp, const CircleFit& rim, const std::vector<Particle>& particles) const {
-    Excess made;
-    made.container = rim.centre;
-    made.level = cv::Mat(sharp.size(), CV_32F, cv::Scalar(double(nowhere)));
+    Excess result;
+    result.container = rim.centre;
+    result.level = cv::Mat(sharp.size(), CV_32F, cv::Scalar(double(nowhere)));
     const auto of_illumination = static_cast<float>(1.0 / illumination(sharp, rim, particles));
     const auto soft = static_cast<float>(soft_);
-    const auto steep = static_cast<float>(look_.polarity / soft_);
+    const auto steep = static_cast<float>(appearance_.polarity / soft_);
     const double reach = reach_ - 0.5;
     for (int row = 0; row < sharp.rows; ++row) {
         const double y = double(row) - rim.centre.y;
@@ -233,26 +255,26 @@ AppearanceTemplate::Excess AppearanceTemplate::excess(
         const int to = std::min(sharp.cols - 1, static_cast<int>(rim.centre.x + half));
         const float* in = sharp.ptr<float>(row);
         const float* floor = floor_.ptr<float>(row);
-        float* out = made.level.ptr<float>(row);
+        float* out = result.level.ptr<float>(row);
         for (int column = from; column <= to; ++column) {
             const float level =
                 soft * bounded(steep * (in[column] * of_illumination - floor[column]));
             out[column] = floor[column] > 0.0f ? level : nowhere;
         }
     }
-    return made;
+    return result;
 }
 
 template <typename Use>
-void AppearanceTemplate::each_row(const Excess& excess, const Vec2& centre, std::size_t kind,
+void AppearanceTemplate::each_row(const Excess& excess, const Vec2& centre, std::size_t species,
                                   const std::vector<NearCircle>& others, int stride,
                                   Use&& use) const {
-    const double radius = balls_[kind].radius;
-    const double scale = look_.lens.seen_radius(centre, radius) / radius;
+    const double radius = templates_[species].radius;
+    const double scale = appearance_.lens.seen_radius(centre, radius) / radius;
     const double reach = scale * radius + beyond;
     const int top = std::max(0, static_cast<int>(std::ceil(centre.y - reach))),
               bottom = std::min(excess.level.rows - 1, static_cast<int>(centre.y + reach));
-    std::vector<char> hidden;  // by others, of a row
+    std::vector<char> hidden;  // pixels of a row that others cover
     for (int row = top; row <= bottom; row += stride) {
         const double y = double(row) - centre.y;
         const double half = std::sqrt(std::max(0.0, reach * reach - y * y));
@@ -270,55 +292,56 @@ void AppearanceTemplate::each_row(const Excess& excess, const Vec2& centre, std:
         }
         const float* level = excess.level.ptr<float>(row);
         for (int column = from; column <= to; column += stride) {
-            char& none = hidden[static_cast<std::size_t>(column - from)];
-            none = static_cast<char>(none | (level[column] == nowhere ? 1 : 0));
+            char& is_hidden = hidden[static_cast<std::size_t>(column - from)];
+            is_hidden = static_cast<char>(is_hidden | (level[column] == nowhere ? 1 : 0));
         }
         use(Row{row, from, to, level, hidden.data(), scale});
     }
 }
 
 template <typename Use>
-void AppearanceTemplate::each_pixel(const Excess& excess, const Vec2& centre, std::size_t kind,
+void AppearanceTemplate::each_pixel(const Excess& excess, const Vec2& centre, std::size_t species,
                                     const std::vector<NearCircle>& others, int stride,
                                     Use&& use) const {
-    each_row(excess, centre, kind, others, stride, [&](const Row& r) {
+    each_row(excess, centre, species, others, stride, [&](const Row& r) {
         for (int column = r.from; column <= r.to; column += stride)
             if (!r.hidden[column - r.from])
                 use(Vec2{double(column), double(r.row)}, r.level[column], r.scale);
     });
 }
 
-double AppearanceTemplate::score(const Excess& excess, const Vec2& centre, std::size_t kind,
+double AppearanceTemplate::score(const Excess& excess, const Vec2& centre, std::size_t species,
                                  const std::vector<NearCircle>& others, int stride) const {
-    // What is hidden says nothing, for it or against it.
-    double rest = 0.0, all = 0.0, scaled = 1.0;
-    each_row(excess, centre, kind, others, stride, [&](const Row& r) {
-        const GridRow grid(balls_[kind].grid, (r.row - centre.y) / r.scale);
+    // Hidden pixels count neither for the disc nor against it.
+    double residual = 0.0, all = 0.0, scaled = 1.0;
+    each_row(excess, centre, species, others, stride, [&](const Row& r) {
+        const GridRow grid(templates_[species].grid, (r.row - centre.y) / r.scale);
         const auto shrink = static_cast<float>(1.0 / r.scale),
                    begin = static_cast<float>(r.from - centre.x);
-        float row_rest = 0.0f, row_all = 0.0f;
+        float row_residual = 0.0f, row_all = 0.0f;
         for (int column = 0; column <= r.to - r.from; column += stride) {
             if (r.hidden[column]) continue;
             const float t = grid.at(shrink * (begin + static_cast<float>(column)))[0];
             const float e = r.level[r.from + column];
-            row_rest += (e - t) * (e - t);
+            row_residual += (e - t) * (e - t);
             row_all += t * t;
         }
-        rest += double(row_rest);
+        residual += double(row_residual);
         all += double(row_all);
         scaled = r.scale;
     });
-    return (all - rest) * stride * stride / (balls_[kind].squares * scaled * scaled);
+    return (all - residual) * stride * stride / (templates_[species].squares * scaled * scaled);
 }
 
-bool AppearanceTemplate::inside(const Excess& excess, const Vec2& centre, std::size_t kind) const {
+bool AppearanceTemplate::inside(const Excess& excess, const Vec2& centre,
+                                std::size_t species) const {
     constexpr double loose = 0.2;  // radii
-    const double radius = balls_[kind].radius;
+    const double radius = templates_[species].radius;
     return length(centre - excess.container) + (1.0 - loose) * radius < reach_;
 }
 
-double AppearanceTemplate::excess_at(const Excess& excess, const Vec2& place) const {
-    const int column = cvRound(place.x), row = cvRound(place.y);
+double AppearanceTemplate::excess_at(const Excess& excess, const Vec2& position) const {
+    const int column = cvRound(position.x), row = cvRound(position.y);
     if (column < 0 || row < 0 || column >= excess.level.cols || row >= excess.level.rows)
         return double(nowhere);
     return double(excess.level.at<float>(row, column));
@@ -326,8 +349,8 @@ double AppearanceTemplate::excess_at(const Excess& excess, const Vec2& place) co
 
 namespace {
 
-/// What a row of pixels gives to the normal equations: with u the offset in radii, sums of T²uᵏ,
-/// of T∂ₓT uᵏ, T∂ᵧT uᵏ and T e uᵏ for k = 0 … 3, of four other squares, and of e times T and its
+/// Contribution of one row of pixels to the normal equations. With u the offset in radii: sums of
+/// T²uᵏ, T∂ₓT uᵏ, T∂ᵧT uᵏ and T e uᵏ for k = 0 … 3, of four other squares, and of e times T and its
 /// slopes.
 struct RowSums {
     OnGrid tt{}, tx{}, ty{}, te{}, squares{}, slopes{};
@@ -350,17 +373,16 @@ struct RowSums {
 
 }  // namespace
 
-/// A and b of A x = b for the changes of what is fitted: the gain and the modes, of which `made` is
-/// there, and the place.
+/// Normal equations A x = b for the changes of the gain, the modes and the position.
 struct AppearanceTemplate::Normal {
     static constexpr std::size_t n = 1 + modes + 2;
     std::array<std::array<double, n>, n> a{};
     std::array<double, n> b{};
     int pixels = 0;
 
-    /// Of a row at v radii; `gain` is what the slopes count.
+    /// Adds a row at height v (radii); `gain` scales the slopes.
     void add(const RowSums& s, double v, double gain) {
-        // The modes, T (1, u, v, u² − v², 2uv), are T (c₀ + c₁u + c₂u²), row by row.
+        // In each row, the modes T (1, u, v, u² − v², 2uv) are T (c₀ + c₁u + c₂u²).
         const double c[1 + modes][3] = {{1.0, 0.0, 0.0},
                                         {0.0, 1.0, 0.0},
                                         {v, 0.0, 0.0},
@@ -386,89 +408,92 @@ struct AppearanceTemplate::Normal {
         b[modes + 2] += gain * double(s.slopes[2]);
         pixels += s.pixels;
     }
-    /// b is that of the picture; what the ball as it is made explains of it is taken off.
-    void complete(const std::array<double, 1 + modes>& made) {
+    /// Fills the lower triangle of A, and subtracts the current fit from b, which holds the image.
+    void complete(const std::array<double, 1 + modes>& fitted) {
         for (std::size_t r = 0; r < n; ++r)
             for (std::size_t k = 0; k < r; ++k) a[r][k] = a[k][r];
         for (std::size_t r = 0; r < n; ++r)
-            for (std::size_t k = 0; k <= modes; ++k) b[r] -= a[r][k] * made[k];
+            for (std::size_t k = 0; k <= modes; ++k) b[r] -= a[r][k] * fitted[k];
     }
 };
 
 AppearanceTemplate::Normal AppearanceTemplate::normal(const Excess& excess, const Vec2& centre,
-                                                      std::size_t kind,
+                                                      std::size_t species,
                                                       const std::vector<NearCircle>& others,
                                                       int stride, double gain) const {
-    const Look& ball = balls_[kind];
+    const SpeciesTemplate& model = templates_[species];
     Normal sum;
-    each_row(excess, centre, kind, others, stride, [&](const Row& r) {
+    each_row(excess, centre, species, others, stride, [&](const Row& r) {
         const double y = (r.row - centre.y) / r.scale;
-        const GridRow grid(ball.grid, y);
+        const GridRow grid(model.grid, y);
         const auto shrink = static_cast<float>(1.0 / r.scale),
                    begin = static_cast<float>(r.from - centre.x),
-                   radii = static_cast<float>(1.0 / ball.radius);
+                   radii = static_cast<float>(1.0 / model.radius);
         RowSums row;
         for (int column = 0; column <= r.to - r.from; column += stride) {
             if (r.hidden[column]) continue;
             const float x = shrink * (begin + static_cast<float>(column));
             row.add(grid.at(x), radii * x, r.level[r.from + column]);
         }
-        sum.add(row, y / ball.radius, -gain / r.scale);
+        sum.add(row, y / model.radius, -gain / r.scale);
     });
     return sum;
 }
 
 AppearanceTemplate::Fit AppearanceTemplate::fit(const Excess& excess, const Vec2& centre,
-                                                std::size_t kind,
+                                                std::size_t species,
                                                 const std::vector<NearCircle>& others,
                                                 int stride) const {
     constexpr int rounds = 4;
-    constexpr double small_move = 0.1;  // pixels; what is left then is less than a tenth of it
-    const Look& ball = balls_[kind];
+    constexpr double small_move = 0.1;    // pixels; the remaining error is below a tenth of it
+    constexpr double min_visible = 0.25;  // fraction of the disc's area
+    constexpr double max_step = 0.1, max_distance = 0.4;  // radii
+    const SpeciesTemplate& model = templates_[species];
     Fit fit;
     fit.centre = centre;
-    std::array<double, 1 + modes> made{1.0};
+    std::array<double, 1 + modes> fitted{1.0};
     for (int round = 0; round < rounds; ++round) {
-        Normal system = normal(excess, fit.centre, kind, others, stride, made[0]);
-        if (double(system.pixels) * stride * stride < 0.25 * pi * ball.radius * ball.radius)
+        Normal system = normal(excess, fit.centre, species, others, stride, fitted[0]);
+        if (double(system.pixels) * stride * stride <
+            min_visible * pi * model.radius * model.radius)
             return fit;
-        system.complete(made);
+        system.complete(fitted);
         for (std::size_t k = 0; k <= modes; ++k) {
             const double varies = k == 0 ? gain_varies : mode_varies;
             const double patch = std::max(1.0, pixels_of_a_patch / (stride * stride));
             const double weight = variance_ * patch / (varies * varies);
             system.a[k][k] += weight;
-            system.b[k] += weight * ((k == 0 ? 1.0 : 0.0) - made[k]);
+            system.b[k] += weight * ((k == 0 ? 1.0 : 0.0) - fitted[k]);
         }
         if (!solve_system(system.a, system.b)) return fit;
-        for (std::size_t k = 0; k <= modes; ++k) made[k] += system.b[k];
-        const double maximum = 0.1 * ball.radius;
+        for (std::size_t k = 0; k <= modes; ++k) fitted[k] += system.b[k];
+        const double maximum = max_step * model.radius;
         const Vec2 move{std::clamp(system.b[modes + 1], -maximum, maximum),
                         std::clamp(system.b[modes + 2], -maximum, maximum)};
         fit.centre = fit.centre + move;
         if (length(move) < small_move) break;
     }
-    fit.good = length(fit.centre - centre) < 0.4 * ball.radius;
+    fit.good = length(fit.centre - centre) < max_distance * model.radius;
     return fit;
 }
 
-void AppearanceTemplate::learn_ball(const std::vector<Example>& examples,
-                                    const std::vector<Excess>& excesses,
-                                    const std::vector<std::vector<Vec2>>& places, std::size_t kind,
-                                    unsigned threads) {
-    Look& ball = balls_[kind];
-    const int half = half_of(ball.radius), side = 2 * half + 1;
+void AppearanceTemplate::learn_template(const std::vector<Example>& examples,
+                                        const std::vector<Excess>& excesses,
+                                        const std::vector<std::vector<Vec2>>& positions,
+                                        std::size_t species, unsigned threads) {
+    SpeciesTemplate& model = templates_[species];
+    const int half = half_of(model.radius), side = 2 * half + 1;
     struct Sums {
         cv::Mat level, weight;
     };
-    std::vector<Sums> sums(examples.size());  // added up in their order
+    std::vector<Sums> sums(examples.size());  // added in a fixed order, so results are reproducible
     const auto add_example = [&](std::size_t k) {
         sums[k] = {cv::Mat::zeros(side, side, CV_32F), cv::Mat::zeros(side, side, CV_32F)};
-        const std::vector<Particle> moved = at_places(examples[k].particles, places[k]);
+        const std::vector<Particle> moved = with_positions(examples[k].particles, positions[k]);
         for (const Particle& particle : moved) {
-            if (particle.kind != kind || !particle.sure) continue;
+            if (particle.species != species || !particle.sure) continue;
             const Vec2 centre = particle.centre;
-            each_pixel(excesses[k], centre, kind, sure_others(moved, particle, look_), 1,
+            each_pixel(excesses[k], centre, species, sure_others(moved, particle, appearance_), 1,
                        [&](const Vec2& x, float level, double scale) {
                            const double u = (x.x - centre.x) / (scale * step) + half,
                                         v = (x.y - centre.y) / (scale * step) + half;
@@ -489,150 +514,183 @@ void AppearanceTemplate::learn_ball(const std::vector<Example>& examples,
     parallel_for(examples.size(), add_example, threads);
     cv::Mat sum = cv::Mat::zeros(side, side, CV_32F), weight = cv::Mat::zeros(side, side, CV_32F);
     for (const Sums& s : sums) sum += s.level, weight += s.weight;
-    cv::GaussianBlur(sum, sum, {}, 0.7);
-    cv::GaussianBlur(weight, weight, {}, 0.7);
+    constexpr double blur = 0.7;        // grid points; fills gaps
+    constexpr float min_weight = 0.5f;  // of a grid point
+    cv::GaussianBlur(sum, sum, {}, blur);
+    cv::GaussianBlur(weight, weight, {}, blur);
     cv::Mat level = cv::Mat::zeros(side, side, CV_32F), along_x, along_y;
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column)
-            if (weight.at<float>(row, column) > 0.5f)
+            if (weight.at<float>(row, column) > min_weight)
                 level.at<float>(row, column) =
                     sum.at<float>(row, column) / weight.at<float>(row, column);
-    ball.squares = std::max(cv::norm(level, cv::NORM_L2SQR) * step * step, 1e-9);
+    model.squares = std::max(cv::norm(level, cv::NORM_L2SQR) * step * step, 1e-9);
     cv::Scharr(level, along_x, CV_32F, 1, 0, 1.0 / (32.0 * step));
     cv::Scharr(level, along_y, CV_32F, 0, 1, 1.0 / (32.0 * step));
-    const cv::Mat nothing = cv::Mat::zeros(level.size(), CV_32F);
-    cv::merge(std::vector<cv::Mat>{level, along_x, along_y, nothing}, ball.grid);
+    const cv::Mat padding = cv::Mat::zeros(level.size(), CV_32F);
+    cv::merge(std::vector<cv::Mat>{level, along_x, along_y, padding}, model.grid);
 }
 
-/// One round of an example: who went where by the ball as it is known.
+/// Fits all particles of one example with the current template.
 AppearanceTemplate::Moved AppearanceTemplate::moved(const Example& example, const Excess& seen,
                                                     const std::vector<Vec2>& edges,
-                                                    const std::vector<Vec2>& places) const {
-    Moved made{places, {}, {}};
-    const std::vector<Particle> particles = at_places(example.particles, places);
+                                                    const std::vector<Vec2>& positions) const {
+    constexpr double max_from_edge = 0.3;  // radii
+    Moved result{positions, {}, {}};
+    const std::vector<Particle> particles = with_positions(example.particles, positions);
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (!particles[i].sure) continue;
-        const auto others = sure_others(particles, particles[i], look_);
-        const Fit fitted = fit(seen, places[i], particles[i].kind, others);
-        if (!fitted.good || length(fitted.centre - edges[i]) > 0.3 * look_.radius()) continue;
-        made.places[i] = fitted.centre;
-        made.from_edges.push_back(fitted.centre - edges[i]);
+        const auto others = sure_others(particles, particles[i], appearance_);
+        const Fit fitted = fit(seen, positions[i], particles[i].species, others);
+        if (!fitted.good || length(fitted.centre - edges[i]) > max_from_edge * appearance_.radius())
+            continue;
+        result.positions[i] = fitted.centre;
+        result.from_edges.push_back(fitted.centre - edges[i]);
         double square = 0.0;
         std::size_t pixels = 0;
-        each_pixel(seen, fitted.centre, particles[i].kind, others, 2,
+        each_pixel(seen, fitted.centre, particles[i].species, others, 2,
                    [&](const Vec2& x, float level, double scale) {
                        const Vec2 d = (1.0 / scale) * (x - fitted.centre);
-                       const GridRow grid(balls_[particles[i].kind].grid, d.y);
-                       const auto rest = double(level - grid.at(static_cast<float>(d.x))[0]);
-                       square += rest * rest;
+                       const GridRow grid(templates_[particles[i].species].grid, d.y);
+                       const auto residual = double(level - grid.at(static_cast<float>(d.x))[0]);
+                       square += residual * residual;
                        ++pixels;
                    });
-        if (pixels > 0) made.rests.push_back(square / double(pixels));
+        if (pixels > 0) result.residuals.push_back(square / double(pixels));
     }
-    return made;
+    return result;
+}
+
+/// Sets the radius that particles reach; false if a species has too few particles.
+bool AppearanceTemplate::set_reach(const std::vector<Example>& examples) {
+    std::vector<double> reaches;
+    std::vector<std::size_t> number(appearance_.species.size(), 0);
+    for (const Example& e : examples) {
+        double reach = 0.0;
+        for (const Particle& b : e.particles) {
+            if (!b.sure) continue;
+            ++number[b.species];
+            reach = std::max(
+                reach, length(b.centre - e.rim.centre) + appearance_.species[b.species].radius);
+        }
+        if (reach > 0.0) reaches.push_back(reach);
+    }
+    if (*std::min_element(number.begin(), number.end()) < min_particles) return false;
+    reach_ = median(reaches);
+    return true;
+}
+
+/// Sets `soft_` from the typical contrast with the floor; false if that is too low.
+bool AppearanceTemplate::learn_contrast(const std::vector<Example>& examples) {
+    constexpr double inner = 0.5;         // radii: half side of the square that is sampled
+    constexpr double min_contrast = 3.0;  // grey levels
+    constexpr double soft_share = 0.38;   // of the contrast
+    std::vector<double> contrasts;
+    for (const Example& e : examples) {
+        const double of_illumination = 1.0 / illumination(e.sharp, e.rim, e.particles);
+        for (const Particle& b : e.particles) {
+            if (!b.sure) continue;
+            const int column = cvRound(b.centre.x), row = cvRound(b.centre.y);
+            const int near = static_cast<int>(inner * appearance_.species[b.species].radius);
+            for (int y = row - near; y <= row + near; y += 2)
+                for (int x = column - near; x <= column + near; x += 2) {
+                    if (x < 0 || y < 0 || x >= e.sharp.cols || y >= e.sharp.rows) continue;
+                    contrasts.push_back(appearance_.polarity *
+                                        (of_illumination * double(e.sharp.at<float>(y, x)) -
+                                         double(floor_.at<float>(y, x))));
+                }
+        }
+    }
+    if (contrasts.empty()) return false;
+    const double contrast = median(contrasts);
+    soft_ = soft_share * contrast;
+    return contrast > min_contrast;
+}
+
+/// One round: learns the templates and fits all particles with them. The mean offset from the edges
+/// is removed. None if too few fits succeed.
+std::optional<AppearanceTemplate::Positions> AppearanceTemplate::refined(
+    const std::vector<Example>& examples, const std::vector<Excess>& excesses,
+    const Positions& edges, const Positions& positions, unsigned threads) {
+    for (std::size_t species = 0; species < templates_.size(); ++species)
+        learn_template(examples, excesses, positions, species, threads);
+    std::vector<Moved> all(examples.size());
+    parallel_for(
+        examples.size(),
+        [&](std::size_t k) { all[k] = moved(examples[k], excesses[k], edges[k], positions[k]); },
+        threads);
+    std::vector<double> xs, ys, residuals;
+    for (const Moved& m : all) {
+        for (const Vec2& d : m.from_edges) xs.push_back(d.x), ys.push_back(d.y);
+        residuals.insert(residuals.end(), m.residuals.begin(), m.residuals.end());
+    }
+    if (xs.size() < min_particles) return std::nullopt;
+    const Vec2 drift{median(xs), median(ys)};
+    Positions result;
+    for (Moved& m : all) {
+        result.push_back(std::move(m.positions));
+        for (Vec2& p : result.back()) p = p - drift;
+    }
+    variance_ = median(residuals);
+    return result;
+}
+
+/// Sets the weight with the least mean square overlap; `square` is that of the edges, and then of
+/// the best weight.
+void AppearanceTemplate::choose_weight(const std::vector<Example>& examples, const Positions& edges,
+                                       const Positions& positions, double& square) {
+    for (double trial = 0.1; trial < 1.05; trial += 0.1) {
+        const double weight = std::min(trial, 1.0);
+        const double overlaps = overlap(examples, edges, positions, weight, appearance_);
+        if (overlaps < square) square = overlaps, weight_ = weight;
+    }
 }
 
 std::optional<AppearanceTemplate> AppearanceTemplate::learned(const std::vector<Example>& examples,
-                                                              const ParticleLook& look,
+                                                              const ParticleAppearance& appearance,
                                                               unsigned threads) {
     constexpr int rounds = 4;
-    constexpr double good_places = 0.05;        // pixels: edges that need no help
-    constexpr std::size_t min_particles = 150;  // of each size
-    AppearanceTemplate mean;
-    mean.look_ = look;
-    std::vector<double> reaches;
-    std::vector<std::size_t> number(look.kinds.size(), 0);
-    for (const Example& e : examples) {
-        double reach = 0.0;
-        for (const Particle& b : e.particles)
-            if (b.sure) {
-                ++number[b.kind];
-                reach =
-                    std::max(reach, length(b.centre - e.rim.centre) + look.kinds[b.kind].radius);
-            }
-        if (reach > 0.0) reaches.push_back(reach);
-    }
-    if (*std::min_element(number.begin(), number.end()) < min_particles) return std::nullopt;
-    std::vector<std::vector<Vec2>> edges;
+    constexpr double good_edges = 0.05;        // pixels: rms overlap of edges that need no help
+    constexpr double initial_variance = 0.01;  // of the squared softness
+    constexpr double required_gain = 0.7;      // of the mean square overlap; edges are faster
+    AppearanceTemplate result;
+    result.appearance_ = appearance;
+    if (!result.set_reach(examples)) return std::nullopt;
+    Positions edges;
     for (const Example& e : examples) {
         edges.emplace_back();
         for (const Particle& b : e.particles) edges.back().push_back(b.centre);
     }
-    const double alone = overlap(examples, edges, edges, 0.0, look);
-    if (alone < good_places * good_places) return std::nullopt;
-    mean.reach_ = median(reaches);
-    // The usual contrast, against what the floor seems to be.
-    mean.learn_floor(examples, threads);
-    std::vector<double> contrasts;
-    for (const Example& e : examples) {
-        const double of_illumination = 1.0 / mean.illumination(e.sharp, e.rim, e.particles);
-        for (const Particle& b : e.particles) {
-            if (!b.sure) continue;
-            const int column = cvRound(b.centre.x), row = cvRound(b.centre.y);
-            const int near = static_cast<int>(0.5 * look.kinds[b.kind].radius);
-            for (int y = -near; y <= near; y += 2)
-                for (int x = -near; x <= near; x += 2) {
-                    if (column + x < 0 || row + y < 0 || column + x >= e.sharp.cols ||
-                        row + y >= e.sharp.rows)
-                        continue;
-                    contrasts.push_back(
-                        look.polarity *
-                        (of_illumination * double(e.sharp.at<float>(row + y, column + x)) -
-                         double(mean.floor_.at<float>(row + y, column + x))));
-                }
-        }
-    }
-    if (contrasts.empty()) return std::nullopt;
-    const double contrast = median(contrasts);
-    if (!(contrast > 3.0)) return std::nullopt;
-    mean.soft_ = 0.38 * contrast;
-    for (const ParticleKind& kind : look.kinds) mean.balls_.push_back({kind.radius, 1.0, {}});
+    const double edges_alone = overlap(examples, edges, edges, 0.0, appearance);
+    if (edges_alone < good_edges * good_edges) return std::nullopt;
+    result.learn_floor(examples, threads);
+    if (!result.learn_contrast(examples)) return std::nullopt;
+    for (const ParticleSpecies& one : appearance.species)
+        result.templates_.push_back({one.radius, 1.0, {}});
 
     std::vector<Excess> excesses(examples.size());
     parallel_for(
         examples.size(),
         [&](std::size_t k) {
-            excesses[k] = mean.excess(examples[k].sharp, examples[k].rim, examples[k].particles);
+            excesses[k] = result.excess(examples[k].sharp, examples[k].rim, examples[k].particles);
         },
         threads);
-    std::vector<std::vector<Vec2>> places = edges;
-    mean.variance_ = 0.01 * mean.soft_ * mean.soft_;
+    Positions positions = edges;
+    result.variance_ = initial_variance * result.soft_ * result.soft_;
     for (int round = 0; round < rounds; ++round) {
-        for (std::size_t kind = 0; kind < look.kinds.size(); ++kind)
-            mean.learn_ball(examples, excesses, places, kind, threads);
-        std::vector<Moved> moved(examples.size());
-        parallel_for(
-            examples.size(),
-            [&](std::size_t k) {
-                moved[k] = mean.moved(examples[k], excesses[k], edges[k], places[k]);
-            },
-            threads);
-        std::vector<double> xs, ys, rests;
-        for (const Moved& m : moved) {
-            for (const Vec2& d : m.from_edges) xs.push_back(d.x), ys.push_back(d.y);
-            rests.insert(rests.end(), m.rests.begin(), m.rests.end());
-        }
-        if (xs.size() < min_particles) return std::nullopt;
-        const Vec2 drift{median(xs), median(ys)};
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            places[k] = std::move(moved[k].places);
-            for (Vec2& p : places[k]) p = p - drift;
-        }
-        mean.variance_ = median(rests);
+        auto next = result.refined(examples, excesses, edges, positions, threads);
+        if (!next) return std::nullopt;
+        positions = std::move(*next);
     }
-    for (std::size_t kind = 0; kind < look.kinds.size(); ++kind)
-        mean.learn_ball(examples, excesses, places, kind, threads);
-    double best = alone;
-    for (double counts = 0.1; counts < 1.05; counts += 0.1) {
-        const double square = overlap(examples, edges, places, std::min(counts, 1.0), look);
-        if (square < best) best = square, mean.counts_ = std::min(counts, 1.0);
-    }
-    // Who gains little is left with the edges, which are quicker.
-    if (best > 0.7 * alone) return std::nullopt;
-    // Half of the pairs seem too near, so a distance errs by √2 of that, and a place by 1/√2 of
-    // this.
-    mean.error_ = std::sqrt(best);
-    return mean;
+    for (std::size_t species = 0; species < appearance.species.size(); ++species)
+        result.learn_template(examples, excesses, positions, species, threads);
+    double square = edges_alone;
+    result.choose_weight(examples, edges, positions, square);
+    if (square > required_gain * edges_alone) return std::nullopt;
+    // Half of the pairs overlap, so a distance errs by √2 of the rms overlap, and a position by
+    // 1/√2 of that.
+    result.error_ = std::sqrt(square);
+    return result;
 }
 
 }  // namespace swirl

@@ -1,21 +1,26 @@
-// Discs by what they look like on the mean, for films whose edges are too poor.
+// Detects and locates discs by their mean appearance, for videos whose edges are too poor.
 //
-// A ball of low contrast has patches as dark as the floor, and compression smears what is left of
-// its edge; circles through edges (circles.hpp) then lean towards the bright side, by a pixel. What
-// all balls of a film have in common is known much better than a single one: with F the floor (of
-// each pixel the median over the pictures in which nobody is there), λ the lamp of the picture,
+// A sphere of low contrast has dark patches of texture, and compression smears the rest of its
+// edge. Circles fitted to edges (circles.hpp) are then displaced towards the bright side, by up to
+// a pixel. The common appearance of all spheres of a video is known much better than a single
+// edge. With F the floor (for each pixel the median over frames in which no disc covers it) and λ
+// the illumination of the frame,
 //
-//     e(x) = s tanh((I(x)/λ − F(x)) / s)         the excess, ± for dark discs
+//     e(x) = s tanh((I(x)/λ − F(x)) / s)         the excess; its sign is reversed for dark discs
 //
-// says ball or floor, and little about the texture, s being a third or so of the usual contrast.
-// Its mean about the discs' places, T, is compared with each: e(x) ≈ T(x − p)(g + modes), four
-// modes of second order for shading and texture with a narrow prior, p by Gauss–Newton; neighbours
-// and the wall are left out. T is learned on the survey's pictures in a few rounds from the places
-// of the edges, whose common offset is kept: of its own the mean has none.
+// separates disc from floor and suppresses texture; s is about a third of the typical contrast.
+// The template T is the mean excess about the disc centres. Each disc is fitted by
+// e(x) ≈ T(x − p)(g + modes): the gain g and four modes of second order model shading and texture,
+// with a narrow prior. Gauss–Newton gives the position p; pixels of neighbours and of the wall are
+// omitted. T is learned from the survey frames in a few rounds, from the positions given by edges.
+// Their mean offset is kept, because T itself does not define a centre.
 //
-// Both places err independently, so a mean of them is better than either. How much each counts is
-// told by the film: hard discs do not lie in each other, and that share is taken with which they do
-// least. Sharp films are left to the edges.
+// The errors of both positions are independent, so their weighted mean is better than either. The
+// weight minimises the overlaps of hard discs. Videos whose edges suffice do not use the template.
+//
+// Videos that need it: bright textured discs of 12 to 14 pixels radius, strong lens distortion, or
+// low contrast. Without it the position error of 10 of 23 test videos grows by 29 to 145 %
+// (bench/results/appearance_template.md).
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -26,28 +31,31 @@
 
 namespace swirl {
 
-/// The sure ones that hide some of what is looked at of another, but for itself.
+/// The sure particles other than `self` that may cover pixels of it or of its surroundings.
 std::vector<NearCircle> sure_others(const std::vector<Particle>& all, const Particle& self,
-                                    const ParticleLook& look);
+                                    const ParticleAppearance& appearance);
 
 class AppearanceTemplate {
   public:
-    /// A picture of the survey and what was found in it by the edges.
+    /// A survey frame and the particles that edges gave.
     struct Example {
         cv::Mat sharp;
         CircleFit rim;
         std::vector<Particle> particles;
     };
-    /// Nothing where the examples are too few, or the edges do as well alone.
+    /// None if there are too few examples, or if edges alone are about as good.
     static std::optional<AppearanceTemplate> learned(const std::vector<Example>& examples,
-                                                     const ParticleLook& look, unsigned threads);
+                                                     const ParticleAppearance& appearance,
+                                                     unsigned threads);
 
-    double counts() const { return counts_; }  // against the edges, 0 … 1
-    double error() const { return error_; }    // of a coordinate, from overlaps that cannot be
+    /// Weight of the template's position in the mean with the edge's: 0 to 1.
+    double weight() const { return weight_; }
+    /// Standard error per coordinate, pixels; from the overlaps of hard discs.
+    double error() const { return error_; }
 
-    /// A picture as excess, of which there is none outside of the dish.
+    /// The excess of a frame; `nowhere` outside the container.
     struct Excess {
-        cv::Mat level;  // floats; `nowhere` outside
+        cv::Mat level;  // CV_32F
         Vec2 container;
     };
     Excess excess(const cv::Mat& sharp, const CircleFit& rim,
@@ -57,36 +65,47 @@ class AppearanceTemplate {
         Vec2 centre;
         bool good = false;
     };
-    Fit fit(const Excess& excess, const Vec2& centre, std::size_t kind,
+    Fit fit(const Excess& excess, const Vec2& centre, std::size_t species,
             const std::vector<NearCircle>& others, int stride = 1) const;
-    /// 1 less the share of the mean ball's squares by which the picture differs from it: 1 is a
-    /// ball, 0 the floor. With every `stride`th pixel of every `stride`th row.
-    double score(const Excess& excess, const Vec2& centre, std::size_t kind,
+    /// One minus the squared deviation from the template relative to its square: 1 for a disc, 0
+    /// for floor. Uses every `stride`th pixel of every `stride`th row.
+    double score(const Excess& excess, const Vec2& centre, std::size_t species,
                  const std::vector<NearCircle>& others, int stride) const;
     double soft() const { return soft_; }
-    /// Whether a ball there would lie in the dish.
-    bool inside(const Excess& excess, const Vec2& centre, std::size_t kind) const;
-    double excess_at(const Excess& excess, const Vec2& place) const;
+    /// Whether a disc with that centre lies within the container.
+    bool inside(const Excess& excess, const Vec2& centre, std::size_t species) const;
+    double excess_at(const Excess& excess, const Vec2& position) const;
 
   private:
     AppearanceTemplate() = default;
+    using Positions = std::vector<std::vector<Vec2>>;  // of each particle of each example
+
+    bool set_reach(const std::vector<Example>& examples);
+    bool learn_contrast(const std::vector<Example>& examples);
     void learn_floor(const std::vector<Example>& examples, unsigned threads);
-    void learn_ball(const std::vector<Example>& examples, const std::vector<Excess>& excesses,
-                    const std::vector<std::vector<Vec2>>& places, std::size_t kind,
-                    unsigned threads);
+    cv::Mat median_floor(const std::vector<Example>& examples, unsigned threads,
+                         cv::Mat& known) const;
+    void learn_template(const std::vector<Example>& examples, const std::vector<Excess>& excesses,
+                        const Positions& positions, std::size_t species, unsigned threads);
+    std::optional<Positions> refined(const std::vector<Example>& examples,
+                                     const std::vector<Excess>& excesses, const Positions& edges,
+                                     const Positions& positions, unsigned threads);
+    void choose_weight(const std::vector<Example>& examples, const Positions& edges,
+                       const Positions& positions, double& square);
+    /// Positions after one round of fits.
     struct Moved {
-        std::vector<Vec2> places, from_edges;
-        std::vector<double> rests;  // mean squares of what the ball leaves
+        std::vector<Vec2> positions, from_edges;
+        std::vector<double> residuals;  // mean squares
     };
     Moved moved(const Example& example, const Excess& seen, const std::vector<Vec2>& edges,
-                const std::vector<Vec2>& places) const;
+                const std::vector<Vec2>& positions) const;
     double illumination(const cv::Mat& sharp, const CircleFit& rim,
                         const std::vector<Particle>& particles) const;
     cv::Mat free_floor(const cv::Size& size, const CircleFit& rim,
                        const std::vector<Particle>& particles) const;
 
-    /// A row of the pixels that a ball covers, from column `from` to `to`: `hidden` counts from
-    /// `from`, `level` from the picture's edge.
+    /// The pixels of a disc in one row, from column `from` to `to`. `hidden` starts at `from`,
+    /// `level` at the image's edge.
     struct Row {
         int row, from, to;
         const float* level;
@@ -94,23 +113,23 @@ class AppearanceTemplate {
         double scale;
     };
     template <typename Use>
-    void each_row(const Excess& excess, const Vec2& centre, std::size_t kind,
+    void each_row(const Excess& excess, const Vec2& centre, std::size_t species,
                   const std::vector<NearCircle>& others, int stride, Use&& use) const;
     struct Normal;
-    Normal normal(const Excess& excess, const Vec2& centre, std::size_t kind,
+    Normal normal(const Excess& excess, const Vec2& centre, std::size_t species,
                   const std::vector<NearCircle>& others, int stride, double gain) const;
     template <typename Use>
-    void each_pixel(const Excess& excess, const Vec2& centre, std::size_t kind,
+    void each_pixel(const Excess& excess, const Vec2& centre, std::size_t species,
                     const std::vector<NearCircle>& others, int stride, Use&& use) const;
 
-    struct Look {  // of a kind
+    struct SpeciesTemplate {
         double radius = 0.0, squares = 1.0;
-        cv::Mat grid;  // T, its slopes, and nothing, floats
+        cv::Mat grid;  // T, ∂ₓT, ∂ᵧT and 0, floats
     };
-    ParticleLook look_;
+    ParticleAppearance appearance_;
     cv::Mat floor_;
-    std::vector<Look> balls_;
-    double reach_ = 0.0, soft_ = 0.0, variance_ = 0.0, counts_ = 0.0, error_ = 0.0;
+    std::vector<SpeciesTemplate> templates_;
+    double reach_ = 0.0, soft_ = 0.0, variance_ = 0.0, weight_ = 0.0, error_ = 0.0;
 };
 
 }  // namespace swirl

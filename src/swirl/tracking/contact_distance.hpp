@@ -1,20 +1,20 @@
-// Where hard discs stop each other, from distances that err.
+// The contact distance of hard discs, from distances with errors.
 //
-// The gaps of neighbours in a crowd begin at nothing, where they are commonest, and fall off about
-// exponentially. Seen with normal errors their distances are spread as
+// The gaps between neighbours in a crowd are most frequent at zero and fall off about
+// exponentially. With normal errors the distances d are distributed as
 //
 //     f(d) = w EMG(d; contact, σ, λ) + (1 − w) (d > contact) / (farthest − contact)
 //
-// with EMG a normal deviate plus an exponential one. The four numbers that make a histogram of the
-// distances likeliest tell the distance of contact better than a single place is known, and the
-// error of a distance as well. The wall stops discs in the same way: take the distances from the
-// dish's centre negative.
+// where EMG is the distribution of the sum of a normal and an exponential deviate. Maximum
+// likelihood of a histogram gives the contact distance more accurately than single positions, and
+// the error σ of a distance. The wall stops discs in the same way: use negative distances from the
+// container's centre.
 //
-// Then discs are moved to where they are to be expected, hard as they are. Of a pair alone, whose
-// gap was seen as g with an error s, that is g + s h(g/s), h(x) = φ(x)/Φ(x): nothing where they are
-// far from each other, and a little out of contact where they seem to lie in each other. In a crowd
-// every gap is what all others leave of it, and round for round each gets its share; the wall acts
-// as a disc that does not move. Where errors are small nothing is moved.
+// The positions of hard discs are then replaced by their expectations. A single pair with measured
+// gap g and error s has the expected gap g + s h(g/s) with h(x) = φ(x)/Φ(x). That changes nothing
+// if the discs are far apart, and moves overlapping discs slightly out of contact. In a crowd, each
+// gap is corrected iteratively given all others; the wall acts as a disc that does not move. Small
+// errors give small corrections.
 #pragma once
 
 #include <optional>
@@ -26,34 +26,35 @@
 namespace swirl {
 
 struct Contact {
-    double at = 0.0;     // the distance of contact
-    double error = 0.0;  // standard deviation of a distance
-    double worth = 0.0;  // logarithm of the likelihood, by distance
+    double at = 0.0;              // the contact distance
+    double error = 0.0;           // standard deviation of a distance
+    double log_likelihood = 0.0;  // mean per distance
 };
-/// From the distances between `nearest` and `farthest`; nothing where they do not tell.
+/// Uses distances between `nearest` and `farthest`; none if they do not determine the contact.
 std::optional<Contact> contact_of(const std::vector<double>& distances, double nearest,
                                   double farthest);
 
-/// Two discs that were seen near each other in one picture.
-struct SeenPair {
+/// Two neighbouring discs of one frame.
+struct DiscPair {
     Vec2 one, other;
-    double radii;  // their sum
+    double radii;  // sum
 };
-/// The distortion with which discs in contact are equally far apart all over the dish.
+/// The lens distortion for which the contact distance is uniform over the image.
 struct Distortion {
     double k = 0.0, error = 0.0;
 };
-std::optional<Distortion> distortion_of(const std::vector<SeenPair>& pairs, const Vec2& middle,
+std::optional<Distortion> distortion_of(const std::vector<DiscPair>& pairs, const Vec2& middle,
                                         double half);
 
-/// What is moved apart.
+/// A disc with the error of its position.
 struct HardDisc {
     Vec2 centre{0.0, 0.0};
-    double variance = 1.0;  // of a coordinate
+    double variance = 1.0;  // per coordinate
     double radius = 1.0;
-    double reach = 1e300;  // from the dish's centre, where the wall stops it
+    double reach = 1e300;  // largest distance from the container's centre, at the wall
 };
-/// `closest`: of the sum of radii, at contact.
+/// Moves discs to their expected positions. `closest`: contact distance relative to the sum of
+/// radii.
 void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& container);
 
 }  // namespace swirl

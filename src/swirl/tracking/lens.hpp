@@ -1,28 +1,33 @@
-// What a lens and a tilted camera do to circles, and how to undo it.
+// The effect of a lens and a tilted camera on circles, and its correction.
 //
-// Radial distortion of one term about the middle of the picture: with q the place of a pixel
-// relative to it in half heights, what is seen there lies at q (1 + k |q|²) in an ideal picture;
-// k > 0 is a barrel, as wide lenses have it. A small circle at q then appears smaller by 1/(1 +
-// kq²) across and by 1/(1 + 3kq²) along q, 1 − 2kq² on the average: that is how k is found, from
-// the apparent sizes of equal balls all over the dish. The rim is one large circle whose middle
-// moves little, and says much less. A ball that is seen at an angle ψ to the camera's axis looks
-// longer by 1/cos ψ away from it, larger by 1 + ψ²/4 on the average, which hides a k of tan²(v/2)/8
-// with v the view angle of the picture's height; with v not known k is too small by that. Shade
-// does the same: balls that are lit from one side look smaller where the wall is dark. Discs in
-// contact know nothing of it (contact.hpp): where they tell a distortion, sizes count only as far
-// as balls of so few pixels can be trusted, and not at all where the two contradict each other.
+// Radial distortion has one term about the centre of the image. With q the position of a pixel
+// relative to that centre, in half heights of the image, an ideal camera would show the same point
+// at q (1 + k |q|²); k > 0 is a barrel distortion, as wide lenses have it.
 //
-// A camera whose axis leans by θ sees what lies in the plane of the discs at P, in pixels relative
-// to the middle, at
+// k from sizes: a small circle at q appears smaller by 1/(1 + kq²) across q and by 1/(1 + 3kq²)
+// along q, on average by 1 − 2kq². The apparent sizes of equal balls all over the container thus
+// give k. The rim is one large circle whose centre moves little, and determines k much worse.
+//
+// Two effects bias these sizes. A ball seen at an angle ψ to the camera's axis looks longer by
+// 1/cos ψ away from the axis, larger by 1 + ψ²/4 on average. This hides a k of tan²(v/2)/8, with v
+// the view angle of the image's height; if v is unknown, k is too small by that. And balls that are
+// lit from one side look smaller where the wall is dark.
+//
+// k from contacts: distances of discs in contact have neither bias (contact_distance.hpp). If they
+// determine k, sizes have the weight that the resolution of such balls permits, and none at all if
+// the two contradict each other.
+//
+// Tilt: a camera whose axis is tilted by θ sees a point P of the plane of the discs (pixels,
+// relative to the image centre) at
 //
 //     q = S P / (1 + p·P)
 //
-// with S a squeeze by e = 1 − cos θ along the lean and p of length sin θ / F along it, F the focal
+// with S a squeeze by e = 1 − cos θ along the tilt and p of length sin θ / F along it, F the focal
 // length in pixels (tilt.hpp finds both).
 //
-// The middle of a circle's image is not the image of its middle (for the rim of a dish that differs
-// by 2kR² of its distance from the middle of the picture, and by pR²): ideal(Circle) undoes that as
-// well.
+// The centre of a circle's image is not the image of its centre: for the rim of a container of
+// radius R they differ by 2kR² times its distance from the image centre, and by pR².
+// ideal(Circle) corrects that, too.
 #pragma once
 
 #include <vector>
@@ -32,43 +37,43 @@
 namespace swirl {
 
 struct Lens {
-    Vec2 middle{0.0, 0.0};
-    double half = 1.0;  // of the height, pixels
+    Vec2 image_centre{0.0, 0.0};
+    double half_height = 1.0;  // of the image, pixels
     double k = 0.0, k_error = 0.0;
-    // As sizes say it, whatever the error: k, and a perspective with its error.
-    double apparent_k = 0.0, apparent_k_error = 0.0;
-    double ball = 0.0;  // radius of the balls whose sizes these are, pixels
-    // As distances of discs in contact say it; without an error: they do not.
-    double contact_k = 0.0, contact_error = 0.0;
-    Vec2 apparent_perspective{0.0, 0.0};
-    double apparent_error = 0.0;
-    double nearness = 0.0;       // 1/F, per pixel; 0: not known
-    Vec2 squeeze{0.0, 0.0};      // e (cos 2ε, sin 2ε), ε its direction, y down
-    Vec2 perspective{0.0, 0.0};  // p, per pixel
+    // From sizes, even if they do not stand out from their errors.
+    double size_k = 0.0, size_k_error = 0.0;
+    Vec2 size_perspective{0.0, 0.0};
+    double size_perspective_error = 0.0;
+    double ball_radius = 0.0;  // of the balls that were measured, pixels
+    // From discs in contact; an error of 0: not determined.
+    double contact_k = 0.0, contact_k_error = 0.0;
+    double inverse_focal_length = 0.0;  // 1/F, per pixel; 0: unknown
+    Vec2 squeeze{0.0, 0.0};             // e (cos 2ε, sin 2ε), ε its direction, y down
+    Vec2 perspective{0.0, 0.0};         // p, per pixel
 
     bool tilted() const { return dot(squeeze, squeeze) + dot(perspective, perspective) > 0.0; }
+    /// Position in the image of an ideal camera that looks straight down.
     Vec2 ideal(const Vec2& seen) const;
     Vec2 seen(const Vec2& ideal) const;
-    /// Of a circle of which the image was fitted by one.
     struct Circle {
         Vec2 centre{0.0, 0.0};
         double radius = 0.0;
     };
+    /// The circle whose image `seen` fits.
     Circle ideal(const Circle& seen) const;
-    /// The circle that fits the image of one.
+    /// The circle that fits the image of `ideal`.
     Circle image(const Circle& ideal) const;
-    /// k from sizes and nearness, and from contacts: 0 where it does not stand out from its error.
-    void settle_distortion();
-    /// How large a ball of that radius appears there.
+    /// Sets k and k_error from sizes and contacts; k is 0 if it does not stand out from its error.
+    void combine_distortions();
+    /// Apparent radius of a ball of this radius.
     double seen_radius(const Vec2& seen, double radius) const;
 };
 
-/// A small circle that was seen: where, and how large compared with others of its kind.
-struct SeenSize {
+struct ApparentSize {
     Vec2 centre;
-    double size;
+    double size;  // radius, relative to that of its species
 };
-/// k from sizes.
-Lens lens_of(const std::vector<SeenSize>& sizes, const Vec2& middle, double half);
+/// Determines size_k, size_perspective and their errors, and k from them.
+Lens fit_lens(const std::vector<ApparentSize>& sizes, const Vec2& image_centre, double half_height);
 
 }  // namespace swirl

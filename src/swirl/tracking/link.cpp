@@ -14,27 +14,28 @@ namespace {
 
 double square(const Vec2& v) { return dot(v, v); }
 
-Vec2 turned_by(const Vec2& v, double angle) {
+Vec2 rotated(const Vec2& v, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-constexpr int ways = 6;  // straight on in three frames, at rest in two of them, with the flow
-constexpr double unsure_costs = 0.25;  // of the squared gate
+constexpr int predictions = 6;           // uniform in three frames, at rest in two, with neighbours
+constexpr double unsure_penalty = 0.25;  // of the squared gate
+constexpr double forgetting = 0.25;      // weight of the latest error of a prediction
 
 /// Whether a pair of this cost may be assigned. The bound keeps sums of costs finite.
 bool is_allowed(double cost) { return std::abs(cost) <= 1e100; }
 
 struct Track {
-    std::size_t kind = 0;
-    Vec2 place{0.0, 0.0}, before{0.0, 0.0};  // the last two, in the lab
+    std::size_t species = 0;
+    Vec2 position{0.0, 0.0}, before{0.0, 0.0};  // the last two, in the lab
     double time = 0.0, time_before = 0.0;
-    int seen = 0;     // at how many times, up to 2
-    int missed = 0;   // pictures in a row
-    int doubted = 0;  // the same, or seen only as something that is not sure
-    std::array<double, ways> misses{1.0, 1.0, 1.0,
-                                    1.0, 1.0, 1.0};  // mean squared error of each way, in radii
-    std::array<Vec2, ways> expected{};
+    int seen = 0;     // number of positions since a jump, up to 2
+    int missed = 0;   // frames in a row
+    int doubted = 0;  // frames in a row in which it was missed or not sure
+    std::array<double, predictions> errors{
+        1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  // mean squared error of each prediction, radii²
+    std::array<Vec2, predictions> expected{};
 };
 
 class Linker {
@@ -42,111 +43,112 @@ class Linker {
     Linker(const TrackedPath& path, const LinkSettings& settings)
         : path_(path), settings_(settings) {}
 
-    /// A place as the three observers have it, and back.
-    Vec2 seen_by(int way, const Vec2& place, double time) const {
-        if (way == 0) return place;
-        const Vec2 d = place - path_.at(time);
-        // Angles count counter-clockwise with y up; in pixels, y down, a turn has the other sign.
-        return way == 1 ? d : turned_by(d, path_.angle(time));
+    /// Transforms a lab position to frame 0 (lab), 1 (container) or 2 (M-frame), and back.
+    Vec2 to_frame(int frame, const Vec2& position, double time) const {
+        if (frame == 0) return position;
+        const Vec2 d = position - path_.at(time);
+        // Angles are counter-clockwise with y up; y down reverses the sign of a rotation.
+        return frame == 1 ? d : rotated(d, path_.angle(time));
     }
-    Vec2 in_lab(int way, const Vec2& p, double time) const {
-        if (way == 0) return p;
-        return path_.at(time) + (way == 1 ? p : turned_by(p, -path_.angle(time)));
+    Vec2 to_lab(int frame, const Vec2& p, double time) const {
+        if (frame == 0) return p;
+        return path_.at(time) + (frame == 1 ? p : rotated(p, -path_.angle(time)));
     }
 
-    std::vector<int> step(const std::vector<SeenDisc>& discs, double time);
+    std::vector<int> step(const std::vector<DetectedDisc>& discs, double time);
     std::vector<Track> tracks;
     std::uint64_t rejected = 0;
 
   private:
-    Vec2 flow_at(const Vec2& place, double time_from, double time_to) const;
+    Vec2 flow_at(const Vec2& position, double time_from, double time_to) const;
     Vec2 expect(Track& track, double time) const;
-    double first_turn(const std::vector<SeenDisc>& discs, double time) const;
-    void assign(std::size_t kind, const std::vector<SeenDisc>& discs,
+    double first_turn(const std::vector<DetectedDisc>& discs, double time) const;
+    void assign(std::size_t species, const std::vector<DetectedDisc>& discs,
                 const std::vector<Vec2>& expected, std::vector<int>& of) const;
-    void take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<Vec2>& expected,
-                      std::vector<int>& of);
-    /// Where as many are sure as there are, nothing else is one.
-    bool all_are_sure(const std::vector<SeenDisc>& discs, std::size_t kind) const {
+    void resume_lost(const std::vector<DetectedDisc>& discs, const std::vector<Vec2>& expected,
+                     std::vector<int>& of);
+    /// Whether there are as many sure detections as discs; then the others are not discs.
+    bool all_are_sure(const std::vector<DetectedDisc>& discs, std::size_t species) const {
         if (settings_.numbers.empty()) return false;
         const auto sure = static_cast<std::size_t>(
             std::count_if(discs.begin(), discs.end(),
-                          [&](const SeenDisc& d) { return d.sure && d.kind == kind; }));
-        return sure >= settings_.numbers[kind];
+                          [&](const DetectedDisc& d) { return d.sure && d.species == species; }));
+        return sure >= settings_.numbers[species];
     }
-    bool may_be_born(std::size_t kind) const {
+    bool may_start_track(std::size_t species) const {
         if (settings_.numbers.empty()) return true;
         const auto there = static_cast<std::size_t>(std::count_if(
-            tracks.begin(), tracks.end(), [&](const Track& t) { return t.kind == kind; }));
-        return there < settings_.numbers[kind];
+            tracks.begin(), tracks.end(), [&](const Track& t) { return t.species == species; }));
+        return there < settings_.numbers[species];
     }
 
     const TrackedPath& path_;
     const LinkSettings& settings_;
     double last_time_ = 0.0;
     int steps_ = 0;
-    double turn_ = 0.0;  // of all discs about C in the first step
+    double turn_ = 0.0;  // of all discs about the container's centre in the first step
 };
 
-/// How the discs nearby moved relative to the dish in the last step that is known, as a place at
-/// `time_to` of somebody who was at `place`.
-Vec2 Linker::flow_at(const Vec2& place, double time_from, double time_to) const {
+/// Position at `time_to` of a disc at `position` that moves relative to the container like the
+/// discs nearby did in the last step.
+Vec2 Linker::flow_at(const Vec2& position, double time_from, double time_to) const {
     Vec2 sum{0.0, 0.0};
     double weights = 0.0;
     const double near = 3.0 * settings_.radii.front();
     for (const Track& t : tracks) {
         if (t.seen < 2 || t.missed > 0) continue;
-        const Vec2 move = seen_by(1, t.place, t.time) - seen_by(1, t.before, t.time_before);
-        const double w = std::exp(-square(t.place - place) / (2.0 * near * near)) + 1e-9;
+        const Vec2 move = to_frame(1, t.position, t.time) - to_frame(1, t.before, t.time_before);
+        const double w = std::exp(-square(t.position - position) / (2.0 * near * near)) + 1e-9;
         sum = sum + (w / (t.time - t.time_before)) * move;
         weights += w;
     }
-    Vec2 at_container = seen_by(1, place, time_from);
+    Vec2 at_container = to_frame(1, position, time_from);
     if (weights > 0.0) at_container = at_container + ((time_to - time_from) / weights) * sum;
-    return in_lab(1, at_container, time_to);
+    return to_lab(1, at_container, time_to);
 }
 
 Vec2 Linker::expect(Track& track, double time) const {
     if (track.seen < 2 || track.missed > 0) {
-        const Vec2 there = flow_at(track.place, track.time, time);
+        const Vec2 there = flow_at(track.position, track.time, time);
         track.expected.fill(there);
         return there;
     }
     const double ahead = (time - track.time) / (track.time - track.time_before);
     Vec2 sum{0.0, 0.0};
     double weights = 0.0;
-    for (int way = 0; way < ways; ++way) {
+    for (int way = 0; way < predictions; ++way) {
         const auto k = static_cast<std::size_t>(way);
-        if (way == ways - 1) {
-            track.expected[k] = flow_at(track.place, track.time, time);
+        if (way == predictions - 1) {
+            track.expected[k] = flow_at(track.position, track.time, time);
         } else {
             const int frame = way < 3 ? way : way - 2;
-            const Vec2 last = seen_by(frame, track.place, track.time),
-                       before = seen_by(frame, track.before, track.time_before);
+            const Vec2 last = to_frame(frame, track.position, track.time),
+                       before = to_frame(frame, track.before, track.time_before);
             const double forward = way < 3 ? ahead : 0.0;
-            track.expected[k] = in_lab(frame, last + forward * (last - before), time);
+            track.expected[k] = to_lab(frame, last + forward * (last - before), time);
         }
-        const double w = 1.0 / std::pow(track.misses[k] + 1e-4, 2.0);
+        const double w = 1.0 / std::pow(track.errors[k] + 1e-4, 2.0);
         sum = sum + w * track.expected[k];
         weights += w;
     }
     return (1.0 / weights) * sum;
 }
 
-/// By which angle about C, in the dish's frame, the first picture's discs come to lie on the
-/// second's.
-double Linker::first_turn(const std::vector<SeenDisc>& discs, double time) const {
+/// The rotation about the container's centre, in its frame, that best maps the discs of the first
+/// image to those of the second.
+double Linker::first_turn(const std::vector<DetectedDisc>& discs, double time) const {
     const double step = path_.omega * (time - last_time_);
     double best = std::numeric_limits<double>::infinity(), turn = 0.0;
     for (int k = -40; k <= 80; ++k) {
         const double angle = (path_.clockwise ? 1.0 : -1.0) * step * k / 50.0;
         double sum = 0.0;
         for (const Track& t : tracks) {
-            const Vec2 p = in_lab(1, turned_by(seen_by(1, t.place, t.time), angle), time);
-            const double gate = 0.6 * settings_.radii[t.kind];
+            const Vec2 p = to_lab(1, rotated(to_frame(1, t.position, t.time), angle), time);
+            const double gate = 0.6 * settings_.radii[t.species];
             double nearest = gate * gate;
-            for (const SeenDisc& d : discs)
-                if (d.sure && d.kind == t.kind) nearest = std::min(nearest, square(d.place - p));
+            for (const DetectedDisc& d : discs)
+                if (d.sure && d.species == t.species)
+                    nearest = std::min(nearest, square(d.position - p));
             sum += nearest;
         }
         if (sum < best) best = sum, turn = angle;
@@ -154,43 +156,44 @@ double Linker::first_turn(const std::vector<SeenDisc>& discs, double time) const
     return turn;
 }
 
-/// Of one kind, so that the sum is least. Where as many are sure as there are, each is somebody: no
-/// gate, and who leapt farther than that did not leap at the cost of two others. Otherwise squares
-/// within a gate.
-void Linker::assign(std::size_t kind, const std::vector<SeenDisc>& discs,
+/// Assigns detections of one species to tracks with minimal cost. With as many sure detections as
+/// discs, each belongs to a track: there is no gate, and costs grow linearly beyond it, so that one
+/// long jump does not displace two other discs. Otherwise costs are squares within a gate.
+void Linker::assign(std::size_t species, const std::vector<DetectedDisc>& discs,
                     const std::vector<Vec2>& expected, std::vector<int>& of) const {
-    const bool complete = all_are_sure(discs, kind);
+    const bool complete = all_are_sure(discs, species);
     std::vector<std::size_t> rows, columns;
     for (std::size_t t = 0; t < tracks.size(); ++t)
-        if (tracks[t].kind == kind) rows.push_back(t);
+        if (tracks[t].species == species) rows.push_back(t);
     for (std::size_t d = 0; d < discs.size(); ++d)
-        if (discs[d].kind == kind && (discs[d].sure || !complete)) columns.push_back(d);
+        if (discs[d].species == species && (discs[d].sure || !complete)) columns.push_back(d);
     if (rows.empty() || columns.empty()) return;
-    const double nobody = complete ? 1e6 : 1.0;
-    std::vector<std::vector<double>> cost(rows.size(), std::vector<double>(columns.size(), nobody));
+    const double unassigned = complete ? 1e6 : 1.0;
+    std::vector<std::vector<double>> cost(rows.size(),
+                                          std::vector<double>(columns.size(), unassigned));
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const Track& t = tracks[rows[r]];
-        const double gate = settings_.radii[kind] *
+        const double gate = settings_.radii[species] *
                             std::min(settings_.gate + 0.15 * t.missed, 1.6 * settings_.gate);
         for (std::size_t c = 0; c < columns.size(); ++c) {
-            const SeenDisc& disc = discs[columns[c]];
-            const double q = square(disc.place - expected[rows[r]]) / (gate * gate);
+            const DetectedDisc& disc = discs[columns[c]];
+            const double q = square(disc.position - expected[rows[r]]) / (gate * gate);
             if (complete)
                 cost[r][c] = q < 1.0 ? q : 2.0 * std::sqrt(q) - 1.0;
             else if (q < 1.0)
-                cost[r][c] = std::min(0.999, q + (disc.sure ? 0.0 : unsure_costs));
+                cost[r][c] = std::min(0.999, q + (disc.sure ? 0.0 : unsure_penalty));
         }
     }
-    const std::vector<int> column = best_assignment(cost, settings_.listen);
+    const std::vector<int> column = best_assignment(cost, settings_.throw_if_stopped);
     for (std::size_t r = 0; r < rows.size(); ++r)
-        if (column[r] >= 0 && cost[r][static_cast<std::size_t>(column[r])] < nobody)
+        if (column[r] >= 0 && cost[r][static_cast<std::size_t>(column[r])] < unassigned)
             of[columns[static_cast<std::size_t>(column[r])]] = static_cast<int>(rows[r]);
 }
 
-/// Circles that nobody explains are those who were lost, or who went astray to something that is no
-/// disc: again such that the sum of squares is least, within a reach that grows with the time.
-void Linker::take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<Vec2>& expected,
-                          std::vector<int>& of) {
+/// Assigns unexplained sure detections to tracks that were lost or that follow something that is
+/// not a disc. Minimises the sum of squares within a reach that grows with time.
+void Linker::resume_lost(const std::vector<DetectedDisc>& discs, const std::vector<Vec2>& expected,
+                         std::vector<int>& of) {
     std::vector<std::size_t> free_discs, free_tracks;
     std::vector<int> disc_of(tracks.size(), -1);
     for (std::size_t d = 0; d < discs.size(); ++d)
@@ -205,60 +208,60 @@ void Linker::take_up_lost(const std::vector<SeenDisc>& discs, const std::vector<
             free_tracks.push_back(t);
     if (free_discs.empty() || free_tracks.empty()) return;
     constexpr double out_of_reach = 1e6;
+    constexpr double reach_growth = 0.4;  // radii per frame
     std::vector<std::vector<double>> cost(free_tracks.size(),
                                           std::vector<double>(free_discs.size(), out_of_reach));
     for (std::size_t r = 0; r < free_tracks.size(); ++r) {
         const Track& t = tracks[free_tracks[r]];
         for (std::size_t c = 0; c < free_discs.size(); ++c) {
-            const SeenDisc& disc = discs[free_discs[c]];
-            const double radius = settings_.radii[t.kind];
-            const double reach = radius * (1.0 + 0.4 * t.doubted);
-            const double q = square(disc.place - expected[free_tracks[r]]);
-            if (disc.kind == t.kind && q < reach * reach) cost[r][c] = q / (radius * radius);
+            const DetectedDisc& disc = discs[free_discs[c]];
+            const double radius = settings_.radii[t.species];
+            const double reach = radius * (1.0 + reach_growth * t.doubted);
+            const double q = square(disc.position - expected[free_tracks[r]]);
+            if (disc.species == t.species && q < reach * reach) cost[r][c] = q / (radius * radius);
         }
     }
-    const std::vector<int> column = best_assignment(cost, settings_.listen);
+    const std::vector<int> column = best_assignment(cost, settings_.throw_if_stopped);
     for (std::size_t r = 0; r < free_tracks.size(); ++r) {
         if (column[r] < 0 || cost[r][static_cast<std::size_t>(column[r])] >= out_of_reach) continue;
         const std::size_t t = free_tracks[r];
         if (disc_of[t] >= 0) of[static_cast<std::size_t>(disc_of[t])] = -1;
         of[free_discs[static_cast<std::size_t>(column[r])]] = static_cast<int>(t);
-        tracks[t].seen = 0;  // its velocity is not known any more
+        tracks[t].seen = 0;  // its velocity is unknown after the jump
     }
 }
 
-std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
+std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double time) {
     std::vector<int> of(discs.size(), -1);
     const bool second = steps_ == 1;
     if (second) turn_ = first_turn(discs, time);
-    // Where everybody is expected.
     std::vector<Vec2> expected(tracks.size());
     for (std::size_t t = 0; t < tracks.size(); ++t) {
         expected[t] = expect(tracks[t], time);
         if (second) {
             expected[t] =
-                in_lab(1, turned_by(seen_by(1, tracks[t].place, tracks[t].time), turn_), time);
+                to_lab(1, rotated(to_frame(1, tracks[t].position, tracks[t].time), turn_), time);
             tracks[t].expected.fill(expected[t]);
         }
     }
-    for (std::size_t kind = 0; kind < settings_.radii.size(); ++kind)
-        assign(kind, discs, expected, of);
-    take_up_lost(discs, expected, of);
-    // What is known now.
+    for (std::size_t species = 0; species < settings_.radii.size(); ++species)
+        assign(species, discs, expected, of);
+    resume_lost(discs, expected, of);
     std::vector<char> found(tracks.size(), 0);
     for (std::size_t d = 0; d < discs.size(); ++d) {
         if (of[d] < 0) continue;
         Track& t = tracks[static_cast<std::size_t>(of[d])];
         found[static_cast<std::size_t>(of[d])] = 1;
         if (t.seen == 2)
-            for (std::size_t k = 0; k < ways; ++k) {
-                const double radius = settings_.radii[t.kind];
-                t.misses[k] = 0.75 * t.misses[k] +
-                              0.25 * square(discs[d].place - t.expected[k]) / (radius * radius);
+            for (std::size_t k = 0; k < predictions; ++k) {
+                const double radius = settings_.radii[t.species];
+                t.errors[k] =
+                    (1.0 - forgetting) * t.errors[k] +
+                    forgetting * square(discs[d].position - t.expected[k]) / (radius * radius);
             }
-        t.before = t.place;
+        t.before = t.position;
         t.time_before = t.time;
-        t.place = discs[d].place;
+        t.position = discs[d].position;
         t.time = time;
         t.seen = std::min(t.seen + 1, 2);
         t.missed = 0;
@@ -266,25 +269,25 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
     }
     for (std::size_t t = 0; t < found.size(); ++t) {
         if (found[t]) continue;
-        // It goes on where it is expected; two such places still tell which way it goes.
+        // A missed disc is placed at its expected position, which also keeps its velocity.
         ++tracks[t].missed;
         ++tracks[t].doubted;
-        tracks[t].place = expected[t];
+        tracks[t].position = expected[t];
         tracks[t].time = time;
     }
     for (std::size_t d = 0; d < discs.size(); ++d) {
         if (of[d] >= 0 || !discs[d].sure) continue;
-        if (!may_be_born(discs[d].kind)) {
+        if (!may_start_track(discs[d].species)) {
             ++rejected;
             continue;
         }
         of[d] = static_cast<int>(tracks.size());
-        Track born;
-        born.kind = discs[d].kind;
-        born.place = discs[d].place;
-        born.time = time;
-        born.seen = 1;
-        tracks.push_back(born);
+        Track track;
+        track.species = discs[d].species;
+        track.position = discs[d].position;
+        track.time = time;
+        track.seen = 1;
+        tracks.push_back(track);
     }
     last_time_ = time;
     ++steps_;
@@ -294,7 +297,7 @@ std::vector<int> Linker::step(const std::vector<SeenDisc>& discs, double time) {
 }  // namespace
 
 std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
-                                 const std::function<void()>& listen) {
+                                 const std::function<void()>& throw_if_stopped) {
     const std::size_t rows = cost.size();
     if (rows == 0) return {};
     const std::size_t columns = cost.front().size();
@@ -302,10 +305,10 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
     for (const auto& row : cost)
         for (const double c : row)
             if (is_allowed(c)) maximum = std::max(maximum, c), min_cost = std::min(min_cost, c);
-    // Shortest augmenting paths need at least as many columns as rows; the missing ones cost more
-    // than any other. One forbidden pair costs more than all others can differ by together, so as
-    // few as possible are taken, and these are removed at the end. All costs of the search are
-    // finite, so every pass of its inner loop adds a column, and it ends.
+    // Shortest augmenting paths need at least as many columns as rows; added columns cost more than
+    // any allowed pair. A forbidden pair costs more than all other costs can differ in sum, so as
+    // few as possible are assigned, and these are removed at the end. All costs of the search are
+    // finite, so every pass of its inner loop adds a column, and it terminates.
     const std::size_t width = std::max(rows, columns);
     const double forbidden = (maximum - min_cost + 1.0) * static_cast<double>(width + 1);
     const auto at = [&](std::size_t r, std::size_t c) {
@@ -316,7 +319,7 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
     std::vector<double> u(rows + 1, 0.0), v(width + 1, 0.0);
     std::vector<std::size_t> row_of(width + 1, 0), way(width + 1, 0);
     for (std::size_t r = 1; r <= rows; ++r) {
-        if (listen) listen();
+        if (throw_if_stopped) throw_if_stopped();
         row_of[0] = r;
         std::size_t c0 = 0;
         std::vector<double> minimum(width + 1, infinite);
@@ -355,24 +358,24 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
     return column;
 }
 
-Links link_discs(const std::vector<std::vector<SeenDisc>>& pictures,
+Links link_discs(const std::vector<std::vector<DetectedDisc>>& frames,
                  const std::vector<double>& times, const TrackedPath& path,
                  const LinkSettings& settings) {
-    if (times.size() != pictures.size()) throw std::invalid_argument("Every frame needs a time.");
+    if (times.size() != frames.size()) throw std::invalid_argument("every frame needs a time.");
     for (std::size_t k = 0; k < times.size(); ++k)
         if (!std::isfinite(times[k]) || (k > 0 && !(times[k] > times[k - 1])))
             throw std::invalid_argument(
-                fmt::format("The times of frames must be finite and ascend, but frame {} has {}.",
+                fmt::format("the times of frames must be finite and ascend, but frame {} has {}.",
                             k, times[k]));
     Linker linker(path, settings);
     Links links;
-    for (std::size_t k = 0; k < pictures.size(); ++k) {
-        if (settings.listen) settings.listen();
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        if (settings.throw_if_stopped) settings.throw_if_stopped();
         const std::uint64_t rejected = linker.rejected;
-        links.track.push_back(linker.step(pictures[k], times[k]));
+        links.track.push_back(linker.step(frames[k], times[k]));
         if (linker.rejected > rejected) ++links.crowded;
     }
-    for (const Track& t : linker.tracks) links.kind.push_back(t.kind);
+    for (const Track& t : linker.tracks) links.species.push_back(t.species);
     links.rejected = linker.rejected;
     return links;
 }

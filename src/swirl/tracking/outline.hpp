@@ -1,7 +1,8 @@
 // The edge of a large circle as a lens and a tilted camera show it (lens.hpp).
 //
-// On rays from its middle the place of the steepest ascent or descent near where the image of the
-// circle should be, to a fraction of a pixel; each undone by the lens lies on the circle itself.
+// On rays from the circle's centre, the steepest ascent or descent near the predicted image of the
+// circle is found to a fraction of a pixel. Each of these points, corrected by the lens, lies on
+// the circle itself.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -14,17 +15,18 @@ namespace swirl {
 
 struct OutlineSettings {
     Polarity polarity = 1;
-    double window = 3.0;   // pixels to either side
-    double minimum = 0.0;  // slope that is an edge
+    double window = 3.0;   // pixels to either side of the predicted edge
+    double minimum = 0.0;  // least slope of an edge, grey levels per pixel
 };
 
-/// As seen, of the circle with this middle and radius without lens and tilt.
-std::vector<Vec2> outline_edge(const cv::Mat& picture, const Lens& lens, const Lens::Circle& circle,
+/// Points of the edge in the image, at most one per ray. `circle` is the circle without lens and
+/// tilt.
+std::vector<Vec2> outline_edge(const cv::Mat& image, const Lens& lens, const Lens::Circle& circle,
                                const OutlineSettings& settings);
 
-/// That circle with its middle fitted, its radius kept; centre and radius are those of a circle
-/// through its image, from which Lens::ideal(Circle) comes back to it.
-CircleFit fit_outline(const cv::Mat& picture, const Lens& lens, Lens::Circle circle,
+/// Fits the centre of `circle`; its radius is fixed. The centre and radius returned are those of
+/// the circle that fits the image, from which Lens::ideal(Circle) restores the fitted circle.
+CircleFit fit_outline(const cv::Mat& image, const Lens& lens, Lens::Circle circle,
                       const OutlineSettings& settings);
 
 }  // namespace swirl

@@ -1,14 +1,14 @@
-// The discs in a film, or beads, or balls: circles of one or two sizes within the dish.
+// Detects discs or spheres in a video: circles of one or two sizes within the container.
 //
-//   survey   on pictures spread over the film, for every radius from a twenty-fifth to a third of
-//            the dish's and for both polarities: votes, and the circles that do not overlap, best
-//            first; the radius whose circles explain the longest stretch of edges is that of the
-//            discs (highlights are better circles, but short ones). Then all radii between half of
-//            that and twice that compete; circles fitted with free radius tell one size from two:
-//            two where the gap between the sizes is wide against the scatter within
-//   find     in each picture: votes with the known radii, fits with the radius fixed, best first;
-//            `sure` ones do not overlap and have enough of their edge, the rest are candidates for
-//            whoever knows where a disc should be
+//   survey   On frames spread over the video, for every radius from a twenty-fifth to 40 % of the
+//            container's and both polarities: votes, and the best circles that do not overlap. The
+//            radius whose circles explain the greatest length of edges is that of the discs.
+//            (Highlights are better circles, but short.) Then all radii from 0.6 to 1.9 times that
+//            compete. Fits with free radius decide between one and two species: two if the gap
+//            between the sizes is wide compared with the scatter within each.
+//   find     In each frame: votes with the known radii, then fits with fixed radius, best first.
+//            `sure` particles do not overlap and have enough of their edge. The others are
+//            candidates for a search near the expected position of a missing disc.
 #pragma once
 
 #include <memory>
@@ -16,57 +16,59 @@
 #include <vector>
 
 #include "swirl/tracking/circles.hpp"
-#include "swirl/tracking/dish.hpp"
+#include "swirl/tracking/container_rim.hpp"
 #include "swirl/tracking/lens.hpp"
 
 namespace swirl {
 
 class AppearanceTemplate;
 
-struct ParticleKind {
+struct ParticleSpecies {
     double radius = 0.0;     // pixels
-    double scatter = 0.0;    // of the radii of single fits, standard deviation
-    std::size_t number = 0;  // how many of this kind there are
+    double scatter = 0.0;    // standard deviation of the radii of single fits
+    std::size_t number = 0;  // of discs of this species
 };
 
-struct ParticleLook {
+/// What discs of a video look like.
+struct ParticleAppearance {
     Polarity polarity = 1;
-    std::vector<ParticleKind> kinds;  // one or two, the smaller first
-    std::size_t number = 0;           // of all
-    double blur = 0.6;   // by which pictures are to be smoothed for their noise, pixels
-    double sure = 0.45;  // support from which on a circle is a disc
+    std::vector<ParticleSpecies> species;  // one or two, the smaller first
+    std::size_t number = 0;                // of all discs
+    double blur = 0.6;                     // applied to frames against noise, pixels
+    double sure = 0.45;                    // support that makes a circle a sure particle
     Lens lens;
-    double steepest = 1.0;  // where the brightness changes most, in radii: inside of a shaded limb
-    std::vector<EdgeProfile> limbs;  // of each kind, with the blur of this film
+    double steepest = 1.0;  // radius of the steepest brightness slope relative to the disc's: below
+                            // 1 for a shaded edge
+    std::vector<EdgeProfile> edge_profiles;  // of each species, with the blur of this video
 
-    /// Where edges alone are too poor (appearance_template.hpp).
+    /// Set if edges alone are too poor (appearance_template.hpp).
     std::shared_ptr<const AppearanceTemplate> appearance_template;
 
-    double radius() const { return kinds.front().radius; }
+    double radius() const { return species.front().radius; }
 };
 
 struct Particle {
     Vec2 centre{0.0, 0.0};
-    std::size_t kind = 0;
+    std::size_t species = 0;
     double support = 0.0, error = 0.0;
     bool sure = false;
 };
 
-/// Throws Failure where there are none.
-ParticleLook survey_particles(const std::vector<Picture>& pictures,
-                              const std::vector<CircleFit>& rims, unsigned threads);
+/// Throws Failure if there are no discs.
+ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
+                                    const std::vector<CircleFit>& rims, unsigned threads);
 
-/// By how much the pictures of the survey are to be smoothed.
+/// Blur of the survey frames, pixels.
 inline constexpr double survey_blur = 0.6;
 
-std::vector<Particle> find_particles(const Picture& picture, const CircleFit& rim,
-                                     const ParticleLook& look);
+std::vector<Particle> find_particles(const PreparedFrame& frame, const CircleFit& rim,
+                                     const ParticleAppearance& appearance);
 
-/// The disc that is known to be near there and was not found: the circle with most of an edge
-/// within half a radius of it that is in nobody's way, however little that is. By the mean ball
-/// where there is one.
-std::optional<Particle> find_particle_near(const Picture& picture, const CircleFit& rim,
-                                           const ParticleLook& look, const Vec2& where,
-                                           std::size_t kind, const std::vector<Particle>& others);
+/// Finds a disc that must be near `expected` but was not detected: the circle with most support
+/// within half a radius that does not overlap `others`, or the best match of the template.
+std::optional<Particle> find_particle_near(const PreparedFrame& frame, const CircleFit& rim,
+                                           const ParticleAppearance& appearance,
+                                           const Vec2& expected, std::size_t species,
+                                           const std::vector<Particle>& others);
 
 }  // namespace swirl

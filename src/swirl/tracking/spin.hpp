@@ -1,26 +1,26 @@
-// How fast each disc turns, from its texture, by two estimators.
+// The rotation of each disc from its texture, by two estimators.
 //
 // PIV, as in the paper (SI, "Particle spin"): 16 interrogation windows on a 4 × 4 grid within the
-// disc, each with the velocity v_i of its texture relative to the disc's centre: the peak of the
-// normalised correlation to a pixel, then the shift of least squares (as in iterative PIV), so
-// peaks are not locked to pixels. With ρ_i the place of window i relative to the centre and e_i its
-// azimuthal direction,
+// disc. v_i is the velocity of the texture in window i relative to the disc's centre. It starts
+// from the peak of the normalised correlation, in whole pixels, and a least-squares shift refines
+// it (as in iterative PIV), so peaks are not locked to pixels. With ρ_i the position of window i
+// relative to the centre and e_i its azimuthal direction,
 //
-//     average velocity = mean |v_i|             rolling included
-//     average spin     = mean v_i · e_i         about the vertical alone
+//     average velocity = mean |v_i|             includes rolling
+//     average spin     = mean v_i · e_i         about the vertical only
 //
 // (the paper writes sums), and the angular velocity about the vertical is Σ v_i·e_i / Σ ρ_i.
 //
-// Registration: the disc is a ball of its radius seen from above, and the turn about all three
-// axes that takes one picture's texture to the next one's is found by Gauss and Newton over all of
-// its pixels, a shift of the centre (by its error) found along.
+// Registration: the disc is modelled as a sphere seen from above. Gauss–Newton over all its pixels
+// finds the rotation about all three axes that maps the texture of one frame to that of another,
+// together with a shift of the centre within its error.
 //
-// Texture is what differs from the mean picture of all discs: shading and highlights stay where
-// they are when a ball turns, and would tell that it does not. Turns are measured over `step`
-// pictures, a 32nd of a swirl or one picture; the spin at a picture is the mean of the steps
-// before and after it.
+// The texture is the deviation from the mean image of all discs. Shading and highlights do not turn
+// with a sphere and would bias the rotation towards zero. Rotations are measured over `step`
+// frames, about 1/32 of a period but at least one frame. The spin at a frame is the mean over the
+// steps before and after it.
 //
-// x to the right, y up, z to the camera: ω_z > 0 is counter-clockwise in the picture.
+// x points right, y up, z to the camera: ω_z > 0 is counter-clockwise in the image.
 #pragma once
 
 #include <array>
@@ -33,23 +33,22 @@
 namespace swirl {
 
 struct DiscSpin {
-    std::array<double, 3> turn{};  // registration: radians per picture
-    double piv_turn = 0.0;         // about the vertical
-    double piv_velocity = 0.0;     // mean |v_i|, pixels per picture
-    double match = 0.0;            // correlation of the texture with the turned one
-    bool known = false;
+    std::array<double, 3> turn{};  // registration: radians per frame
+    double piv_turn = 0.0;         // about the vertical, radians per frame
+    double piv_velocity = 0.0;     // mean |v_i|, pixels per frame
+    double match = 0.0;            // correlation of the two textures after registration
+    bool known = false;            // false: interpolated, or NaN if the disc was never measured
 };
 
 struct VideoSpins {
-    int step = 1;  // pictures
-    /// For each disc of each frame of the film's tracks. Where a step could not be measured it is
-    /// what the disc had before and after.
+    int step = 1;  // frames
+    /// For each disc of each frame of the tracks; gaps are interpolated in time.
     std::vector<std::vector<DiscSpin>> discs;
-    double measured = 0.0;  // share of the steps that could be
+    double measured = 0.0;  // fraction of steps that could be measured
     double match = 0.0;     // median
 };
 
-/// Reads the film once more. Throws Failure, Interrupted.
-VideoSpins spins_of(const TrackedVideo& video, const TrackingSettings& settings);
+/// Reads the video again. Throws Failure and Interrupted.
+VideoSpins measure_spins(const TrackedVideo& video, const TrackingSettings& settings);
 
 }  // namespace swirl

@@ -1,13 +1,12 @@
-// From a film to tracks: what `swirl track` does, without a word on the terminal.
+// From a video to tracks: what `swirl track` does, without output to the terminal.
 //
-//   1  a survey of a few dozen pictures: the rim and about its path, the discs' sizes and number
-//   2  every picture, on all cores: the rim, the discs
-//   3  the path of the dish, fitted to all pictures; the lens, if that asks for it
-//   4  the discs linked to tracks, short gaps filled
-//   5  what is to be thought of it: errors, and sentences on what looks wrong
+//   1  survey: the rim, its approximate path, and the sizes and number of discs, from a few frames
+//   2  detection of the rim and the discs in every frame, on all cores
+//   3  the path of the container, fitted to all frames; correction of the lens
+//   4  discs linked to tracks, short gaps filled
+//   5  errors, and warnings about what looks wrong
 //
-// Lengths in pixels, y down; times in units of the time between two pictures unless the film's own
-// rate is known.
+// Lengths in pixels, y down. Times in seconds, or in frames if the frame rate is unknown.
 #pragma once
 
 #include <atomic>
@@ -19,6 +18,7 @@
 
 #include "swirl/io/tracks.hpp"
 #include "swirl/tracking/lens.hpp"
+#include "swirl/tracking/path_polygon.hpp"
 #include "swirl/tracking/tilt.hpp"
 #include "swirl/tracking/tracked_path.hpp"
 
@@ -26,65 +26,73 @@ namespace swirl {
 
 struct TrackingSettings {
     std::string video;
-    std::optional<double> fps;  // otherwise as the film says
+    std::optional<double> fps;  // replaces the video's own times
     std::optional<std::int64_t> discs;
     KnownCamera camera;
-    std::int64_t max_pictures = 0;  // 0: all
-    unsigned threads = 0;           // 0: one for each core
+    std::int64_t max_frames = 0;  // 0: all
+    unsigned threads = 0;         // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
-    std::function<void(const std::string& what, double share)> progress;
+    std::function<void(const std::string& step, double share)> progress;
 
-    /// Throws Interrupted if it is to stop.
-    void listen() const;
+    /// Throws Interrupted if `stop` is set.
+    void throw_if_stopped() const;
+    void report_progress(const std::string& step, double share) const {
+        if (progress) progress(step, share);
+    }
 };
 
-struct TrackedKind {
-    double radius = 0.0, scatter = 0.0;
+struct TrackedSpecies {
+    double radius = 0.0, scatter = 0.0;  // of the radii of single fits, standard deviation
     std::size_t number = 0;
 };
 
+/// Positions and radii are those that an ideal camera would see that looks straight down.
 struct TrackedVideo {
     int width = 0, height = 0;
-    std::int64_t pictures = 0;
-    double fps = 0.0;           // pictures per second; 0: not known, and times are in pictures
+    std::int64_t frame_count = 0;
+    double fps = 0.0;           // frames per second; 0: unknown, and times are in frames
     std::vector<double> times;  // ascending
-    double step() const;        // the usual one between two times
 
-    Lens lens;  // all places and radii are those of an ideal lens that looks straight down
+    Lens lens;
     Tilt tilt;
-    TrackedPath path;  // per second, or per picture
+    TrackedPath path;  // per second, or per frame
     PathPolygon polygon;
-    double rim_radius = 0.0, reach = 0.0, container_radius = 0.0;
-    bool stopped = false;  // discs are hardly ever beyond `reach`: it is the wall
+    double rim_radius = 0.0;        // median over the frames
+    double reach = 0.0;             // of the outermost disc, in most frames
+    double container_radius = 0.0;  // one of these two
+    bool wall_reached = false;      // discs are hardly ever beyond `reach`: the wall stops them
     std::size_t rims_missed = 0;
     double shake = 0.0;        // of the camera from frame to frame, rms of a coordinate
     Vec2 rim_shift{0.0, 0.0};  // of the path's centre from the rim's to the discs', pixels
     double rim_support = 0.0;
-    /// How far from the path the rim's centre was in each picture; below 0 where it was not seen.
-    std::vector<double> rim_off;
+    std::vector<double> rim_offsets;  // distance of the rim from the path; −1 if not found
 
     bool bright = true;  // discs on a darker floor
-    std::vector<TrackedKind> kinds;
-    double radius = 0.0;  // of the commonest kind: the unit of length
+    std::vector<TrackedSpecies> species;
+    double radius = 0.0;  // of the most frequent species: the unit of length
 
     Tracks tracks;                                // ids from 0; radius for each disc
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
-    std::vector<std::vector<std::uint8_t>> seen;  // 0: put there between two that were seen
-    std::size_t number = 0;
-    double touching = 0.0;  // distance of discs in contact, in sums of radii
+    std::vector<std::vector<std::uint8_t>> seen;  // 0: interpolated
+    std::size_t number = 0;                       // of discs
+    double contact_ratio = 0.0;                   // distance of discs in contact / sum of radii
 
-    double complete = 0.0;        // share of pictures in which every disc was seen
-    double position_error = 0.0;  // rms of errors, those of the edges or the larger ones of
-    double overlap_error = 0.0;   // distances that hard discs cannot have; without the tail
-    std::uint64_t filled = 0;
-    std::uint64_t rejected = 0, crowded = 0;  // discs beyond the number, and frames with such
-    double jitter = 0.0;                      // of the film's times, in steps
-    std::vector<std::string> warnings;
+    double complete_share = 0.0;  // of the frames: every disc was detected
+    double position_error = 0.0;  // rms of `errors`: from the edges, or from overlaps if larger
+    double overlap_error = 0.0;   // from distances that hard discs cannot have
+    std::uint64_t filled = 0;     // interpolated positions
+    std::uint64_t rejected = 0, crowded = 0;  // discs beyond the number, and frames with such discs
+    double jitter = 0.0;                      // of the video's times, in steps
+    std::vector<std::string> warnings;        // one line each, without "warning: "
 
+    /// Median time between two frames.
+    double step() const;
+    /// Centre of the container in this frame.
+    Vec2 container(std::size_t frame) const { return path.at(times[frame]); }
     TrackScale scale() const;  // for series_of()
 };
 
-/// Throws Failure, with the likely cause, and Interrupted.
+/// Throws Failure with the likely cause, and Interrupted.
 TrackedVideo track_video(const TrackingSettings& settings);
 
 }  // namespace swirl

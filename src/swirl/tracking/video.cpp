@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "swirl/io/file_error.hpp"
+#include "swirl/math/median.hpp"
 #include "swirl/render/numbered_frames.hpp"
 #include "swirl/run/failure.hpp"
 
@@ -21,97 +22,86 @@ namespace swirl {
 
 namespace {
 
-bool is_device(const std::string& source) { return source.starts_with("/dev/video"); }
+constexpr const char* missing_ffmpeg =
+    "videos are read by the program ffmpeg, which was not found\n"
+    "hint: install it (apt-get install ffmpeg)";
+
+constexpr const char* no_ascending_times =
+    "the times of the video's frames do not ascend\n"
+    "hint: if the frames are equally spaced in time, give --fps";
+
+bool is_camera(const std::string& source) { return source.starts_with("/dev/video"); }
 bool is_numbered(const std::string& source) { return source.find('%') != source.npos; }
 
-/// The least number for which there is a picture.
+/// The least number for which there is an image.
 std::int64_t first_number(const std::string& pattern) {
+    constexpr std::size_t max_digits = 15;  // these fit into 64 bits
     const std::filesystem::path path = pattern;
     const std::string name = path.filename().string();
-    const std::size_t begin = name.find('%'), end = name.find('d', begin);
-    const std::string before = name.substr(0, begin), after = name.substr(end + 1);
+    const std::size_t begin = name.find('%'), after = name.size() - name.find('d', begin) - 1;
     const std::filesystem::path folder =
         path.parent_path().empty() ? std::filesystem::path(".") : path.parent_path();
     std::optional<std::int64_t> minimum;
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
         const std::string file = entry.path().filename().string();
-        if (!file.starts_with(before) || !file.ends_with(after) ||
-            file.size() <= before.size() + after.size())
-            continue;
-        const std::string digits =
-            file.substr(before.size(), file.size() - before.size() - after.size());
-        if (digits.size() > 15 || digits.find_first_not_of("0123456789") != digits.npos) continue;
+        if (!is_of_video(name, file)) continue;
+        const std::string digits = file.substr(begin, file.size() - begin - after);
+        if (digits.size() > max_digits) continue;
         const std::int64_t number = std::stoll(digits);
         minimum = std::min(minimum.value_or(number), number);
     }
-    if (!minimum) throw Failure(fmt::format("There are no pictures named '{}'.", pattern));
+    if (!minimum) throw Failure(fmt::format("there are no frames named '{}'", pattern));
     return *minimum;
 }
 
-std::vector<std::string> input_of(const std::string& source) {
+void append(std::vector<std::string>& arguments, std::initializer_list<std::string> more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+}
+
+/// ffmpeg's arguments up to the input.
+std::vector<std::string> input_arguments(const std::string& source) {
     std::vector<std::string> arguments{"-hide_banner", "-nostats", "-loglevel", "error"};
-    const auto add = [&](std::initializer_list<std::string> more) {
-        arguments.insert(arguments.end(), more.begin(), more.end());
-    };
-    if (is_device(source)) {
-        add({"-f", "v4l2", "-i", source});
+    if (is_camera(source)) {
+        append(arguments, {"-f", "v4l2", "-i", source});
         return arguments;
     }
     if (is_numbered(source)) {
         if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
-        add({"-f", "image2", "-start_number", std::to_string(first_number(source))});
+        append(arguments, {"-f", "image2", "-start_number", std::to_string(first_number(source))});
     } else if (!std::filesystem::exists(source)) {
-        throw Failure(fmt::format("There is no film '{}'.", source));
+        throw Failure(fmt::format("there is no video '{}'", source));
     } else if (!std::filesystem::is_regular_file(source)) {
         throw Failure(fmt::format(
-            "'{}' is not a regular file, but a film must be one: it is read more than once.",
+            "'{}' is not a regular file, but a video must be one: it is read more than once",
             source));
     }
-    add({"-i", "file:" + source, "-map", "0:v:0"});
+    append(arguments, {"-i", "file:" + source, "-map", "0:v:0"});
     return arguments;
 }
 
-constexpr const char* missing =
-    "Films are read by the program ffmpeg, which was not found: install it (apt-get install "
-    "ffmpeg).";
-
-constexpr const char* no_times =
-    "The times of the video's frames do not ascend. If the frames are equally spaced in time, give "
-    "--fps.";
-
-std::string no_video(const std::string& source, const std::string& words) {
-    std::string cause;
-    if (words.find("moov atom not found") != words.npos)
-        cause = " The file was cut off before its end, where this format keeps its index.";
-    return fmt::format("'{}' holds no pictures that can be read{}{}", source,
-                       words.empty() ? "." : ": " + words + ".", cause);
+std::string no_frames_message(const std::string& source, const std::string& problem) {
+    const bool cut_off = problem.find("moov atom not found") != problem.npos;
+    return fmt::format(
+        "'{}' contains no readable frames{}{}", source, problem.empty() ? "" : ": " + problem,
+        cut_off ? "\nhint: the file was cut off; this format has its index at the end" : "");
 }
 
-}  // namespace
-
-VideoTimes video_times(const std::string& source) {
-    VideoTimes times;
-    if (is_device(source)) return times;
-    if (is_numbered(source)) {
-        if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
-        const NumberedFrames names(source);
-        const std::int64_t first = first_number(source);
-        while (names.may_have(first + times.pictures)) ++times.pictures;
-        return times;
-    }
-    std::vector<std::string> arguments = input_of(source);
-    for (const char* more : {"-c", "copy", "-copyts", "-f", "framecrc", "pipe:1"})
-        arguments.push_back(more);
-    Ffmpeg ffmpeg(arguments, Ffmpeg::Side::output, missing);
+/// What ffmpeg writes until it closes its output.
+std::string read_all(const Ffmpeg& ffmpeg) {
     std::string text;
     std::array<char, 65536> part{};
     for (;;) {
         const ssize_t got = ::recv(ffmpeg.socket(), part.data(), part.size(), 0);
         if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) break;
+        if (got <= 0) return text;
         text.append(part.data(), static_cast<std::size_t>(got));
     }
+}
+
+/// Times in ffmpeg's framecrc format: "#tb 0: 1/TICKS", then "0, DTS, PTS, …" for each frame.
+std::vector<double> framecrc_times(const std::string& text) {
+    std::vector<double> seconds;
     double unit = 0.0;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -121,11 +111,30 @@ VideoTimes video_times(const std::string& source) {
         if (std::sscanf(line.c_str(), "#tb 0: %lf/%lf", &above, &below) == 2 && below > 0.0)
             unit = above / below;
         else if (std::sscanf(line.c_str(), "0, %lf, %lf", &dts, &pts) == 2)
-            times.seconds.push_back(unit * pts);
+            seconds.push_back(unit * pts);
     }
+    return seconds;
+}
+
+}  // namespace
+
+VideoTimes video_times(const std::string& source) {
+    VideoTimes times;
+    if (is_camera(source)) return times;
+    if (is_numbered(source)) {
+        if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
+        const NumberedFrames names(source);
+        const std::int64_t first = first_number(source);
+        while (names.may_have(first + times.frame_count)) ++times.frame_count;
+        return times;
+    }
+    std::vector<std::string> arguments = input_arguments(source);
+    append(arguments, {"-c", "copy", "-copyts", "-f", "framecrc", "pipe:1"});
+    Ffmpeg ffmpeg(arguments, Ffmpeg::Side::output, missing_ffmpeg);
+    times.seconds = framecrc_times(read_all(ffmpeg));
     ffmpeg.end();
-    if (times.seconds.empty()) throw Failure(no_video(source, ffmpeg.problem()));
-    times.pictures = static_cast<std::int64_t>(times.seconds.size());
+    if (times.seconds.empty()) throw Failure(no_frames_message(source, ffmpeg.problem()));
+    times.frame_count = static_cast<std::int64_t>(times.seconds.size());
     std::sort(times.seconds.begin(), times.seconds.end());
     const std::size_t n = times.seconds.size();
     const double length = times.seconds.back() - times.seconds.front();
@@ -139,57 +148,54 @@ VideoTimes video_times(const std::string& source) {
 }
 
 AscendingTimes ascending_times(const std::vector<double>& seconds) {
-    constexpr double minimum = 0.01;  // of the usual step
+    constexpr double min_step = 0.01;  // of the median step
     std::vector<double> steps;
     for (std::size_t k = 1; k < seconds.size(); ++k)
         if (const double step = seconds[k] - seconds[k - 1]; std::isfinite(step) && step > 0.0)
             steps.push_back(step);
-    if (steps.empty()) throw Failure(no_times);
-    std::nth_element(steps.begin(), steps.begin() + std::ptrdiff_t(steps.size() / 2), steps.end());
-    const double usual = steps[steps.size() / 2];
-    // Later than all frames before it, and earlier than all behind it.
+    if (steps.empty()) throw Failure(no_ascending_times);
+    const double usual = median(steps);
+    // A timed frame is later than all frames before it, and earlier than all frames after it.
     std::vector<char> timed(seconds.size(), 1);
     double latest = -std::numeric_limits<double>::infinity(), earliest = -latest;
     for (std::size_t k = 0; k < seconds.size(); ++k) {
-        if (!std::isfinite(seconds[k]) || !(seconds[k] - latest > minimum * usual)) timed[k] = 0;
+        if (!std::isfinite(seconds[k]) || !(seconds[k] - latest > min_step * usual)) timed[k] = 0;
         if (std::isfinite(seconds[k])) latest = std::max(latest, seconds[k]);
     }
     for (std::size_t k = seconds.size(); k-- > 0;) {
-        if (!(earliest - seconds[k] > minimum * usual)) timed[k] = 0;
+        if (!(earliest - seconds[k] > min_step * usual)) timed[k] = 0;
         if (std::isfinite(seconds[k])) earliest = std::min(earliest, seconds[k]);
     }
     AscendingTimes found{seconds, {}};
-    std::optional<std::size_t> last;  // that has a time
+    std::optional<std::size_t> last;  // timed frame
     for (std::size_t k = 0; k <= seconds.size(); ++k) {
-        if (k < seconds.size() && !timed[k]) found.untimed.push_back(k);
-        if (k < seconds.size() && !timed[k]) continue;
-        // The frames between two that have a time; the first and the last ones, by the usual step.
-        const std::size_t begin = last ? *last + 1 : 0;
         const bool at_end = k == seconds.size();
+        if (!at_end && !timed[k]) {
+            found.untimed.push_back(k);
+            continue;
+        }
+        // Frames between two timed ones are spread evenly; those at the ends by the usual step.
         const double step =
             last && !at_end ? (seconds[k] - seconds[*last]) / double(k - *last) : usual;
-        for (std::size_t j = begin; j < k; ++j)
+        for (std::size_t j = last ? *last + 1 : 0; j < k; ++j)
             found.seconds[j] = last ? seconds[*last] + step * double(j - *last)
                                     : seconds[k] - step * double(k - j);
         last = k;
     }
     if (found.untimed.size() + 2 > seconds.size() ||
         !std::is_sorted(found.seconds.begin(), found.seconds.end(), std::less_equal<>()))
-        throw Failure(no_times);
+        throw Failure(no_ascending_times);
     return found;
 }
 
 Video::Video(std::string source, std::int64_t every) : video_(std::move(source)) {
-    std::vector<std::string> arguments = input_of(video_);
-    const auto add = [&](std::initializer_list<std::string> more) {
-        arguments.insert(arguments.end(), more.begin(), more.end());
-    };
-    add({"-an", "-fps_mode", "passthrough"});
-    // Frames are numbered anew: ffmpeg would complain about times that do not advance.
+    std::vector<std::string> arguments = input_arguments(video_);
+    append(arguments, {"-an", "-fps_mode", "passthrough"});
+    // Frames get new times, since ffmpeg reports errors for times that do not advance.
     const std::string select = every > 1 ? fmt::format("select=not(mod(n\\,{})),", every) : "";
-    add({"-vf", select + "settb=1/25,setpts=N", "-enc_time_base", "1:25"});
-    add({"-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1"});
-    ffmpeg_ = std::make_unique<Ffmpeg>(arguments, Ffmpeg::Side::output, missing);
+    append(arguments, {"-vf", select + "settb=1/25,setpts=N", "-enc_time_base", "1:25"});
+    append(arguments, {"-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1"});
+    ffmpeg_ = std::make_unique<Ffmpeg>(arguments, Ffmpeg::Side::output, missing_ffmpeg);
 }
 
 bool Video::read(std::uint8_t* into, std::size_t bytes) {
@@ -203,32 +209,34 @@ bool Video::read(std::uint8_t* into, std::size_t bytes) {
     return true;
 }
 
-/// A PGM picture: "P5\nWIDTH HEIGHT\n255\n" and a byte a pixel.
-bool Video::read_picture(cv::Mat& grey) {
+/// A PGM image: "P5\nWIDTH HEIGHT\n255\n" and a byte a pixel.
+bool Video::read_frame(cv::Mat& grey) {
+    constexpr std::size_t max_head = 60;  // characters: enough for any size below
+    constexpr int max_side = 20000;       // pixels: larger is no frame
     std::string head;
     for (int lines = 0; lines < 3;) {
         std::uint8_t c = 0;
-        if (!read(&c, 1) || head.size() > 60) return false;
+        if (!read(&c, 1) || head.size() > max_head) return false;
         head += static_cast<char>(c);
         if (c == '\n') ++lines;
     }
     int width = 0, height = 0;
     if (std::sscanf(head.c_str(), "P5 %d %d 255", &width, &height) != 2) return false;
-    if (width < 1 || height < 1 || width > 20000 || height > 20000) return false;
+    if (width < 1 || height < 1 || width > max_side || height > max_side) return false;
     grey.create(height, width, CV_8UC1);
     return read(grey.ptr(), static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 
 bool Video::next(cv::Mat& grey) {
     if (!ffmpeg_) return false;
-    if (read_picture(grey)) {
+    if (read_frame(grey)) {
         ++count_;
         return true;
     }
     ffmpeg_->end();
     problem_ = ffmpeg_->problem();
     ffmpeg_.reset();
-    if (count_ == 0) throw Failure(no_video(video_, problem_));
+    if (count_ == 0) throw Failure(no_frames_message(video_, problem_));
     return false;
 }
 

@@ -1,6 +1,7 @@
-// The pictures of a film, one after the other, in grey: decoded by ffmpeg, which also turns what a
-// telephone says is to be turned. A film is a file that ffmpeg reads, numbered pictures
-// ('frames/%05d.png'), or a camera of this machine (/dev/video0).
+// The frames of a video in order, in grey. ffmpeg decodes them, and rotates them as the file asks.
+//
+// A source is a file that ffmpeg reads, numbered images ('frames/%05d.png'), or a camera of this
+// machine (/dev/video0).
 #pragma once
 
 #include <cstdint>
@@ -13,44 +14,45 @@
 
 namespace swirl {
 
-/// When the pictures were taken, as the file says.
+/// When the frames were taken, according to the file.
 struct VideoTimes {
-    std::vector<double> seconds;  // ascending; empty where it does not say
-    std::int64_t pictures = 0;    // 0: not known
-    double fps = 0.0;             // of the whole film; 0 where it does not say
-    double jitter = 0.0;          // largest deviation from equal steps, in steps
+    std::vector<double> seconds;   // ascending; empty if unknown
+    std::int64_t frame_count = 0;  // 0: unknown
+    double fps = 0.0;              // mean over the video; 0 if unknown
+    double jitter = 0.0;           // largest deviation from equal steps, in steps
 };
 
-/// Reads the file through without decoding a picture. Throws Failure if it is no film.
+/// Reads the file without decoding its frames. Throws Failure if it is not a video, and UsageError
+/// for a wrong pattern of numbered images.
 VideoTimes video_times(const std::string& source);
 
-/// Strictly ascending times, and which frames of the video had no time of their own.
+/// Strictly ascending times, and the frames of the video whose own times are not used.
 struct AscendingTimes {
     std::vector<double> seconds;
     std::vector<std::size_t> untimed;  // ascending
 };
 
-/// Frames without a finite time, and frames that share theirs: a step below a hundredth of the
-/// median step is none. Which of two such frames has the wrong time cannot be known, so both are
-/// untimed, and get times spread evenly between the neighbouring frames that have one. Throws
-/// Failure if fewer than two frames are left. `seconds` ascending.
+/// Replaces missing, descending and shared times. A frame is untimed if its time is not finite, or
+/// less than a hundredth of the median step from the time of another frame. Either of two such
+/// frames may have the wrong time, so both are untimed. Untimed frames get evenly spaced times
+/// between their timed neighbours. Throws Failure if fewer than two frames are timed.
 AscendingTimes ascending_times(const std::vector<double>& seconds);
 
 class Video {
   public:
-    /// Every `every`th picture, the first one first. Throws Failure.
+    /// Every `every`th frame, starting with the first one. Throws Failure.
     explicit Video(std::string source, std::int64_t every = 1);
 
-    /// The next picture (8 bits a pixel), or false at the end. Throws Failure if there is not one.
+    /// The next frame (8 bits a pixel), or false at the end. Throws Failure if there are no frames.
     bool next(cv::Mat& grey);
-    /// How many there were so far.
+    /// Number of frames read so far.
     std::int64_t count() const { return count_; }
-    /// What ffmpeg had to say about a damaged film; empty if nothing.
+    /// ffmpeg's error message for a damaged video; empty if there is none.
     std::string problem() const { return problem_; }
 
   private:
     bool read(std::uint8_t* into, std::size_t bytes);
-    bool read_picture(cv::Mat& grey);
+    bool read_frame(cv::Mat& grey);
 
     std::string video_, problem_;
     std::unique_ptr<Ffmpeg> ffmpeg_;

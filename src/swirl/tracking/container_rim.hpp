@@ -1,0 +1,40 @@
+// The rim of the container in a video: a circle of constant size that goes round a circle.
+//
+//   survey   the circle with the most votes in a few frames spread over the video, among those that
+//            move as a swirled container does; the edge of a table does not
+//   find     in each frame: votes for the known radius, then a fit to the edge
+//
+// Pixels, y down.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "swirl/tracking/circles.hpp"
+#include "swirl/tracking/lens.hpp"
+#include "swirl/tracking/prepared_frame.hpp"
+
+namespace swirl {
+
+/// For errors about a container whose centre does not go round a circle.
+inline constexpr const char* no_circle_hint =
+    "hint: check that the camera does not move, that the video lasts at least half a period, that "
+    "nothing covers the container, and that its path is not a polygon of few sides";
+
+struct ContainerRim {
+    double radius = 0.0;  // corrected by `lens`, if there is one
+    Polarity polarity = 1;
+    double support = 0.0;
+    Vec2 path_centre{0.0, 0.0};
+    double amplitude = 0.0;         // of the path, approximately
+    bool second_container = false;  // another circle of this size moves as well
+    std::optional<Lens> lens;       // set if the camera is tilted
+};
+
+/// `frames` spread over the video. Throws Failure with the likely cause if no rim is found.
+ContainerRim survey_container_rim(const std::vector<PreparedFrame>& frames);
+
+/// The rim in one frame; `good` is false if it was not found.
+CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim);
+
+}  // namespace swirl

@@ -1,0 +1,36 @@
+// Robust statistics that the fits to video frames share.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace swirl {
+
+/// Standard deviation of normal deviates, relative to their median absolute deviation.
+inline constexpr double mad_to_sigma = 1.4826;
+
+/// Tukey's biweight of a residual `q` in units of the cutoff; 0 from the cutoff on.
+inline double tukey_weight(double q) {
+    const double p = 1.0 - q * q;
+    return p > 0.0 ? p * p : 0.0;
+}
+
+/// Vertex of the parabola through three equally spaced samples, in steps from the middle one; 0 if
+/// the parabola has no maximum.
+template <typename Real>
+double vertex_offset(Real before, Real here, Real after) {
+    const Real bend = before - Real(2) * here + after;
+    return bend < Real(0) ? 0.5 * double((before - after) / bend) : 0.0;
+}
+
+/// The value below which this share of `values` lies; 0 if there are none.
+inline double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0.0;
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+}  // namespace swirl

@@ -1,0 +1,111 @@
+// The steps of track_video(), in their order; a heading names the file that contains the step.
+// Other layers use tracking.hpp alone.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "swirl/tracking/container_rim.hpp"
+#include "swirl/tracking/link.hpp"
+#include "swirl/tracking/particle_detection.hpp"
+#include "swirl/tracking/tilt.hpp"
+#include "swirl/tracking/tracking.hpp"
+#include "swirl/tracking/video.hpp"
+
+namespace swirl {
+
+unsigned thread_count(const TrackingSettings& settings);
+
+// video_survey.cpp
+
+/// Frames of a survey: enough to cover a period and all sides of the container.
+inline constexpr std::int64_t survey_frames = 48;
+
+struct VideoSurvey {
+    ContainerRim rim;
+    ParticleAppearance appearance;
+    Tilt tilt;
+    cv::Size size;  // of the frames
+
+    static constexpr double vote_radius = 12.0;  // of a disc, pixels: more only costs time
+    /// Reduction of the frames in which votes for discs are counted.
+    double reduction() const { return std::min(1.0, vote_radius / appearance.radius()); }
+};
+/// `frame_count` may be an estimate.
+VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_count);
+
+// frame_detection.cpp
+
+struct FrameDetections {
+    CircleFit rim;
+    std::vector<Particle> particles;
+    bool timed = true;  // false: the frame has no time of its own, and nothing of it is used
+};
+using Detections = std::vector<FrameDetections>;  // for each frame
+/// Positions as seen through the lens. `expected` frames, for the progress; 0: unknown.
+Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& survey,
+                         std::int64_t expected, TrackedVideo& tracked);
+
+/// Sets the final lens, corrects all positions by it, and sets the radius of the rim.
+void correct_lens(const VideoSurvey& survey, Detections& all, TrackedVideo& tracked);
+
+// frame_times.cpp
+
+/// Sets the time of every frame; returns whether these are the video's own because they are uneven.
+/// Steps that differ by no more than the rounding of the video's clock count as equal. Throws
+/// Failure if too few frames have valid times.
+bool set_frame_times(const TrackingSettings& settings, const VideoTimes& times, Detections& all,
+                     TrackedVideo& tracked);
+
+/// Centres of the rim in the frames where it was found.
+struct RimCentres {
+    std::vector<Vec2> centres;
+    std::vector<double> times;
+    std::vector<std::size_t> frames;
+};
+/// Throws Failure if the video's clock advances by half a period or more between two frames.
+void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
+                      const TrackedVideo& tracked);
+/// Warns of a few dropped or duplicated frames. Throws Failure if they are many.
+void check_frame_jumps(const RimCentres& rims, TrackedVideo& tracked);
+// container_motion.cpp
+
+/// Sets all that the rim determines: path, polygon, shake. Throws Failure.
+void fit_container_motion(const TrackingSettings& settings, const Detections& all,
+                          bool uneven_times, TrackedVideo& tracked);
+
+// track_repair.cpp
+
+/// Links the particles of all frames. Removes outliers, and adds discs that were missed. `all` gets
+/// the added ones.
+Links link_detections(const TrackingSettings& settings, const VideoSurvey& survey, Detections& all,
+                      TrackedVideo& tracked);
+/// Calls use(frame, track, index) for every particle that belongs to a track, frame by frame.
+template <typename Use>
+void for_each_linked(const Links& links, Use&& use) {
+    for (std::size_t k = 0; k < links.track.size(); ++k)
+        for (std::size_t d = 0; d < links.track[k].size(); ++d)
+            if (const int t = links.track[k][d]; t >= 0) use(k, static_cast<std::size_t>(t), d);
+}
+// overlap_separation.cpp, track_assembly.cpp, wall_fit.cpp, track_quality.cpp,
+// tracking_warnings.cpp
+
+/// Moves discs that seem to overlap or to stick in the wall apart, since they are hard. Sets the
+/// error that overlaps imply.
+void separate_overlaps(const Links& links, Detections& all, TrackedVideo& tracked);
+/// Writes the tracks, with short gaps filled.
+void assemble_tracks(const Detections& all, const Links& links, TrackedVideo& tracked);
+
+/// Seen at an angle, the rim is shifted relative to the discs, and larger: moves the path to where
+/// the wall stops discs.
+void move_path_to_wall(TrackedVideo& tracked);
+/// Sets the errors, the shares, and how far out discs come.
+void measure_quality(const Detections& all, TrackedVideo& tracked);
+/// Sets the container's radius from the rim and the discs; corrects the radii of discs in contact.
+void set_radii(TrackedVideo& tracked);
+/// Adds warnings about what looks wrong, with the likely cause.
+void add_warnings(TrackedVideo& tracked);
+
+}  // namespace swirl
