@@ -907,7 +907,7 @@ def forces(folder):
     per_unit = EXPERIMENTS_R_OMEGA_SQUARE / (2 * math.pi / PERIOD) ** 2
     points = [row["point"] for row in rows if isinstance(row.get("point"), str)]
     # A highest force has no error of its own; those at different N are independent.
-    found = {name: scattered([row[f"most_{name}"] * per_unit for row in rows], points)
+    found = {name: scattered([row[f"max_{name}"] * per_unit for row in rows], points)
              for name in MOST_FORCES}
     mean = mean_of(values(rows, "coriolis")) * per_unit
     wall = 2 * RADIUS * EXPERIMENTS_R_OMEGA_SQUARE

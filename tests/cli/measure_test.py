@@ -127,7 +127,7 @@ class MeasureTest(InFolder):
         wrong("protrude", "they would touch", scale=0.9 * SCALE)
         touch = wrong("overlap", "--scale", scale=2 * SCALE)
         self.assertAlmostEqual(float(touch.split("hint: with --scale ")[1].split(" ")[0]), SCALE, delta=0.5)
-        wrong("protrude", "all the way round: --container-radius", container_radius=8)
+        wrong("protrude", "all the way round; --container-radius", container_radius=8)
         wrong("hardly ever come near the wall", "--container-radius 10", container_radius=10)
         wrong("hardly ever come near the wall", scale=0.5 * SCALE, container_radius=2 * RADIUS,
               amplitude=2 * AMPLITUDE)

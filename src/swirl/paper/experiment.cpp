@@ -506,7 +506,7 @@ Json Experiment::json() const {
 
 const std::vector<std::string>& measurements_of_a_video() {
     static const std::vector<std::string> names{"density",     "flow",   "profile", "pinned",
-                                                "residence",       "centre", "slip",    "frustration",
+                                                "residence",   "centre", "slip",    "frustration",
                                                 "temperature", "order"};
     return names;
 }

@@ -141,8 +141,8 @@ static FigurePlan plan_figure_4b(const PaperSettings& settings) {
          "frustration.resident_correlation", "frustration.along_wall",
          "frustration.correlation_by_impulse", "frustration.triangles", "frustration.coordination",
          "frustration.disc_sticking", "frustration.wall_sticking", "order.all=psi6",
-         "order.pinned=psi6_pinned", "order.resident=psi6_resident", "order.six", "order.six_pinned",
-         "collisions.disc_disc_rate", "collisions.disc_wall_rate"},
+         "order.pinned=psi6_pinned", "order.resident=psi6_resident", "order.six",
+         "order.six_pinned", "collisions.disc_disc_rate", "collisions.disc_wall_rate"},
         [](const std::vector<Point>& points, const std::vector<Json>& results) {
             return std::vector<std::string>{
                 first_and_last("spin of the discs resident at the wall, in Ω", high_friction,
@@ -268,12 +268,14 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
                 const Json& value = measured[criterion][which];
                 return with_error(number(value["mean"]), number(value["error"]));
             };
-            outcome.findings.push_back(fmt::format(
-                "N = {}, residences in the wall layer: pinned from θ = {}°, free from {}° (resultant "
-                "{:.2f}); {} of the discs are on one.",
-                numbers[k], told("residence", "becoming_pinned"), told("residence", "becoming_free"),
-                number(measured["residence"]["becoming_free"]["concentration"]),
-                told("residence", "share")));
+            outcome.findings.push_back(
+                fmt::format("N = {}, residences in the wall layer: pinned from θ = {}°, free from "
+                            "{}° (resultant "
+                            "{:.2f}); {} of the discs are on one.",
+                            numbers[k], told("residence", "becoming_pinned"),
+                            told("residence", "becoming_free"),
+                            number(measured["residence"]["becoming_free"]["concentration"]),
+                            told("residence", "share")));
             outcome.findings.push_back(fmt::format(
                 "N = {}, the SI's criterion: pinned from θ = {}°, free from {}° (resultant {:.2f}: "
                 "directions that nearly cancel have a mean that says little); {} of the discs are "

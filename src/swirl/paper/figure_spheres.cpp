@@ -100,7 +100,8 @@ std::string sign_changes_sentence(const NamedCurve& curve) {
     const RotationPoint* const lowest = lowest_of(curve.points());
     return fmt::format("{}; lowest is ϖ/Ω = {} at N = {:.0f} ({}).{}", text,
                        with_error(lowest->mean, lowest->error), lowest->discs,
-                       rotation_rates[curve.rate].description, other_rates_report(crossings, curve.rate));
+                       rotation_rates[curve.rate].description,
+                       other_rates_report(crossings, curve.rate));
 }
 
 /// Every change of sign of a curve, and every number at which its sign is undetermined, in the
@@ -335,8 +336,9 @@ static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
             points.push_back({v, n});
             const std::string name =
                 fmt::format("spheres_measured_{}_N{}_{}", variants[v].name, n, length_of(config));
-            plan.points.push_back(point_of_spheres(settings, name, config, settings.seeds(),
-                                                   {"slip", "frustration", "residence", "rolling"}));
+            plan.points.push_back(
+                point_of_spheres(settings, name, config, settings.seeds(),
+                                 {"slip", "frustration", "residence", "rolling"}));
         }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         std::vector<std::string> columns{"curve", "mu", "discs"};
@@ -462,7 +464,8 @@ static FigurePlan plan_figure_spheres_few(const PaperSettings& settings) {
                              config, settings.seeds(), {"residence"}));
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        Table table(joined({"discs", "residence_share", "residence_share_error"}, rotation_columns()));
+        Table table(
+            joined({"discs", "residence_share", "residence_share_error"}, rotation_columns()));
         FigureOutcome outcome;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
             const Json& share = at(results[k], {"measured", "residence", "share"});

@@ -16,7 +16,7 @@ namespace {
 
 /// What the figures of the paper, or a reader of its tables, may ask of one run. Maps are large.
 std::vector<std::string> measurements_of_the_paper(std::int64_t discs) {
-    std::vector<std::string> names{"profile",     "pinned", "residence",      "centre",     "slip",
+    std::vector<std::string> names{"profile",     "pinned", "residence",  "centre",     "slip",
                                    "frustration", "order",  "collisions", "temperature"};
     if (discs == rotating || discs == counterrotating)
         names.insert(names.end(), {"density", "flow"});

@@ -109,8 +109,7 @@ double number_of_runs(const SweepPlan& plan) {
 /// Equal for equal runs. A contact duration has no effect without dissipation and floor.
 std::uint64_t identity_of(const ParameterTexts& texts) {
     RunConfig config = resolve(texts);
-    if (!config.uses_contact_duration())
-        config.contact_duration = RunConfig{}.contact_duration;
+    if (!config.uses_contact_duration()) config.contact_duration = RunConfig{}.contact_duration;
     return checksum(config_text(config));
 }
 
