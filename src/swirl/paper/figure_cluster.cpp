@@ -270,8 +270,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
             };
             outcome.findings.push_back(
                 fmt::format("N = {}, residences in the wall layer: pinned from θ = {}°, free from "
-                            "{}° (resultant "
-                            "{:.2f}); {} of the discs are on one.",
+                            "{}° (resultant {:.2f}); {} of the discs are on one.",
                             numbers[k], told("residence", "becoming_pinned"),
                             told("residence", "becoming_free"),
                             number(measured["residence"]["becoming_free"]["concentration"]),
