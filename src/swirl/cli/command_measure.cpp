@@ -60,8 +60,8 @@ void reject_measurements_of_tracks(const std::vector<std::string>& names, const 
         if (find_measurement(name)->needs_tracks && call.list != "all")
             throw Failure(fmt::format(
                 "'{}' needs the same discs in {} consecutive frames, but '{}' never has "
-                "them.\nhint: "
-                "measure density, flow, profile, radial, temperature, order or packing.",
+                "them.\nhint: measure density, flow, profile, radial, temperature, order or "
+                "packing.",
                 name, PinnedLoose::width + 1, call.file));
 }
 
@@ -71,8 +71,7 @@ std::string remark_on_rolling(const Json& measured) {
         if (number.name == "rolling.rolling_share" && number.estimate.mean == 0.0)
             return fmt::format(
                 "no sphere rolls in any of the frames: all spheres slide at a vertex of the path, "
-                "and "
-                "a recording with 30 frames per period on 30 sides has no other frames.\nhint: "
+                "and a recording with 30 frames per period on 30 sides has no other frames.\nhint: "
                 "record {} frames per period.",
                 samples_per_period);
     return "";

@@ -82,8 +82,7 @@ SweepPlan existing_plan(const SweepCall& call) {
     if (!fs::exists(fs::path(call.out) / "plan.json", ignored))
         throw UsageError(
             "no parameters to sweep over.\nhint: give a plan (plan.toml), or lists, such as "
-            "--discs "
-            "5:48 --mu 0.1,0.5,1.");
+            "--discs 5:48 --mu 0.1,0.5,1.");
     return read_plan(call.out);
 }
 

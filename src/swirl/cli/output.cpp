@@ -24,8 +24,7 @@ void reject_option(const std::filesystem::path& name, const char* kind) {
     if (name.native().starts_with('-'))
         throw UsageError(
             fmt::format("'{0}' looks like an option, but it must be the name of a {1}.\nhint: for "
-                        "a {1} with this "
-                        "name, write {2}",
+                        "a {1} with this name, write {2}",
                         name.string(), kind, shell_word("./" + name.string())));
 }
 

@@ -72,8 +72,8 @@ std::optional<std::string> problem_with_size(const RunConfig& c) {
     const double big = c.mixture ? std::fmax(c.radius, c.mixture->radius) : c.radius;
     if (big >= R)
         return fmt::format(
-            "a {} of radius {} does not fit into a container of radius {}: --container-radius "
-            "must be larger than --radius.",
+            "a {} of radius {} does not fit into a container of radius {}: --container-radius must "
+            "be larger than --radius.",
             body_word(c), big, R);
     const double small = c.mixture ? std::fmin(c.radius, c.mixture->radius) : c.radius;
     if (R > max_container_ratio * small)
@@ -220,8 +220,8 @@ std::string no_placement_message(const RunConfig& c) {
     const std::string bound =
         c.mixture ? ""
                   : fmt::format(
-                        " No arrangement holds more than {:.0f}, and close to that number "
-                        "the placement may fail.",
+                        " No arrangement holds more than {:.0f}, and close to that number the "
+                        "placement may fail.",
                         max_discs_in_container(c.radius, c.container_radius));
     return fmt::format(
         "{} {}s of radius {} could not be placed in a container of radius {} without overlap.{}{}",

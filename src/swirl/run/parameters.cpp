@@ -224,8 +224,8 @@ void read_inertia(std::string_view text, const ParameterTexts& given, RunConfig&
     if (!value)
         reject_text(
             "inertia", text,
-            "a number above 0, or paper (10 m r^2), ring (m r^2), solid (m r^2 / 2), sphere "
-            "(2/5 m r^2) or shell (2/3 m r^2)");
+            "a number above 0, or paper (10 m r^2), ring (m r^2), solid (m r^2 / 2), sphere (2/5 m "
+            "r^2) or shell (2/3 m r^2)");
     config.inertia = *value;
 }
 

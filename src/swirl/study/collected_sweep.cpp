@@ -83,8 +83,7 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
         if (json.value("format", 0) != result_format)
             throw FileError(fmt::format(
                 "'{}' is in format {} of swirl {}, but this program reads format {}.\nhint: "
-                "collect "
-                "with the program that wrote it, or remove it and run `swirl sweep` again.",
+                "collect with the program that wrote it, or remove it and run `swirl sweep` again.",
                 file.string(), json.value("format", 0), json.value("version", std::string("?")),
                 result_format));
         reject_result_of_another_point(file, json, plan, point);
@@ -302,8 +301,7 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
     if (others.size() == plan.axes.size())
         throw UsageError(
             "the crossings are sign changes with the number of discs, but --discs is not a "
-            "parameter "
-            "of this sweep.");
+            "parameter of this sweep.");
     std::vector<ParameterTexts> groups;  // in the order of the rows
     std::map<ParameterTexts, RotationCurves> curves;
     for (const CollectedRow& row : collected.rows) {

@@ -62,8 +62,7 @@ std::string sbatch_path(const fs::path& path) {
         if (c < 0x20 || c == 0x7f || c == '"' || c == '\\')
             throw UsageError(
                 fmt::format("--out is '{}', but for Slurm it must not contain quotation marks, "
-                            "backslashes or line "
-                            "breaks.",
+                            "backslashes or line breaks.",
                             printable(text)));
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '%' ? std::string("%%") : std::string(1, c);
@@ -108,8 +107,7 @@ std::string submit(const std::string& script, const fs::path& folder) {
     if (output.exit_code == 127)
         throw Failure(
             fmt::format("Slurm is not installed here: there is no sbatch.\nhint: submit '{}' on "
-                        "the cluster, or use "
-                        "--part with another scheduler.",
+                        "the cluster, or use --part with another scheduler.",
                         (sweep / "job.sh").string()));
     if (output.exit_code != 0)
         throw Failure(fmt::format("sbatch rejected '{}': {}.", (sweep / "job.sh").string(),

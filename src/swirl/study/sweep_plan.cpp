@@ -142,8 +142,8 @@ void reject_repeated_runs(const SweepPlan& plan, const SweepAxis& axis) {
         if (!is_new && !differ_elsewhere(plan, axis, before->second, value))
             throw UsageError(
                 fmt::format("{0} {1} and {0} {2} are the same run here.\nhint: omit one of them, "
-                            "or the parameter "
-                            "that overrides it. For several runs of each, use --seeds.",
+                            "or the parameter that overrides it. For several runs of each, use "
+                            "--seeds.",
                             option_name(axis.name), before->second, value));
     }
 }
@@ -351,8 +351,8 @@ void replace_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan
     const PlanLock lock(folder);
     if (read_plan(folder) != grown_from)
         throw Failure(fmt::format(
-            "another process has extended the sweep in '{}' in the meantime.\nhint: repeat "
-            "the command to add to the extended sweep.",
+            "another process has extended the sweep in '{}' in the meantime.\nhint: repeat the "
+            "command to add to the extended sweep.",
             folder.string()));
     write_file_atomically(folder / "plan.json", plan_file_text(plan));
 }
@@ -374,8 +374,8 @@ void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* 
     if (!fs::exists(file) && write_new_file(file, plan_file_text(plan))) return;
     if (read_plan(folder) != plan)
         throw Failure(fmt::format(
-            "'{}' holds another sweep (see its plan.json).\nhint: choose another folder, "
-            "continue that sweep by giving only --out, or extend it with --grow.",
+            "'{}' holds another sweep (see its plan.json).\nhint: choose another folder, continue "
+            "that sweep by giving only --out, or extend it with --grow.",
             folder.string()));
 }
 
