@@ -186,7 +186,7 @@ f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
             if code != 0:
                 break
         self.assertEqual(code, 130, complaint)
-        self.assertIn("--resume goes on", complaint)
+        self.assertIn("--resume to continue", complaint)
         self.assertFalse(os.path.exists(folder + "/t.h5"))
         # The checkpoint alone says which run it is, and what was asked for.
         done = swirl("run", "--checkpoint", folder + "/r.json.checkpoint", "--resume", "--quiet")
@@ -410,7 +410,7 @@ class Disk(InFolder):
         process.send_signal(signal.SIGTERM)
         complaint = process.communicate(timeout=60)[1]
         self.assertEqual(process.returncode, 130, complaint)
-        self.assertIn("--resume goes on", complaint)
+        self.assertIn("--resume to continue", complaint)
 
     def test_full_while_a_sweep_writes_results_what_is_done_is_done(self):
         disk = self.small_disk("256k")
