@@ -1,11 +1,11 @@
-// Events one by one: the return value of step() says what happened.
+// Events one by one: step() returns what happened.
 #include <cstdio>
 
-#include "dish.hpp"
+#include "paper_scene.hpp"
 #include "swirl/engine/simulation.hpp"
 
 int main() {
-    swirl::Simulation simulation(paper_dish(28, 0.5, 7));
+    swirl::Simulation simulation(paper_scene(28, 0.5, 7));
     std::puts("       t  what");
     for (int shown = 0; shown < 10; ++shown) {
         const swirl::Event e = simulation.step();
@@ -18,7 +18,7 @@ int main() {
                 std::printf("disc %u and the wall: impulse %.4f\n", e.i, e.impulse.normal);
                 break;
             case swirl::EventKind::path_vertex:
-                std::printf("the container turns a corner of its path\n");
+                std::printf("the container passes a vertex of its path\n");
                 break;
             case swirl::EventKind::begins_to_roll:
                 std::printf("sphere %u begins to roll; discs never do\n", e.i);
@@ -26,7 +26,7 @@ int main() {
         }
     }
 
-    // The rest at once. The hash of the state is the same on every machine.
+    // Execute many events at once. The hash of the state is the same on every machine.
     simulation.run(9990);
     const swirl::EventCounts events = simulation.events();
     std::printf("%llu events, %llu of them with the wall\n",

@@ -75,14 +75,14 @@ for command in lab site; do
     "$home/web/$command.sh" --help >"$aside/.help/$command.txt"
 done
 mkdir "$aside/gallery"
-install_packages pictures movies || true # what cannot be made without them is not shown
+install_packages images movies || true # what cannot be made without them is not shown
 # shellcheck disable=SC2016
 sed -n '/ | docs\//!s/^[^#].* | swirl //p' "$home/web/gallery.txt" | (
     cd "$aside/gallery"
     while read -r made; do
         # The file is ours, and its commands have quoted nothing.
         # shellcheck disable=SC2086
-        "$program" $made --quiet 2>/dev/null || say "without a picture in the gallery: swirl $made"
+        "$program" $made --quiet 2>/dev/null || say "without an image in the gallery: swirl $made"
     done
 )
 mkdir "$aside/.notebooks"

@@ -9,9 +9,10 @@
 namespace swirl::python {
 namespace {
 
-[[noreturn]] void wrong_type(const std::string& name, const py::handle& value, const char* right) {
+[[noreturn]] void throw_wrong_type(const std::string& name, const py::handle& value,
+                                   const char* expected) {
     throw py::type_error(
-        fmt::format("{} is {}, but it must be {}.", name, std::string(py::repr(value)), right));
+        fmt::format("{} is {}, but it must be {}.", name, std::string(py::repr(value)), expected));
 }
 
 bool is_truth_value(const py::handle& value) {
@@ -19,23 +20,23 @@ bool is_truth_value(const py::handle& value) {
            std::string_view(Py_TYPE(value.ptr())->tp_name) == "numpy.bool_";
 }
 
-/// As many digits as it takes to read the same number back.
+/// As many digits as are needed to read the same number back.
 std::string number_text(const std::string& name, const py::handle& value) {
-    constexpr auto right = "a number or a text";
+    constexpr auto expected = "a number or a text";
     if (is_truth_value(value) || py::isinstance<py::bytes>(value) || py::hasattr(value, "__len__"))
-        wrong_type(name, value, right);
+        throw_wrong_type(name, value, expected);
     PyObject* number = nullptr;
     if (PyIndex_Check(value.ptr()))
         number = PyNumber_Index(value.ptr());
     else if (py::hasattr(value, "__float__"))
         number = PyNumber_Float(value.ptr());
     else
-        wrong_type(name, value, right);
+        throw_wrong_type(name, value, expected);
     if (number == nullptr) throw py::error_already_set();
     return py::repr(py::reinterpret_steal<py::object>(number));
 }
 
-/// A tuple is one value of several parts: mixture=(12, 1.3).
+/// A tuple is one value with several parts: mixture=(12, 1.3).
 std::string value_text(const std::string& name, const py::handle& value) {
     if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
     if (!py::isinstance<py::tuple>(value)) return number_text(name, value);
@@ -58,7 +59,7 @@ std::string list_text(const std::string& name, const py::handle& values) {
         text += (text.empty() ? "" : ",") + value_text(name, value);
     if (text.empty())
         throw UsageError(
-            fmt::format("{} is an empty list, but it must have one value at least.", name));
+            fmt::format("{} is an empty list, but it must have at least one value.", name));
     return text;
 }
 
@@ -70,10 +71,10 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
         const auto name = py::cast<std::string>(key);
         const Parameter* const row = find_parameter(name);
         if (row == nullptr || !row->is_settable() || name != row->name) {
-            const auto meant = nearest_name(plain_name(name), parameter_names());
-            throw py::type_error(fmt::format("There is no parameter '{}'{}", name,
-                                             meant ? fmt::format("; did you mean '{}'?", *meant)
-                                                   : "; swirl.parameters() lists them."));
+            const auto similar = nearest_name(plain_name(name), parameter_names());
+            throw py::type_error(fmt::format("there is no parameter '{}'.\nhint: {}", name,
+                                             similar ? fmt::format("did you mean '{}'?", *similar)
+                                                     : "swirl.parameters() lists all parameters."));
         }
         texts[name] = text_of(name, value);
     }
@@ -85,7 +86,8 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
 ParameterTexts texts_of(const py::dict& given) {
     return texts_by(given, [](const std::string& name, const py::handle& value) {
         if (is_list(value))
-            wrong_type(name, value, "one number or text; swirl.sweep() and swirl.map() take lists");
+            throw_wrong_type(name, value,
+                             "one number or text (only swirl.sweep() and swirl.map() take lists)");
         return value_text(name, value);
     });
 }
@@ -96,34 +98,33 @@ ParameterTexts lists_of(const py::dict& given) {
     });
 }
 
-std::string plain_sentence(std::string_view sentence) {
+std::string python_message(std::string_view message) {
     const auto is_word = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); };
     std::string plain;
-    while (!sentence.empty()) {
-        if (sentence.size() > 2 && sentence.starts_with("--") && is_word(sentence[2])) {
-            sentence.remove_prefix(2);
-            for (; !sentence.empty(); sentence.remove_prefix(1)) {
-                const bool joins =
-                    sentence[0] == '-' && sentence.size() > 1 && is_word(sentence[1]);
-                if (!joins && !is_word(sentence[0])) break;
-                plain += joins ? '_' : sentence[0];
+    while (!message.empty()) {
+        if (message.size() > 2 && message.starts_with("--") && is_word(message[2])) {
+            message.remove_prefix(2);
+            for (; !message.empty(); message.remove_prefix(1)) {
+                const bool joins = message[0] == '-' && message.size() > 1 && is_word(message[1]);
+                if (!joins && !is_word(message[0])) break;
+                plain += joins ? '_' : message[0];
             }
             continue;
         }
-        plain += sentence[0];
-        sentence.remove_prefix(1);
+        plain += message[0];
+        message.remove_prefix(1);
     }
     return plain;
 }
 
 WithoutInterpreter::~WithoutInterpreter() {
-    // A daemon thread that comes back when Python is leaving would be ended in the middle of this
-    // destructor, and with it the program; it waits for the end instead.
+    // While Python exits, it would terminate a daemon thread inside this destructor, and thereby
+    // the whole program. The thread waits for the end of the process instead.
     while (_Py_IsFinalizing()) pause();
     PyEval_RestoreThread(state_);
 }
 
-void Raised::listen(const std::function<void()>& more) {
+void PendingError::check_signals(const std::function<void()>& more) {
     if (error_ || _Py_IsFinalizing()) return;
     const py::gil_scoped_acquire interpreter;
     try {
@@ -134,7 +135,7 @@ void Raised::listen(const std::function<void()>& more) {
     }
 }
 
-py::object Raised::object() const {
+py::object PendingError::object() const {
     if (!error_) return py::none();
     try {
         std::rethrow_exception(error_);

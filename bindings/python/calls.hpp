@@ -1,5 +1,5 @@
-// What every function of the module needs: parameters out of keyword arguments, the command line's
-// sentences without its hyphens, and work during which Python goes on and Ctrl-C is heard.
+// Helpers for all functions of the module: parameters from keyword arguments, messages in Python's
+// notation, and long calls that other threads and Ctrl-C can interrupt.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -18,17 +18,16 @@ namespace swirl::python {
 
 namespace py = pybind11;
 
-/// Keyword arguments as the table of parameters reads them (run/parameters.hpp); None is what was
-/// not given. Throws TypeError for what is neither a number nor a text, and for a name that no
-/// parameter has.
+/// Converts keyword arguments to texts for run/parameters.hpp. None counts as not given. Throws
+/// TypeError for a value that is neither a number nor a text, and for an unknown name.
 ParameterTexts texts_of(const py::dict& given);
-/// The same, where a list stands for several values.
+/// The same for a sweep: a list holds several values.
 ParameterTexts lists_of(const py::dict& given);
 
-/// "mu_disc is -1, …" for "--mu-disc is -1, …".
-std::string plain_sentence(std::string_view sentence);
+/// Converts option names to Python names: "--mu-disc is -1, …" becomes "mu_disc is -1, …".
+std::string python_message(std::string_view message);
 
-/// The interpreter is somebody else's as long as this lives.
+/// Releases the interpreter lock for its lifetime.
 class WithoutInterpreter {
   public:
     WithoutInterpreter() : state_(PyEval_SaveThread()) {}
@@ -40,15 +39,15 @@ class WithoutInterpreter {
     PyThreadState* state_;
 };
 
-/// What Python raised while we were away from it; raised again once we are back.
-class Raised {
+/// An exception raised by Python during a call without the interpreter lock, to be rethrown later.
+class PendingError {
   public:
     explicit operator bool() const { return error_ != nullptr; }
-    /// Asks for Ctrl-C, and calls `more` if nothing has been raised yet. From a thread without the
-    /// interpreter.
-    void listen(const std::function<void()>& more = {});
-    /// With the interpreter.
-    void raise_again() const {
+    /// Checks for Ctrl-C, then calls `more`, unless there is an error already. The caller must not
+    /// hold the interpreter lock.
+    void check_signals(const std::function<void()>& more = {});
+    /// The caller must hold the interpreter lock.
+    void rethrow() const {
         if (error_) std::rethrow_exception(error_);
     }
     /// The exception as an object, or None.
@@ -58,29 +57,33 @@ class Raised {
     std::exception_ptr error_;
 };
 
-/// Whether Python would tell this thread of signals. With the interpreter.
+/// True if Python delivers signals to this thread. The caller must hold the interpreter lock.
 bool is_main_thread();
 
-/// work() in a thread of its own, while this one listens for Ctrl-C every twentieth of a second and
-/// calls `more`. Whatever is raised sets `stop`; when the work has ended it is raised here.
+/// Runs work() in another thread. Meanwhile this thread checks for Ctrl-C 20 times per second and
+/// calls `more`. An exception sets `stop`, and is rethrown here when the work has ended.
 template <class Work>
-auto listening(std::atomic<bool>& stop, Work&& work, const std::function<void()>& more = {}) {
-    Raised raised;
+auto interruptible(std::atomic<bool>& stop, Work&& work, const std::function<void()>& more = {}) {
+    PendingError error;
     std::future<decltype(work())> done;
     {
         const WithoutInterpreter without;
         done = std::async(std::launch::async, work);
         while (done.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-            raised.listen(more);
-            if (raised) stop = true;
+            error.check_signals(more);
+            if (error) stop = true;
         }
     }
-    raised.raise_again();
+    error.rethrow();
     return done.get();
 }
 
+/// Makes the constructor of a class raise TypeError: an object without content would be invalid.
+void forbid_construction(py::object type);
+
 void bind_runs(py::module_& module);
-void bind_simulations(py::module_& module);
+void bind_snapshots(py::module_& module);
+void bind_simulation(py::module_& module);
 void bind_studies(py::module_& module);
 void bind_recordings(py::module_& module);
 

@@ -22,17 +22,18 @@ void Frames::begin(const Snapshot& s) {
     inertia = s.inertia;
 }
 
-void Frames::add_moment(std::int64_t swirl, double now, const Vec2& centre, const Vec2& moves) {
-    periods.push_back(swirl);
-    clock.push_back(now);
-    time.push_back(static_cast<double>(swirl) * period + now);
+void Frames::add_time(std::int64_t whole_periods, double clock_now, const Vec2& centre,
+                      const Vec2& centre_velocity) {
+    periods.push_back(whole_periods);
+    clock.push_back(clock_now);
+    time.push_back(static_cast<double>(whole_periods) * period + clock_now);
     container_centre.insert(container_centre.end(), {centre.x, centre.y});
-    container_velocity.insert(container_velocity.end(), {moves.x, moves.y});
+    container_velocity.insert(container_velocity.end(), {centre_velocity.x, centre_velocity.y});
 }
 
 void Frames::add(const Snapshot& s) {
     if (size() == 0) begin(s);
-    add_moment(s.periods, s.clock, s.container_centre, s.container_velocity);
+    add_time(s.periods, s.clock, s.container_centre, s.container_velocity);
     const auto add_vector = [](std::vector<double>& column, const Vec2& v) {
         column.push_back(v.x);
         column.push_back(v.y);
@@ -52,7 +53,7 @@ void Frames::add(const Simulation& simulation, const ContainerPath& path) {
     if (size() == 0 || are_spheres) return add(simulation.snapshot());
     const double now = simulation.clock();
     const Segment& segment = path.segment_at(now);
-    add_moment(simulation.periods(), now, segment.position_at(now), segment.velocity_at(now));
+    add_time(simulation.periods(), now, segment.position_at(now), segment.velocity_at(now));
     const std::size_t at = angle.size();
     for (auto* column : {&position, &velocity}) column->resize(2 * (at + discs));
     for (auto* column : {&angle, &spin}) column->resize(at + discs);
@@ -67,8 +68,6 @@ void Frames::add(const Simulation& simulation, const ContainerPath& path) {
         spin[at + i] = d.spin;
     }
 }
-
-void Frames::clear() { *this = Frames(); }
 
 Snapshot Frames::frame(std::size_t k) const {
     Snapshot s;

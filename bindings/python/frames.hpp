@@ -1,4 +1,4 @@
-// Snapshots in order of time, as columns that numpy looks at without copying: [frame][disc][x, y].
+// Snapshots in order of time, as columns that numpy reads without copying: [frame][disc][x, y].
 #pragma once
 
 #include <cstddef>
@@ -11,31 +11,42 @@
 
 namespace swirl::python {
 
-/// Every frame has the same discs in the same order; everybody is held at the time of the frame.
+/// Every frame has the same discs in the same order, at the time of the frame.
 struct Frames {
     std::size_t discs = 0;
     double period = 0.0, container_radius = 0.0;
     bool on_floor = false, are_spheres = false, lie_flat = false;
-    std::vector<double> radius, mass, inertia;  // [disc]
-    std::vector<std::int64_t> periods;          // [frame]
-    std::vector<double> clock, time;
+    std::vector<double> radius, mass, inertia;                           // [disc]
+    std::vector<std::int64_t> periods;                                   // [frame], whole periods
+    std::vector<double> clock, time;                                     // [frame]
     std::vector<double> container_centre, container_velocity;            // [frame][x, y]
     std::vector<double> position, velocity, acceleration, rolling_spin;  // [frame][disc][x, y]
     std::vector<double> angle, spin;                                     // [frame][disc]
 
     std::size_t size() const { return clock.size(); }
-    /// Whether it has the discs of the frames before it.
+    /// True if the snapshot has as many discs as the frames.
     bool fits(const Snapshot& snapshot) const { return size() == 0 || snapshot.size() == discs; }
     void reserve(std::size_t frames, std::size_t of_discs);
     void add(const Snapshot& snapshot);
-    /// The same as of its snapshot, in less time.
+    /// Adds the present state. Equals add(simulation.snapshot()), but is faster.
     void add(const Simulation& simulation, const ContainerPath& path);
-    void clear();
     Snapshot frame(std::size_t k) const;
 
   private:
     void begin(const Snapshot& snapshot);
-    void add_moment(std::int64_t swirl, double now, const Vec2& centre, const Vec2& moves);
+    void add_time(std::int64_t whole_periods, double clock_now, const Vec2& centre,
+                  const Vec2& centre_velocity);
+};
+
+/// A single snapshot, in the same columns.
+struct SingleFrame {
+    Frames frames;
+
+    explicit SingleFrame(const Snapshot& snapshot) {
+        frames.reserve(1, snapshot.size());
+        frames.add(snapshot);
+    }
+    Snapshot snapshot() const { return frames.frame(0); }
 };
 
 }  // namespace swirl::python

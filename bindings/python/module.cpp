@@ -1,5 +1,5 @@
-// The module swirl._engine: what Python needs of the layers below the command line. The package
-// around it (swirl/) gives it names and documentation.
+// The module swirl._engine: access to the layers below the command line. The Python package around
+// it (swirl/) provides the public names and their documentation.
 #include <pybind11/pybind11.h>
 
 #include "calls.hpp"
@@ -9,9 +9,9 @@
 namespace swirl::python {
 namespace {
 
-void tell(std::exception_ptr thrown, PyObject* failure, PyObject* file_error) {
+void translate(std::exception_ptr thrown, PyObject* failure, PyObject* file_error) {
     const auto set = [](PyObject* kind, const std::exception& error) {
-        PyErr_SetString(kind, plain_sentence(error.what()).c_str());
+        PyErr_SetString(kind, python_message(error.what()).c_str());
     };
     try {
         std::rethrow_exception(thrown);
@@ -34,17 +34,18 @@ PyObject *failure_type = nullptr, *file_error_type = nullptr;
 PYBIND11_MODULE(_engine, module) {
     namespace python = swirl::python;
     using python::failure_type, python::file_error_type;
-    failure_type =
-        PyErr_NewExceptionWithDoc("swirl.Failure", "The call was right, but it could not be done.",
-                                  PyExc_RuntimeError, nullptr);
-    file_error_type = PyErr_NewExceptionWithDoc(
-        "swirl.FileError", "Something is wrong with a file.", PyExc_OSError, nullptr);
+    failure_type = PyErr_NewExceptionWithDoc(
+        "swirl.Failure", "The call was valid, but the run failed.", PyExc_RuntimeError, nullptr);
+    file_error_type = PyErr_NewExceptionWithDoc("swirl.FileError",
+                                                "A file is missing, damaged or of another kind.",
+                                                PyExc_OSError, nullptr);
     module.add_object("Failure", failure_type);
     module.add_object("FileError", file_error_type);
     pybind11::register_exception_translator([](std::exception_ptr thrown) {
-        if (thrown) python::tell(thrown, failure_type, file_error_type);
+        if (thrown) python::translate(thrown, failure_type, file_error_type);
     });
-    python::bind_simulations(module);
+    python::bind_snapshots(module);
+    python::bind_simulation(module);
     python::bind_runs(module);
     python::bind_studies(module);
     python::bind_recordings(module);

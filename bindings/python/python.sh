@@ -1,6 +1,6 @@
 #!/bin/sh
-# Python with the module `swirl` on its path: builds it when it is out of date, then becomes Debian's
-# python3 with the arguments that are left.
+# Runs Debian's python3 with the module `swirl` on its path. Builds the module first if it is out of
+# date.
 set -eu
 home=$(dirname "$(dirname "$(dirname "$(readlink -f "$0")")")")
 me=swirl
@@ -8,6 +8,6 @@ long="three minutes or so"
 . "$home/cmake/launcher.sh"
 
 build release "build python" bindings/python swirl_python
-# An empty entry would be the current folder, and what lies there would replace modules.
+# An empty entry would be the current folder, whose files could replace modules.
 others=$(printf %s "${PYTHONPATH-}" | sed -e 's/::*/:/g' -e 's/^://' -e 's/:$//')
 PYTHONPATH=$home/build/release/python${others:+:$others} exec /usr/bin/python3 "$@"

@@ -1,4 +1,4 @@
-// swirl.Trajectory, swirl.Tracks, swirl.analyse(): what was recorded, frame by frame.
+// swirl.Trajectory, swirl.Tracks and swirl.analyse(): recorded frames and their analysis.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -23,15 +23,12 @@
 namespace swirl::python {
 namespace {
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using WholeNumbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
-
-/// Frames that are read, or worked out, when they are asked for. From any thread, in turns.
+/// Frames that are read or computed on demand. Any thread may call it; simultaneous calls wait.
 class Recording {
   public:
     explicit Recording(SnapshotSeries series) : series_(std::move(series)) {
         series_.frame = [this, read = std::move(series_.frame)](std::uint64_t k) {
-            const std::lock_guard turn(turn_);
+            const std::lock_guard lock(mutex_);
             return read(k);
         };
     }
@@ -50,10 +47,10 @@ class Recording {
         for (std::uint64_t k = begin; k < end; k += step) {
             const Snapshot s = series_.frame(k);
             if (!frames->fits(s))
-                throw UsageError(fmt::format(
-                    "Frame {} has {} discs and the one before it {}; frames of different "
-                    "discs can be asked for one by one.",
-                    k, s.size(), frames->discs));
+                throw UsageError(
+                    fmt::format("frame {} has {} discs, but the previous one has {}.\n"
+                                "hint: read frames with different discs one by one.",
+                                k, s.size(), frames->discs));
             frames->add(s);
         }
         return frames;
@@ -61,34 +58,34 @@ class Recording {
     py::dict about() {
         py::dict about;
         if (!reader_) return about;
-        const std::lock_guard turn(turn_);
+        const std::lock_guard lock(mutex_);
         for (const std::string& name : reader_->provenance_names())
             about[py::str(name)] = reader_->provenance(name);
         return about;
     }
     bool complete() const { return !reader_ || reader_->complete(); }
-    std::string remarks;  // of tracks, a line each
+    std::string remarks;  // about tracks, one per line
 
   private:
     SnapshotSeries series_;
     std::shared_ptr<TrajectoryReader> reader_;
-    std::mutex turn_;
+    std::mutex mutex_;
 };
 
-/// Rows of a table in order of frames, as trackpy has them; radii of our own tracker's.
+/// Rows of a trackpy table in order of frames. `radius` may be empty.
 std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers& particle,
                                   const Numbers& x, const Numbers& y, const Numbers& radius,
                                   const py::dict& scale, double misfit) {
     const py::ssize_t n = frame.size();
-    if (n == 0) throw UsageError("There are no positions in the tracks.");
+    if (n == 0) throw UsageError("the tracks are empty.");
     if (particle.size() != n || x.size() != n || y.size() != n ||
         (radius.size() != n && radius.size() != 0))
-        throw UsageError("The columns of the tracks have different lengths.");
+        throw UsageError("the columns of the tracks have different lengths.");
     Tracks tracks;
     tracks.y_down = true;
     for (py::ssize_t k = 0; k < n; ++k) {
         if (!std::isfinite(x.data()[k]) || !std::isfinite(y.data()[k]))
-            throw UsageError(fmt::format("Row {} of the tracks has no finite position.", k));
+            throw UsageError(fmt::format("row {} of the tracks has no finite position.", k));
         const std::int64_t number = frame.data()[k], id = particle.data()[k];
         if (tracks.frames.empty() || tracks.frames.back().number != number) {
             tracks.frames.emplace_back();
@@ -96,7 +93,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
         }
         TrackFrame& at = tracks.frames.back();
         if (!at.id.empty() && at.id.back() >= id)
-            throw UsageError(fmt::format("Particle {} is in frame {} twice.", id, number));
+            throw UsageError(fmt::format("particle {} appears twice in frame {}.", id, number));
         at.id.push_back(id);
         at.position.push_back({x.data()[k], y.data()[k]});
         if (radius.size() == n) at.radius.push_back(radius.data()[k]);
@@ -112,9 +109,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
     s.clockwise = py::cast<bool>(scale["clockwise"]);
     s.swirl_centre = {number("centre_x"), number("centre_y")};
     if (tracks.frames.size() == 1)
-        throw UsageError(
-            "The tracks are of a single frame, which tells no velocities; two are the "
-            "least.");
+        throw UsageError("the tracks have a single frame, but velocities need at least two.");
     repair(tracks, s.pixels_per_radius);
     FittedSeries fitted = fitted_series(tracks, s, misfit);
     auto recording = std::make_unique<Recording>(std::move(fitted.series));
@@ -122,7 +117,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
     return recording;
 }
 
-/// Frames that are there already.
+/// A recording of frames in memory.
 std::unique_ptr<Recording> recording_of(const std::shared_ptr<const Frames>& frames) {
     SnapshotSeries series;
     series.frames = frames->size();
@@ -130,19 +125,20 @@ std::unique_ptr<Recording> recording_of(const std::shared_ptr<const Frames>& fra
     return std::make_unique<Recording>(std::move(series));
 }
 
-/// What frames cannot tell, where it was asked for by name.
-void reject_untold(const std::vector<std::string>& names, bool tracked) {
+/// Throws UsageError for measurements that these frames do not allow.
+void reject_unmeasurable(const std::vector<std::string>& names, bool tracked) {
     for (const std::string& name : names) {
         const MeasurementKind& kind = *find_measurement(name);
         if (kind.needs_events)
             throw UsageError(fmt::format(
-                "measure has '{}' in its list, which needs every collision, and frames do not hold "
-                "them; swirl.run(measure=\"{}\") can tell.",
+                "measure contains '{}', which needs every collision, but frames do not hold them.\n"
+                "hint: use swirl.run(measure=\"{}\").",
                 name, name));
         if (kind.needs_tracks && !tracked)
             throw UsageError(fmt::format(
-                "The discs are never the same for {} frames in a row, so '{}' cannot be told of "
-                "them; density, flow, profile, radial, temperature, order and packing can.",
+                "measure contains '{1}', which needs the same discs in {0} consecutive frames, but "
+                "the recording does not have them.\nhint: density, flow, profile, radial, "
+                "temperature, order and packing do not need this.",
                 PinnedLoose::width + 1, name));
     }
 }
@@ -154,20 +150,20 @@ py::tuple estimate_tuple(const Estimate& e) {
 py::tuple analyse(Recording& recording, const std::vector<std::string>& names, bool all,
                   double skip) {
     if (!(skip >= 0.0))
-        throw UsageError(fmt::format("skip is {}, but it must be 0 or more swirls.", skip));
-    if (recording.size() == 0) throw UsageError("The recording holds no frames.");
+        throw UsageError(fmt::format("skip is {}, but it must be 0 periods or more.", skip));
+    if (recording.size() == 0) throw UsageError("the recording has no frames.");
     const SnapshotSeries& series = recording.series();
     const bool tracked = holds_tracks(series);
-    if (!all) reject_untold(names, tracked);
-    const auto told = measurable(names, tracked);
+    if (!all) reject_unmeasurable(names, tracked);
+    const auto measured = measurable(names, tracked);
     const Snapshot last = series.frame(series.frames - 1);
     if (last.time() < skip * last.period)
-        throw UsageError(fmt::format("skip {} leaves no frame.", skip));
+        throw UsageError(fmt::format("skip is {}, but the recording ends earlier.", skip));
     std::atomic<bool> stop = false;
     MeasuringControl control;
     control.stop = &stop;
     const MeasuredSeries found =
-        listening(stop, [&] { return measure_series(series, told, skip, control); });
+        interruptible(stop, [&] { return measure_series(series, measured, skip, control); });
     return py::make_tuple(reports_in_python(found.reports), estimate_tuple(found.rotation.by_time),
                           estimate_tuple(found.rotation.rigid_by_time), found.frames);
 }

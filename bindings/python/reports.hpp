@@ -1,4 +1,4 @@
-// What measurements have found (measure/measurement_report.hpp), as plain tuples and arrays.
+// Results of measurements (measure/measurement_report.hpp) as Python tuples and arrays.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,4 +1,4 @@
-// swirl.run(): one run, with what its caller measures himself on the way.
+// swirl.run(): one run, with the caller's custom measurements.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -22,44 +22,44 @@
 namespace swirl::python {
 namespace {
 
-/// Called with the fraction, the events and the periods so far; None: nobody wants to know.
-using Told = std::optional<py::function>;
+/// Called with (fraction, events, periods) so far; None: no progress is reported.
+using ProgressCallback = std::optional<py::function>;
 
-/// What the caller measures: once in every period after the warm-up, told its frames.
-struct OwnMeasurement {
+/// `period_ended` is called with the frames of each period after the warm-up.
+struct CustomMeasurement {
     int frames_per_period = samples_per_period;
     std::optional<py::function> period_ended;
 };
 
-/// Ctrl-C and progress, a few times a second. Its address goes into the control of the run.
-class Listening {
+/// Checks for Ctrl-C and reports progress a few times per second. The control of the run refers to
+/// it, so it must not move.
+class RunMonitor {
   public:
-    Listening(RunControl& control, Told told)
-        : told_(std::move(told)), listens_(told_ || is_main_thread()) {
+    RunMonitor(RunControl& control, ProgressCallback callback) : callback_(std::move(callback)) {
         control.stop = &stop_;
-        if (listens_)
+        if (callback_ || is_main_thread())
             control.progress = [this](const RunProgress& progress) {
-                listen([&] {
-                    if (told_) (*told_)(progress.fraction, progress.events, progress.periods);
+                check_signals([&] {
+                    if (callback_)
+                        (*callback_)(progress.fraction, progress.events, progress.periods);
                 });
             };
     }
-    void listen(const std::function<void()>& more) {
-        raised_.listen(more);
-        if (raised_) stop_ = true;
+    void check_signals(const std::function<void()>& more) {
+        error_.check_signals(more);
+        if (error_) stop_ = true;
     }
-    const Raised& raised() const { return raised_; }
+    const PendingError& error() const { return error_; }
     std::atomic<bool>& stop() { return stop_; }
 
   private:
-    const Told told_;
-    const bool listens_;
+    const ProgressCallback callback_;
     std::atomic<bool> stop_ = false;
-    Raised raised_;
+    PendingError error_;
 };
 
-RunResult run_with_own(Run& run, const OwnMeasurement& own, Listening& listening) {
-    SampleTimes times = run.sample_times(own.frames_per_period);
+RunResult run_with_custom(Run& run, const CustomMeasurement& custom, RunMonitor& monitor) {
+    SampleTimes times = run.sample_times(custom.frames_per_period);
     auto frames = std::make_shared<Frames>();
     std::int64_t periods = 0;
     while (run.next_event()) {
@@ -70,62 +70,62 @@ RunResult run_with_own(Run& run, const OwnMeasurement& own, Listening& listening
             continue;
         periods = run.snapshot().periods;
         if (frames->size() == 0) continue;
-        listening.listen([&] {
-            (*own.period_ended)(frames);
-            frames = std::make_shared<Frames>();  // who kept those keeps them
+        monitor.check_signals([&] {
+            (*custom.period_ended)(frames);
+            frames = std::make_shared<Frames>();  // Python may still use the old ones
         });
     }
     return run.result();
 }
 
-RunResult run_alone(Run& run) {
+RunResult run_plain(Run& run) {
     while (run.next_event()) run.pass_event();
     return run.result();
 }
 
-/// The JSON of the result, the reports, and what was raised on the way or None.
+/// Returns (JSON of the result, reports, exception during the run or None, headline, report).
 py::tuple run_once(const py::dict& given, const std::vector<std::string>& measured,
-                   const std::string& command, const Told& told, const OwnMeasurement& own,
-                   const RunFiles& files, const std::string& recorded_as) {
+                   const std::string& command, const ProgressCallback& callback,
+                   const CustomMeasurement& custom, const RunFiles& files,
+                   const std::string& recorded_as) {
     const RunConfig config = resolve(texts_of(given));
     Observation observation = observation_of(config, measured);
     RunControl control;
     if (!observation.empty()) control.observation = &observation;
-    Listening listens(control, told);
+    RunMonitor monitor(control, callback);
 
     const bool records =
         !files.trajectory.empty() || !files.event_log.empty() || !files.checkpoint.empty();
-    if (records && own.period_ended)
+    if (records && custom.period_ended)
         throw UsageError(
-            "A run that is recorded cannot have measurements of one's own; swirl.analyse() of its "
-            "recording can.");
+            "a run with trajectory, event_log or checkpoint cannot have custom measurements.\n"
+            "hint: use swirl.analyse() on the recording.");
     RunResult result;
     if (records) {
         const WithoutInterpreter without;
         result = run_recorded(config, files, control, provenance_of(config, recorded_as, ""));
         if (result.complete) forget_checkpoint(files);
     } else {
-        // Places for many discs may be sought for seconds.
+        // Placing many discs may take seconds.
         const auto run =
-            listening(listens.stop(), [&] { return std::make_unique<Run>(config, control); });
+            interruptible(monitor.stop(), [&] { return std::make_unique<Run>(config, control); });
         const WithoutInterpreter without;
-        result = own.period_ended ? run_with_own(*run, own, listens) : run_alone(*run);
+        result = custom.period_ended ? run_with_custom(*run, custom, monitor) : run_plain(*run);
     }
     nlohmann::ordered_json json = result_json(result);
     json["command"] = command;
     json["config_text"] = "";
     const MeasurementReports reports = observation.report();
     if (!reports.empty()) json["measured"] = measured_json(reports);
-    return py::make_tuple(json.dump(2), reports_in_python(reports), listens.raised().object(),
+    return py::make_tuple(json.dump(2), reports_in_python(reports), monitor.error().object(),
                           headline(result), report(result) + warning_lines(result));
 }
 
-/// Rows of numbers, a row for every block, as series of their own.
-py::tuple estimates(const py::array_t<double, py::array::c_style | py::array::forcecast>& sums,
-                    const py::array_t<double, py::array::c_style | py::array::forcecast>& weights) {
+/// Means, errors and effective samples of each column. Rows are blocks.
+py::tuple estimates(const Numbers& sums, const Numbers& weights) {
     if (sums.ndim() != 2 || weights.ndim() != 2 || sums.shape(0) != weights.shape(0) ||
         sums.shape(1) != weights.shape(1))
-        throw UsageError("Sums and weights of blocks must be tables of the same shape.");
+        throw UsageError("sums and weights must have the same shape, [block, column].");
     const auto blocks = static_cast<std::size_t>(sums.shape(0));
     const auto columns = static_cast<std::size_t>(sums.shape(1));
     std::vector<double> means, errors, effective;
@@ -162,7 +162,7 @@ py::list parameter_table() {
     py::list table;
     for (const Parameter& p : run_parameters)
         if (p.is_settable())
-            table.append(py::make_tuple(p.name, p.symbol, p.unit, plain_sentence(p.description),
+            table.append(py::make_tuple(p.name, p.symbol, p.unit, python_message(p.description),
                                         default_of(p), p.range.lowest, p.range.highest, p.group));
     return table;
 }
@@ -173,9 +173,9 @@ void bind_runs(py::module_& module) {
     module.def(
         "run",
         [](const py::dict& given, const std::vector<std::string>& measured,
-           const std::string& command, const Told& told, int frames_per_period,
+           const std::string& command, const ProgressCallback& callback, int frames_per_period,
            const std::optional<py::function>& period_ended, const py::dict& files) {
-            return run_once(given, measured, command, told, {frames_per_period, period_ended},
+            return run_once(given, measured, command, callback, {frames_per_period, period_ended},
                             run_files(files), command);
         },
         py::arg("parameters"), py::arg("measured"), py::arg("command"), py::arg("progress"),

@@ -1,4 +1,4 @@
-// swirl.sweep(), swirl.crossing(), swirl.map(): many runs, as swirl/study plans and does them.
+// swirl.sweep(), swirl.crossing() and swirl.map(): many runs, planned and executed by swirl/study.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -17,31 +17,28 @@
 namespace swirl::python {
 namespace {
 
-using Told = std::optional<py::function>;
+using ProgressCallback = std::optional<py::function>;
 
-/// What other threads say while this one waits, handed on when it is asked for.
+/// The latest progress that worker threads have reported, for the thread that calls Python.
 template <class... Parts>
-class Latest {
+class LatestProgress {
   public:
-    void say(Parts... parts) {
-        const std::lock_guard turn(turn_);
-        said_ = std::tuple(parts...);
-        is_new_ = true;
+    void report(Parts... parts) {
+        const std::lock_guard lock(mutex_);
+        latest_ = std::tuple(parts...);
     }
-    void hand_on(const Told& told) {
-        std::optional<std::tuple<Parts...>> said;
+    void forward_to(const ProgressCallback& callback) {
+        std::optional<std::tuple<Parts...>> latest;
         {
-            const std::lock_guard turn(turn_);
-            if (is_new_) said = said_;
-            is_new_ = false;
+            const std::lock_guard lock(mutex_);
+            std::swap(latest, latest_);
         }
-        if (told && said) std::apply(*told, *said);
+        if (callback && latest) std::apply(*callback, *latest);
     }
 
   private:
-    std::mutex turn_;
-    std::tuple<Parts...> said_;
-    bool is_new_ = false;
+    std::mutex mutex_;
+    std::optional<std::tuple<Parts...>> latest_;
 };
 
 SweepPlan plan_of(const py::dict& given, std::int64_t replicas,
@@ -58,7 +55,7 @@ SweepPlan plan_of(const py::dict& given, std::int64_t replicas,
     return plan;
 }
 
-/// The parameters of every point, as texts, with the seed that is its own.
+/// The parameters of every point as texts, including its seed.
 std::vector<std::map<std::string, std::string>> points_of(const SweepPlan& plan) {
     std::vector<std::map<std::string, std::string>> points;
     for (std::size_t point = 0; point < plan.points(); ++point) {
@@ -68,20 +65,20 @@ std::vector<std::map<std::string, std::string>> points_of(const SweepPlan& plan)
     return points;
 }
 
-py::tuple sweep(const std::string& folder, unsigned threads, const Told& told) {
+py::tuple sweep(const std::string& folder, unsigned threads, const ProgressCallback& callback) {
     const SweepPlan plan = read_plan(folder);
     SweepShare share;
     share.threads = threads;
     std::atomic<bool> stop = false;
-    Latest<double, double, std::uint64_t> latest;
+    LatestProgress<double, double, std::uint64_t> latest;
     SweepControl control;
     control.stop = &stop;
     control.progress = [&](double done, double all, std::uint64_t events) {
-        latest.say(done, all, events);
+        latest.report(done, all, events);
     };
-    const SweepOutcome outcome = listening(
+    const SweepOutcome outcome = interruptible(
         stop, [&] { return run_sweep(folder, plan, share, control); },
-        [&] { latest.hand_on(told); });
+        [&] { latest.forward_to(callback); });
     return py::make_tuple(outcome.done, outcome.failed, outcome.elsewhere, outcome.first_failure);
 }
 
@@ -98,14 +95,15 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
                                    std::int64_t maximum, double tolerance,
                                    const std::string& rate) {
     if (minimum < 1 || maximum < minimum || static_cast<double>(maximum) > max_discs)
-        throw UsageError(
-            fmt::format("The range of discs is {} to {}, but it must go up, from 1 at least.",
-                        minimum, maximum));
+        throw UsageError(fmt::format(
+            "min_discs is {} and max_discs {}, but min_discs must be at least 1 and max_discs at "
+            "least min_discs.",
+            minimum, maximum));
     if (!(tolerance > 0.0))
         throw UsageError(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
     ParameterTexts texts = texts_of(given);
     texts.try_emplace("events", default_search_events);
-    texts["discs"] = std::to_string(maximum);  // only what is searched has to fit
+    texts["discs"] = std::to_string(maximum);  // the largest number must fit into the container
     CrossingSettings settings;
     settings.rate = rate_named(rate);
     settings.config = resolve(texts);
@@ -117,16 +115,17 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
 
 py::tuple crossing(const py::dict& given, std::int64_t minimum, std::int64_t maximum,
                    double tolerance, const std::string& rate, unsigned threads,
-                   const std::string& command, const Told& told) {
+                   const std::string& command, const ProgressCallback& callback) {
     const CrossingSettings settings = crossing_settings(given, minimum, maximum, tolerance, rate);
     std::atomic<bool> stop = false;
-    Latest<std::string, double> latest;
+    LatestProgress<std::string, double> latest;
     CrossingControl control;
     control.stop = &stop;
     control.threads = threads;
-    control.progress = [&](const std::string& stage, double speed) { latest.say(stage, speed); };
-    const CrossingSearch search = listening(
-        stop, [&] { return search_crossing(settings, control); }, [&] { latest.hand_on(told); });
+    control.progress = [&](const std::string& stage, double speed) { latest.report(stage, speed); };
+    const CrossingSearch search = interruptible(
+        stop, [&] { return search_crossing(settings, control); },
+        [&] { latest.forward_to(callback); });
     return py::make_tuple(crossing_json(settings, search, command),
                           crossing_report(settings, search));
 }
@@ -150,7 +149,8 @@ void bind_studies(py::module_& module) {
             std::error_code failed;
             std::filesystem::create_directories(folder, failed);
             if (failed)
-                throw Failure(fmt::format("'{}' cannot be made: {}.", folder, failed.message()));
+                throw Failure(
+                    fmt::format("cannot create the folder '{}': {}.", folder, failed.message()));
             write_plan(folder, plan);
         });
     module.def("grow", [](const std::string& folder, const py::dict& more, std::int64_t replicas,

@@ -32,16 +32,16 @@ class ConfigFiles(InFolder):
     def test_a_picture(self):
         options = ["--discs", 12, "--mu-wall", 0.25, "--frame", "m", "--angles", "--size", "320x240",
                    "--trail-length", 0.5, "--at", 2]
-        self.good("picture", *options, "--out", self.path("hand.png"))
+        self.good("image", *options, "--out", self.path("hand.png"))
         file = self.config("discs = 12", "mu_wall = 0.25", 'frame = "m"', "angles = true",
                            'size = "320x240"', "trail_length = 0.5", "at = 2", "strobe = 1",
                            f'out = "{self.path("file.png")}"')
-        said = self.good("picture", file).stdout
+        said = self.good("image", file).stdout
         self.assertIn("320x240", said)
         self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
         # By hand wins, also over an option that means the same in other words.
-        self.good("picture", file, "--discs", 5, "--mu", 1, "--at", 3, "--out", self.path("x.png"))
-        self.good("picture", *options[4:-2], "--at", 3, "--discs", 5, "--mu", 1, "--out",
+        self.good("image", file, "--discs", 5, "--mu", 1, "--at", 3, "--out", self.path("x.png"))
+        self.good("image", *options[4:-2], "--at", 3, "--discs", 5, "--mu", 1, "--out",
                   self.path("y.png"))
         self.assertEqual(self.bytes_of("x.png"), self.bytes_of("y.png"))
 
@@ -49,8 +49,8 @@ class ConfigFiles(InFolder):
         self.good("run", "--discs", 5, "--events", 2000, "--frames", 20, "--trajectory",
                   self.path("t.h5"), "--quiet")
         file = self.config(f'file = "{self.path("t.h5")}"', 'size = "200x200"')
-        self.good("picture", file, "--at", 1, "--out", self.path("file.png"))
-        self.good("picture", self.path("t.h5"), "--size", "200x200", "--at", 1, "--out",
+        self.good("image", file, "--at", 1, "--out", self.path("file.png"))
+        self.good("image", self.path("t.h5"), "--size", "200x200", "--at", 1, "--out",
                   self.path("hand.png"))
         self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
 
@@ -59,8 +59,8 @@ class ConfigFiles(InFolder):
                            "pace = 1", "plot = true")
         self.good("movie", file, "--frames", self.path("a"))
         self.assertEqual(len(os.listdir(self.path("a"))), 20)
-        # --swirls replaces the file's seconds.
-        self.good("movie", file, "--swirls", 0.5, "--frames", self.path("b"))
+        # --periods replaces the file's seconds.
+        self.good("movie", file, "--periods", 0.5, "--frames", self.path("b"))
         self.assertEqual(len(os.listdir(self.path("b"))), 5)
 
     def test_a_crossing(self):
@@ -95,11 +95,11 @@ class ConfigFiles(InFolder):
     def test_what_has_no_place_in_a_file_is_refused_with_the_line(self):
         out = ["--out", self.path("x.png")]
         for command, line, words in (
-                ("picture", "events = 100", "there is no option 'events'"),
-                ("picture", "sieze = '20x20'", "did you mean 'size'?"),
-                ("picture", "angles = 3", "angles is '3', but it must be true or false"),
-                ("picture", "strobe = 1.5", "strobe is '1.5', but it must be a whole number"),
-                ("picture", "at = 'soon'", "at is 'soon', but it must be a number"),
+                ("image", "events = 100", "there is no option 'events'"),
+                ("image", "sieze = '20x20'", "did you mean 'size'?"),
+                ("image", "angles = 3", "angles is '3', but it must be true or false"),
+                ("image", "strobe = 1.5", "strobe is '1.5', but it must be a whole number"),
+                ("image", "at = 'soon'", "at is 'soon', but it must be a number"),
                 ("movie", "fps = 9999999999", "whole number"),
                 ("movie", "discs = [5, 6]", "list"),
                 ("crossing", "discs = 40", "there is no option 'discs'"),
@@ -107,7 +107,7 @@ class ConfigFiles(InFolder):
                 ("paper", "mu = 1", "there is no option 'mu'")):
             with self.subTest(line):
                 self.assertIn(words, self.refused(command, self.config(line),
-                                                  *(out if command == "picture" else [])))
+                                                  *(out if command == "image" else [])))
         self.assertEqual(self.left_behind(), ["a.toml"])
 
 

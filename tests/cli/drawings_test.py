@@ -1,5 +1,5 @@
-"""What the scripts of the figures draw, from tables made up as large as those of a whole study: letters that
-can be read, legends beside the data, every point inside its axes, arrows that do not touch."""
+"""Figures drawn by the scripts in figures/ from synthetic tables as large as those of a complete study. Letters
+must be legible, legends must not cover data, points must be inside their axes, and arrows must not touch."""
 
 import csv
 import glob
@@ -20,13 +20,13 @@ from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 from matplotlib.text import Text  # noqa: E402
 
-SMALLEST = 7.0  # points, where the figure is shown as wide as it is
+MIN_FONT_SIZE = 7.0  # points, at the original size of the figure
 R = 8.6
 ONE_POINT = 300 / 72  # in pixels
 
 
 def rotation(numbers, high=0.2, low=-0.05, **more):
-    """Rows of one curve, some of them of runs that are not steady."""
+    """Rows of one curve; some runs are drifting."""
     numbers = list(numbers)
     for k, discs in enumerate(numbers):
         level = high + (low - high) * k / max(len(numbers) - 1, 1)
@@ -125,7 +125,7 @@ TABLES = {
 
 class Drawings(unittest.TestCase):
     def drawn(self, name, rows):
-        """The figure that the script makes of the table, before it is saved."""
+        """The figure of the script before it is saved."""
         module = importlib.import_module(f"figure_{name}")
         with tempfile.TemporaryDirectory() as folder:
             table = os.path.join(folder, f"figure_{name}.csv")
@@ -143,38 +143,38 @@ class Drawings(unittest.TestCase):
                     with open(module.__file__, encoding="utf-8") as script:
                         exec(compile(script.read(), module.__file__, "exec"),
                              {"__name__": "__main__"})
-        style.plt.close(made[0])  # of pyplot's list; the drawing stays
+        style.plt.close(made[0])  # removes it from pyplot's list; the object remains
         made[0].canvas.draw()
         return made[0]
 
-    def test_every_script_has_a_table_here(self):
+    def test_every_script_has_a_table(self):
         scripts = glob.glob(os.path.join(SOURCE, "figures", "figure_*.py"))
         self.assertEqual({os.path.basename(s)[len("figure_"):-len(".py")] for s in scripts},
                          set(TABLES))
 
-    def test_what_is_drawn(self):
+    def test_layout_of_every_figure(self):
         for name, rows in TABLES.items():
             with self.subTest(figure=name):
                 drawing = self.drawn(name, rows)
-                self.letters(drawing)
-                self.nothing_sticks_out(drawing)
-                self.legends(drawing)
-                self.points(drawing)
+                self.check_letters(drawing)
+                self.check_size(drawing)
+                self.check_legends(drawing)
+                self.check_points(drawing)
 
-    def letters(self, drawing):
+    def check_letters(self, drawing):
         for text in drawing.findobj(Text):
             if text.get_visible() and text.get_text().strip():
-                self.assertGreaterEqual(text.get_fontsize(), SMALLEST, text.get_text())
+                self.assertGreaterEqual(text.get_fontsize(), MIN_FONT_SIZE, text.get_text())
 
-    def nothing_sticks_out(self, drawing):
+    def check_size(self, drawing):
         box = drawing.get_tightbbox(drawing.canvas.get_renderer())
         width, height = drawing.get_size_inches()
         self.assertGreaterEqual(min(box.x0, box.y0), -0.01)
         self.assertLessEqual(box.x1, width + 0.01)
         self.assertLessEqual(box.y1, height + 0.01)
-        self.assertIn(round(width, 3), (style.COLUMN, style.PAGE))  # what the report shows as it is
+        self.assertIn(round(width, 3), (style.COLUMN, style.PAGE))  # the widths that the report shows
 
-    def legends(self, drawing):
+    def check_legends(self, drawing):
         found = drawing.legends + [a.get_legend() for a in drawing.axes if a.get_legend()]
         for legend in found:
             box = legend.get_window_extent()
@@ -185,7 +185,7 @@ class Drawings(unittest.TestCase):
                 self.assertFalse(box.x0 < inside.x1 - 1 and inside.x0 < box.x1 - 1
                                  and box.y0 < inside.y1 - 1 and inside.y0 < box.y1 - 1)
 
-    def points(self, drawing):
+    def check_points(self, drawing):
         for axes in drawing.axes:
             inside = axes.get_window_extent().padded(0.5 * ONE_POINT)
             shown = [line.get_xydata() for line in axes.lines
@@ -193,12 +193,12 @@ class Drawings(unittest.TestCase):
             for bars in axes.collections:
                 if isinstance(bars, LineCollection):
                     shown += bars.get_segments()
-            for place in (place for points in shown for place in points):
-                if not any(math.isnan(float(number)) for number in place):
-                    x, y = axes.transData.transform(place)
-                    self.assertTrue(inside.contains(x, y), (axes.get_ylabel(), place))
+            for point in (point for points in shown for point in points):
+                if not any(math.isnan(float(number)) for number in point):
+                    x, y = axes.transData.transform(point)
+                    self.assertTrue(inside.contains(x, y), (axes.get_ylabel(), point))
 
-    def test_arrows_do_not_reach_each_other(self):
+    def test_arrows_do_not_touch(self):
         for name, side in (("2b", 10), ("5d", 20)):
             drawing = self.drawn(name, TABLES[name])
             quivers = [(axes, q) for axes in drawing.axes for q in axes.collections
@@ -211,7 +211,7 @@ class Drawings(unittest.TestCase):
             scales = {quiver.scale for _, quiver in quivers}
             self.assertEqual(len(scales), 1)
 
-    def test_blocks_of_a_flow_count_each_visit_alike(self):
+    def test_blocks_of_a_flow_weight_all_visits_equally(self):
         rows = [{"x": x, "y": y, "visits": 1 + 2 * x, "u_x": 1.0 * x, "u_y": 2.0}
                 for y in (0, 1) for x in (0, 1)]
         self.assertEqual(style.blocks(rows, 2),
@@ -219,7 +219,7 @@ class Drawings(unittest.TestCase):
         empty = [row | {"visits": 0, "u_x": math.nan} for row in rows]
         self.assertEqual(style.blocks(empty, 2), [])
 
-    def test_runs_too_short_for_any_average_are_drawn_as_nothing(self):
+    def test_runs_without_averages_are_omitted(self):
         none = {name: math.nan for name in ("by_time", "by_time_error", "by_event", "by_event_error")}
         for name in ("5b", "spheres"):
             drawing = self.drawn(name, [row | none for row in TABLES[name]])
@@ -227,7 +227,7 @@ class Drawings(unittest.TestCase):
 
     def test_figure_5b_shows_the_crossings_enlarged(self):
         rows = [row for row in TABLES["5b"] if row["setting"] != "high"]
-        rows += list(rotation(range(24, 49), low=-0.07, setting="high"))  # by event down to −0.05
+        rows += list(rotation(range(24, 49), low=-0.07, setting="high"))  # the averages by event reach −0.05
         drawing = self.drawn("5b", rows)
         whole, near = drawing.axes
         bottom, top = near.get_ylim()
@@ -238,7 +238,7 @@ class Drawings(unittest.TestCase):
         self.assertGreater(max(drawn), 0.07)
         self.assertGreater(whole.get_ylim()[1], 1.0)
 
-    def test_a_slice_that_slides_counts_every_visit_alike(self):
+    def test_sliding_slices_weight_all_visits_equally(self):
         rows = [{"theta": 2.5 + 5 * k, "visits": 100 + k, "varpi_m": -1.0 - k, "wall": -2.0, "normalised": 0}
                 for k in range(72)]
         one = style.sliding(rows, 5)
@@ -247,12 +247,12 @@ class Drawings(unittest.TestCase):
         self.assertAlmostEqual(three[10]["varpi_m"], -(109 * 10 + 110 * 11 + 111 * 12) / 330)
         self.assertAlmostEqual(three[10]["normalised"], (109 * 10 + 110 * 11 + 111 * 12) / 660)
         self.assertEqual(three[10]["visits"], 330)
-        # Through zero.
+        # A slice that contains θ = 0.
         self.assertAlmostEqual(three[0]["varpi_m"], -(171 * 72 + 100 + 101 * 2) / 372)
-        nobody = style.sliding([row | {"visits": 0} for row in rows], 15)
-        self.assertEqual(nobody, [])
+        empty = style.sliding([row | {"visits": 0} for row in rows], 15)
+        self.assertEqual(empty, [])
 
-    def test_a_second_argument_is_the_width_of_a_slice(self):
+    def test_second_argument_is_the_width_of_slices(self):
         def curve(*more):
             with mock.patch.object(style, "table_from_arguments", lambda name: "figure_3a.csv"), \
                     mock.patch.object(style, "read", lambda table: TABLES["3a"]), \
@@ -266,7 +266,7 @@ class Drawings(unittest.TestCase):
         self.assertEqual(len(plain), len(wide))
         self.assertLess(max(wide) - min(wide), 0.95 * (max(plain) - min(plain)))
 
-    def test_spheres_all_near_zero_need_no_second_scale(self):
+    def test_spheres_near_zero_have_a_linear_scale(self):
         near = curves("mu", (0.5,), range(8, 56, 4))
         near = [row | {"by_time": -0.05} for row in near]
         self.assertEqual(self.drawn("spheres", near).axes[0].get_yscale(), "linear")

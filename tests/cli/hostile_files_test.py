@@ -55,7 +55,7 @@ f.close()
     def test_a_dish_that_cannot_be_is_neither_measured_nor_exported_nor_drawn(self):
         self.recorded(*DISCS)
         commands = (["measure"], ["export", "--to", "csv", "--out", self.path("o.csv")],
-                    ["picture", "--size", "64x64", "--out", self.path("o.svg")])
+                    ["image", "--size", "64x64", "--out", self.path("o.svg")])
         edits = [(f"particles['radius'][3] = {value}", "radius of disc 3")
                  for value in ("inf", "nan", "0", "-1", "1e308", "9")]
         edits += [(f"particles['mass'][1] = {value}", "mass of disc 1") for value in ("0", "nan", "inf")]
@@ -132,7 +132,7 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
         for call in (["export", self.path("t.h5"), "--to", "csv", "--out", self.path("o.csv")],
                      ["measure", self.path("t.h5")], ["verify", self.path("t.h5")],
                      ["verify", self.path("e.h5")],
-                     ["picture", self.path("t.h5"), "--out", self.path("o.svg")]):
+                     ["image", self.path("t.h5"), "--out", self.path("o.svg")]):
             done = swirl(*call, environment={"LD_PRELOAD": shim})
             if "Segmentation" not in done.stderr and done.returncode == 0:
                 self.skipTest("the library is linked in, and no shim comes before it")

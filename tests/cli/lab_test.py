@@ -391,7 +391,7 @@ class Laboratory(unittest.TestCase):
         run = json.loads(swirl("run", *dish, "--events", "20000", "--json", "-", "--quiet").stdout)
         folder = os.path.dirname(self.page)
         picture = os.path.join(folder, "dish.svg")
-        swirl("picture", *dish, "--at", repr(run["periods"]), "--bare", "--out", picture, "--quiet")
+        swirl("image", *dish, "--at", repr(run["periods"]), "--bare", "--out", picture, "--quiet")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page,
                                CHROMIUM, run["state_hash"], picture, folder],
                               capture_output=True, text=True, timeout=300)

@@ -227,14 +227,14 @@ class Launcher(InFolder):
 
     def test_packages_of_a_subcommand_are_installed_once(self):
         self.write("packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n"
-                               "[pictures]\ng++\n")
+                               "[images]\ng++\n")
         self.stand_in("id", "echo 0\n")
         self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\n')
-        for call, wanted in ((["run"], None), (["picture"], None), (["movie", "--help"], None),
-                             (["picture", "--", "--movies"], None),
+        for call, wanted in ((["run"], None), (["image"], None), (["movie", "--help"], None),
+                             (["image", "--", "--movies"], None),
                              (["movie"], "no-camera"), (["movie"], None), (["paper"], "no-painter"),
                              (["paper", "--movies"], "no-camera no-painter"),
-                             (["picture", "--over", "p.jpg"], "no-camera")):
+                             (["image", "--over", "p.jpg"], "no-camera")):
             with self.subTest(call):
                 done = self.call_with_stand_ins(*call)
                 self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)

@@ -1,4 +1,4 @@
-"""swirl movie, tried from outside."""
+"""swirl movie, as a user calls it."""
 
 import os
 import re
@@ -13,22 +13,24 @@ import unittest
 
 SWIRL = os.environ["SWIRL"]
 SOURCE = os.environ["SWIRL_SOURCE"]
+# One message, and an optional hint on a second line.
+ONE_ERROR = r"\A[^\n]+\.\n(hint: [^\n]+\.\n)?\Z"
 
 
 def documented_calls():
-    """The words of every `swirl movie` and `swirl picture` in the documents that needs no file."""
+    """The words of every `swirl movie` and `swirl image` in the documents that needs no input file."""
     for name in ("README.md", "docs/pictures.md"):
         with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
             text = file.read().replace("\\\n", " ")
         for line in text.splitlines():
-            if line.startswith(("./swirl movie ", "./swirl picture ")):
+            if line.startswith(("./swirl movie ", "./swirl image ")):
                 words = shlex.split(line, comments=True)[1:]
                 if not words[1].endswith((".h5", ".csv")):
                     yield words
 
 
 def commands_in_the_documents():
-    """The words of every command in the README and in docs/, a line or within backquotes."""
+    """The words of every command in the README and in docs/, on a line of its own or in backquotes."""
     folder = os.path.join(SOURCE, "docs")
     for path in [os.path.join(SOURCE, "README.md"),
                  *(os.path.join(folder, name) for name in sorted(os.listdir(folder)))]:
@@ -68,9 +70,9 @@ class MovieTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def assert_wrong_call(self, result, *words):
+    def assert_usage_error(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertRegex(result.stderr, ONE_ERROR)
         for word in words:
             self.assertIn(word, result.stderr)
         self.assertEqual(os.listdir(self.folder), [])
@@ -84,15 +86,15 @@ class MovieTest(unittest.TestCase):
                          "320,180,30/1,0.700000,21")
         self.assertIn("21 frames", result.stdout)
 
-    def test_length_in_swirls(self):
+    def test_duration_in_periods(self):
         out = self.path("x.mp4")
-        result = swirl("--discs", "12", "--swirls", "0.25", "--pace", "0.5", "--fps", "20",
+        result = swirl("--discs", "12", "--periods", "0.25", "--pace", "0.5", "--fps", "20",
                        "--size", "64x64", "--start", "0", "--out", out)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(probe(out, "stream=duration,nb_read_frames"), "0.500000,10")
 
-    def test_the_same_call_gives_the_same_bytes_whoever_paints_first(self):
-        # Once alone on one processor and once on all of them: the painters then take other frames.
+    def test_bytes_do_not_depend_on_the_number_of_cores(self):
+        # With another number of cores, frames are distributed differently to the workers.
         for ending, fps in (("mp4", "60"), ("webm", "60"), ("gif", "50")):
             both = []
             for name, cores in (("one.", {min(os.sched_getaffinity(0))}),
@@ -126,7 +128,7 @@ class MovieTest(unittest.TestCase):
             self.assertEqual(probe(out, "stream=width,height,nb_read_frames"),
                              size.replace("x", ",") + ",2")
 
-    def test_what_the_documents_call_works(self):
+    def test_documented_commands_work(self):
         calls = list(documented_calls())
         self.assertGreater(len(calls), 8)
         for words in calls:
@@ -134,14 +136,14 @@ class MovieTest(unittest.TestCase):
                 continue
             words = [os.path.basename(w) if "/" in w else w for w in words]
             for name, value in (("--size", "160x90"), ("--seconds", "0.1"), ("--start", "1")):
-                if name not in words and not (words[0] == "picture" and name != "--size"):
+                if name not in words and not (words[0] == "image" and name != "--size"):
                     words += [name, value]
             with self.subTest(" ".join(words)):
                 result = subprocess.run([SWIRL, *words], capture_output=True, text=True,
                                         timeout=120, cwd=self.folder)
                 self.assertEqual(result.returncode, 0, result.stderr)
 
-    def test_the_looping_picture_of_the_readme_comes_from_the_listed_call(self):
+    def test_animation_of_the_readme_is_made_by_the_documented_command(self):
         call, = [words for words in documented_calls() if "docs/swirl.gif" in words]
         call[call.index("docs/swirl.gif")] = self.path("swirl.gif")
         result = subprocess.run([SWIRL, *call], capture_output=True, text=True, timeout=120)
@@ -150,39 +152,40 @@ class MovieTest(unittest.TestCase):
             self.assertIn("](docs/swirl.gif)", file.read())
         entries = "stream=codec_name,width,height,r_frame_rate,nb_read_frames"
         made = self.path("swirl.gif")
-        kept = os.path.join(SOURCE, "docs", "swirl.gif")
+        stored = os.path.join(SOURCE, "docs", "swirl.gif")
         self.assertEqual(probe(made, entries), "gif,440,276,20/1,80")
-        self.assertEqual(probe(kept, entries), probe(made, entries))
-        self.assertLess(max(os.path.getsize(made), os.path.getsize(kept)), 1.5e6)
-        self.assert_looks_like(made, kept)
+        self.assertEqual(probe(stored, entries), probe(made, entries))
+        self.assertLess(max(os.path.getsize(made), os.path.getsize(stored)), 1.5e6)
+        self.assert_looks_like(made, stored)
 
-    def assert_looks_like(self, made, kept):
-        """Fonts and versions of cairo may differ, discs may not."""
-        seen = subprocess.run(["ffmpeg", "-v", "info", "-i", made, "-i", kept, "-lavfi", "psnr",
+    def assert_looks_like(self, made, stored):
+        """Fonts and versions of cairo may differ, so images are compared by their signal-to-noise ratio.
+        Moved discs reduce it below 25 dB."""
+        seen = subprocess.run(["ffmpeg", "-v", "info", "-i", made, "-i", stored, "-lavfi", "psnr",
                                "-f", "null", "-"], capture_output=True, text=True, check=True).stderr
         found = re.search(r"PSNR.* min:(\S+)", seen)
-        self.assertGreater(float(found.group(1)), 25.0, f"make {kept} anew, as listed")
+        self.assertGreater(float(found.group(1)), 25.0, f"{stored} is out of date: repeat the documented command")
 
-    def test_every_picture_of_the_documents_has_the_command_that_makes_it(self):
+    def test_every_image_of_the_documents_has_a_documented_command(self):
         made = set()
         for words in commands_in_the_documents():
             made |= {os.path.basename(word) for word in words if word.startswith("docs/")}
             if "--figure" in words:
                 made |= {f"figure_{word}.png" for word in words}
-        kept = {name for name in os.listdir(os.path.join(SOURCE, "docs"))
+        stored = {name for name in os.listdir(os.path.join(SOURCE, "docs"))
                 if name.endswith((".png", ".gif"))}
-        self.assertGreater(len(kept), 5)
-        self.assertEqual(kept - made, set())
+        self.assertGreater(len(stored), 5)
+        self.assertEqual(stored - made, set())
 
-    def test_the_picture_of_the_spheres_comes_from_the_listed_call(self):
+    def test_image_of_the_spheres_is_made_by_the_documented_command(self):
         call, = {tuple(words[1:]) for words in commands_in_the_documents()
-                 if words[:2] == ["swirl", "picture"] and "docs/spheres.png" in words}
+                 if words[:2] == ["swirl", "image"] and "docs/spheres.png" in words}
         made = self.path("spheres.png")
         result = subprocess.run([SWIRL, *call[:-1], made], capture_output=True, text=True, timeout=120)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assert_looks_like(made, os.path.join(SOURCE, "docs", "spheres.png"))
 
-    def test_two_on_one_name_do_not_write_into_each_other(self):
+    def test_second_movie_with_the_same_name_is_rejected(self):
         out = self.path("m.mp4")
         long = [SWIRL, "movie", "--seconds", "600", "--size", "160x160", "--out", out, "--quiet"]
         first = subprocess.Popen(long, stderr=subprocess.DEVNULL)
@@ -197,12 +200,12 @@ class MovieTest(unittest.TestCase):
         self.assertIn("is being made by another process", second.stderr)
         first.kill()
         first.wait()
-        # What a kill left behind is in nobody's way.
+        # Files left behind by the killed process do not prevent another movie.
         again = swirl("--seconds", "0.1", "--size", "160x160", "--out", out, "--quiet")
         self.assertEqual(again.returncode, 0, again.stderr)
 
-    def test_the_encoder_that_a_kill_left_behind_does_not_write_into_the_next_movie(self):
-        # It sleeps until the next one has opened its file and written the first pictures into it.
+    def test_encoder_of_a_killed_process_does_not_write_into_the_next_movie(self):
+        # This encoder sleeps until the next movie has opened its file and written the first frames.
         os.mkdir(self.path("slow"))
         with open(self.path("slow/ffmpeg"), "w", encoding="utf-8") as script:
             script.write("#!/bin/sh\nwhile ! [ -e wake ]; do sleep 0.01; done\n"
@@ -214,7 +217,7 @@ class MovieTest(unittest.TestCase):
                                   env={**os.environ, "PATH": self.path("slow") + ":" + os.environ["PATH"]})
         while not os.path.exists(out + ".partial"):
             time.sleep(0.001)
-        time.sleep(0.3)  # now it is started, and has some pictures waiting
+        time.sleep(0.3)  # long enough for the encoder to start and to receive some frames
         killed.kill()
         killed.wait()
         second = subprocess.Popen([SWIRL, "movie", *call])
@@ -229,18 +232,18 @@ class MovieTest(unittest.TestCase):
         while not os.path.exists(self.path("asleep")):
             self.assertLess(time.time(), deadline)
             time.sleep(0.01)
-        self.assertIsNone(second.poll(), "it was over before the other woke up")
+        self.assertIsNone(second.poll(), "the second movie ended before the first encoder woke up")
         self.assertEqual(second.wait(timeout=60), 0)
         self.assertEqual(probe(out, "stream=nb_read_frames"), "1200")
 
-    def test_without_ffmpeg_it_says_how_to_get_it(self):
+    def test_missing_ffmpeg_is_an_error_with_a_hint(self):
         result = swirl("--discs", "5", "--seconds", "0.1", "--out", self.path("x.mp4"),
                        env={**os.environ, "PATH": self.folder})
         self.assertEqual(result.returncode, 1)
         self.assertIn("apt-get install ffmpeg", result.stderr)
         self.assertEqual(os.listdir(self.folder), [])
 
-    def test_ctrl_c_leaves_a_playable_movie(self):
+    def test_ctrl_c_completes_the_movie(self):
         for ending in ("mp4", "webm", "gif"):
             with self.subTest(ending):
                 self.stop_a_movie("x." + ending)
@@ -248,29 +251,29 @@ class MovieTest(unittest.TestCase):
 
     def stop_a_movie(self, name):
         out = self.path(name)
-        # In a process group of its own, as a shell starts it, so that the signal reaches all of it.
+        # A separate process group, as a shell creates it: the signal reaches all its processes.
         process = subprocess.Popen(
             [SWIRL, "movie", "--discs", "48", "--seconds", "400", "--fps", "50", "--size", "160x120",
              "--start", "0", "--out", out],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0)
-        # The palette of a GIF is made of all frames, so its file is empty until the end.
-        enough = 0 if name.endswith(".gif") else 1
+        # The palette of a GIF depends on all frames, so its file is empty until the end.
+        min_size = 0 if name.endswith(".gif") else 1
         deadline = time.time() + 60
         while time.time() < deadline and not (os.path.exists(out + ".partial")
-                                              and os.path.getsize(out + ".partial") >= enough):
+                                              and os.path.getsize(out + ".partial") >= min_size):
             time.sleep(0.05)
         time.sleep(0.2)
-        # Twice in a row, as timeout(1) does.
+        # Two signals in a row, as timeout(1) sends them.
         os.killpg(process.pid, signal.SIGINT)
         os.killpg(process.pid, signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
-        self.assertRegex(errors, r"Stopped after \d+ of 20000 frames")
-        frames = int(errors.split("Stopped after ")[1].split()[0])
+        self.assertRegex(errors, r"stopped after \d+ of 20000 frames")
+        frames = int(errors.split("stopped after ")[1].split()[0])
         self.assertEqual(int(probe(out, "stream=nb_read_frames")), frames)
         self.assertEqual(os.listdir(self.folder), [name])
 
-    def test_a_dying_ffmpeg_is_a_clear_error(self):
+    def test_failing_ffmpeg_is_an_error(self):
         os.mkdir(self.path("bin"))
         script = self.path("bin/ffmpeg")
         with open(script, "w", encoding="utf-8") as file:
@@ -284,35 +287,35 @@ class MovieTest(unittest.TestCase):
         self.assertEqual(result.stderr.count("\n"), 1)
         self.assertEqual(os.listdir(self.folder), ["bin"])
 
-    def test_wrong_calls(self):
+    def test_invalid_options_are_rejected(self):
         out = self.path("x.mp4")
-        self.assert_wrong_call(swirl(), "--out", "--frames")
-        self.assert_wrong_call(swirl("--out", self.path("x.avi")), "x.avi", ".webm")
-        self.assert_wrong_call(swirl("--out", out, "--size", "12"), "'12'")
-        self.assert_wrong_call(swirl("--out", out, "--size", "8x8"), "'8x8'")
-        self.assert_wrong_call(swirl("--out", out, "--size", "99999x99999"), "99999")
-        self.assert_wrong_call(swirl("--out", out, "--size", "101x100"), "even")
-        self.assert_wrong_call(swirl("--out", out, "--fps", "0"), "0 frames per second")
-        self.assert_wrong_call(swirl("--out", out, "--fps", "59.94"), "'59.94'", "whole number")
-        self.assert_wrong_call(swirl("--out", out, "--seconds", "long"), "'long'", "a number")
-        self.assert_wrong_call(swirl("--out", out, "--trail-length", "0"), "--trail-length")
-        self.assert_wrong_call(swirl("--out", self.path("x.gif"), "--fps", "30"), "hundredths")
-        self.assert_wrong_call(swirl("--out", out, "--seconds", "0"), "0 seconds")
-        self.assert_wrong_call(swirl("--out", out, "--seconds", "nan"))
-        self.assert_wrong_call(swirl("--out", out, "--seconds", "1", "--swirls", "1"), "--swirls")
-        self.assert_wrong_call(swirl("--out", out, "--pace", "-1"))
-        self.assert_wrong_call(swirl("--out", out, "--start", "-3"), "-3")
-        self.assert_wrong_call(swirl("--out", out, "--frame", "n"), "'n'", "both")
-        self.assert_wrong_call(swirl("--out", out, "--color", "red"), "'red'", "pinned")
-        self.assert_wrong_call(swirl("--out", out, "--theme", "x"), "'x'")
-        self.assert_wrong_call(swirl("--out", out, "--forces"), "--frame m")
-        self.assert_wrong_call(swirl("--out", out, "--discs", "70"))
-        self.assert_wrong_call(swirl("--out", out, "--beside", "70"))
-        self.assert_wrong_call(swirl("--out", out, "--rolling-ball", "2"), "2")
-        self.assert_wrong_call(swirl("--out", self.path("x.gif"), "--seconds", "600", "--size",
+        self.assert_usage_error(swirl(), "--out", "--frames")
+        self.assert_usage_error(swirl("--out", self.path("x.avi")), "x.avi", ".webm")
+        self.assert_usage_error(swirl("--out", out, "--size", "12"), "'12'")
+        self.assert_usage_error(swirl("--out", out, "--size", "8x8"), "'8x8'")
+        self.assert_usage_error(swirl("--out", out, "--size", "99999x99999"), "99999")
+        self.assert_usage_error(swirl("--out", out, "--size", "101x100"), "even")
+        self.assert_usage_error(swirl("--out", out, "--fps", "0"), "--fps is 0")
+        self.assert_usage_error(swirl("--out", out, "--fps", "59.94"), "'59.94'", "whole number")
+        self.assert_usage_error(swirl("--out", out, "--seconds", "long"), "'long'", "a number")
+        self.assert_usage_error(swirl("--out", out, "--trail-length", "0"), "--trail-length")
+        self.assert_usage_error(swirl("--out", self.path("x.gif"), "--fps", "30"), "hundredths")
+        self.assert_usage_error(swirl("--out", out, "--seconds", "0"), "0 seconds")
+        self.assert_usage_error(swirl("--out", out, "--seconds", "nan"))
+        self.assert_usage_error(swirl("--out", out, "--seconds", "1", "--periods", "1"), "--periods")
+        self.assert_usage_error(swirl("--out", out, "--pace", "-1"))
+        self.assert_usage_error(swirl("--out", out, "--start", "-3"), "-3")
+        self.assert_usage_error(swirl("--out", out, "--frame", "n"), "'n'", "both")
+        self.assert_usage_error(swirl("--out", out, "--color", "red"), "'red'", "pinned")
+        self.assert_usage_error(swirl("--out", out, "--theme", "x"), "'x'")
+        self.assert_usage_error(swirl("--out", out, "--forces"), "--frame m")
+        self.assert_usage_error(swirl("--out", out, "--discs", "70"))
+        self.assert_usage_error(swirl("--out", out, "--compare", "70"))
+        self.assert_usage_error(swirl("--out", out, "--rolling-ball", "2"), "2")
+        self.assert_usage_error(swirl("--out", self.path("x.gif"), "--seconds", "600", "--size",
                                      "1920x1080"), "memory")
 
-    def test_a_recording_is_played_to_its_end(self):
+    def test_recording_is_shown_to_its_end(self):
         run = subprocess.run([SWIRL, "run", "--discs", "10", "--periods", "2", "--quiet",
                               "--trajectory", self.path("run.h5")], capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -320,16 +323,16 @@ class MovieTest(unittest.TestCase):
         result = swirl(self.path("run.h5"), "--pace", "2", "--fps", "20", "--size", "64x64",
                        "--out", out)
         self.assertEqual(result.returncode, 0, result.stderr)
-        # Two swirls, at two per second; the last frame may fall just outside the recording.
+        # Two periods at two per second: the last frame may be just outside the recording.
         self.assertIn(int(probe(out, "stream=nb_read_frames")), (20, 21))
         wrong = swirl(self.path("run.h5"), "--discs", "3", "--out", out)
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("--discs", wrong.stderr)
         wrong = swirl(self.path("run.h5"), "--seconds", "100", "--out", out)
         self.assertEqual(wrong.returncode, 2)
-        self.assertIn("ends at swirl", wrong.stderr)
+        self.assertIn("ends at period", wrong.stderr)
 
-    def test_a_full_disk_is_a_clear_error(self):
+    def test_full_disk_is_an_error(self):
         if os.geteuid() != 0:
             self.skipTest("only root can mount a small disk")
         disk = self.path("disk")

@@ -356,14 +356,14 @@ class Names(InFolder):
         before = Path(recording).read_bytes()
         small = ["--size", "160x90", "--quiet"]
         self.refused("movie", "r.gif", "--out", "./r.gif", *small)
-        self.refused("picture", "r.png", "--out", "./r.png", *small)
+        self.refused("image", "r.png", "--out", "./r.png", *small)
         for name in ("r.gif", "r.png"):
             self.assertEqual(Path(self.path(name)).read_bytes(), before)
-        says = "it is also what the camera saw"
+        says = "it also belongs to the camera images"
         self.refused("movie", "tracks.csv", "--over", "film.mp4", "--out", "./film.mp4", says=says)
         numbered = ["tracks.csv", "--over", "seen/frame-%06d.png"]
         self.refused("movie", *numbered, "--frames", "seen", says=says)
-        self.refused("picture", *numbered, "--out", "./seen/frame-000007.png", says=says)
+        self.refused("image", *numbered, "--out", "./seen/frame-000007.png", says=says)
         self.assertEqual(self.left_behind(), ["r.gif", "r.png", "t.h5"])
 
     def test_the_report_of_a_film_is_not_its_tracks(self):

@@ -144,7 +144,7 @@ f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
     def test_a_pipe_that_nobody_writes_to_is_refused_and_not_waited_for(self):
         os.mkfifo(self.path("pipe"))
         for call in (["measure"], ["movie", "--out", self.path("m.mp4")],
-                     ["picture", "--out", self.path("p.png")], ["verify"], ["export", "--to", "xyz"],
+                     ["image", "--out", self.path("p.png")], ["verify"], ["export", "--to", "xyz"],
                      ["track", "--out", self.path("t.csv")]):
             done = swirl(call[0], self.path("pipe"), *call[1:], timeout=10)
             self.assertIn(done.returncode, (1, 2), call)

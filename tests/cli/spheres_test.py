@@ -228,8 +228,8 @@ class Spheres(InFolder):
             # Printed with four digits.
             self.assertAlmostEqual(shares[f"impulses that {name} / weight x time"] * weight / (pairs + wall), 1,
                                    delta=1e-3)
-        in_air = shares["share of the time in the air, if lifted spheres hopped"]
-        # Flights last 2 J/m g; overlapping flights count once.
+        in_air = shares["share of the time in flight, if lifted spheres could fly"]
+        # Each flight would take 2 J/(m g); overlapping flights count once.
         self.assertLessEqual(in_air, 2.001 * shares["impulses that lift / weight x time"])
         self.assertGreater(in_air, shares["impulses that lift / weight x time"])
 

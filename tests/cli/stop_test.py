@@ -91,7 +91,7 @@ class Stop(InFolder):
 
     def test_in_the_way_to_a_distant_moment_of_a_picture(self):
         self.assertEqual(
-            self.expect_heard([0.5], "picture", "--at", 1e7, "--out", self.path("a.png")), 1)
+            self.expect_heard([0.5], "image", "--at", 1e7, "--out", self.path("a.png")), 1)
         self.assertEqual(self.left_behind(), [])
 
     def test_while_a_film_is_made_and_tracked(self):

@@ -33,7 +33,7 @@ SWEEP = ["sweep", "--discs", "5:8", "--events", "300", "--threads", "1", "--fram
 # Of a recording in.h5, or of a film in.mp4, each in a folder that no fault touches.
 OUTPUTS = [["export", "IN/in.h5", "--to", "gsd", "--out", "o.gsd", "--quiet"],
            ["export", "IN/in.h5", "--to", "vtp", "--range", "0:3", "--out", "o.pvd", "--quiet"],
-           ["picture", "IN/in.h5", "--size", "64x64", "--out", "o.svg", "--quiet"],
+           ["image", "IN/in.h5", "--size", "64x64", "--out", "o.svg", "--quiet"],
            ["measure", "IN/in.h5", "--measure", "slip", "--json", "o.json", "--quiet"]]
 FILM = ["synthetic-video", "--discs", "16", "--container-radius", "6.5", "--scale", "12", "--width", "240",
         "--height", "240", "--frames-per-period", "40", "--length", "1.2", "--quiet", "--out"]

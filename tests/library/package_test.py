@@ -69,20 +69,20 @@ class Installed(unittest.TestCase):
                   "-DCMAKE_CXX_FLAGS=-O1 -Wall -Werror")
         output_of("cmake", "--build", build)
         return {name: output_of(os.path.join(build, name))
-                for name in ("one_dish", "events_one_by_one", "own_measurement")}
+                for name in ("rotation_rate", "events_one_by_one", "custom_measurement")}
 
     def test_examples(self):
         said = self.build_examples("g++")
-        self.assertEqual(len(re.findall("impulse|corner", said["events_one_by_one"])), 10)
+        self.assertEqual(len(re.findall("impulse|vertex", said["events_one_by_one"])), 10)
         self.assertIn("\n10000 events", said["events_one_by_one"])
         # From the middle of a dish of 8.6 to where discs touch the wall: 0 to 7.6.
-        distance = float(re.search(r"middle: ([0-9.]+)", said["own_measurement"])[1])
+        distance = float(re.search(r"centre: ([0-9.]+)", said["custom_measurement"])[1])
         self.assertTrue(4.0 < distance < 6.0, distance)
         # The program starts from other velocities: the same within four standard errors.
         ours = json.loads(output_of(self.program, "run", "--discs", 48, "--periods", 220, "--quiet",
                                     "--json", "-"))["rotation"]["by_event"]
         varpi, error = map(float, re.search(r"counterrotate: ϖ/Ω = (-[0-9.]+) ± ([0-9.]+)",
-                                            said["one_dish"]).groups())
+                                            said["rotation_rate"]).groups())
         self.assertLess(abs(varpi - ours["mean"]), 4.0 * math.hypot(error, ours["error"]))
         if shutil.which("clang++-19"):
             self.assertEqual(self.build_examples("clang++-19"), said)

@@ -1,4 +1,4 @@
-"""The notebooks of examples/ run from the top, in a fresh kernel each, and what they claim is so."""
+"""The notebooks of examples/ run from the start in a new kernel, and their assertions hold."""
 
 import glob
 import os
@@ -13,7 +13,7 @@ NOTEBOOKS = sorted(glob.glob(os.path.join(SOURCE, "examples", "*.ipynb")))
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=os.path.basename)
-def test_a_notebook_runs(file, tmp_path):
+def test_notebook_runs(file, tmp_path):
     book = nbformat.read(file, as_version=4)
     nbformat.validate(book)
     NotebookClient(book, timeout=120, kernel_name="python3",
@@ -24,10 +24,10 @@ def test_a_notebook_runs(file, tmp_path):
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=os.path.basename)
-def test_a_notebook_is_kept_without_what_it_printed(file):
+def test_notebook_is_stored_without_output(file):
     for cell in nbformat.read(file, as_version=4).cells:
         assert cell.cell_type != "code" or (cell.outputs == [] and cell.execution_count is None)
 
 
-def test_there_are_four():
+def test_number_of_notebooks():
     assert len(NOTEBOOKS) == 4

@@ -1,4 +1,4 @@
-"""The package as it is typed, documented and found."""
+"""Types, documentation and installation of the package."""
 
 import inspect
 import os
@@ -17,20 +17,19 @@ PACKAGE = os.path.dirname(swirl.__file__)
 
 @pytest.fixture(scope="module")
 def cache(tmp_path_factory):
-    """Of mypy, which takes a minute to read numpy."""
+    """Cache of mypy, which takes a minute to read numpy."""
     return os.environ.get("MYPY_CACHE_DIR") or str(tmp_path_factory.mktemp("mypy"))
 
 
-def test_types_are_sound(cache):
-    """mypy --strict reads what is promised; numpy's own types are known to it, those of others are
-    not asked for."""
+def test_types_are_consistent(cache):
+    """mypy --strict accepts the package. Packages without types, other than numpy, are ignored."""
     done = subprocess.run(["/usr/bin/mypy", "--strict", "--ignore-missing-imports", "--cache-dir",
                            cache, "-p", "swirl"], cwd=os.path.dirname(PACKAGE),
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
 
 
-def test_a_users_types_are_told(tmp_path, cache):
+def test_mypy_infers_types_of_results(tmp_path, cache):
     (tmp_path / "use.py").write_text(
         "import swirl\n"
         "r = swirl.run(discs=48)\n"
@@ -45,7 +44,7 @@ def test_a_users_types_are_told(tmp_path, cache):
     assert '"Rotation" has no attribute "by_tim"' in done.stdout and done.stdout.count("error") <= 2
 
 
-def test_the_stubs_name_what_is_there():
+def test_stubs_match_the_module():
     from swirl import _engine
     with open(os.path.join(PACKAGE, "_engine.pyi"), encoding="utf-8") as file:
         stubs = file.read()
@@ -59,22 +58,22 @@ def test_the_stubs_name_what_is_there():
             assert hasattr(there, method), (kind, method)
 
 
-def test_everything_public_says_what_it_is():
+def test_everything_public_has_a_docstring():
     for name in swirl.__all__:
         thing = getattr(swirl, name)
         if inspect.isclass(thing) or inspect.isfunction(thing):
             assert name in ("Snapshot", "Frames", "Event") or inspect.getdoc(thing), name
 
 
-def test_it_is_small_and_needs_numpy_alone_to_be_imported():
-    """pandas, matplotlib and xarray are asked for when they are wanted."""
+def test_import_needs_only_numpy():
+    """pandas, matplotlib and xarray are imported on demand."""
     script = "import sys, swirl; print(sorted({m.split('.')[0] for m in sys.modules} & " \
              "{'pandas', 'matplotlib', 'xarray', 'h5py', 'tqdm'}))"
     done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True)
     assert done.stdout == "[]\n", done.stderr
 
 
-def test_the_bindings_include_only_the_layers_they_may():
+def test_bindings_include_only_allowed_layers():
     folder = os.path.join(SOURCE, "bindings", "python")
     for name in os.listdir(folder):
         if name.endswith((".cpp", ".hpp")):
@@ -85,7 +84,7 @@ def test_the_bindings_include_only_the_layers_they_may():
 
 
 @pytest.mark.skipif(not shutil.which("clang-format"), reason="clang-format is not installed")
-def test_the_bindings_are_formatted():
+def test_bindings_are_formatted():
     folder = os.path.join(SOURCE, "bindings", "python")
     files = [os.path.join(folder, n) for n in os.listdir(folder) if n.endswith((".cpp", ".hpp"))]
     done = subprocess.run(["clang-format", "--dry-run", "-Werror", *files], capture_output=True,
@@ -93,11 +92,11 @@ def test_the_bindings_are_formatted():
     assert done.returncode == 0, done.stderr
 
 
-def test_a_wheel_is_made_and_used_from_a_clean_folder(tmp_path):
+def test_wheel_can_be_built_and_installed(tmp_path):
     if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True).returncode:
         pytest.skip("pip is not installed")
     build = os.path.dirname(os.path.dirname(PACKAGE))
-    # No network, no other packages: with nothing to fetch none is asked for.
+    # Without network: pip must not download anything.
     done = subprocess.run([sys.executable, "-m", "pip", "install", SOURCE, "--target", tmp_path / "there",
                            "--no-deps", "--no-index", "--config-settings", f"build-dir={build}"],
                           capture_output=True, text=True, cwd=tmp_path)
@@ -112,7 +111,7 @@ def test_a_wheel_is_made_and_used_from_a_clean_folder(tmp_path):
 
 
 @pytest.mark.skipif(not shutil.which("dpkg-shlibdeps"), reason="dpkg-dev is not installed")
-def test_a_debian_package_is_made(tmp_path):
+def test_debian_package_can_be_built(tmp_path):
     build = os.path.dirname(os.path.dirname(PACKAGE))
     done = subprocess.run(["cpack", "-G", "DEB", "-D", "CPACK_DEB_COMPONENT_INSTALL=ON", "-D",
                            "CPACK_COMPONENTS_ALL=python", "-B", tmp_path], cwd=build,
@@ -130,7 +129,7 @@ def test_a_debian_package_is_made(tmp_path):
     assert used.stdout.startswith(str(folder)), used.stderr
 
 
-def test_links_of_the_documentation_lead_somewhere():
+def test_links_of_the_documentation_exist():
     with open(os.path.join(SOURCE, "docs", "python.md"), encoding="utf-8") as file:
         for link in re.findall(r"\]\(([^)#]+)[^)]*\)", file.read()):
             assert os.path.exists(os.path.join(SOURCE, "docs", link)), link

@@ -1,4 +1,4 @@
-"""swirl.plot draws what is there, into the axes that it is given."""
+"""swirl.plot draws the data, into the given axes."""
 
 import sys
 import types
@@ -25,12 +25,12 @@ def result():
     return swirl.run(discs=30, events=60000, measure="density,flow,profile")
 
 
-def test_a_dish_has_its_discs_in_their_places():
+def test_snapshot_shows_discs_at_their_positions():
     sim = swirl.Simulation(discs=20, mixture=(5, 1.4))
     sim.advance(periods=1.3)
     for m_frame in (False, True):
         s = sim.snapshot().m_frame() if m_frame else sim.snapshot()
-        axes = swirl.plot.dish(sim, m_frame=m_frame, color="spin", velocities=True)
+        axes = swirl.plot.snapshot(sim, m_frame=m_frame, color="spin", velocities=True)
         (discs,) = [c for c in axes.collections if hasattr(c, "_widths")]
         np.testing.assert_array_equal(discs.get_offsets(), s.position)
         np.testing.assert_allclose(discs._widths, s.radius)
@@ -41,16 +41,16 @@ def test_a_dish_has_its_discs_in_their_places():
         axes.figure.canvas.draw()
 
 
-def test_axes_that_are_given_are_drawn_into():
+def test_given_axes_are_used():
     figure, axes = plt.subplots()
     for color in ("red", "speed", np.arange(7)):
-        assert swirl.plot.dish(swirl.Simulation(discs=7), axes=axes, color=color) is axes
+        assert swirl.plot.snapshot(swirl.Simulation(discs=7), axes=axes, color=color) is axes
     figure.canvas.draw()
     with pytest.raises(ValueError, match="color has 3 values, but there are 7 discs"):
-        swirl.plot.dish(swirl.Simulation(discs=7), color=[1, 2, 3])
+        swirl.plot.snapshot(swirl.Simulation(discs=7), color=[1, 2, 3])
 
 
-def test_maps_are_those_of_the_tables(result):
+def test_maps_show_the_tables(result):
     for by in ("time", "event"):
         axes = swirl.plot.density(result, by=by)
         (mesh,) = [c for c in axes.collections if c.get_array() is not None]
@@ -61,11 +61,11 @@ def test_maps_are_those_of_the_tables(result):
     swirl.plot.flow(result.measured["flow"].table).figure.canvas.draw()
     with pytest.raises(ValueError, match="by is 'disc'"):
         swirl.plot.density(result, by="disc")
-    with pytest.raises(ValueError, match="measures it"):
+    with pytest.raises(ValueError, match="use swirl.run"):
         swirl.plot.density(swirl.run(discs=5, events=100))
 
 
-def test_a_profile(result):
+def test_profile_shows_the_table(result):
     axes = swirl.plot.profile(result)
     (line,) = axes.lines
     np.testing.assert_array_equal(line.get_ydata(), result.measured["profile"]["varpi_m"])
@@ -87,7 +87,7 @@ def test_rotation_against_a_parameter():
         swirl.plot.rotation(runs, against="disks")
 
 
-def test_progress_goes_to_tqdm_where_that_is(monkeypatch):
+def test_progress_uses_tqdm_if_installed(monkeypatch):
     shown = []
 
     class Bar:

@@ -1,4 +1,4 @@
-"""Recordings and a camera's tracks in Python, against `swirl measure` and the run itself."""
+"""Recordings and tracks in Python, compared with `swirl measure` and with the run."""
 
 import json
 import math
@@ -21,21 +21,21 @@ def file(tmp_path_factory):
     return file
 
 
-def test_frames_are_those_of_the_run(file):
+def test_frames_equal_those_of_the_run(file):
     t = swirl.Trajectory(file)
     sim = swirl.Simulation(discs=20, seed=3)
     assert t.complete and t.same_discs and t.parameters["discs"] == 20
     frames = t[:100]
     assert frames.position.shape == (100, 20, 2)
     ours = sim.sample(1, 511)
-    for name in ("swirls", "clock", "container_centre"):
+    for name in ("whole_periods", "clock", "container_centre"):
         np.testing.assert_array_equal(getattr(ours, name)[:100], getattr(frames, name))
     np.testing.assert_allclose(ours.position[:100], frames.position, atol=1e-12)
     np.testing.assert_array_equal(t[7].position, frames.position[7])
     np.testing.assert_array_equal(t[-1].position, t[len(t) - 1].position)
     assert len(t[10:20:3]) == 4 and sum(1 for _ in t) == len(t)
     for wrong in (len(t), -len(t) - 1):
-        with pytest.raises(IndexError, match="is asked for, but there are"):
+        with pytest.raises(IndexError, match="is out of range: there are"):
             t[wrong]
     with pytest.raises(TypeError):
         t["first"]
@@ -49,7 +49,7 @@ def estimates_of(measured):
             for row, estimate in found.rows.items()}
 
 
-def test_analysed_it_is_what_the_command_line_measures(file):
+def test_analysis_equals_that_of_the_command_line(file):
     found = swirl.analyse(swirl.Trajectory(file), "all", skip=2)
     done = command("measure", file, "--measure", "all", "--skip", 2, "--json", "-")
     theirs = json.loads(done.stdout)
@@ -65,7 +65,7 @@ def test_analysed_it_is_what_the_command_line_measures(file):
     assert compared > 20
 
 
-def test_ones_own_measurement_of_a_recording_is_that_of_the_run(file):
+def test_custom_measurement_of_a_recording_agrees_with_the_run(file):
     class Spread:
         def sample(self, snapshot):
             return snapshot.position.std()
@@ -76,30 +76,30 @@ def test_ones_own_measurement_of_a_recording_is_that_of_the_run(file):
     assert of_frames.error == pytest.approx(of_run.error, rel=1e-6)
 
 
-def test_what_a_simulation_has_sampled_is_measured_too(file):
+def test_sampled_frames_can_be_analysed(file):
     sim = swirl.Simulation(discs=20, seed=3)
     found = swirl.analyse(sim.sample(12), ["density", "slip"], skip=2)
     theirs = swirl.analyse(swirl.Trajectory(file), ["density", "slip"], skip=2)
-    # The recording begins a further swirl, with the frame at its very end.
+    # The recording has one more frame: the first one of a further period.
     assert found.rotation.by_time.mean == pytest.approx(theirs.rotation.by_time.mean, rel=1e-3)
     square = [[2, 2], [-2, 2], [-2, -2], [2, -2]]
-    own = swirl.Simulation(discs=20, path=square)
-    found = swirl.analyse(own.sample(30), "all", skip=5)
+    custom = swirl.Simulation(discs=20, path=square)
+    found = swirl.analyse(custom.sample(30), "all", skip=5)
     assert found.frames == 25 * 511 and found.rotation.by_time.blocks == 25
     assert set(found.measured) < set(swirl.measurements()) and "density" in found.measured
     with pytest.raises(ValueError, match="no frames"):
-        swirl.analyse(own.sample(0))
+        swirl.analyse(custom.sample(0))
 
 
-def test_what_frames_cannot_tell_is_refused(file, tmp_path):
+def test_impossible_analyses_are_rejected(file, tmp_path):
     t = swirl.Trajectory(file)
-    with pytest.raises(ValueError, match="measure has 'collisions' in its list, which needs every"):
+    with pytest.raises(ValueError, match="measure contains 'collisions', which needs every"):
         swirl.analyse(t, ["collisions"])
     with pytest.raises(ValueError, match="skip"):
         swirl.analyse(t, skip=-1)
-    with pytest.raises(ValueError, match="leaves no frame"):
+    with pytest.raises(ValueError, match="the recording ends earlier"):
         swirl.analyse(t, skip=100)
-    with pytest.raises(TypeError, match="is no recording"):
+    with pytest.raises(TypeError, match="but it must be a swirl.Trajectory"):
         swirl.analyse(str(file))
     with pytest.raises(swirl.FileError):
         swirl.Trajectory(tmp_path / "nothing.h5")
@@ -108,7 +108,7 @@ def test_what_frames_cannot_tell_is_refused(file, tmp_path):
         swirl.Trajectory(tmp_path / "text.h5")
 
 
-def test_several_threads_read_one_recording(file):
+def test_threads_share_one_recording(file):
     t = swirl.Trajectory(file)
     expected = [t[k].position.copy() for k in range(0, 600, 50)]
     wrong = []
@@ -137,14 +137,14 @@ SCALE = dict(omega=2 * math.pi / 11.866071, container_radius=8.6, amplitude=1.89
 
 @pytest.fixture(scope="module")
 def table(file):
-    """What trackpy would have made of a film of the run."""
+    """Tracks that trackpy would find in a video of the run."""
     rows = [(k, i, 400 + 20 * x, 300 - 20 * y) for k, s in enumerate(swirl.Trajectory(file)[:3000:1]
                                                                     .position)
             for i, (x, y) in enumerate(s)]
     return pandas.DataFrame(rows, columns=["frame", "particle", "x", "y"])
 
 
-def test_tracks_are_what_the_command_line_reads(table, tmp_path):
+def test_tracks_equal_those_of_the_command_line(table, tmp_path):
     tracks = swirl.Tracks(table, **SCALE)
     table.to_csv(tmp_path / "tracks.csv", index=False)
     done = command("measure", tmp_path / "tracks.csv", "--measure", "density,slip,profile", "--json", "-",
@@ -163,7 +163,7 @@ def test_tracks_are_what_the_command_line_reads(table, tmp_path):
     np.testing.assert_array_equal(density, theirs["measured"]["density"]["by_time"])
 
 
-def test_the_order_of_rows_does_not_matter(table):
+def test_order_of_rows_does_not_matter(table):
     shuffled = table.sample(frac=1, random_state=1)
     for k in (0, 17, 400):
         np.testing.assert_array_equal(swirl.Tracks(shuffled, **SCALE)[k].position,
@@ -175,23 +175,23 @@ def test_the_order_of_rows_does_not_matter(table):
     (dict(container_radius="8"), TypeError, "container_radius is '8'"),
     (dict(centre=(0, float("inf"))), ValueError, "centre"), (dict(amplitude=-1), ValueError, "amplitude"),
 ])
-def test_wrong_scales(table, change, kind, said):
+def test_invalid_scales_are_rejected(table, change, kind, said):
     with pytest.raises(kind, match=said):
         swirl.Tracks(table, **{**SCALE, **change})
 
 
-def test_wrong_tables(table):
+def test_invalid_tables_are_rejected(table):
     few = table[:60].copy()
-    with pytest.raises(ValueError, match="columns frame, particle, x and y"):
+    with pytest.raises(ValueError, match="the columns frame, particle, x and y"):
         swirl.Tracks(few.drop(columns="x"), **SCALE)
     for column, value, said in (("x", float("nan"), "no finite position"),
-                                ("particle", 0, "is in frame 0 twice"),
+                                ("particle", 0, "appears twice in frame 0"),
                                 ("frame", 0.5, "whole numbers")):
         bad = few.copy().astype(float)
         bad.loc[:3, column] = value
         with pytest.raises(ValueError, match=said):
             swirl.Tracks(bad, **SCALE)
-    with pytest.raises(ValueError, match="no positions"):
+    with pytest.raises(ValueError, match="the tracks are empty"):
         swirl.Tracks(few[:0], **SCALE)
     with pytest.raises(ValueError, match="single frame"):
         swirl.Tracks(few[:20], **SCALE)
@@ -205,14 +205,14 @@ def test_wrong_tables(table):
     (dict(scale=25.0), "scale 25 is too large"), (dict(phase=180), "phase that fits best is phase 0"),
     (dict(container_radius=12.0), "hardly ever come near the wall"),
 ])
-def test_tracks_that_do_not_fit_the_dish_are_refused(table, change, said):
+def test_tracks_that_do_not_fit_the_container_are_rejected(table, change, said):
     with pytest.raises(swirl.Failure, match=said):
         swirl.Tracks(table, **{**SCALE, **change})
-    as_it_is = swirl.Tracks(table, **{**SCALE, **change}, misfit=1)
-    assert len(as_it_is) == len(swirl.Tracks(table, **SCALE))
+    unchecked = swirl.Tracks(table, **{**SCALE, **change}, misfit=1)
+    assert len(unchecked) == len(swirl.Tracks(table, **SCALE))
 
 
-def test_what_was_mended_is_said(table):
+def test_remarks_report_filled_gaps_and_noise(table):
     noise, = swirl.Tracks(table, **SCALE).remarks
     assert noise.startswith("Positions have a noise of ")
     gap = table[~((table.particle == 3) & table.frame.isin([100, 101]))]
@@ -221,7 +221,7 @@ def test_what_was_mended_is_said(table):
     assert noise.startswith("Positions have a noise of ")
 
 
-def test_a_film_tracked_here_needs_no_scale(table, tmp_path):
+def test_tracks_of_swirl_track_need_no_scale(table, tmp_path):
     table.assign(radius=20.0, seen=1).to_csv(tmp_path / "tracks.csv", index=False)
     camera = {name.replace("_", "-"): value for name, value in SCALE.items()}
     camera.update({"phase": 0.0, "clockwise": False})
@@ -236,7 +236,7 @@ def test_a_film_tracked_here_needs_no_scale(table, tmp_path):
                                   ("scale", "20"))]
     for text in wrong:
         (tmp_path / "tracks.camera.json").write_text(text)
-        with pytest.raises(swirl.Failure, match="is not what `swirl track` writes beside its tracks"):
+        with pytest.raises(swirl.Failure, match="is not a valid file of `swirl track`"):
             swirl.Tracks.read(tmp_path / "tracks.csv")
     (tmp_path / "tracks.camera.json").write_text(good)
     text = (tmp_path / "tracks.csv").read_text().splitlines()

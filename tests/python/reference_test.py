@@ -1,5 +1,4 @@
-"""docs/python_reference.md is made of the signatures and docstrings of what is public. Where it is out
-of date, this writes it anew:
+"""docs/python_reference.md is generated from the public signatures and docstrings. This rewrites it:
 
     SWIRL_WRITE_DOCS=1 ctest --test-dir build/tests -R python.reference
 """
@@ -16,8 +15,8 @@ from scenes import SOURCE
 FILE = os.path.join(SOURCE, "docs", "python_reference.md")
 HEAD = """# Python: reference
 
-Made from the docstrings of `bindings/python/swirl` by `tests/python/reference_test.py`; [python.md](python.md)
-tells what it is for. Parameters of runs are those of [parameters.md](parameters.md).
+Generated from the docstrings of `bindings/python/swirl` by `tests/python/reference_test.py`. The guide is
+[python.md](python.md); parameters of runs are listed in [parameters.md](parameters.md).
 """
 
 
@@ -26,7 +25,7 @@ def code(text):
 
 
 def stub_classes():
-    """The compiled classes: their docstrings are in the stub."""
+    """The compiled classes, whose docstrings are in the stub file."""
     with open(os.path.join(os.path.dirname(swirl.__file__), "_engine.pyi"), encoding="utf-8") as file:
         tree = ast.parse(file.read())
     return {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
@@ -36,7 +35,7 @@ def of_stub(name, node):
     lines = [f"## swirl.{name}\n", code(ast.get_docstring(node) or "")]
     for method in node.body:
         if not isinstance(method, ast.FunctionDef) or method.name.startswith("_") or \
-                method.name == "archive":
+                method.name == "to_bytes":
             continue
         is_property = bool(method.decorator_list)
         said = " ".join((ast.get_docstring(method) or "").split())
@@ -45,12 +44,12 @@ def of_stub(name, node):
 
 
 def without_parameters(text):
-    """The list of parameters stands in a document of its own."""
+    """The docstring without the list of parameters, which has its own page."""
     return text.split("\nParameters (docs/parameters.md)")[0].rstrip()
 
 
 def arguments(function):
-    """As they are written, without those of the table of parameters."""
+    """The arguments in the source, without the parameters of runs."""
     names = []
     function = inspect.unwrap(function)
     code_ = function.__code__
@@ -101,7 +100,7 @@ def reference():
     return "\n".join(parts)
 
 
-def test_the_reference_is_up_to_date():
+def test_reference_is_up_to_date():
     made = reference()
     there = ""
     if os.path.exists(FILE):

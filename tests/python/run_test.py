@@ -59,18 +59,18 @@ def test_measurements_can_be_sent_to_another_process(copied):
             assert not theirs[theirs.columns[-1]].flags.writeable
 
 
-def test_what_is_not_known_is_nan():
+def test_values_that_are_not_available_are_nan():
     r = swirl.run(discs=3, events=20)
     assert r.rotation.by_time.blocks == 0 and math.isnan(r.rotation.by_time.mean)
 
 
-def test_a_result_that_was_saved_can_be_verified(tmp_path):
+def test_saved_result_can_be_verified(tmp_path):
     swirl.run(discs=20, mu=0.3, events=20000, measure="slip").save(tmp_path / "r.json")
     done = command("verify", tmp_path / "r.json")
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_every_measurement_is_that_of_the_tables(tmp_path):
+def test_every_measurement_equals_the_tables_of_the_command_line(tmp_path):
     scene = dict(discs=45, events=60000, seed=4)
     r = swirl.run(**scene, measure="all")
     done = command("run", *options(scene), "--measure", "all", "--tables", tmp_path, "--quiet")
@@ -88,8 +88,8 @@ def test_every_measurement_is_that_of_the_tables(tmp_path):
                 assert (math.isnan(ours) if theirs[column] == "" else ours == float(theirs[column])), \
                     (name, row)
             assert estimate.unit == theirs["unit"]
-        for own_name, table in measured.tables.items():
-            file = f"{name}.{own_name}" if own_name else name
+        for table_name, table in measured.tables.items():
+            file = f"{name}.{table_name}" if table_name else name
             theirs = np.genfromtxt(tmp_path / f"{file}.csv", delimiter=",", names=True)
             tables.remove(file)
             assert list(theirs.dtype.names) == table.columns
@@ -99,12 +99,12 @@ def test_every_measurement_is_that_of_the_tables(tmp_path):
     assert not rows and not tables and compared > 30
 
 
-def test_a_map_has_axes():
+def test_density_map_has_axes():
     density = swirl.run(discs=30, events=60000, measure="density").measured["density"]
     assert density["by_time"].shape == (100, 100)
     axes = density.table.axes
     assert list(axes) == ["y", "x"] and axes["x"][0] == pytest.approx(-axes["x"][-1])
-    # All thirty are somewhere.
+    # The map contains all thirty discs.
     cell = (axes["x"][1] - axes["x"][0]) ** 2
     assert density["by_time"].sum() * cell == pytest.approx(30, rel=1e-9)
     with pytest.raises(ValueError):
@@ -129,7 +129,7 @@ BAD = [
 
 
 @pytest.mark.parametrize("bad", BAD, ids=lambda bad: " ".join(options(bad)))
-def test_what_is_wrong_is_said_in_the_words_of_the_command_line(bad):
+def test_errors_equal_those_of_the_command_line(bad):
     done = command("run", *options(bad))
     assert done.returncode == 2, done.stdout + done.stderr
     with pytest.raises(ValueError) as raised:
@@ -142,30 +142,30 @@ def test_what_is_wrong_is_said_in_the_words_of_the_command_line(bad):
 
 
 @pytest.mark.parametrize("bad, sentence", [
-    (dict(disks=3), "There is no parameter 'disks'; did you mean 'discs'\\?$"),
-    (dict(flavour=3), "There is no parameter 'flavour'; swirl.parameters\\(\\) lists them."),
+    (dict(disks=3), "no parameter 'disks'.\nhint: did you mean 'discs'\\?$"),
+    (dict(flavour=3), "no parameter 'flavour'.\nhint: swirl.parameters\\(\\) lists all parameters."),
     (dict(mu=True), "mu is True, but it must be a number or a text."),
-    (dict(mu=[0.1, 0.5]), "mu is \\[0.1, 0.5\\], but it must be one number or text; swirl.sweep"),
+    (dict(mu=[0.1, 0.5]), "mu is \\[0.1, 0.5\\], but it must be one number or text"),
     (dict(mu=1j), "mu is 1j, but"), (dict(mu=object), "mu is <class 'object'>, but"),
     (dict(mu=b"1"), "mu is b'1', but"), (dict(mu=np.array([1.0])), "mu is array"),
-    (dict(measure=[3]), "measure has 3 in its list, but each must be a name"),
+    (dict(measure=[3]), "measure contains 3, but each element must be a name"),
 ])
-def test_wrong_types_and_names(bad, sentence):
+def test_wrong_types_and_names_are_rejected(bad, sentence):
     with pytest.raises(TypeError, match=sentence):
         swirl.run(events=10, **bad)
 
 
-def test_wrong_measurements():
+def test_unknown_measurements_are_rejected():
     with pytest.raises(ValueError, match="measure has 'dens' in its list, but each must be one of: d"):
         swirl.run(events=10, measure="dens")
 
 
-def test_numbers_of_numpy_are_numbers():
+def test_numpy_scalars_are_accepted():
     r = swirl.run(discs=np.int64(7), mu=np.float64(0.25), events=np.float32(1000), seed=np.uint64(3))
     assert r.state_hash == swirl.run(discs=7, mu=0.25, events=1000, seed=3).state_hash
 
 
-def test_none_is_what_was_not_given():
+def test_none_counts_as_not_given():
     assert swirl.run(discs=7, mu=None, events=1000).state_hash == \
         swirl.run(discs=7, events=1000).state_hash
 
@@ -180,9 +180,9 @@ anything = st.one_of(
           suppress_health_check=list(HealthCheck))
 @given(st.dictionaries(st.sampled_from([p.name for p in swirl.parameters()] + ["nonsense", "", "--mu"]),
                        anything, max_size=4))
-def test_whatever_is_given_it_runs_or_is_refused_in_a_sentence(given_):
+def test_random_arguments_run_or_are_rejected_with_a_message(given_):
     length = {} if {"events", "periods"} & set(given_) else {"events": 50}
-    # A run as long as that would be right, and would take a while.
+    # Larger values are valid, but the run would take too long.
     for name, most in (("events", 5000), ("periods", 3), ("discs", 200)):
         value = given_.get(name)
         if isinstance(value, (int, float)) and value > most:
@@ -194,18 +194,18 @@ def test_whatever_is_given_it_runs_or_is_refused_in_a_sentence(given_):
         assert text.endswith((".", "?", ")")) and "--" not in text.replace("--mu'", ""), text
 
 
-def test_documentation_names_every_parameter():
+def test_docstring_lists_every_parameter():
     for p in swirl.parameters():
         assert f"    {p.name}: " in swirl.run.__doc__
     import inspect
     assert {"discs", "mu", "seed", "measure"} <= set(inspect.signature(swirl.run).parameters)
 
 
-# --- measurements of one's own ------------------------------------------------------------------
+# --- custom measurements ------------------------------------------------------------------------
 
 
 class MeanX:
-    """Where the discs are in the M-frame."""
+    """Mean position of the discs in the M-frame."""
 
     def sample(self, snapshot):
         x, y = snapshot.m_frame().position.mean(axis=0)
@@ -220,25 +220,25 @@ class MeanXByBlock:
         return {"x": x, "y": y}
 
 
-def test_own_measurement_by_sample_and_by_block_agree_with_ours():
+def test_custom_measurements_by_sample_and_by_block_agree_with_built_in_ones():
     scene = dict(discs=20, events=30000, seed=2)
     r = swirl.run(**scene, measure=["centre", MeanX, MeanXByBlock()])
     alone = swirl.run(**scene, measure="centre")
     assert without_time(json.loads(r.to_json())) == without_time(json.loads(alone.to_json())) | {}
-    ours = r.measured["centre"]
+    built_in = r.measured["centre"]
     for name in ("x", "y"):
-        mine, block = r.measured["MeanX"][name], r.measured["by_block"][name]
-        assert mine.mean == pytest.approx(block.mean, rel=1e-12)
-        assert mine.error == pytest.approx(block.error, rel=1e-9)
-        assert mine.blocks == r.rotation.by_time.blocks
-        assert mine.error > 0
-    # `centre` looks seven samples later, when it is known who is pinned (observation.hpp): at the
-    # end of the run that many of ten thousands are missing.
-    assert ours["x"].mean == pytest.approx(r.measured["MeanX"]["x"].mean, abs=1e-3 * 8.6)
-    assert ours["x"].error == pytest.approx(r.measured["MeanX"]["x"].error, rel=0.05)
+        sampled, block = r.measured["MeanX"][name], r.measured["by_block"][name]
+        assert sampled.mean == pytest.approx(block.mean, rel=1e-12)
+        assert sampled.error == pytest.approx(block.error, rel=1e-9)
+        assert sampled.blocks == r.rotation.by_time.blocks
+        assert sampled.error > 0
+    # `centre` takes each sample seven samples later, when it is known which discs are pinned
+    # (observation.hpp). It misses seven of ten thousand samples at the end of the run.
+    assert built_in["x"].mean == pytest.approx(r.measured["MeanX"]["x"].mean, abs=1e-3 * 8.6)
+    assert built_in["x"].error == pytest.approx(r.measured["MeanX"]["x"].error, rel=0.05)
 
 
-def test_own_measurement_may_be_a_function_and_return_arrays():
+def test_custom_measurement_may_be_a_function_and_return_arrays():
     def speeds(snapshot):
         return np.hypot(*snapshot.velocity.T)
 
@@ -247,7 +247,7 @@ def test_own_measurement_may_be_a_function_and_return_arrays():
     assert np.all(found.error > 0) and np.all((found.mean > 0.1) & (found.mean < 10))
 
 
-def test_what_is_raised_in_a_measurement_of_ones_own_comes_out():
+def test_exceptions_of_custom_measurements_are_raised():
     class Broken:
         def block(self, frames):
             raise LookupError("not today")
@@ -257,43 +257,44 @@ def test_what_is_raised_in_a_measurement_of_ones_own_comes_out():
 
     class Changing:
         def block(self, frames):
-            return np.zeros(int(frames.swirls[0]) % 3 + 1)
+            return np.zeros(int(frames.whole_periods[0]) % 3 + 1)
 
     with pytest.raises(ValueError, match="different shapes"):
         swirl.run(discs=6, events=20000, measure=[Changing])
 
-    # Within the first swirl, too, when nothing has been kept yet.
+    # Also within the first period, when no block has been stored yet.
     class ChangingAtOnce:
-        looks = 0
+        samples = 0
 
         def sample(self, snapshot):
-            self.looks += 1
-            return np.zeros(self.looks % 2 + 1)
+            self.samples += 1
+            return np.zeros(self.samples % 2 + 1)
 
     with pytest.raises(ValueError, match="different shapes"):
         swirl.run(discs=6, events=20000, measure=[ChangingAtOnce])
 
 
 def test_frames_outlive_the_run():
-    kept = []
+    stored = []
 
-    class Keep:
+    class Store:
         def block(self, frames):
-            kept.append((frames, frames.position, frames[3].velocity))
+            stored.append((frames, frames.position, frames[3].velocity))
 
-    swirl.run(discs=6, events=20000, measure=[Keep])
-    frames, position, velocity = kept[0]
+    swirl.run(discs=6, events=20000, measure=[Store])
+    frames, position, velocity = stored[0]
     assert position.shape == (511, 6, 2) and np.array_equal(velocity, frames.velocity[3])
-    assert len({k[1].ctypes.data for k in kept}) == len(kept)
+    assert len({k[1].ctypes.data for k in stored}) == len(stored)
 
 
 # --- threads, signals, files --------------------------------------------------------------------
 
 
-def test_progress_is_told_and_may_raise():
-    told = []
-    swirl.run(discs=48, events=1500000, progress=lambda *what: told.append(what))
-    assert told == sorted(told) and all(0 <= fraction <= 1 for fraction, _, _ in told)
+def test_progress_is_reported_and_may_raise():
+    reported = []
+    swirl.run(discs=48, events=1500000, progress=lambda *what: reported.append(what))
+    assert reported == sorted(reported)
+    assert all(0 <= fraction <= 1 for fraction, _, _ in reported)
 
     def stop(fraction, events, periods):
         raise RuntimeError("enough")
@@ -302,8 +303,8 @@ def test_progress_is_told_and_may_raise():
         swirl.run(discs=48, events=1e9, progress=stop)
 
 
-# The signal comes from another thread, which has gone on a hundred times by then: the engine holds up
-# nobody. A call that did not hear it would not end, or end without an exception.
+# The signal comes from another thread, which has run a hundred times by then: the engine does not block
+# other threads. A call that missed the signal would not end, or would end without an exception.
 INTERRUPTED = """
 import swirl, os, signal, threading, time
 def interrupt():
@@ -327,14 +328,14 @@ except KeyboardInterrupt as raised:
     ("sim = swirl.Simulation(discs=48); sim.step(10**6); sim.advance(events=1e12)",
      "sim.counts.total > 10**5", "KeyboardInterrupt True"),
 ])
-def test_ctrl_c(call, found, said):
+def test_ctrl_c_interrupts(call, found, said):
     done = subprocess.run([sys.executable, "-B", "-c", INTERRUPTED.format(call=call, found=found)],
                           capture_output=True, text=True, timeout=300)  # no call ends by itself
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == said.split()
 
 
-def test_recordings_are_those_of_the_command_line(tmp_path):
+def test_recordings_equal_those_of_the_command_line(tmp_path):
     import h5py
     scene = dict(discs=12, events=20000)
     ours = swirl.run(**scene, trajectory=tmp_path / "ours.h5", frames=20, event_log=tmp_path / "e.h5")
@@ -346,14 +347,14 @@ def test_recordings_are_those_of_the_command_line(tmp_path):
     with h5py.File(tmp_path / "e.h5") as file:
         assert len(file["events/clock"]) == 20000
     assert ours.state_hash == swirl.run(**scene).state_hash
-    with pytest.raises(FileExistsError, match="is there already"):
+    with pytest.raises(FileExistsError, match="already exists"):
         swirl.run(**scene, trajectory=tmp_path / "ours.h5")
     swirl.run(**scene, trajectory=tmp_path / "ours.h5", overwrite=True)
-    with pytest.raises(ValueError, match="recorded cannot have measurements of one's own"):
+    with pytest.raises(ValueError, match="cannot have custom measurements"):
         swirl.run(**scene, trajectory=tmp_path / "more.h5", measure=[MeanX])
 
 
-def test_what_cannot_be_done_is_a_failure(tmp_path):
+def test_impossible_runs_raise_failures(tmp_path):
     with pytest.raises(swirl.FileError):
         swirl.run(discs=5, events=100, trajectory=tmp_path / "no" / "such" / "folder.h5")
     with pytest.raises(swirl.Failure, match="inside its warm_?-?up|inside its warm-up of warmup 400"):

@@ -1,4 +1,4 @@
-"""What tests of the Python module have in common: scenes, and the command line to compare with."""
+"""Shared by tests of the Python module: scenes, and calls of the command line."""
 
 import json
 import os
@@ -23,7 +23,7 @@ SCENES = [
 
 
 def options(scene):
-    """As words for the command line."""
+    """Command-line options of a scene."""
     words = []
     for name, value in scene.items():
         text = ":".join(map(str, value)) if isinstance(value, tuple) else str(value)
@@ -43,6 +43,6 @@ def result_of(scene, *words):
 
 
 def without_time(result):
-    """But for what is of the call that made it."""
+    """The result without times and command."""
     return {name: value for name, value in result.items()
             if name not in ("seconds", "events_per_second", "command")}

@@ -1,5 +1,5 @@
-"""swirl.Simulation: the bits of the command line whoever looks and however one steps; own discs and
-paths; copies; and no way to bring it down."""
+"""swirl.Simulation: states bitwise identical to the command line, custom discs and paths, copies, views,
+threads, and rejection of invalid input."""
 
 import copy
 import gc
@@ -25,13 +25,13 @@ RUNS = [scene for scene in SCENES if "warmup" not in scene]
 
 
 @pytest.mark.parametrize("scene", RUNS, ids=lambda scene: " ".join(options(scene)))
-def test_however_one_goes_the_state_is_that_of_the_command_line(scene):
-    theirs = result_of(scene, "--events", 10000)["state_hash"]
+def test_state_is_that_of_the_command_line_for_every_way_of_advancing(scene):
+    expected = result_of(scene, "--events", 10000)["state_hash"]
     sims = [swirl.Simulation(**scene) for _ in range(3)]
     sims[0].advance(events=10000)
     rows = sims[1].step(10000)
     seen = list(sims[2].events(4000))
-    # Looking, sampling, copying on the way change nothing.
+    # Snapshots, sampling and copies do not alter the trajectory.
     sims[2].snapshot().m_frame()
     sims[2] = copy.copy(sims[2])
     while sims[2].counts.total < 9000:
@@ -39,19 +39,19 @@ def test_however_one_goes_the_state_is_that_of_the_command_line(scene):
         sims[2] = pickle.loads(pickle.dumps(sims[2]))
     if sims[2].counts.total <= 10000:
         sims[2].advance(events=10000 - sims[2].counts.total)
-        assert sims[2].state_hash == theirs
-    assert [sim.state_hash for sim in sims[:2]] == [theirs] * 2
-    for name in ("swirls", "clock", "kind", "i", "j", "normal_impulse", "overlap"):
+        assert sims[2].state_hash == expected
+    assert [sim.state_hash for sim in sims[:2]] == [expected] * 2
+    for name in ("whole_periods", "clock", "kind", "i", "j", "normal_impulse", "overlap"):
         np.testing.assert_array_equal(rows[name][:4000], [getattr(e, name) for e in seen])
 
 
-def test_events_say_what_happens():
+def test_events_describe_collisions():
     sim = swirl.Simulation(discs=10, seed=3)
     rows = sim.step(5000)
     collisions = rows[rows["kind"] == swirl.EventKind.disc_disc]
     assert np.all(collisions["i"] < collisions["j"]) and np.all(np.diff(rows["time"]) >= 0)
     np.testing.assert_allclose(np.hypot(rows["normal_x"], rows["normal_y"])[rows["kind"] < 2], 1)
-    # Coulomb: no contact pulls harder along the surface than friction lets it.
+    # Coulomb's law with a friction coefficient of 1.
     assert np.all(np.abs(collisions["tangential_impulse"]) <=
                   collisions["normal_impulse"] * (1 + 1e-12))
     counts = sim.counts
@@ -63,22 +63,22 @@ def test_events_say_what_happens():
             np.testing.assert_allclose(apart, 2 * np.array(event.normal), atol=1e-9)
 
 
-def test_time_goes_as_it_is_told():
+def test_advancing_by_periods_time_and_events():
     sim = swirl.Simulation(discs=20)
     sim.advance(periods=2)
-    assert (sim.swirls, sim.clock) == (2, 0.0)
+    assert (sim.whole_periods, sim.clock) == (2, 0.0)
     sim.advance(periods=0.25)
     assert sim.periods == pytest.approx(2.25, abs=1e-12)
     sim.advance(time=sim.period)
     assert sim.time == pytest.approx(3.25 * sim.period, abs=1e-9)
     sim.advance_to(7, 1.5)
-    assert (sim.swirls, sim.clock) == (7, 1.5)
-    for swirls, clock, said in ((6, 0, "does not go back"), (7, 1.25, "does not go back"),
-                                (8, 12, "below the period"), (8, float("nan"), "finite")):
-        with pytest.raises(ValueError, match=said):
-            sim.advance_to(swirls, clock)
+    assert (sim.whole_periods, sim.clock) == (7, 1.5)
+    for whole_periods, clock, message in ((6, 0, "cannot go back"), (7, 1.25, "cannot go back"),
+                                          (8, 12, "below the period"), (8, float("nan"), "finite")):
+        with pytest.raises(ValueError, match=message):
+            sim.advance_to(whole_periods, clock)
     for wrong in (dict(), dict(periods=1, time=1), dict(events=1, periods=1)):
-        with pytest.raises(TypeError, match="one of periods, time and events"):
+        with pytest.raises(TypeError, match="exactly one of periods, time and events"):
             sim.advance(**wrong)
     for wrong in (dict(periods=-1), dict(periods=float("inf")), dict(events=-1), dict(events=0.5),
                   dict(time=float("nan")), dict(time=1e300)):
@@ -92,12 +92,12 @@ def test_time_goes_as_it_is_told():
                      lambda: sim.step(-1), lambda: sim.sample(-1)):
         with pytest.raises(ValueError):
             too_much()
-    with pytest.raises(ValueError, match="periods is -1, but it must be a number from 0 on"):
+    with pytest.raises(ValueError, match="periods is -1, but it must be 0 or more"):
         sim.sample(-1)
-    assert (sim.swirls, sim.clock) == (7, 1.5)
+    assert (sim.whole_periods, sim.clock) == (7, 1.5)
 
 
-def test_samples_are_what_snapshots_show():
+def test_samples_equal_snapshots():
     a, b = swirl.Simulation(discs=30, seed=5), swirl.Simulation(discs=30, seed=5)
     a.advance(periods=0.37)
     b.advance(periods=0.37)
@@ -106,7 +106,7 @@ def test_samples_are_what_snapshots_show():
     start = b.periods
     for k in range(60):
         assert frames.time[k] == pytest.approx((start + k / 40) * b.period, abs=1e-9)
-        b.advance_to(int(frames.swirls[k]), frames.clock[k])
+        b.advance_to(int(frames.whole_periods[k]), frames.clock[k])
         s = b.snapshot()
         for name in ("position", "velocity", "angle", "spin", "container_centre", "clock", "time",
                      "container_velocity"):
@@ -120,7 +120,7 @@ def test_samples_are_what_snapshots_show():
     assert frames[-1].time == frames[59].time
 
 
-def test_m_frame_is_that_of_its_definition():
+def test_m_frame_agrees_with_its_definition():
     sim = swirl.Simulation(discs=30, path="circle")
     sim.advance(periods=3.3)
     s = sim.snapshot()
@@ -134,7 +134,7 @@ def test_m_frame_is_that_of_its_definition():
     np.testing.assert_array_equal(m.container_centre, [0, 0])
 
 
-def test_rotation_of_a_rigid_turn():
+def test_rotation_of_a_rigid_rotation():
     angles = np.arange(6) * np.pi / 3
     position = 4 * np.stack([np.cos(angles), np.sin(angles)], axis=1) + [1.892, 0]
     sim = swirl.Simulation(position=position, amplitude=1.892)
@@ -146,10 +146,10 @@ def test_rotation_of_a_rigid_turn():
         assert found == pytest.approx(0.3, rel=1e-12)
 
 
-# --- discs and paths of one's own ---------------------------------------------------------------
+# --- custom discs and paths ---------------------------------------------------------------------
 
 
-def test_discs_that_are_given_back_go_on_alike():
+def test_simulation_from_a_snapshot_continues_identically():
     first = swirl.Simulation(discs=40, mixture=(10, 1.3), seed=8)
     s = first.snapshot()
     again = swirl.Simulation(position=s.position, velocity=s.velocity, spin=s.spin, angle=s.angle,
@@ -159,20 +159,20 @@ def test_discs_that_are_given_back_go_on_alike():
     assert first.state_hash == again.state_hash
 
 
-def test_a_polygon_of_ones_own_is_the_papers():
+def test_custom_polygon_equals_the_papers():
     first = swirl.Simulation(discs=30)
     path = first.container_path()
     again = swirl.Simulation(discs=30, path=path[:, 1:], path_times=path[:, 0])
     even = swirl.Simulation(discs=30, path=path[:, 1:])
     for sim in (first, again, even):
         sim.advance(periods=0.5)
-    # Speeds are differences of vertices over differences of times: the last bit may differ.
+    # Speeds are computed from differences of vertices and times, so rounding errors may differ.
     for sim in (again, even):
         np.testing.assert_allclose(sim.snapshot().container_centre, first.snapshot().container_centre,
                                    atol=1e-12)
 
 
-def test_a_path_of_ones_own_is_gone_along():
+def test_container_follows_a_custom_path():
     square = np.array([[2, 2], [-2, 2], [-2, -2], [2, -2]], dtype=float)
     sim = swirl.Simulation(discs=20, path=square, period=16)
     frames = sim.sample(periods=3, per_period=16)
@@ -199,7 +199,7 @@ arrays = st.one_of(
           suppress_health_check=list(HealthCheck))
 @given(st.dictionaries(st.sampled_from(["position", "velocity", "angle", "spin", "radius", "mass",
                                         "inertia", "path", "path_times", "mu", "discs"]), arrays))
-def test_whatever_is_given_it_is_made_or_refused(given_):
+def test_random_arguments_are_accepted_or_rejected(given_):
     if isinstance(given_.get("discs"), (int, float)) and given_["discs"] > 60:
         given_["discs"] = 60
     try:
@@ -214,34 +214,35 @@ def test_whatever_is_given_it_is_made_or_refused(given_):
 two = [[1.0, 0.0], [4.0, 0.0]]
 
 
-@pytest.mark.parametrize("wrong, said", [
-    (dict(position=[[0, 0], [1, 0]]), "Discs 0 and 1 are 1 apart, but their radii add up to 2"),
-    (dict(position=[[0, 0], [20, 0]]), "Disc 1 at \\(20, 0\\) sticks out of the container"),
-    (dict(position=[[0, 0, 0]]), "position is 1 × 3, but it must be N × 2"),
-    (dict(position=3), "position is one number, but"), (dict(path=3), "path is one number, but"),
-    (dict(position=[]), "position is 0, but it must be N × 2"),
-    (dict(position=np.zeros((0, 2))), "one disc at least"),
-    (dict(position=[[0, float("nan")]]), "position has nan among its values"),
-    (dict(position=two, velocity=[[1, 1]]), "velocity is 1 × 2, but it must be 2 × 2"),
-    (dict(position=two, velocity=[[1, 1], [np.inf, 0]]), "velocity has inf"),
-    (dict(position=two, spin=[1, 2, 3]), "spin is 3, but it must be 2 numbers"),
-    (dict(position=two, radius=[1, -1]), "radius is -1 of a disc"),
-    (dict(position=two, mass=[1, 0]), "mass is 0 of a disc"),
-    (dict(position=two, inertia=[1, 0]), "inertia is 0 of a disc"),
-    (dict(position=two, discs=2), "discs is given, but the discs are those of position"),
-    (dict(velocity=two), "velocity is given for each disc, but not their position"),
-    (dict(position=two, body="sphere"), "Only discs without a floor"),
-    (dict(path=[[0, 0]]), "needs two"), (dict(path=[[1, 1], [1, 1]]), "the same point"),
-    (dict(path=[[0, 0], [1, 0], [1, 0]]), "no two vertices be the same"),
-    (dict(path=two, path_times=[0, 20]), "times must ascend"),
+@pytest.mark.parametrize("wrong, message", [
+    (dict(position=[[0, 0], [1, 0]]), "discs 0 and 1 overlap: their distance is 1, but their radii add up to 2"),
+    (dict(position=[[0, 0], [20, 0]]), "disc 1 at \\(20, 0\\) extends 10.5 beyond the container"),
+    (dict(position=[[0, 0, 0]]), "position has shape 1 × 3, but it must be N × 2"),
+    (dict(position=3), "position has shape one number, but"), (dict(path=3), "path has shape one number, but"),
+    (dict(position=[]), "position has shape 0, but it must be N × 2"),
+    (dict(position=np.zeros((0, 2))), "at least one disc"),
+    (dict(position=[[0, float("nan")]]), "position contains nan"),
+    (dict(position=two, velocity=[[1, 1]]), "velocity has shape 1 × 2, but it must be 2 × 2"),
+    (dict(position=two, velocity=[[1, 1], [np.inf, 0]]), "velocity contains inf"),
+    (dict(position=two, spin=[1, 2, 3]), "spin has shape 3, but it must be 2 numbers"),
+    (dict(position=two, radius=[1, -1]), "radius is -1 for one disc"),
+    (dict(position=two, mass=[1, 0]), "mass is 0 for one disc"),
+    (dict(position=two, inertia=[1, 0]), "inertia is 0 for one disc"),
+    (dict(position=two, discs=2), "discs and position are both given"),
+    (dict(velocity=two), "velocity is given for each disc, but position is not"),
+    (dict(position=two, body="sphere"), "only for discs without a floor"),
+    (dict(path=[[0, 0]]), "at least two"), (dict(path=[[1, 1], [1, 1]]), "the same point"),
+    (dict(path=[[0, 0], [1, 0], [1, 0]]), "consecutive vertices must differ"),
+    (dict(path=two, path_times=[0, 20]), "times must increase"),
     (dict(path=two, path_times=[1, 2]), "begins with 1"),
-    (dict(path=two, path_times=[0, 1, 2]), "path_times is 3, but"),
-    (dict(path=[[0, 0], [1e9, 0]]), "no farther"), (dict(position=two, spin=1e200), "spin has 1e"),
-    (dict(path=two, amplitude=2), "leave one"), (dict(path_times=[0, 1]), "path_times needs the path"),
+    (dict(path=two, path_times=[0, 1, 2]), "path_times has shape 3, but"),
+    (dict(path=[[0, 0], [1e9, 0]]), "path contains 1000000000"), (dict(position=two, spin=1e200), "spin contains 1e"),
+    (dict(path=two, amplitude=2), "both define the path"),
+    (dict(path_times=[0, 1]), "path_times is given, but path is not"),
     (dict(path="spiral"), "path is 'spiral'"), (dict(position=two, mu=-1), "mu is '-1'"),
 ])
-def test_what_is_wrong_with_them_is_said(wrong, said):
-    with pytest.raises(ValueError, match=said):
+def test_invalid_custom_scenes_are_rejected(wrong, message):
+    with pytest.raises(ValueError, match=message):
         swirl.Simulation(**wrong)
 
 
@@ -250,12 +251,12 @@ def test_what_is_wrong_with_them_is_said(wrong, said):
     dict(position=two, spin=object()), dict(path=[[1j, 0], [0, 0]]),
     dict(position=np.array(two, dtype=object)), dict(nonsense=3), dict(mu=[1, 2]),
 ])
-def test_wrong_types(wrong):
+def test_arguments_of_wrong_types_are_rejected(wrong):
     with pytest.raises(TypeError):
         swirl.Simulation(**wrong)
 
 
-def test_arrays_of_any_layout_are_taken():
+def test_arrays_of_any_memory_layout_are_accepted():
     position = np.array([[1, 0], [4, 0], [-3, 2]], dtype=np.int8)
     spread = np.zeros((6, 4))
     spread[::2, ::2] = position
@@ -268,22 +269,22 @@ def test_arrays_of_any_layout_are_taken():
     assert len(states) == 1
 
 
-# --- keeping ------------------------------------------------------------------------------------
+# --- saving -------------------------------------------------------------------------------------
 
 
-def test_saved_and_loaded_it_goes_on_with_the_same_bits(tmp_path):
+def test_loaded_simulation_continues_bitwise_identically(tmp_path):
     sim = swirl.Simulation(discs=48, seed=2)
     sim.advance(periods=1.7)
-    sim.save(tmp_path / "dish")
+    sim.save(tmp_path / "saved")
     sim.advance(events=3000)
-    again = swirl.load(tmp_path / "dish")
+    again = swirl.load(tmp_path / "saved")
     assert again.config == sim.config
     again.advance(events=3000)
     assert (again.state_hash, again.time) == (sim.state_hash, sim.time)
 
 
-def test_a_damaged_file_is_refused(tmp_path):
-    file = tmp_path / "dish"
+def test_damaged_files_are_rejected(tmp_path):
+    file = tmp_path / "saved"
     swirl.Simulation(discs=5).save(file)
     whole = file.read_bytes()
     random.seed(1)
@@ -294,14 +295,14 @@ def test_a_damaged_file_is_refused(tmp_path):
         else:
             bad = bad[:random.randrange(len(bad))]
         file.write_bytes(bad)
-        with pytest.raises(swirl.FileError, match="no simulation of swirl that could go on"):
+        with pytest.raises(swirl.FileError, match="not a swirl simulation that can continue"):
             swirl.load(file)
     with pytest.raises(FileNotFoundError):
         swirl.load(tmp_path / "nothing")
 
 
 def _crc64(data):
-    """files/checksum.hpp: ECMA-182, reflected."""
+    """CRC-64 of ECMA-182, reflected (src/swirl/io/checksum.hpp)."""
     crc = 2**64 - 1
     for byte in data:
         crc ^= byte
@@ -314,7 +315,7 @@ HEAD = b"swirl simulation 2\n"
 
 
 def _forged(archive, at, word):
-    """The archive with eight other bytes behind its checksum, and with the checksum of those."""
+    """The archive with eight bytes replaced by `word`, and a valid checksum."""
     body = archive[len(HEAD) + 8:]
     body = body[:at] + word[:max(0, len(body) - at)] + body[at + 8:]
     return HEAD + struct.pack("<Q", _crc64(body)) + body
@@ -325,42 +326,42 @@ SPECIAL = [struct.pack("<d", x) for x in (math.nan, math.inf, -math.inf, 1e308, 
     [struct.pack("<Q", n) for n in (0, 1, 2, 255, 2**31, 2**61, 2**63, 2**64 - 1)]
 
 
-@pytest.mark.parametrize("own", [False, True])
-def test_a_forged_archive_is_refused_or_goes_on(own, tmp_path):
-    sim = swirl.Simulation(discs=3, seed=2, sides=3) if not own else \
+@pytest.mark.parametrize("custom", [False, True])
+def test_forged_archives_are_rejected_or_continue(custom, tmp_path):
+    sim = swirl.Simulation(discs=3, seed=2, sides=3) if not custom else \
         swirl.Simulation(position=[[0, 0], [3, 0], [0, 3]], path=[[0, 0], [2, 1], [-1, 2]])
     sim.advance(events=1000)
     sim.save(tmp_path / "good")
     archive = (tmp_path / "good").read_bytes()
     body = archive[len(HEAD) + 8:]
     text = struct.unpack_from("<Q", body)[0]
-    numbers = 8 + text + 1  # behind the parameters and whether it is one's own
+    numbers = 8 + text + 1  # after the parameters and the flag for custom scenes
     assert _forged(archive, 0, body[:8]) == archive
-    count_refused = 0
-    # Every number behind the parameters, each with every special value: the number of legs, the legs,
-    # swirls and clock, leg (four bytes) and counts, the discs.
-    places = [*range(0, 8, 8), *range(numbers, len(body) - 7, 8)]
-    places += [numbers + 8 + 3 * 56 + 16 + 4 + 8 * k for k in range((len(body) - numbers - 196) // 8)]
+    rejected = 0
+    # Every number after the parameters: number of segments, segments, whole periods and clock, number of
+    # the segment (four bytes) and event counts, discs. Each is replaced by three special values.
+    offsets = [*range(0, 8, 8), *range(numbers, len(body) - 7, 8)]
+    offsets += [numbers + 8 + 3 * 56 + 16 + 4 + 8 * k for k in range((len(body) - numbers - 196) // 8)]
     chosen = random.Random(4)
-    tried = [(at, word) for at in places for word in chosen.sample(SPECIAL, 3)]
+    tried = [(at, word) for at in offsets for word in chosen.sample(SPECIAL, 3)]
     for at, word in tried:
         (tmp_path / "forged").write_bytes(_forged(archive, at, word))
         try:
             forged = swirl.load(tmp_path / "forged")
         except swirl.FileError:
-            count_refused += 1
+            rejected += 1
             continue
         forged.advance(events=300)
         assert np.all(np.isfinite(forged.snapshot().position))
-    assert len(tried) / 4 < count_refused < len(tried)
+    assert len(tried) / 4 < rejected < len(tried)
 
 
-def test_copies_go_on_by_themselves():
+def test_copies_are_independent():
     sim = swirl.Simulation(discs=10)
     for make in (copy.copy, copy.deepcopy):
         other = make(sim)
         other.advance(periods=1)
-        assert sim.swirls == 0 and other.swirls == 1
+        assert sim.whole_periods == 0 and other.whole_periods == 1
 
 
 def advanced(sim):
@@ -368,7 +369,7 @@ def advanced(sim):
     return sim.state_hash
 
 
-def test_another_process_gives_the_same_bits():
+def test_another_process_continues_bitwise_identically():
     sim = swirl.Simulation(discs=30, seed=9)
     with multiprocessing.get_context("spawn").Pool(1) as pool:
         elsewhere = pool.apply(advanced, (sim,))
@@ -378,7 +379,7 @@ def test_another_process_gives_the_same_bits():
 # --- views, threads -----------------------------------------------------------------------------
 
 
-def test_views_stay_what_they_are():
+def test_views_are_read_only_and_never_change():
     sim = swirl.Simulation(discs=48)
     s = sim.snapshot()
     position = s.position
@@ -402,7 +403,7 @@ def test_views_stay_what_they_are():
     np.testing.assert_array_equal(position, before)
 
 
-def test_nothing_leaks():
+def test_memory_does_not_leak():
     def resident():
         with open("/proc/self/statm") as file:
             return int(file.read().split()[1]) * resource.getpagesize()
@@ -419,11 +420,11 @@ def test_nothing_leaks():
     before = resident()
     for _ in range(10):
         work()
-    # The frames of one round are forty megabytes.
+    # The frames of one round take 40 MB, so a leak in any of ten rounds would exceed 20 MB.
     assert resident() - before < 20e6
 
 
-def test_two_threads_on_two_simulations():
+def test_two_threads_use_two_simulations():
     alone = [swirl.Simulation(discs=48, seed=seed) for seed in (1, 2)]
     for sim in alone:
         sim.advance(events=100000)
@@ -436,7 +437,7 @@ def test_two_threads_on_two_simulations():
     assert [sim.state_hash for sim in sims] == [sim.state_hash for sim in alone]
 
 
-def test_many_threads_on_one_simulation_take_turns():
+def test_threads_share_one_simulation():
     sim = swirl.Simulation(discs=48)
     raised = []
 
@@ -474,15 +475,14 @@ print("leaving")
 """
 
 
-def test_python_may_leave_while_threads_work():
+def test_python_exits_while_threads_work():
     for _ in range(3):
         done = subprocess.run([sys.executable, "-B", "-c", LEAVING], capture_output=True, text=True,
                               timeout=60)
         assert (done.returncode, done.stdout, done.stderr) == (0, "leaving\n", "")
 
 
-def test_it_cannot_be_made_without_its_dish():
-    """Objects that were never begun say so."""
+def test_uninitialised_objects_raise_errors():
     bare = swirl.Simulation.__new__(swirl.Simulation)
     with pytest.raises(AttributeError):
         bare.step(1)
@@ -493,7 +493,7 @@ def test_it_cannot_be_made_without_its_dish():
             kind.__new__(kind)
 
 
-def test_snapshots_and_frames_can_be_sent():
+def test_snapshots_and_frames_can_be_pickled():
     sim = swirl.Simulation(discs=7, body="sphere", floor="sliding")
     sim.advance(periods=0.3)
     for seen in (sim.snapshot(), sim.sample(0.5)):
@@ -501,9 +501,9 @@ def test_snapshots_and_frames_can_be_sent():
         for name in ("position", "velocity", "spin", "time", "mass"):
             np.testing.assert_array_equal(getattr(again, name), getattr(seen, name))
     with pytest.raises(swirl.FileError):
-        swirl._engine.frames_of(b"nonsense")
+        swirl._engine.frames_from_bytes(b"nonsense")
 
 
-def test_a_dish_is_drawn():
+def test_simulation_has_an_svg():
     svg = swirl.Simulation(discs=7)._repr_svg_()
     assert svg.startswith("<svg") and svg.count("<circle") == 8

@@ -1,4 +1,4 @@
-"""swirl.sweep(), crossing() and map() find what the command line finds, in the same folders."""
+"""swirl.sweep(), crossing() and map() give the results of the command line, in the same folders."""
 
 import io
 import json
@@ -22,7 +22,7 @@ def table_of(folder):
                            dtype={"state_hash": str, "steady_state": str})
 
 
-def test_a_sweep_is_that_of_the_command_line(tmp_path):
+def test_sweep_equals_that_of_the_command_line(tmp_path):
     ours = swirl.sweep(tmp_path / "ours", discs=range(5, 8), mu=[0.1, 0.5], events=5000, seeds=2,
                        measure=["slip", "density"])
     done = command("sweep", "--discs", "5:7", "--mu", "0.1,0.5", "--events", "5000", "--seeds", "2",
@@ -32,7 +32,7 @@ def test_a_sweep_is_that_of_the_command_line(tmp_path):
     pandas.testing.assert_frame_equal(ours, table_of(tmp_path / "ours"), check_exact=True)
     assert len(ours) == 6 and ours.attrs["runs"] == dict(planned=12, done=12, running=0, failed=0)
     assert {"slip.cluster", "discs", "mu"} <= set(ours.columns)
-    # Either goes on with what the other has begun.
+    # Python and the command line can continue each other's sweeps.
     again = command("sweep", "--out", tmp_path / "ours", "--quiet")
     assert again.returncode == 0
     more = swirl.sweep(tmp_path / "theirs", discs=[8], seeds=3, grow=True)
@@ -40,7 +40,7 @@ def test_a_sweep_is_that_of_the_command_line(tmp_path):
     pandas.testing.assert_frame_equal(swirl.sweep(tmp_path / "theirs"), more)
 
 
-def test_a_sweep_without_a_folder_leaves_none(tmp_path, monkeypatch):
+def test_sweep_without_a_folder_leaves_no_files(tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     import tempfile
     tempfile.tempdir = None
@@ -49,35 +49,35 @@ def test_a_sweep_without_a_folder_leaves_none(tmp_path, monkeypatch):
     tempfile.tempdir = None
 
 
-def test_another_sweep_in_the_same_folder_is_refused(tmp_path):
+def test_different_sweep_in_the_same_folder_is_rejected(tmp_path):
     swirl.sweep(tmp_path, discs=[5], events=1000)
     with pytest.raises(swirl.Failure, match="plan"):
         swirl.sweep(tmp_path, discs=[6], events=1000)
 
 
-@pytest.mark.parametrize("wrong, kind, said", [
+@pytest.mark.parametrize("wrong, kind, message", [
     (dict(discs=[]), ValueError, "discs is an empty list"),
     (dict(discs=[5, 5]), ValueError, "5"), (dict(discs="5:x"), ValueError, "discs"),
     (dict(discs=[5, 900]), ValueError, "900 discs do not fit"), (dict(mu=[0.1, None]), TypeError, "mu"),
     (dict(discs=[5], seeds=0), ValueError, "seeds is 0"), (dict(discs=[5], seeds=1.5), TypeError, "seeds"),
     (dict(discs=[5], measure="nothing"), ValueError, "measure has 'nothing'"),
     (dict(discs=[5], measure=[print]), TypeError, "swirl.map"),
-    (dict(discs=[5], frames=10), ValueError, "needs a folder"), (dict(disks=[5]), TypeError, "did you"),
+    (dict(discs=[5], frames=10), ValueError, "frames is given, but out"), (dict(disks=[5]), TypeError, "did you"),
     (dict(discs=[5], threads=-1), ValueError, "threads"), (dict(discs=[True]), TypeError, "True"),
 ])
-def test_wrong_sweeps(wrong, kind, said):
-    with pytest.raises(kind, match=said):
+def test_invalid_sweeps_are_rejected(wrong, kind, message):
+    with pytest.raises(kind, match=message):
         swirl.sweep(**wrong)
 
 
-def test_nothing_to_sweep_over(tmp_path):
-    with pytest.raises(ValueError, match="no parameters to sweep over"):
+def test_sweep_without_parameters_is_rejected(tmp_path):
+    with pytest.raises(ValueError, match="no parameter to sweep over"):
         swirl.sweep(tmp_path / "empty")
     with pytest.raises(swirl.FileError):
         swirl.collect(tmp_path / "nowhere")
 
 
-def test_ctrl_c_keeps_what_is_done(tmp_path):
+def test_ctrl_c_keeps_finished_runs(tmp_path):
     script = f"""
 import swirl, os, signal, threading
 threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
@@ -93,8 +93,8 @@ except KeyboardInterrupt:
     assert "4 runs done, 0 running, 0 failed" in status.stdout
 
 
-def test_a_crossing_is_that_of_the_command_line():
-    call = dict(fewest=30, most=46, tolerance=1.0)
+def test_crossing_equals_that_of_the_command_line():
+    call = dict(min_discs=30, max_discs=46, tolerance=1.0)
     ours = swirl.crossing(**call, mu=1, events=20000)
     done = command("crossing", "--from", 30, "--to", 46, "--tolerance", 1.0, "--mu", 1, "--events",
                    20000, "--json", "-", "--quiet")
@@ -109,22 +109,22 @@ def test_a_crossing_is_that_of_the_command_line():
 
 
 @pytest.mark.parametrize("wrong, kind", [
-    (dict(fewest=10, most=5), ValueError), (dict(tolerance=0), ValueError), (dict(fewest=0), ValueError),
-    (dict(discs=40), TypeError), (dict(mu=[0.1, 1]), TypeError), (dict(most=2.5), TypeError),
-    (dict(tolerance=float("nan")), ValueError), (dict(fewest=400, most=500), ValueError),
+    (dict(min_discs=10, max_discs=5), ValueError), (dict(tolerance=0), ValueError), (dict(min_discs=0), ValueError),
+    (dict(discs=40), TypeError), (dict(mu=[0.1, 1]), TypeError), (dict(max_discs=2.5), TypeError),
+    (dict(tolerance=float("nan")), ValueError), (dict(min_discs=400, max_discs=500), ValueError),
 ])
-def test_wrong_crossings(wrong, kind):
+def test_invalid_crossings_are_rejected(wrong, kind):
     with pytest.raises(kind):
         swirl.crossing(**wrong)
 
 
-def test_a_map_has_the_seeds_of_a_sweep(tmp_path):
-    told = []
+def test_map_has_the_seeds_of_a_sweep(tmp_path):
+    reported = []
     results = swirl.map(discs=[5, 9], mu=[0.1, 1], events=4000, seeds=2, measure=["slip"],
-                        progress=lambda done, runs: told.append((done, runs)))
+                        progress=lambda done, runs: reported.append((done, runs)))
     assert [(r.config["discs"], r.config["mu_disc"]) for r in results] == \
         [(n, mu) for n in (5, 9) for mu in (0.1, 1) for _ in range(2)]
-    assert told == [(k, 8) for k in range(1, 9)]
+    assert reported == [(k, 8) for k in range(1, 9)]
     command("sweep", "--discs", "5,9", "--mu", "0.1,1", "--events", "4000", "--seeds", "2", "--out",
             tmp_path, "--quiet")
     hashes = []
@@ -135,7 +135,7 @@ def test_a_map_has_the_seeds_of_a_sweep(tmp_path):
     assert all("slip" in r.measured for r in results)
 
 
-def test_a_map_takes_measurements_of_ones_own_and_their_errors():
+def test_map_takes_custom_measurements_and_raises_their_errors():
     class Fast:
         def sample(self, snapshot):
             return float(np.hypot(*snapshot.velocity.T).max())

@@ -1,5 +1,5 @@
-"""Arrays that outlive what they look at, copies, and what is raised: run under valgrind, which sees every
-access (slow suite)."""
+"""Arrays that outlive their owners, copies and exceptions. The slow suite runs this under valgrind, which
+checks every memory access."""
 
 import gc
 import pickle
@@ -13,18 +13,18 @@ def views():
     sim = swirl.Simulation(discs=12)
     s = sim.snapshot(); m = s.m_frame()
     f = sim.sample(0.2, 50); t = f.m_frame()
-    kept = [s.position, m.velocity, f.position, f[3].spin, t.angle, f.swirls, s.container_centre]
+    stored = [s.position, m.velocity, f.position, f[3].spin, t.angle, f.whole_periods, s.container_centre]
     rows = sim.step(500)
     other = pickle.loads(pickle.dumps(sim))
     del sim, s, m, f, t
     gc.collect()
     other.advance(periods=0.2)
-    return kept, rows, other.snapshot().position
+    return stored, rows, other.snapshot().position
 
 
-kept, rows, p = views()
+stored, rows, p = views()
 gc.collect()
-print(sum(float(k.sum()) for k in kept) + float(rows["time"].sum()) + float(p.sum()))
+print(sum(float(k.sum()) for k in stored) + float(rows["time"].sum()) + float(p.sum()))
 
 
 class Mean:

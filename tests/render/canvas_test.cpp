@@ -5,14 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "pictures.hpp"
+#include "pixels.hpp"
 #include "swirl/render/label.hpp"
 #include "swirl/render/scene.hpp"
 
 namespace swirl {
 namespace {
 
-/// cairo numbers all surfaces of a process, and writes the number into its SVG files.
+/// Removes the number of the surface, which cairo counts per process and writes into SVG files.
 std::string without_number(std::string text) {
     const std::size_t id = text.find("id=\"surface");
     if (id == text.npos) return text;
@@ -20,7 +20,7 @@ std::string without_number(std::string text) {
     return text.erase(digits, text.find('"', digits) - digits);
 }
 
-std::string drawn(PictureFormat format) {
+std::string drawn(ImageFormat format) {
     Snapshot s = container(0.2);
     add_disc(s, {1.0, 1.0}, 0.4);
     Canvas canvas(Size{320, 240}, format);
@@ -30,10 +30,9 @@ std::string drawn(PictureFormat format) {
     return canvas.finish();
 }
 
-TEST(CanvasFiles, EveryFormatHasItsSignatureAndTheSameBytesTwice) {
-    const std::pair<PictureFormat, std::string> formats[] = {{PictureFormat::png, "\x89PNG"},
-                                                             {PictureFormat::svg, "<?xml"},
-                                                             {PictureFormat::pdf, "%PDF"}};
+TEST(CanvasFiles, EveryFormatIsReproducible) {
+    const std::pair<ImageFormat, std::string> formats[] = {
+        {ImageFormat::png, "\x89PNG"}, {ImageFormat::svg, "<?xml"}, {ImageFormat::pdf, "%PDF"}};
     for (const auto& [format, signature] : formats) {
         const std::string one = drawn(format);
         EXPECT_EQ(one.substr(0, signature.size()), signature);
@@ -42,7 +41,7 @@ TEST(CanvasFiles, EveryFormatHasItsSignatureAndTheSameBytesTwice) {
     }
 }
 
-TEST(Label, WidthIsThatOfTheLettersAndMarksTakeNone) {
+TEST(Label, WidthIgnoresMarkup) {
     const Canvas canvas(Size{100, 100});
     const LabelStyle style{.size = 20.0, .color = {1, 1, 1}};
     EXPECT_EQ(label_width(canvas, "", style), 0.0);
@@ -53,21 +52,21 @@ TEST(Label, WidthIsThatOfTheLettersAndMarksTakeNone) {
                 2.0 * label_width(canvas, "abc", style), 1e-9 * 100.0);
 }
 
-TEST(Label, EvenDigitsKeepARunningNumberInItsPlace) {
+TEST(Label, EvenDigitsHaveOneWidth) {
     const Canvas canvas(Size{100, 100});
     const LabelStyle style{.size = 20.0, .color = {1, 1, 1}, .even_digits = true};
-    EXPECT_DOUBLE_EQ(label_width(canvas, "swirl 11.11", style),
-                     label_width(canvas, "swirl 28.70", style));
+    EXPECT_DOUBLE_EQ(label_width(canvas, "period 11.11", style),
+                     label_width(canvas, "period 28.70", style));
 }
 
-TEST(Label, ATitleIsTakenAsItIs) {
+TEST(Label, EscapedTextIsLiteral) {
     Canvas plain(Size{200, 40}), dollars(Size{200, 40});
     const LabelStyle style{.size = 20.0, .color = {1, 1, 1}};
     EXPECT_GT(label_width(plain, escaped("a$b$c\\d"), style), label_width(plain, "abcd", style));
     EXPECT_EQ(escaped("48 discs"), "48 discs");
 }
 
-TEST(Label, FittingSizeFits) {
+TEST(Label, FittingSizeIsNotTooWide) {
     const Canvas canvas(Size{100, 100});
     LabelStyle style{.size = 40.0, .color = {1, 1, 1}};
     style.size = fitting_size(canvas, "a long headline", style, 100.0);

@@ -9,7 +9,7 @@
 
 #include "swirl/io/trajectory.hpp"
 #include "swirl/render/movie.hpp"
-#include "swirl/render/picture.hpp"
+#include "swirl/render/still.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 
@@ -24,7 +24,7 @@ RunConfig small_run() {
     return config;
 }
 
-void expect_same_places(const Snapshot& a, const Snapshot& b, double tolerance) {
+void expect_same_positions(const Snapshot& a, const Snapshot& b, double tolerance) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_NEAR(a.position(i).x, b.position(i).x, tolerance);
@@ -38,8 +38,8 @@ class Recording : public ::testing::Test {
     void SetUp() override {
         folder_ = fs::temp_directory_path() / ("swirl-source-" + std::to_string(::getpid()));
         fs::create_directories(folder_);
-        const Reel reel = simulated(small_run()).open();
-        for (int k = 0; k <= 40; ++k) frames_.push_back(reel(1.0 + k / 20.0));
+        const Playback playback = simulated(small_run()).open();
+        for (int k = 0; k <= 40; ++k) frames_.push_back(playback(1.0 + k / 20.0));
         TrajectoryWriter writer(path("run.h5"), frames_.front(), {});
         for (const Snapshot& s : frames_) writer.write(s, 0);
         writer.finish();
@@ -51,14 +51,14 @@ class Recording : public ::testing::Test {
     std::vector<Snapshot> frames_;
 };
 
-TEST(FrameSource, IsTheStateOfTheEngineAtExactlyThatTime) {
+TEST(FrameSource, EqualsTheStateOfTheEngine) {
     const RunConfig config = small_run();
-    const Reel reel = simulated(config).open();
+    const Playback playback = simulated(config).open();
     Simulation simulation(make_initial_state(config));
     for (double periods : {0.0, 0.3, 0.31, 2.0, 5.75}) {
         const double whole = std::floor(periods);
         simulation.advance_to(static_cast<std::int64_t>(whole), (periods - whole) * config.period);
-        const Snapshot expected = simulation.snapshot(), found = reel(periods);
+        const Snapshot expected = simulation.snapshot(), found = playback(periods);
         EXPECT_EQ(found.periods, expected.periods);
         EXPECT_EQ(found.clock, expected.clock);
         EXPECT_EQ(found.x, expected.x);
@@ -67,35 +67,36 @@ TEST(FrameSource, IsTheStateOfTheEngineAtExactlyThatTime) {
     }
 }
 
-TEST(FrameSource, EveryReelStartsAtTheBeginning) {
+TEST(FrameSource, EveryPassStartsAtTheBeginning) {
     const FrameSource source = simulated(small_run());
-    const Reel first = source.open();
+    const Playback first = source.open();
     first(3.0);
     EXPECT_EQ(source.open()(0.5).x, source.open()(0.5).x);
 }
 
-TEST(FrameSource, TheRollingBallTurnsAsItsSlipSays) {
+TEST(FrameSource, RollingBallRotatesAccordingToItsSlip) {
     for (const double slip : {0.0, 0.5, 1.0}) {
         RollingBall ball;
         ball.slip = slip;
-        const Reel reel = rolling(ball, paper_amplitude, paper_period).open();
-        const double turns = (reel(3.0).angle[0] - reel(1.0).angle[0]) / (2.0 * pi);
+        const Playback playback = rolling(ball, paper_amplitude, paper_period).open();
+        const double turns = (playback(3.0).angle[0] - playback(1.0).angle[0]) / (2.0 * pi);
         EXPECT_NEAR(turns, 2.0 * ball.rotation(), 1e-12) << slip;
     }
 }
 
-TEST_F(Recording, PlaysTheFramesThatWereRecorded) {
+TEST_F(Recording, ReturnsTheRecordedFrames) {
     const FrameSource source = recorded(path("run.h5"));
     EXPECT_NEAR(*source.from, 1.0, 1e-12);
     EXPECT_NEAR(*source.to, 3.0, 1e-12);
     EXPECT_NEAR(source.amplitude, paper_amplitude,
-                0.01);  // the polygon's corners may fall between
-    const Reel reel = source.open();
-    for (int k = 0; k <= 40; ++k) expect_same_places(reel(1.0 + k / 20.0), frames_[k], 1e-12);
+                0.01);  // no frame need be at a vertex of the polygon
+    const Playback playback = source.open();
+    for (int k = 0; k <= 40; ++k)
+        expect_same_positions(playback(1.0 + k / 20.0), frames_[k], 1e-12);
 }
 
-TEST_F(Recording, IsTitledWithWhatItsFileSaysOfTheRun) {
-    EXPECT_EQ(recorded(path("run.h5")).caption, "run.h5");  // it says nothing
+TEST_F(Recording, HasCaptionAndParametersOfItsRun) {
+    EXPECT_EQ(recorded(path("run.h5")).caption, "run.h5");  // it has no parameters
     RunConfig config = small_run();
     config.mu_wall = 0.25;
     const auto write = [&](const char* name, const std::string& parameters) {
@@ -104,16 +105,16 @@ TEST_F(Recording, IsTitledWithWhatItsFileSaysOfTheRun) {
         writer.finish();
         return recorded(path(name));
     };
-    const FrameSource told = write("told.h5", config_text(config));
-    EXPECT_EQ(told.caption, "12 discs");
+    const FrameSource complete = write("complete.h5", config_text(config));
+    EXPECT_EQ(complete.caption, "12 discs");
     std::vector<std::string> labels = parameter_labels(config);
     labels.emplace_back("41 recorded frames");
-    EXPECT_EQ(told.parameters, labels);
+    EXPECT_EQ(complete.parameters, labels);
     EXPECT_EQ(write("other.h5", "{\"dishes\": 3}").caption, "other.h5");
     EXPECT_EQ(write("nonsense.h5", "nonsense").caption, "nonsense.h5");
 }
 
-TEST(FrameSource, TheBallsCaptionSaysHowItMoves) {
+TEST(FrameSource, CaptionOfTheBallDescribesItsMotion) {
     RollingBall ball;
     for (const auto& [slip, caption] :
          {std::pair(0.0, "one ball that slips"), std::pair(0.5, "one ball that rolls and slips"),
@@ -123,9 +124,9 @@ TEST(FrameSource, TheBallsCaptionSaysHowItMoves) {
     }
 }
 
-TEST_F(Recording, BetweenTwoFramesDiscsMoveInStraightLines) {
-    const Reel reel = recorded(path("run.h5")).open();
-    const Snapshot middle = reel(1.0 + 4.5 / 20.0);
+TEST_F(Recording, DiscsMoveOnStraightLinesBetweenFrames) {
+    const Playback playback = recorded(path("run.h5")).open();
+    const Snapshot middle = playback(1.0 + 4.5 / 20.0);
     for (std::size_t i = 0; i < middle.size(); ++i) {
         const Vec2 expected = 0.5 * (frames_[4].position(i) + frames_[5].position(i));
         EXPECT_NEAR(middle.position(i).x, expected.x, 1e-12);
@@ -134,7 +135,7 @@ TEST_F(Recording, BetweenTwoFramesDiscsMoveInStraightLines) {
     EXPECT_NEAR(middle.time(), (1.0 + 4.5 / 20.0) * paper_period, 1e-9);
 }
 
-TEST_F(Recording, IsFilmedFrameByFrame) {
+TEST_F(Recording, CanBeMadeIntoAMovie) {
     MovieConfig config;
     config.sources = {recorded(path("run.h5"))};
     config.start = 1.0;
@@ -155,30 +156,30 @@ TEST_F(Recording, IsFilmedFrameByFrame) {
     EXPECT_NE(problem(config), std::nullopt);
 }
 
-TEST_F(Recording, AFileThatIsNoneIsAClearError) {
+TEST_F(Recording, InvalidFilesAreErrors) {
     std::ofstream(path("not.h5")) << "hello";
     EXPECT_THROW(recorded(path("not.h5")), Failure);
     EXPECT_THROW(recorded(path("nowhere.h5")), Failure);
 }
 
-TEST(PinnedWatch, SaysWhatTheMeasurementSaysSevenFramesLater) {
+TEST(PinnedPlayback, AgreesWithTheMeasurementSevenFramesLater) {
     const RunConfig config = small_run();
-    PinnedWatch watch(simulated(config), 2.0);
-    const Reel reel = simulated(config).open();
+    PinnedPlayback pinned_playback(simulated(config), 2.0);
+    const Playback playback = simulated(config).open();
     PinnedLoose pinned;
     MFrameView view;
     for (int k = 511; k <= 511 * 3; ++k) {
-        view.update(reel(k / 511.0));
+        view.update(playback(k / 511.0));
         pinned.sample(view);
         const int shown = k - PinnedLoose::half_width;
         if (shown < 2 * 511 || shown % 100 != 0) continue;
-        EXPECT_EQ(watch.at(shown / 511.0), pinned.pinned()) << shown;
+        EXPECT_EQ(pinned_playback.at(shown / 511.0), pinned.pinned()) << shown;
     }
 }
 
-TEST(PinnedWatch, DiscsThatRideWithTheWallArePinnedAndStillOnesAreLoose) {
-    // In the lab the wall's points do not turn: a disc that keeps its place in the dish rides
-    // along.
+TEST(PinnedPlayback, DiscsAtRestAtTheWallArePinned) {
+    // The container does not rotate in the lab, so a disc at rest relative to it moves with the
+    // wall.
     FrameSource source;
     source.period = 10.0;
     source.container_radius = 8.6;
@@ -195,18 +196,18 @@ TEST(PinnedWatch, DiscsThatRideWithTheWallArePinnedAndStillOnesAreLoose) {
             s.resize(2);
             s.set(0, {s.container_centre + Vec2{7.6, 0.0}, s.container_velocity, 0.0, 0.0, s.clock,
                       1.0, 1.0, 10.0});
-            // At rest in the M-frame: turns with the swirl.
+            // At rest in the M-frame: it circles with the swirl.
             s.set(1, {4.0 * unit_circle(phase),
                       (4.0 * 2.0 * pi / 10.0) * perpendicular(unit_circle(phase)), 0.0, 0.0,
                       s.clock, 1.0, 1.0, 10.0});
             return s;
         };
     };
-    PinnedWatch watch(source, 1.0);
-    EXPECT_EQ(watch.at(1.5), (std::vector<std::uint8_t>{1, 0}));
+    PinnedPlayback pinned_playback(source, 1.0);
+    EXPECT_EQ(pinned_playback.at(1.5), (std::vector<std::uint8_t>{1, 0}));
 }
 
-TEST(Turns, AddUpTheRotation) {
+TEST(Turns, AreTheIntegralOfTheRotation) {
     Curve curve;
     for (int k = 0; k <= 640; ++k) {
         curve.time.push_back(k / 64.0);
@@ -217,7 +218,7 @@ TEST(Turns, AddUpTheRotation) {
     EXPECT_NEAR(turns_until(curve, 0.0, 10.0), -2.5, 1e-12);
 }
 
-Tracks some_tracks(bool all_the_time) {
+Tracks some_tracks(bool same_discs) {
     Tracks tracks;
     tracks.y_down = true;
     for (int k = 0; k < 5; ++k) {
@@ -225,7 +226,7 @@ Tracks some_tracks(bool all_the_time) {
         frame.number = 10 + k;
         frame.id = {3, 8};
         frame.position = {{100.0 + 10.0 * k, 50.0}, {120.0, 60.0}};
-        if (!all_the_time && k >= 3) {
+        if (!same_discs && k >= 3) {
             frame.id = {8};
             frame.position.erase(frame.position.begin());
         }
@@ -239,31 +240,31 @@ TrackScale some_scale() {
     scale.frames_per_time = 2.0;
     scale.pixels_per_radius = 10.0;
     scale.swirl_centre = {100.0, 50.0};
-    scale.period = 4.0;  // eight frames for a swirl
+    scale.period = 4.0;  // eight frames per period
     scale.amplitude = 1.0;
     scale.container_radius = 8.0;
     return scale;
 }
 
-TEST(TrackedSource, IsShownFromItsFirstFrameToItsLast) {
+TEST(TrackedSource, CoversAllFrames) {
     const FrameSource source = tracked(some_tracks(true), some_scale(), "tracks");
     EXPECT_NEAR(*source.from, 10.0 / 8.0, 1e-12);
     EXPECT_NEAR(*source.to, 14.0 / 8.0, 1e-12);
-    EXPECT_NEAR(source.frames_per_swirl, 8.0, 1e-12);
-    EXPECT_FALSE(source.knows_spin);
-    EXPECT_FALSE(source.knows_orientation);
+    EXPECT_NEAR(source.frames_per_period, 8.0, 1e-12);
+    EXPECT_FALSE(source.has_spin);
+    EXPECT_FALSE(source.has_orientation);
     EXPECT_FALSE(source.ids);
-    // The same discs all the time: between two frames they move in straight lines.
+    // Every frame has the same discs, so they move on straight lines between frames.
     EXPECT_NEAR(source.open()(11.5 / 8.0).position(0).x, 1.5, 1e-12);
 }
 
-TEST(TrackedSource, WhereDiscsComeAndGoTheNearestFrameIsShownWithTheirNames) {
+TEST(TrackedSource, ReturnsTheNearestFrameIfDiscsComeAndGo) {
     const FrameSource source = tracked(some_tracks(false), some_scale(), "tracks");
-    const Reel reel = source.open();
-    EXPECT_NEAR(reel(11.4 / 8.0).position(0).x, 1.0, 1e-12);
-    EXPECT_NEAR(reel(11.6 / 8.0).position(0).x, 2.0, 1e-12);
+    const Playback playback = source.open();
+    EXPECT_NEAR(playback(11.4 / 8.0).position(0).x, 1.0, 1e-12);
+    EXPECT_NEAR(playback(11.6 / 8.0).position(0).x, 2.0, 1e-12);
     EXPECT_EQ(source.ids(11.6 / 8.0), (std::vector<std::int64_t>{3, 8}));
-    EXPECT_EQ(reel(13.0 / 8.0).size(), 1u);
+    EXPECT_EQ(playback(13.0 / 8.0).size(), 1u);
     EXPECT_EQ(source.ids(13.0 / 8.0), (std::vector<std::int64_t>{8}));
     Appearance appearance;
     EXPECT_FALSE(problem({source}, appearance));
@@ -273,25 +274,25 @@ TEST(TrackedSource, WhereDiscsComeAndGoTheNearestFrameIsShownWithTheirNames) {
     EXPECT_TRUE(problem({source}, appearance));
 }
 
-TEST(TrackedSource, PicturesThatAreNotThereAreNamedBeforehand) {
+TEST(TrackedSource, MissingImagesAreErrors) {
     try {
         tracked(some_tracks(true), some_scale(), "tracks", "/no/such/%03d.png", 5);
-        FAIL() << "there were pictures";
+        FAIL() << "no exception";
     } catch (const Failure& failure) {
         EXPECT_NE(std::string(failure.what()).find("/no/such/015.png"), std::string::npos)
             << failure.what();
     }
 }
 
-TEST_F(Recording, AStroboscopicPictureNeedsItsFirstInstant) {
-    PictureConfig config;
+TEST_F(Recording, StroboscopicImageNeedsItsFirstInstant) {
+    StillConfig config;
     config.sources = {recorded(path("run.h5"))};
     config.out = path("x.png");
     config.appearance.size = {64, 64};
     config.at = 3.0;
     config.flashes = 3;
     EXPECT_EQ(problem(config), std::nullopt);
-    make_picture(config);
+    make_still(config);
     EXPECT_TRUE(fs::exists(config.out));
     config.flashes = 4;
     EXPECT_NE(problem(config), std::nullopt);

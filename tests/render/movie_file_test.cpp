@@ -11,7 +11,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "pictures.hpp"
+#include "pixels.hpp"
 #include "swirl/render/planar.hpp"
 
 namespace swirl {
@@ -45,7 +45,7 @@ class Movie : public ::testing::Test {
     }
     std::string path(const char* name) const { return (folder_ / name).string(); }
 
-    /// A grey level per frame.
+    /// Each frame has one grey level.
     void write(MovieWriter& writer, const std::string& file, Size size, int frames) {
         for (int k = 0; k < frames; ++k) {
             const auto grey = static_cast<std::uint8_t>(20 + 10 * k % 200);
@@ -70,7 +70,7 @@ class Movie : public ::testing::Test {
             entries + " " + file);
     }
 
-    /// From here on there is another ffmpeg: this shell script.
+    /// Replaces ffmpeg by a shell script.
     void replace_ffmpeg(const std::string& script) {
         const fs::path bin = folder_ / "bin";
         fs::create_directories(bin);
@@ -83,13 +83,13 @@ class Movie : public ::testing::Test {
     std::string search_path_ = ::getenv("PATH");
 };
 
-TEST_F(Movie, Mp4HasItsSizeRateCountDurationAndColours) {
+TEST_F(Movie, Mp4HasTheGivenProperties) {
     make(path("x.mp4"), {64, 48}, 30, 45);
     EXPECT_EQ(probe(path("x.mp4"),
                     "stream=codec_name,width,height,pix_fmt,color_range,color_space,"
                     "r_frame_rate,duration,nb_read_frames"),
               "h264,64,48,yuv420p,tv,bt709,30/1,1.500000,45\n");
-    // The index stands before the pictures.
+    // The index comes before the frames.
     const std::string bytes = contents_of(path("x.mp4"));
     EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
 }
@@ -101,7 +101,7 @@ TEST_F(Movie, WebmIsVp9) {
     EXPECT_EQ(probe(path("x.webm"), "format=duration"), "0.800000\n");
 }
 
-TEST_F(Movie, GifLoopsForEverAndLastsAsLongAsItShould) {
+TEST_F(Movie, GifLoopsAndHasTheGivenDuration) {
     make(path("x.gif"), {64, 48}, 25, 20);
     EXPECT_EQ(probe(path("x.gif"), "stream=codec_name,width,height,r_frame_rate,nb_read_frames"),
               "gif,64,48,25/1,20\n");
@@ -109,20 +109,20 @@ TEST_F(Movie, GifLoopsForEverAndLastsAsLongAsItShould) {
     EXPECT_EQ(probe(path("x.gif"), "format=duration"), "0.800000\n");
 }
 
-TEST_F(Movie, GreyComesBackAsItWent) {
+TEST_F(Movie, GreyLevelsArePreserved) {
     make(path("x.mp4"), {64, 48}, 30, 3);
     const std::string raw = output_of("ffmpeg -v error -i " + path("x.mp4") +
                                       " -f rawvideo -pix_fmt rgb24 - | od -An -tu1 -j" +
                                       std::to_string(2 * 64 * 48 * 3) + " -N3");
     int red = 0, green = 0, blue = 0;
     ASSERT_EQ(std::sscanf(raw.c_str(), "%d %d %d", &red, &green, &blue), 3);
-    // Third frame: 20 + 2·10. Limited range and quantisation cost a step or two.
+    // Third frame: 20 + 2·10. Limited range and quantisation change it by up to three levels.
     EXPECT_NEAR(red, 40, 3);
     EXPECT_NEAR(green, 40, 3);
     EXPECT_NEAR(blue, 40, 3);
 }
 
-TEST_F(Movie, TheSameFramesGiveTheSameBytes) {
+TEST_F(Movie, EqualFramesGiveEqualBytes) {
     for (const char* ending : {"mp4", "webm", "gif"}) {
         const std::string one = path("one.") + ending, two = path("two.") + ending;
         make(one, {128, 96}, 25, 30);
@@ -131,11 +131,11 @@ TEST_F(Movie, TheSameFramesGiveTheSameBytes) {
     }
 }
 
-TEST_F(Movie, WithoutFfmpegASentenceSaysHowToGetIt) {
+TEST_F(Movie, MissingFfmpegIsAnErrorWithAHint) {
     ::setenv("PATH", folder_.c_str(), 1);
     try {
         MovieWriter writer(path("x.mp4"), MovieFormat::mp4, {64, 48}, 30);
-        FAIL() << "there was an ffmpeg";
+        FAIL() << "no exception";
     } catch (const DrawFailure& failure) {
         const std::string text = failure.what();
         EXPECT_NE(text.find("apt-get install ffmpeg"), std::string::npos) << text;
@@ -144,11 +144,11 @@ TEST_F(Movie, WithoutFfmpegASentenceSaysHowToGetIt) {
     EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(Movie, AnFfmpegThatDiesIsAClearErrorAndLeavesNoFile) {
+TEST_F(Movie, FailingFfmpegIsAnErrorAndLeavesNoFile) {
     replace_ffmpeg("head -c 100000 >/dev/null; echo 'the encoder caught fire' >&2; exit 7");
     try {
         make(path("x.mp4"), {640, 480}, 30, 100);
-        FAIL() << "nobody noticed";
+        FAIL() << "no exception";
     } catch (const DrawFailure& failure) {
         const std::string text = failure.what();
         EXPECT_NE(text.find("code 7"), std::string::npos) << text;
@@ -158,11 +158,11 @@ TEST_F(Movie, AnFfmpegThatDiesIsAClearErrorAndLeavesNoFile) {
     EXPECT_FALSE(fs::exists(path("x.mp4.partial")));
 }
 
-TEST_F(Movie, AnFfmpegThatIsKilledIsAClearError) {
+TEST_F(Movie, KilledFfmpegIsAnError) {
     replace_ffmpeg("kill -9 $$");
     try {
         make(path("x.mp4"), {640, 480}, 30, 100);
-        FAIL() << "nobody noticed";
+        FAIL() << "no exception";
     } catch (const DrawFailure& failure) {
         EXPECT_NE(std::string(failure.what()).find("signal 9"), std::string::npos)
             << failure.what();
@@ -170,8 +170,8 @@ TEST_F(Movie, AnFfmpegThatIsKilledIsAClearError) {
     EXPECT_FALSE(fs::exists(path("x.mp4")));
 }
 
-// It wrote something in the name that is given last, file:NAME, or nothing.
-TEST_F(Movie, AnFfmpegThatFailsAtTheEndIsAClearError) {
+// The script writes some bytes, or nothing, to its last argument, file:NAME.
+TEST_F(Movie, FfmpegThatFailsAtTheEndIsAnError) {
     const std::string some = "cat >/dev/null; for last; do :; done; echo some >\"${last#file:}\"; ";
     for (const std::string& how :
          {some + "echo 'No space left on device' >&2; exit 0",
@@ -184,7 +184,7 @@ TEST_F(Movie, AnFfmpegThatFailsAtTheEndIsAClearError) {
     }
 }
 
-TEST_F(Movie, AFullDiskIsAClearErrorAndLeavesNoFile) {
+TEST_F(Movie, FullDiskIsAnErrorAndLeavesNoFile) {
     const std::string disk = path("disk");
     fs::create_directory(disk);
     if (::mount("swirl-test", disk.c_str(), "tmpfs", 0, "size=4k") != 0)
@@ -192,7 +192,7 @@ TEST_F(Movie, AFullDiskIsAClearErrorAndLeavesNoFile) {
     for (const std::string ending : {"mp4", "webm", "gif"}) {
         try {
             make(disk + "/x." + ending, {320, 240}, 25, 50);
-            ADD_FAILURE() << "it was written: " << ending;
+            ADD_FAILURE() << "no exception: " << ending;
         } catch (const DrawFailure& failure) {
             EXPECT_NE(std::string(failure.what()).find("No space left"), std::string::npos)
                 << failure.what();
@@ -202,11 +202,11 @@ TEST_F(Movie, AFullDiskIsAClearErrorAndLeavesNoFile) {
     ::umount(disk.c_str());
 }
 
-TEST_F(Movie, AFolderThatIsNotThereIsAClearError) {
+TEST_F(Movie, MissingFolderIsAnError) {
     EXPECT_THROW(make(path("no/such/x.mp4"), {64, 48}, 30, 3), DrawFailure);
 }
 
-TEST_F(Movie, AnAbandonedMovieLeavesNothing) {
+TEST_F(Movie, UnfinishedMovieLeavesNoFile) {
     {
         MovieWriter writer(path("x.mp4"), MovieFormat::mp4, {64, 48}, 30);
         write(writer, path("x.mp4"), {64, 48}, 5);
@@ -214,14 +214,14 @@ TEST_F(Movie, AnAbandonedMovieLeavesNothing) {
     EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(Movie, AnExistingMovieIsReplacedOnlyByAWholeOne) {
+TEST_F(Movie, ExistingMovieIsReplacedOnlyByACompleteOne) {
     std::ofstream(path("x.mp4")) << "the old one";
     replace_ffmpeg("exit 3");
     EXPECT_THROW(make(path("x.mp4"), {640, 480}, 30, 50), DrawFailure);
     EXPECT_EQ(contents_of(path("x.mp4")), "the old one");
 }
 
-TEST(MovieFormat, IsToldByTheEnding) {
+TEST(MovieFormat, IsDeterminedByTheExtension) {
     EXPECT_EQ(movie_format("a/b.mp4"), MovieFormat::mp4);
     EXPECT_EQ(movie_format("b.webm"), MovieFormat::webm);
     EXPECT_EQ(movie_format("b.gif"), MovieFormat::gif);
@@ -230,7 +230,7 @@ TEST(MovieFormat, IsToldByTheEnding) {
     EXPECT_FALSE(movie_format(""));
 }
 
-TEST(MovieFormat, ImpossibleMoviesAreRefusedBeforehand) {
+TEST(MovieFormat, ImpossibleMoviesAreRejected) {
     EXPECT_FALSE(movie_problem(MovieFormat::mp4, {16, 16}, 1));
     EXPECT_FALSE(movie_problem(MovieFormat::mp4, {8192, 8192}, 240));
     EXPECT_TRUE(movie_problem(MovieFormat::mp4, {14, 16}, 30));

@@ -16,7 +16,7 @@ std::vector<std::uint8_t> planes_of(int blue, int green, int red) {
     return planes;
 }
 
-TEST(Planar, BlackWhiteAndGreysHaveNoColour) {
+TEST(Planar, GreysHaveNeutralChroma) {
     for (int grey : {0, 1, 64, 128, 200, 255}) {
         const auto planes = planes_of(grey, grey, grey);
         ASSERT_EQ(planes.size(), 6u);
@@ -26,7 +26,7 @@ TEST(Planar, BlackWhiteAndGreysHaveNoColour) {
     }
 }
 
-TEST(Planar, EveryColourIsThatOfTheStandardWithinOneStep) {
+TEST(Planar, AgreesWithBt709WithinRounding) {
     for (int r = 0; r < 256; r += 51)
         for (int g = 0; g < 256; g += 51)
             for (int b = 0; b < 256; b += 51) {
@@ -38,8 +38,8 @@ TEST(Planar, EveryColourIsThatOfTheStandardWithinOneStep) {
             }
 }
 
-TEST(Planar, EachPixelHasItsOwnBrightnessAndFourShareAColour) {
-    // 4 x 2: left half red and black, right half white.
+TEST(Planar, ChromaIsTheMeanOfFourPixels) {
+    // 4 × 2 pixels: a red and a black column on the left, white on the right.
     const Size size{4, 2};
     std::vector<std::uint8_t> pixels(32, 255), planes;
     const auto set = [&](int x, int y, int b, int g, int r) {

@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "pictures.hpp"
+#include "pixels.hpp"
 
 namespace swirl {
 namespace {
 
-TEST(Plot, StepsAreRoundAndNeverTooMany) {
+TEST(Plot, StepsAreRoundAndLimitedInNumber) {
     EXPECT_DOUBLE_EQ(round_step(10.0, 5), 2.0);
     EXPECT_DOUBLE_EQ(round_step(0.07, 4), 0.02);
     EXPECT_DOUBLE_EQ(round_step(3.0, 1), 5.0);
@@ -18,19 +18,19 @@ TEST(Plot, StepsAreRoundAndNeverTooMany) {
         for (int count : {1, 2, 5, 9}) EXPECT_LE(span / round_step(span, count), count + 1e-6);
 }
 
-TEST(Plot, TheRangeHoldsZeroAndTheCurve) {
+TEST(Plot, RangeContainsZeroAndTheCurve) {
     Curve curve;
     curve.time = {0.0, 1.0, 2.0, 3.0};
     curve.smooth = {-50.0, -0.04, -0.05, std::nan("")};
     curve.raw = curve.smooth;
-    PlotStyle style{.from = 0.5, .to = 3.0, .lowest = 0.0, .highest = 0.0, .type = 10.0};
+    PlotStyle style{.from = 0.5, .to = 3.0, .lowest = 0.0, .highest = 0.0, .em = 10.0};
     fit_range(style, std::vector<Curve>{curve});
     EXPECT_LT(style.lowest, -0.05);
-    EXPECT_GT(style.lowest, -0.1);  // what lies before the start does not count
+    EXPECT_GT(style.lowest, -0.1);  // values before the start are ignored
     EXPECT_GT(style.highest, 0.0);
 }
 
-TEST(Plot, TheRangeHoldsTheRawCurveButForRareSpikes) {
+TEST(Plot, RangeContainsTheRawCurveWithoutRareSpikes) {
     Curve curve;
     for (int k = 0; k < 200; ++k) {
         curve.time.push_back(0.01 * k);
@@ -40,7 +40,7 @@ TEST(Plot, TheRangeHoldsTheRawCurveButForRareSpikes) {
     curve.raw[50] = 5.0;
     curve.raw[60] = -5.0;
     curve.raw[70] = std::nan("");
-    PlotStyle style{.from = 0.0, .to = 2.0, .lowest = 0.0, .highest = 0.0, .type = 10.0};
+    PlotStyle style{.from = 0.0, .to = 2.0, .lowest = 0.0, .highest = 0.0, .em = 10.0};
     fit_range(style, std::vector<Curve>{curve});
     EXPECT_LT(style.lowest, -0.2);
     EXPECT_GT(style.highest, 0.3);
@@ -49,8 +49,8 @@ TEST(Plot, TheRangeHoldsTheRawCurveButForRareSpikes) {
     EXPECT_LT(style.highest, 0.4);
 }
 
-TEST(Plot, NoCurveLiesUnderTheNameOfTheQuantity) {
-    // A curve that fills the whole range from the beginning, once with the name and once without.
+TEST(Plot, CurvesDoNotReachTheNameOfTheQuantity) {
+    // A curve that fills the whole range, drawn with and without the name.
     Curve curve;
     for (int k = 0; k < 400; ++k) {
         curve.time.push_back(0.01 * k);
@@ -60,7 +60,7 @@ TEST(Plot, NoCurveLiesUnderTheNameOfTheQuantity) {
     const Theme theme = dark_theme();
     curve.color = {1.0, 0.0, 0.0};
     const auto ink = [&](const std::string& name) {
-        PlotStyle style{.from = 0.0, .to = 4.0, .lowest = 0.0, .highest = 1.0, .type = 20.0};
+        PlotStyle style{.from = 0.0, .to = 4.0, .lowest = 0.0, .highest = 1.0, .em = 20.0};
         style.vertical_label = name;
         Canvas canvas(Size{600, 300});
         canvas.fill_page(theme.page);
@@ -79,7 +79,7 @@ TEST(Plot, NoCurveLiesUnderTheNameOfTheQuantity) {
     EXPECT_EQ(ink("$ϖ$/$Ω$"), without);
 }
 
-TEST(Plot, TheCurveEndsAtThePresent) {
+TEST(Plot, CurveEndsAtThePresent) {
     Curve curve;
     for (int k = 0; k <= 100; ++k) {
         curve.time.push_back(0.1 * k);
@@ -88,7 +88,7 @@ TEST(Plot, TheCurveEndsAtThePresent) {
     }
     const Theme theme = dark_theme();
     curve.color = {1.0, 0.0, 0.0};
-    const PlotStyle style{.from = 0.0, .to = 10.0, .lowest = 0.0, .highest = 1.0, .type = 12.0};
+    const PlotStyle style{.from = 0.0, .to = 10.0, .lowest = 0.0, .highest = 1.0, .em = 12.0};
     const auto rightmost = [&](double now) {
         Canvas canvas(Size{600, 200});
         canvas.fill_page(theme.page);
@@ -101,7 +101,8 @@ TEST(Plot, TheCurveEndsAtThePresent) {
     };
     const int at_half = rightmost(5.0), at_end = rightmost(10.0);
     EXPECT_EQ(rightmost(-1.0), -1);
-    // Left margin 3.6 and right margin 0.6 times the type of 12 pixels; the dot has 3 pixels.
+    // The left margin is 3.6 and the right margin 0.6 times the font size of 12 pixels. The
+    // tolerance is the radius of the dot, 3 pixels, and one pixel of rounding.
     EXPECT_NEAR(at_end, 600 - 0.6 * 12, 4);
     EXPECT_NEAR(at_half, 3.6 * 12 + 0.5 * (600 - 4.2 * 12), 4);
 }
@@ -110,7 +111,7 @@ struct Rows {
     int first = 1000, last = -1;
 };
 
-TEST(Plot, NamesOfCurvesThatMeetDoNotLieOverEachOther) {
+TEST(Plot, NamesOfCurvesDoNotOverlap) {
     const Theme theme = dark_theme();
     for (const double height : {0.05, 0.5, 0.97})
         for (const double now : {0.0, 3.0, 10.0}) {
@@ -123,12 +124,11 @@ TEST(Plot, NamesOfCurvesThatMeetDoNotLieOverEachOther) {
                 curve.label = "XXXX";
             }
             const PlotStyle style{
-                .from = 0.0, .to = 10.0, .lowest = 0.0, .highest = 1.0, .type = 12.0};
+                .from = 0.0, .to = 10.0, .lowest = 0.0, .highest = 1.0, .em = 12.0};
             Canvas canvas(Size{600, 200});
             canvas.fill_page(theme.page);
             draw_plot_curves(canvas, {0, 0, 600, 200}, theme, style, curves, now);
-            // The names stand right of the dot, at the end left of it, where the lines are, too:
-            // those are in few rows.
+            // The names are to the right of the dot.
             const double inner = 3.6 * 12, width = 600 - 4.2 * 12;
             const int dot = int(inner + width * now / 10.0);
             Rows rows[2];
@@ -144,31 +144,31 @@ TEST(Plot, NamesOfCurvesThatMeetDoNotLieOverEachOther) {
                     rows[k].first = std::min(rows[k].first, y);
                     rows[k].last = std::max(rows[k].last, y);
                 }
-            if (now == 10.0) continue;  // no room on the right
+            if (now == 10.0) continue;  // the names are on the left, on top of the lines
             ASSERT_GE(rows[0].last, 0);
             ASSERT_GE(rows[1].last, 0);
             EXPECT_TRUE(rows[0].last < rows[1].first || rows[1].last < rows[0].first)
                 << height << " at " << now;
-            // Nor over the name of the quantity above the plot.
+            // They do not reach the name of the quantity above the plot.
             EXPECT_GT(std::min(rows[0].first, rows[1].first), 1.4 * 12);
         }
 }
 
-// 20.0000001, 20.0000002 …: neither all alike nor beyond the page.
-TEST(Plot, NumbersOfATinyAxisStayOnThePageAndDiffer) {
+// Such as 20.0000001, 20.0000002: they must neither look equal nor leave the page.
+TEST(Plot, NumbersOfATinyTimeAxisStayOnThePageAndDiffer) {
     const Theme theme = dark_theme();
     for (const double span : {5e-10, 5e-7, 3e-4, 0.02, 5.0}) {
         const PlotStyle style{
-            .from = 20.0, .to = 20.0 + span, .lowest = -1.0, .highest = 1.0, .type = 12.0};
+            .from = 20.0, .to = 20.0 + span, .lowest = -1.0, .highest = 1.0, .em = 12.0};
         Canvas canvas(Size{700, 200});
         canvas.fill_page(theme.page);
-        // Drawn in the middle of a larger page, to see what would be cut off.
+        // Drawn in the middle of a larger page, to detect what would be cut off.
         draw_plot_frame(canvas, {100, 0, 500, 200}, theme, style);
         for (int y = 0; y < 200; ++y)
             for (const int x : {99, 601}) {
                 EXPECT_TRUE(is(pixel(canvas, x, y), theme.page)) << span << ": " << x << ", " << y;
             }
-        // Beneath the plot, the first and the last number: not the same picture.
+        // The first and the last number below the plot must look different.
         const auto ink = [&](int from, int to) {
             double sum = 0.0;
             for (int x = from; x < to; ++x)

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pictures.hpp"
+#include "pixels.hpp"
 #include "swirl/render/frame_diagram.hpp"
 #include "swirl/render/sheet.hpp"
 
@@ -29,7 +29,7 @@ double direction(const Vec2& from, const Vec2& to) {
 
 double turned_by(double from, double to) { return std::remainder(to - from, 2.0 * pi); }
 
-TEST(Scene, ADiscIsDrawnWhereItIsAndAsLargeAsItIs) {
+TEST(Scene, DiscHasItsPositionAndSize) {
     Snapshot s = container(0.1);
     add_disc(s, {3.25, -2.5});
     Canvas canvas(Size{600, 600});
@@ -40,17 +40,17 @@ TEST(Scene, ADiscIsDrawnWhereItIsAndAsLargeAsItIs) {
 
     const Patch patch = patch_of(canvas, style.theme.disc);
     const Vec2 expected = view.on_page({3.25, -2.5});
-    // The middle of some 2000 pixels, whose edges are cut evenly on all sides.
+    // The centroid of about 2000 pixels; the edge is symmetric.
     EXPECT_NEAR(patch.middle.x, expected.x, 0.1);
     EXPECT_NEAR(patch.middle.y, expected.y, 0.1);
-    // The rim has a colour of its own; with half of the blended edge it is at most 2 pixels wide.
+    // The rim has another colour. With half of the blended edge it is at most 3 pixels wide.
     const double radius = view.pixels_per_unit;
     EXPECT_LT(patch.count, pi * radius * radius);
     EXPECT_GT(patch.count, pi * (radius - 3.0) * (radius - 3.0));
     EXPECT_TRUE(is(pixel(canvas, expected + Vec2{radius + 2.0, 0.0}), style.theme.floor));
 }
 
-TEST(Scene, ADiscStaysPutInTheMFrameIfItTurnsWithTheSwirl) {
+TEST(Scene, DiscCirclingWithTheSwirlRestsInTheMFrame) {
     const SceneStyle style = plain_style();
     Canvas canvas(Size{400, 400});
     const View view = view_of(canvas, Frame::m);
@@ -66,7 +66,7 @@ TEST(Scene, ADiscStaysPutInTheMFrameIfItTurnsWithTheSwirl) {
     }
 }
 
-TEST(Scene, TheOrientationMarkTurnsCounterClockwiseWithTheAngle) {
+TEST(Scene, OrientationMarkFollowsTheAngle) {
     SceneStyle style = plain_style();
     style.orientation = true;
     style.theme.disc = {1.0, 1.0, 1.0};
@@ -77,7 +77,7 @@ TEST(Scene, TheOrientationMarkTurnsCounterClockwiseWithTheAngle) {
         add_disc(s, {1.0, 2.0}, angle);
         canvas.fill_page(style.theme.page);
         draw_scene(canvas, view, style, {s});
-        // The mark is the only dark thing within 0.8 of the radius.
+        // Only the mark is dark within 0.8 of the radius.
         const Vec2 centre = view.on_page({1.0, 2.0});
         const double reach = 0.8 * view.pixels_per_unit;
         Vec2 dark{0.0, 0.0};
@@ -91,12 +91,12 @@ TEST(Scene, TheOrientationMarkTurnsCounterClockwiseWithTheAngle) {
     }
 }
 
-/// A sphere in the middle of the dish's page, turned like that.
-Pixel top_of_ball(const Quaternion& turned) {
+/// The pixel in the centre of a sphere with this orientation.
+Pixel top_of_ball(const Quaternion& orientation) {
     Snapshot s = container(0.0);
     s.resize_for_spheres(1);
     s.set(0, {{2.0, 1.0}, {0.0, 0.0}, 0.0, 0.0, s.clock, 1.0, 1.0, 0.4});
-    s.turned = {turned};
+    s.turned = {orientation};
     SceneStyle style = plain_style();
     style.orientation = true;
     Canvas canvas(Size{600, 600});
@@ -106,9 +106,9 @@ Pixel top_of_ball(const Quaternion& turned) {
     return pixel(canvas, view.on_page({2.0, 1.0}));
 }
 
-// A pole has a dark dot: seen from above when it is up, and again half a turn later; a quarter turn
-// rolls it away.
-TEST(Scene, ASpheresPatternRollsWithIt) {
+// Each pole has a dark dot. It is visible from above when the pole is up, and half a turn later,
+// but not after a quarter turn.
+TEST(Scene, PatternOfASphereRollsWithIt) {
     const Pixel up = top_of_ball({});
     const Pixel quarter = top_of_ball(turn_by(0.5 * pi + 0.3, 0.3, 0.0));
     const Pixel half = top_of_ball(turn_by(pi, 0.0, 0.0));
@@ -117,7 +117,7 @@ TEST(Scene, ASpheresPatternRollsWithIt) {
     EXPECT_EQ(half.green, up.green);
 }
 
-TEST(Scene, ADiscOfUnknownOrientationHasNoMark) {
+TEST(Scene, DiscOfUnknownOrientationHasNoMark) {
     Snapshot s = container(0.0);
     add_disc(s, {0.0, 0.0}, std::nan(""));
     SceneStyle style = plain_style();
@@ -133,7 +133,7 @@ TEST(Scene, ADiscOfUnknownOrientationHasNoMark) {
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin()));
 }
 
-TEST(Scene, TheWallStandsStillInTheLabAndTurnsClockwiseInTheMFrame) {
+TEST(Scene, WallRestsInTheLabAndTurnsClockwiseInTheMFrame) {
     const SceneStyle style = plain_style();
     for (const Frame frame : {Frame::lab, Frame::m}) {
         double before = 0.0;
@@ -144,8 +144,8 @@ TEST(Scene, TheWallStandsStillInTheLabAndTurnsClockwiseInTheMFrame) {
             const View view = view_of(canvas, frame);
             canvas.fill_page(style.theme.page);
             draw_scene(canvas, view, style, {s});
-            // One mark of the wall has the accent colour.
-            const Vec2 centre = view.on_page(FrameAt(s, frame).position(s.container_centre));
+            // One mark on the wall has the accent colour.
+            const Vec2 centre = view.on_page(FrameTransform(s, frame).position(s.container_centre));
             const double now = direction(centre, patch_of(canvas, style.theme.accent).middle);
             const double step = turned_by(before, now);
             if (k > 0) {
@@ -158,23 +158,23 @@ TEST(Scene, TheWallStandsStillInTheLabAndTurnsClockwiseInTheMFrame) {
     }
 }
 
-TEST(Scene, MIsAtTheBottomAndSStraightAboveCInTheMFrame) {
+TEST(Scene, MIsBelowCAndSAboveItInTheMFrame) {
     for (int k = 0; k < 16; ++k) {
         const Snapshot s = container(k / 16.0);
-        const FrameAt at = FrameAt(s, Frame::m);
+        const FrameTransform at = FrameTransform(s, Frame::m);
         const Vec2 m = s.container_centre + (8.6 / 1.892) * s.container_centre;
         EXPECT_NEAR(at.position(m).x, 0.0, 1e-14 * 20.0);
         EXPECT_NEAR(at.position(m).y, -8.6, 1e-14 * 20.0);
         EXPECT_NEAR(at.position({0.0, 0.0}).x, 0.0, 1e-14);
         EXPECT_NEAR(at.position({0.0, 0.0}).y, 1.892, 1e-14);
-        // On the page, too.
+        // The same on the page, where y points down.
         const View view{Frame::m, {100.0, 100.0}, 10.0};
         EXPECT_GT(view.on_page(at.position(m)).y, 100.0);
     }
 }
 
-TEST(Scene, VelocityInTheMFrameIsThatOfPositionsThere) {
-    // A disc on a straight line in the lab, seen at two moments: central difference, error ~ h².
+TEST(Scene, VelocityInTheMFrameIsTheDerivativeOfThePosition) {
+    // A disc on a straight line in the lab. The error of the central difference is of order h².
     const Vec2 start{2.0, -1.0}, v{0.3, 0.7};
     const auto at = [&](double turns) {
         Snapshot s = container(turns);
@@ -185,15 +185,15 @@ TEST(Scene, VelocityInTheMFrameIsThatOfPositionsThere) {
     };
     const double h = 1e-5;
     const Snapshot before = at(0.3 - h), now = at(0.3), after = at(0.3 + h);
-    const Vec2 difference = FrameAt(after, Frame::m).position(after.position(0)) -
-                            FrameAt(before, Frame::m).position(before.position(0));
+    const Vec2 difference = FrameTransform(after, Frame::m).position(after.position(0)) -
+                            FrameTransform(before, Frame::m).position(before.position(0));
     const Vec2 expected = (1.0 / (2.0 * h * now.period)) * difference;
-    const Vec2 found = FrameAt(now, Frame::m).velocity(now.position(0), now.velocity(0));
+    const Vec2 found = FrameTransform(now, Frame::m).velocity(now.position(0), now.velocity(0));
     EXPECT_NEAR(found.x, expected.x, 1e-7);
     EXPECT_NEAR(found.y, expected.y, 1e-7);
 }
 
-TEST(Scene, ColoursTellWhatTheySay) {
+TEST(Scene, ColoursShowTheirQuantity) {
     Snapshot s = container(0.0);
     add_disc(s, {-3.0, 0.0}, 0.0, 1.0, -2.0);
     add_disc(s, {0.0, 0.0}, 0.0, 1.0, 0.0);
@@ -222,7 +222,7 @@ TEST(Scene, ColoursTellWhatTheySay) {
     expect(Coloring::speed, {sequential_color(0.0), sequential_color(0.5), sequential_color(1.0)});
 }
 
-TEST(Scene, ATrailLeadsFromTheEarlierPlaceToTheDisc) {
+TEST(Scene, TrailLeadsFromEarlierPositionsToTheDisc) {
     std::vector<Snapshot> past(9, container(0.0));
     for (int k = 0; k < 9; ++k) add_disc(past[k], {-6.0 + 0.5 * k, 1.0});
     Snapshot now = container(0.0);
@@ -243,11 +243,10 @@ TEST(Scene, ATrailLeadsFromTheEarlierPlaceToTheDisc) {
     EXPECT_TRUE(is(pixel(canvas, view.on_page({-4.0, 1.5})), style.theme.floor));
 }
 
-TEST(Scene, TheCentrifugalForcePointsAwayFromSAndTheCoriolisForceToTheRight) {
+TEST(Scene, ForcesHaveTheirDirections) {
     Snapshot s = container(0.0);
-    add_disc(s, {1.892, -4.0});  // right of C in the M-frame of phase 0? C + (0, −4): to the left
-    const FrameAt at = FrameAt(s, Frame::m);
-    // At rest in the lab it moves clockwise in the M-frame: v' = −Ω ẑ × p', less the swirl itself.
+    add_disc(s, {1.892, -4.0});  // at C + (0, −4)
+    const FrameTransform at = FrameTransform(s, Frame::m);
     SceneStyle style = plain_style();
     style.forces = true;
     Canvas canvas(Size{700, 700});
@@ -264,7 +263,7 @@ TEST(Scene, TheCentrifugalForcePointsAwayFromSAndTheCoriolisForceToTheRight) {
     EXPECT_NEAR(turned_by(page_angle(v) - 0.5 * pi, coriolis), 0.0, 0.05);
 }
 
-TEST(Scene, TheArcOfTheTurnsRunsToTheLeftForRotationAndToTheRightForCounterrotation) {
+TEST(Scene, ArcOfTheTurnsRunsLeftForRotation) {
     const Snapshot s = container(0.25);
     const SceneStyle style = plain_style();
     Canvas canvas(Size{500, 500});
@@ -272,18 +271,18 @@ TEST(Scene, TheArcOfTheTurnsRunsToTheLeftForRotationAndToTheRightForCounterrotat
     const Vec2 centre = view.on_page(s.container_centre);
     for (const double turns : {0.2, -0.2, 1.2, -3.2}) {
         canvas.fill_page(style.theme.page);
-        draw_scene(canvas, view, style, {.now = s, .turned = turns});
+        draw_scene(canvas, view, style, {.now = s, .turns = turns});
         const Color color = turns < 0.0 ? style.theme.pinned : style.theme.loose;
         const Patch arc = patch_of(canvas, color);
         ASSERT_GT(arc.count, 100.0);
-        // From the top through 0.2 turns: its middle lies 0.1 turns beside the top, a bit more with
-        // the head.
+        // The arc covers 0.2 turns from the top, so its centroid is at about 0.1 turns. The head
+        // moves it by up to 0.12 rad.
         const double expected = 0.5 * pi + (turns < 0.0 ? -1.0 : 1.0) * 0.1 * 2.0 * pi;
         EXPECT_NEAR(turned_by(expected, direction(centre, arc.middle)), 0.0, 0.12) << turns;
     }
 }
 
-TEST(Scene, GhostsLieBeneathTheDiscs) {
+TEST(Scene, GhostsAreBelowTheDiscs) {
     Snapshot now = container(0.0), before = container(0.0);
     add_disc(now, {2.0, 0.0});
     add_disc(before, {-2.0, 0.0});
@@ -299,7 +298,7 @@ TEST(Scene, GhostsLieBeneathTheDiscs) {
     EXPECT_LT(faint.blue, 255.0 * style.theme.disc.blue - 50.0);
 }
 
-TEST(Scene, TheSliceAndTheAnglesCountCounterClockwiseFromTheRight) {
+TEST(Scene, SliceIsAtItsAngle) {
     Snapshot s = container(0.4);
     SceneStyle style = plain_style();
     style.slice = 0.75 * pi;  // up and to the left
@@ -316,7 +315,7 @@ TEST(Scene, TheSliceAndTheAnglesCountCounterClockwiseFromTheRight) {
     EXPECT_LT(green_over_red(-4.0, -4.0), 30);
 }
 
-TEST(FrameDiagram, ShowsTheForcesOnTheDisc) {
+TEST(FrameDiagram, ShowsTheForcesInTheThirdPart) {
     Snapshot s = container(0.13);
     add_disc(s, {5.0, 0.0});
     const Theme theme = light_theme();
@@ -324,12 +323,12 @@ TEST(FrameDiagram, ShowsTheForcesOnTheDisc) {
     draw_frame_diagram(canvas, theme, s, 0);
     const Patch centrifugal = patch_of(canvas, theme.centrifugal);
     EXPECT_GT(centrifugal.count, 500.0);
-    EXPECT_GT(centrifugal.middle.x, 800.0);  // all in the third part
+    EXPECT_GT(centrifugal.middle.x, 800.0);  // of 1200 pixels
     EXPECT_GT(patch_of(canvas, theme.coriolis).count, 50.0);
     EXPECT_GT(patch_of(canvas, theme.velocity).count, 50.0);
 }
 
-TEST(Sheet, AnySizeCanBeDrawnInBothThemes) {
+TEST(Sheet, EverySizeCanBeDrawnInBothThemes) {
     Snapshot s = container(0.3);
     add_disc(s, {0.0, 0.0});
     const std::vector<Vec2> path{{1.892, 0.0}, {0.0, 1.892}, {-1.892, 0.0}, {0.0, -1.892}};
@@ -340,17 +339,17 @@ TEST(Sheet, AnySizeCanBeDrawnInBothThemes) {
             spec.size = size;
             spec.style.theme = theme;
             spec.style.coloring = Coloring::spin;
-            spec.title = "A title that is far too long for a narrow page, and goes on";
+            spec.title = "A title that is far too long for a narrow page and continues";
             spec.parameters = {"$N$ = 48", "$μ_{d}$ = 1"};
             spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892},
                            {Frame::m, "M-frame", 8.6, 1.892}};
             spec.plot =
-                PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .type = 1.0};
+                PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .em = 1.0};
             const Sheet sheet(spec);
             Canvas canvas(size);
-            sheet.draw_still(canvas);
+            sheet.draw_static(canvas);
             const std::vector<SceneContent> contents{{s, path}, {s, path}};
-            sheet.draw_moving(canvas, contents, {}, 0.3);
+            sheet.draw_frame(canvas, contents, {}, 0.3);
             EXPECT_EQ(cairo_status(canvas.cairo()), CAIRO_STATUS_SUCCESS);
             EXPECT_TRUE(is(pixel(canvas, 0, 0), theme.page));
             EXPECT_GT(patch_of(canvas, theme.floor).count, 0.0) << size.width << "x" << size.height;
@@ -358,9 +357,9 @@ TEST(Sheet, AnySizeCanBeDrawnInBothThemes) {
     }
 }
 
-TEST(Sheet, APictureDoesNotDependOnWhatTheCanvasShowedBefore) {
-    // Painters share out the frames of a movie as they come free, so a frame may be the first of
-    // its canvas or the hundredth, and must be the same to the byte.
+TEST(Sheet, FrameDoesNotDependOnEarlierFramesOfTheCanvas) {
+    // Workers draw frames of a movie in any distribution, so a frame may be the first or the
+    // hundredth of its canvas, and its bytes must be the same.
     Snapshot s = container(0.3), before = container(0.25);
     add_disc(s, {1.0, 2.0}, 0.4);
     add_disc(before, {0.5, 2.0}, 0.2);
@@ -371,13 +370,13 @@ TEST(Sheet, APictureDoesNotDependOnWhatTheCanvasShowedBefore) {
     spec.style.forces = true;
     spec.title = "A title";
     spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892, true}, {Frame::m, "M-frame", 8.6, 1.892}};
-    spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .type = 1.0};
+    spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .em = 1.0};
     const Sheet sheet(spec);
-    const std::vector<SceneContent> contents{{.now = s, .path = path, .past = past, .turned = 0.3},
+    const std::vector<SceneContent> contents{{.now = s, .path = path, .past = past, .turns = 0.3},
                                              {.now = s, .path = path}};
     const auto draw = [&](Canvas& canvas) {
-        sheet.draw_still(canvas);
-        sheet.draw_moving(canvas, contents, {}, 0.3);
+        sheet.draw_static(canvas);
+        sheet.draw_frame(canvas, contents, {}, 0.3);
     };
     Canvas fresh(spec.size), used(spec.size);
     draw(fresh);
@@ -387,7 +386,7 @@ TEST(Sheet, APictureDoesNotDependOnWhatTheCanvasShowedBefore) {
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin()));
 }
 
-TEST(Sheet, DishesSideBySideHaveOneScaleAndDoNotOverlap) {
+TEST(Sheet, ContainersHaveOneScaleAndDoNotOverlap) {
     SheetSpec spec;
     spec.panels = {{Frame::lab, "", 8.6, 1.892}, {Frame::m, "", 8.6, 1.892}};
     const Sheet sheet(spec);
@@ -397,22 +396,22 @@ TEST(Sheet, DishesSideBySideHaveOneScaleAndDoNotOverlap) {
               (2.0 * reach + 1.892) * sheet.view(0).pixels_per_unit);
 }
 
-TEST(Sheet, AShortTitleLeavesMoreRoomForTheDishesThanALongOne) {
+TEST(Sheet, ShortTitleLeavesMoreSpaceForContainers) {
     const auto scale = [](const std::string& title) {
         SheetSpec spec;
         spec.size = {1280, 720};
         spec.title = title;
         spec.parameters = {"$N$ = 48"};
         spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892}, {Frame::m, "M-frame", 8.6, 1.892}};
-        spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .type = 1.0};
+        spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .em = 1.0};
         return Sheet(spec).view(0).pixels_per_unit;
     };
-    const double roomy = scale("48 discs");
-    EXPECT_GT(roomy, 1.05 * scale("A headline that is too long to stand beside the captions"));
-    EXPECT_GT(2.0 * 8.6 * roomy, 0.54 * 720);
+    const double short_title = scale("48 discs");
+    EXPECT_GT(short_title, 1.05 * scale("A title that is too long for the line of the captions"));
+    EXPECT_GT(2.0 * 8.6 * short_title, 0.54 * 720);
 }
 
-TEST(Sheet, ALegendIsNoWiderThanThePage) {
+TEST(Sheet, LegendFitsOnThePage) {
     for (const int width : {200, 320, 1280}) {
         SheetSpec spec;
         spec.size = {width, 900};
@@ -421,13 +420,13 @@ TEST(Sheet, ALegendIsNoWiderThanThePage) {
         spec.panels = {{Frame::m, "M-frame", 8.6, 1.892}};
         const Sheet sheet(spec);
         Canvas canvas(spec.size);
-        sheet.draw_still(canvas);
+        sheet.draw_static(canvas);
         for (int y = 0; y < 900; ++y)
             EXPECT_TRUE(is(pixel(canvas, width - 1, y), spec.style.theme.page)) << width;
     }
 }
 
-TEST(Scene, ThePointsAreNamedInASmallDishToo) {
+TEST(Scene, PointsHaveLettersInASmallContainer) {
     Canvas canvas(Size{220, 220});
     canvas.fill_page(dark_theme().page);
     const View view = view_of(canvas, Frame::m);
@@ -437,15 +436,15 @@ TEST(Scene, ThePointsAreNamedInASmallDishToo) {
     draw_scene(canvas, view, style, {.now = s});
     const double unit = view.pixels_per_unit * 8.6;
     EXPECT_LT(unit, 110.0);
-    // Left of the cross that is S: its name.
-    const Vec2 S = view.on_page(FrameAt(s, Frame::m).position({0.0, 0.0}));
+    // The letter S is to the left of its cross.
+    const Vec2 S = view.on_page(FrameTransform(s, Frame::m).position({0.0, 0.0}));
     int ink = 0;
     for (int x = int(S.x - 15.0); x < int(S.x - 0.03 * unit - 2.0); ++x)
         for (int y = int(S.y - 16.0); y < int(S.y); ++y) ink += pixel(canvas, x, y).green > 150;
     EXPECT_GT(ink, 15);
 }
 
-TEST(Theme, InkCanBeReadOnThePage) {
+TEST(Theme, InkHasContrastToThePage) {
     for (const Theme& theme : {dark_theme(), light_theme()}) {
         const double contrast = std::abs(brightness(theme.ink) - brightness(theme.page));
         EXPECT_GT(contrast, 0.75);

@@ -38,7 +38,7 @@ class Threads(unittest.TestCase):
         self.swirl("crossing", "--mu", "1", "--from", "30", "--to", "40", "--events", "20000")
 
     def test_a_movie(self):
-        self.swirl("movie", "--discs", "5", "--start", "0", "--swirls", "1", "--out", "movie.mp4")
+        self.swirl("movie", "--discs", "5", "--start", "0", "--periods", "1", "--out", "movie.mp4")
 
 
 if __name__ == "__main__":

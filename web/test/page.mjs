@@ -1,5 +1,5 @@
 // The one file in a real browser: node page.mjs FILE.html CHROMIUM HASH PICTURE.svg [FOLDER], where the
-// picture is `swirl picture --bare` of the dish that has this hash, and FOLDER gets what is downloaded. Ends with 1 and a sentence for whatever is not as it should be.
+// picture is `swirl image --bare` of the dish that has this hash, and FOLDER gets what is downloaded. Ends with 1 and a sentence for whatever is not as it should be.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import {createRequire} from "node:module";
@@ -66,7 +66,7 @@ assert.equal(await text("event-count"), "20000");
 // Averages of the command line leave out what the page leaves out, as soon as there are any.
 assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --warmup 20 --seed 3 --events 20000");
 
-// It draws every disc where `swirl picture` draws it, to half a pixel: places in radii of a disc from
+// It draws every disc where `swirl image` draws it, to half a pixel: places in radii of a disc from
 // the middle of the dish, which has the widest circle.
 const circlesOf = (list, radiusOf) => {
     const [cx, cy, widest] = list.reduce((a, b) => (b[2] > a[2] ? b : a));

@@ -2,10 +2,11 @@
 
     import swirl
     r = swirl.run(discs=48, measure=["density"])        # one run to its averages
-    sim = swirl.Simulation(discs=48)                    # a dish, event by event
+    sim = swirl.Simulation(discs=48)                    # a simulation, event by event
 
-The same engine, parameters and bits as the command line's. Units: length = radius of a disc, mass =
-mass of a disc, speed of the container = 1 (docs/physics.md); docs/python.md tells the rest.
+Engine and parameters are those of the command line, and results are bitwise identical. Units: radius
+of a disc = 1, mass of a disc = 1, speed of the container = 1 (docs/physics.md). docs/python.md is the
+guide.
 """
 
 from . import _display as _display

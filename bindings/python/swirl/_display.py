@@ -1,4 +1,4 @@
-"""What snapshots, frames and events look like, in notebooks too, and how they are pickled."""
+"""String and SVG representations of snapshots, frames and events, and their pickling."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import Any
 from . import _engine
 
 
-def dish_svg(snapshot: _engine.Snapshot, width: int = 320) -> str:
-    """The dish in the frame of the snapshot, y upwards; a line in each disc shows its angle."""
+def snapshot_svg(snapshot: _engine.Snapshot, width: int = 320) -> str:
+    """The container in the frame of the snapshot, y upwards. A line in each disc shows its angle."""
     R = snapshot.container_radius
     cx, cy = snapshot.container_centre
     reach = 1.03 * R
@@ -28,7 +28,7 @@ def dish_svg(snapshot: _engine.Snapshot, width: int = 320) -> str:
 
 
 def _snapshot_repr(self: _engine.Snapshot) -> str:
-    return f"<swirl.Snapshot of {len(self)} discs at {self.time:.6g}>"
+    return f"<swirl.Snapshot of {len(self)} discs at time {self.time:.6g}>"
 
 
 def _frames_repr(self: _engine.Frames) -> str:
@@ -37,28 +37,28 @@ def _frames_repr(self: _engine.Frames) -> str:
 
 def _event_repr(self: _engine.Event) -> str:
     what = (f"discs {self.i} and {self.j} collide", f"disc {self.i} hits the wall",
-            "the container turns", f"sphere {self.i} begins to roll")[self.kind]
-    return f"<swirl.Event: {what} after {self.swirls} swirls and {self.clock:.6g}>"
+            "the container passes a vertex", f"sphere {self.i} begins to roll")[self.kind]
+    return f"<swirl.Event: {what} at {self.whole_periods} periods and {self.clock:.6g}>"
 
 
-def _snapshot_of(archive: bytes) -> _engine.Snapshot:
-    return _engine.snapshot_of(archive)
+# Pickle needs functions of an importable module.
+def _snapshot_of(data: bytes) -> _engine.Snapshot:
+    return _engine.snapshot_from_bytes(data)
 
 
-def _frames_of(archive: bytes) -> _engine.Frames:
-    return _engine.frames_of(archive)
+def _frames_of(data: bytes) -> _engine.Frames:
+    return _engine.frames_from_bytes(data)
 
 
 def _snapshot_reduced(self: _engine.Snapshot) -> Any:
-    return _snapshot_of, (self.archive(),)
+    return _snapshot_of, (self.to_bytes(),)
 
 
 def _frames_reduced(self: _engine.Frames) -> Any:
-    return _frames_of, (self.archive(),)
+    return _frames_of, (self.to_bytes(),)
 
 
-# The compiled classes are told how they look; nothing else of them is in Python.
-setattr(_engine.Snapshot, "_repr_svg_", dish_svg)
+setattr(_engine.Snapshot, "_repr_svg_", snapshot_svg)
 setattr(_engine.Snapshot, "__repr__", _snapshot_repr)
 setattr(_engine.Frames, "__repr__", _frames_repr)
 setattr(_engine.Event, "__repr__", _event_repr)

@@ -1,5 +1,5 @@
 """The compiled module (bindings/python/*.cpp). Arrays of Snapshot and Frames are read-only views that
-keep what they look at alive; they never change."""
+keep their data alive and never change."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, Optional
@@ -12,16 +12,16 @@ from ._results import Report
 _Floats = npt.NDArray[np.float64]
 
 class Failure(RuntimeError):
-    """The call was right, but it could not be done."""
+    """The call was valid, but the run failed."""
 
 class FileError(OSError):
-    """Something is wrong with a file."""
+    """A file is missing, damaged or of another kind."""
 
 class Snapshot:
-    """All discs and the container at one instant. Lab frame: the swirl centre is the origin.
+    """All discs and the container at one instant in the lab frame. The swirl centre is the origin.
 
-    Lengths in disc radii, times so that the container's speed is 1. NaN: not known (the spin of a
-    disc that a camera saw).
+    Lengths are in disc radii, and the container's speed is 1. A value that is not available is NaN,
+    such as the spin of a disc in a camera's tracks.
     """
 
     @property
@@ -32,13 +32,13 @@ class Snapshot:
         """[disc, xy]"""
     @property
     def angle(self) -> _Floats:
-        """[disc], in radians, not reduced"""
+        """[disc], in radians, not reduced to one turn"""
     @property
     def spin(self) -> _Floats:
         """[disc], counter-clockwise, in radians per unit of time"""
     @property
     def rolling_spin(self) -> Optional[_Floats]:
-        """[disc, xy], of spheres; None of discs"""
+        """[disc, xy], horizontal angular velocity of spheres; None for discs"""
     @property
     def radius(self) -> _Floats: ...
     @property
@@ -56,20 +56,22 @@ class Snapshot:
     @property
     def period(self) -> float: ...
     @property
-    def swirls(self) -> int:
-        """Whole periods since the beginning."""
+    def whole_periods(self) -> int:
+        """Whole periods since the start."""
     @property
     def clock(self) -> float:
-        """The time since the last of them."""
+        """The time since the last whole period."""
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """The time since the start: whole_periods * period + clock."""
     def m_frame(self) -> Snapshot:
-        """The same in the frame that turns with the swirl (src/swirl/measure/m_frame.hpp): the container
-        rests at the origin, the wall's point farthest from the swirl centre is at the bottom."""
+        """The snapshot in the M-frame, which rotates with the swirl (src/swirl/measure/m_frame.hpp): the
+        container rests at the origin, and the wall's point farthest from the swirl centre is at the
+        bottom."""
     def rotation(self) -> tuple[float, float]:
-        """The cluster's rotation now, in units of Ω: the paper's, and that of the rigid body that fits
-        best (src/swirl/measure/cluster_rotation.hpp)."""
-    def archive(self) -> bytes: ...
+        """The cluster's rotation rate in units of Ω: the paper's mean over discs, and that of the
+        best-fitting rigid body (src/swirl/measure/cluster_rotation.hpp)."""
+    def to_bytes(self) -> bytes: ...
     def _repr_svg_(self) -> str: ...
     def __len__(self) -> int: ...
 
@@ -107,7 +109,7 @@ class Frames:
     @property
     def discs(self) -> int: ...
     @property
-    def swirls(self) -> npt.NDArray[np.int64]:
+    def whole_periods(self) -> npt.NDArray[np.int64]:
         """[frame]"""
     @property
     def clock(self) -> _Floats:
@@ -116,16 +118,16 @@ class Frames:
     def time(self) -> _Floats:
         """[frame]"""
     def m_frame(self) -> Frames:
-        """All of them in the M-frame, as Snapshot.m_frame()."""
-    def archive(self) -> bytes: ...
+        """All frames in the M-frame, as Snapshot.m_frame()."""
+    def to_bytes(self) -> bytes: ...
     def __len__(self) -> int: ...
     def __getitem__(self, k: int) -> Snapshot: ...
 
 class Event:
-    """What happened: kind (EventKind), when, and to which discs (j = i at the wall)."""
+    """An event: its kind (EventKind), its time, and the discs i and j (j = i at the wall)."""
 
     @property
-    def swirls(self) -> int: ...
+    def whole_periods(self) -> int: ...
     @property
     def clock(self) -> float: ...
     @property
@@ -139,29 +141,28 @@ class Event:
         """Unit vector from i to j, or from i to the wall."""
     @property
     def normal_impulse(self) -> float:
-        """On j, or on the wall, along the normal."""
+        """Impulse on j or on the wall, along the normal."""
     @property
     def tangential_impulse(self) -> float:
-        """Along (n_y, −n_x)."""
+        """Impulse on j or on the wall, along (n_y, −n_x)."""
     @property
-    def overlap(self) -> float: ...
+    def overlap(self) -> float:
+        """Depth of the contact: a rounding error."""
 
-class Dish:
+class Simulation:
     def __init__(self, parameters: dict[str, Any], discs: dict[str, _Floats],
                  path: Optional[_Floats], path_times: Optional[_Floats]) -> None: ...
     def step(self, count: int) -> npt.NDArray[np.void]: ...
     def next(self) -> Event: ...
     def run(self, count: int) -> None: ...
     def advance(self, time: float) -> None: ...
-    def advance_to(self, swirls: int, clock: float) -> None: ...
+    def advance_to(self, whole_periods: int, clock: float) -> None: ...
     def sample(self, count: int, per_period: int) -> Frames: ...
     def snapshot(self) -> Snapshot: ...
-    def archive(self) -> bytes: ...
+    def to_bytes(self) -> bytes: ...
     @staticmethod
-    def of_archive(archive: bytes) -> Dish: ...
+    def from_bytes(data: bytes) -> Simulation: ...
     def config(self) -> str: ...
-    @property
-    def is_own(self) -> bool: ...
     @property
     def period(self) -> float: ...
     @property
@@ -217,11 +218,11 @@ def with_error(mean: float, error: float) -> str: ...
 def parameters() -> list[tuple[str, str, str, str, str, float, float, str]]: ...
 def version() -> str: ...
 def build_description() -> str: ...
-def snapshot_of(archive: bytes) -> Snapshot: ...
-def frames_of(archive: bytes) -> Frames: ...
+def snapshot_from_bytes(data: bytes) -> Snapshot: ...
+def frames_from_bytes(data: bytes) -> Frames: ...
 def grow(folder: str, more: dict[str, Any], seeds: int, measured: Sequence[str]) -> None: ...
 def sweep(folder: str, threads: int, progress: Optional[Callable[[float, float, int], object]]
           ) -> tuple[int, int, int, str]: ...
 def collect(folder: str) -> tuple[str, int, int, int, int, int, int, int]: ...
-def crossing(parameters: dict[str, Any], fewest: int, most: int, tolerance: float, rate: str,
+def crossing(parameters: dict[str, Any], min_discs: int, max_discs: int, tolerance: float, rate: str,
              threads: int, command: str, progress: Optional[Callable[[str, float], object]]) -> tuple[str, str]: ...

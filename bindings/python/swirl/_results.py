@@ -1,4 +1,4 @@
-"""What a run has found: numbers with their errors, and tables."""
+"""Results of a run: numbers with their errors, and tables."""
 
 from __future__ import annotations
 
@@ -26,10 +26,11 @@ Report = tuple[str, list[ReportRow], list[ReportTable]]
 
 @dataclasses.dataclass(frozen=True)
 class Estimate:
-    """A mean with its standard error, from blocks of whole swirls.
+    """A mean with its standard error, from blocks of whole periods.
 
-    What is not known (an error from too few blocks) is NaN. `unit` is that of docs/physics.md: r the
-    radius of a disc, m its mass, v the speed of the container, Ω = 2π/T; 1 where there is none.
+    A value that is not available is NaN, such as an error from too few blocks. `unit` is in terms of
+    docs/physics.md: r radius of a disc, m its mass, v speed of the container, Ω = 2π/T; "1" if there is
+    no unit.
     """
 
     mean: float
@@ -50,7 +51,7 @@ class Estimate:
 
 @dataclasses.dataclass(frozen=True)
 class ArrayEstimate:
-    """Many numbers at once, each with its standard error from blocks; all arrays have one shape."""
+    """An array of means with their standard errors from blocks. All arrays have the same shape."""
 
     mean: FloatArray
     error: FloatArray
@@ -62,12 +63,12 @@ class ArrayEstimate:
 
 
 class Table:
-    """A table that a measurement has made.
+    """The table of a measurement.
 
-    `table["by_time"]` is a column as a numpy array. Where the rows are the cells of a map (columns x
-    and y), it is two-dimensional, [y, x], as matplotlib's `pcolormesh(x, y, …)` takes it; otherwise
-    it has one value for each row. `axes` are the coordinates along the array's axes, in their order.
-    All arrays are read-only; `units` are those of docs/physics.md.
+    `table["by_time"]` is a column as a read-only numpy array. If the rows are the cells of a map
+    (columns x and y), it has two dimensions, [y, x], as for matplotlib's `pcolormesh(x, y, …)`.
+    Otherwise it has one value per row. `axes` holds the coordinates along the axes, in their order.
+    `units` maps columns to units of docs/physics.md.
     """
 
     def __init__(self, name: str, description: str, columns: list[tuple[str, str]],
@@ -75,13 +76,13 @@ class Table:
         self.name = name
         self.description = description
         self.units: Mapping[str, str] = MappingProxyType(dict(columns))
-        # An array that was pickled comes back writable.
+        # An unpickled array is writable.
         values.setflags(write=False)
         self._values = values
         self._columns = [column for column, _ in columns]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # For pickle and copy, which cannot take a view of a dictionary.
+        # pickle and copy cannot handle a view of a dictionary.
         return Table, (self.name, self.description, list(self.units.items()), self._values)
 
     @property
@@ -97,8 +98,8 @@ class Table:
 
     def __getitem__(self, column: str) -> FloatArray:
         if column not in self._columns:
-            raise KeyError(f"There is no column '{column}' in the table of {self.name}; "
-                           f"there are {', '.join(self._columns)}.")
+            raise KeyError(f"the table of {self.name} has no column '{column}'; "
+                           f"it has {', '.join(self._columns)}.")
         values = self._column(column)
         if not self._is_map():
             return values
@@ -121,12 +122,12 @@ class Table:
         return f"<table of {self.name}: {len(self)} rows of {', '.join(self._columns)}>"
 
     def to_pandas(self) -> Any:
-        """A pandas DataFrame, a row for each of the table."""
+        """The table as a pandas DataFrame."""
         import pandas
         return pandas.DataFrame(np.array(self._values), columns=self._columns)
 
     def to_xarray(self) -> Any:
-        """An xarray Dataset: a variable for each column that is no axis, with its unit."""
+        """The table as an xarray Dataset: each column that is not an axis is a variable with its unit."""
         import xarray
         axes = self.axes
         variables = {
@@ -204,7 +205,7 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
 
 
 def measured_of(reports: list[Report]) -> dict[str, Measured]:
-    """From the engine's reports."""
+    """Converts the reports of the engine."""
     all_found = {}
     for measurement, rows, tables in reports:
         estimates = {
@@ -218,10 +219,10 @@ def measured_of(reports: list[Report]) -> dict[str, Measured]:
 
 @dataclasses.dataclass(frozen=True)
 class Rotation:
-    """The cluster's rotation ϖ in units of Ω, in the lab frame, over whole swirls after the warm-up.
+    """The cluster's rotation rate ϖ in units of Ω in the lab frame, over whole periods after the warm-up.
 
-    `by_event` is the paper's average, over events; `rigid` is that of the rigid body that fits best
-    (src/swirl/measure/cluster_rotation.hpp). Below zero it is counterrotation.
+    `by_event` is the paper's average over events. `rigid_…` are rates of the best-fitting rigid body
+    (src/swirl/measure/cluster_rotation.hpp). Negative values mean counterrotation.
     """
 
     by_event: Estimate
@@ -232,7 +233,8 @@ class Rotation:
 
 @dataclasses.dataclass(frozen=True)
 class EventCounts:
-    """How many events of each kind; `elastic_by_tc_model` are some of the collisions."""
+    """Number of events of each kind. `elastic_by_tc_model` counts collisions that are also in disc_disc
+    or disc_wall."""
 
     total: int = 0
     disc_disc: int = 0
@@ -252,21 +254,21 @@ def _estimate(value: Mapping[str, Any], unit: str) -> Estimate:
 
 
 class Result:
-    """What one run has found.
+    """The result of one run.
 
-    config                  every parameter, resolved
-    complete                False: it was stopped before its end
+    config                  all resolved parameters
+    complete                False if it was stopped before its end
     rotation                Rotation: .by_time.mean, .by_time.error, .by_event, …
-    measured                {"density": …}: what was asked for with `measure`
-    events, periods         EventCounts, and swirls simulated, warm-up included
-    warmup                  whole swirls left out of the averages
+    measured                {"density": …}: results of the argument `measure`
+    events, periods         EventCounts and simulated periods, warm-up included
+    warmup                  whole periods omitted from the averages
     steady_state            "steady", "drifting", "jumping", "switching" or "too short to tell"
-    steady_state_found      what the tests of the steady state found; "" if nothing
+    steady_state_found      findings of the steady-state tests; "" if there are none
     change, change_of_the_spin
                             most likely change of the rotation and of the spins, in standard errors
-    state_hash              64 bits of the state at the end, as 16 hexadecimal digits: equal states
-                            of equal runs, everywhere
-    warnings                what to know before believing the numbers: full sentences
+    state_hash              64-bit hash of the final state, 16 hexadecimal digits: equal runs have
+                            equal hashes on every machine
+    warnings                limits of the results, as sentences
     max_overlap, energy, energy_at_start, invariant, invariant_at_start, seconds,
     events_per_second, simd, version, build
     """
@@ -304,15 +306,15 @@ class Result:
         self.build: str = found["build"]
 
     def to_json(self) -> str:
-        """The same text that `swirl run --json` writes; only `command` says how Python was asked.
+        """The text that `swirl run --json` writes; only `command` is the Python call.
 
-        What was measured by classes of your own is not in it.
+        Custom measurements are not included.
         """
         return self._text
 
     def save(self, file: Union[str, os.PathLike[str]]) -> None:
-        """Writes to_json(); `swirl verify FILE` runs it again and compares."""
-        write_aside(file, (self._text + "\n").encode())
+        """Writes to_json() to a file. `swirl verify FILE` repeats the run and compares."""
+        write_atomically(file, (self._text + "\n").encode())
 
     def __repr__(self) -> str:
         return self._headline
@@ -323,7 +325,7 @@ class Result:
     def _repr_html_(self) -> str:
         rows = [(f"ϖ/Ω {name.replace('_', ' ')}", _engine.with_error(e.mean, e.error))
                 for name, e in vars(self.rotation).items()]
-        rows += [("events", f"{self.events.total:,}"), ("swirls", f"{self.periods:.1f}"),
+        rows += [("events", f"{self.events.total:,}"), ("periods", f"{self.periods:.1f}"),
                  ("steady state", self.steady_state), ("state", self.state_hash)]
         rows += [(f"{name}.{row}", str(value)) for name, found in self.measured.items()
                  for row, value in found.rows.items()]
@@ -334,17 +336,17 @@ class Result:
         return f"<p>{html.escape(self._headline)}</p><table>{body}</table>{notes}"
 
 
-def write_aside(file: Union[str, os.PathLike[str]], content: bytes) -> None:
-    """Under another name first, which nobody else has, so that a file is whole or not there."""
+def write_atomically(file: Union[str, os.PathLike[str]], content: bytes) -> None:
+    """Writes a temporary file and renames it, so that the file is never incomplete."""
     name = os.fspath(file)
-    aside = f"{name}.{secrets.token_hex(8)}.partial"
-    with open(aside, "xb") as opened:
+    temporary = f"{name}.{secrets.token_hex(8)}.partial"
+    with open(temporary, "xb") as opened:
         try:
             fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
             opened.write(content)
             opened.flush()
             os.fsync(opened.fileno())
-            os.replace(aside, name)
+            os.replace(temporary, name)
         except BaseException:
-            os.remove(aside)
+            os.remove(temporary)
             raise

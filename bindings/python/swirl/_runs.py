@@ -1,4 +1,4 @@
-"""One run, from its seed to its averages."""
+"""One run, from its seed to its averages, and custom measurements."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from . import _engine
 from ._results import ArrayEstimate, Estimate, Measured, Result, measured_of
 
 PathName = Union[str, "os.PathLike[str]"]
-#: Of a parameter: what the command line would be given; a tuple is one value of several parts.
+#: Value of a parameter, as on the command line; a tuple is one value with several parts.
 Value = Union[float, int, str, tuple[Union[float, int, str], ...], None]
-Told = Callable[[float, int, float], object]
+ProgressCallback = Callable[[float, int, float], object]  # (fraction, events, periods)
 
 
 class Parameter(NamedTuple):
-    """A row of the table of parameters (docs/parameters.md)."""
+    """One parameter of a run (docs/parameters.md). `lowest` and `highest` limit its value."""
 
     name: str
     symbol: str
@@ -33,64 +33,64 @@ class Parameter(NamedTuple):
 
 
 class SamplesSnapshots(Protocol):
-    """A measurement of your own that looks at every sample.
+    """A custom measurement of single snapshots.
 
-    What sample() returns (a number, an array, or a dict of such; None: nothing this time) is averaged
-    over each swirl; mean and error come from these blocks.
+    sample() returns a number, an array, a dict of these, or None to skip the snapshot. The values are
+    averaged over each period; mean and error come from these blocks.
     """
 
     def sample(self, snapshot: _engine.Snapshot) -> Any: ...
 
 
 class TakesFrames(Protocol):
-    """A measurement of your own that is handed the frames of a whole swirl at once.
+    """A custom measurement of all frames of a period.
 
-    frames.position is [frame, disc, xy]; what is returned (a number, an array, or a dict of such) is
-    the value of this swirl; mean and error come from these blocks.
+    frames.position is [frame, disc, xy]. block() returns the value of this period: a number, an array,
+    or a dict of these. Mean and error come from these blocks.
     """
 
     def block(self, frames: _engine.Frames) -> Any: ...
 
 
-OwnMeasurement = Union[SamplesSnapshots, TakesFrames, Callable[[_engine.Snapshot], Any]]
-Measure = Union[str, Iterable[Union[str, OwnMeasurement]]]
+CustomMeasurement = Union[SamplesSnapshots, TakesFrames, Callable[[_engine.Snapshot], Any]]
+Measure = Union[str, Iterable[Union[str, CustomMeasurement]]]
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during a run; `result` is what it had found by then."""
+    """Ctrl-C during a run; `result` holds the averages up to then."""
 
     def __init__(self, result: Result) -> None:
-        super().__init__("Stopped before the end of the run; what it had found is the `result`.")
+        super().__init__("stopped before the end of the run; `result` holds the averages so far.")
         self.result = result
 
 
 def parameters() -> list[Parameter]:
-    """What a run can be given, with defaults, ranges and units; the paper's values by default."""
+    """All parameters of a run with defaults, ranges and units. Defaults are the paper's values."""
     return [Parameter(*row) for row in _engine.parameters()]
 
 
 def measurements() -> dict[str, str]:
-    """What can be measured besides the rotation: names, and what each is."""
+    """Names and descriptions of all measurements; the rotation is always measured."""
     return {name: description for name, _, description in _engine.measurement_kinds()}
 
 
-class OwnBlocks:
-    """What the measurements of the caller have said, swirl by swirl."""
+class CustomBlocks:
+    """The values of custom measurements, period by period."""
 
-    def __init__(self, measurements: list[OwnMeasurement]) -> None:
+    def __init__(self, measurements: list[CustomMeasurement]) -> None:
         self._measurements = measurements
-        self._names = [own_name(measurement) for measurement in measurements]
+        self._names = [custom_name(measurement) for measurement in measurements]
         self._blocks: dict[str, dict[str, list[tuple[Any, Any]]]] = {n: {} for n in self._names}
         for name in self._names:
             if self._names.count(name) > 1 or name in measurements_known():
-                raise ValueError(f"measure has two measurements called '{name}'; an attribute "
-                                 "`name` would tell them apart.")
-        asked = {int(getattr(m, "samples_per_period", _engine.samples_per_period))
+                raise ValueError(f"measure has two measurements named '{name}'.\n"
+                                 "hint: give one of them another attribute `name`.")
+        rates = {int(getattr(m, "samples_per_period", _engine.samples_per_period))
                  for m in measurements}
-        if len(asked) > 1:
-            raise ValueError("Measurements of one run must have the same samples_per_period, but "
-                             f"these have {', '.join(map(str, sorted(asked)))}.")
-        self.samples_per_period = asked.pop() if asked else _engine.samples_per_period
+        if len(rates) > 1:
+            raise ValueError("all measurements of a run must have the same samples_per_period, but "
+                             f"these have {', '.join(map(str, sorted(rates)))}.")
+        self.samples_per_period = rates.pop() if rates else _engine.samples_per_period
         if not 1 <= self.samples_per_period <= 1_000_000:
             raise ValueError(f"samples_per_period is {self.samples_per_period}, but it must be from "
                              "1 to 1000000.")
@@ -100,8 +100,8 @@ class OwnBlocks:
             if hasattr(measurement, "block"):
                 values = [measurement.block(frames)]
             else:
-                look: Any = getattr(measurement, "sample", measurement)
-                values = [look(frames[k]) for k in range(len(frames))]
+                sample: Any = getattr(measurement, "sample", measurement)
+                values = [sample(frames[k]) for k in range(len(frames))]
             self._add(name, [value for value in values if value is not None])
 
     def _add(self, name: str, values: list[Any]) -> None:
@@ -114,14 +114,14 @@ class OwnBlocks:
             known = self._blocks[name].get(row, [])
             shape = known[0][0].shape if known else numbers[0].shape
             if any(number.shape != shape for number in numbers):
-                raise ValueError(f"'{name}' has returned arrays of different shapes.")
+                raise ValueError(f"'{name}' returned arrays of different shapes.")
             stacked = np.stack(numbers)
-            is_known = ~np.isnan(stacked)
-            sums = np.where(is_known, stacked, 0.0).sum(axis=0)
-            weights = is_known.sum(axis=0).astype(np.float64)
+            is_valid = ~np.isnan(stacked)
+            sums = np.where(is_valid, stacked, 0.0).sum(axis=0)
+            weights = is_valid.sum(axis=0).astype(np.float64)
             self._blocks[name].setdefault(row, []).append((sums, weights))
 
-    def found(self) -> dict[str, Measured]:
+    def results(self) -> dict[str, Measured]:
         return {name: Measured(name, {row: _estimate_of(blocks) for row, blocks in rows.items()}, {})
                 for name, rows in self._blocks.items()}
 
@@ -135,7 +135,7 @@ def _estimate_of(blocks: list[tuple[Any, Any]]) -> Union[Estimate, ArrayEstimate
     return ArrayEstimate(mean.reshape(shape), error.reshape(shape), effective.reshape(shape), n)
 
 
-def own_name(measurement: OwnMeasurement) -> str:
+def custom_name(measurement: CustomMeasurement) -> str:
     for attribute in ("name", "__name__"):
         if isinstance(getattr(measurement, attribute, None), str):
             return str(getattr(measurement, attribute))
@@ -146,8 +146,8 @@ def measurements_known() -> set[str]:
     return {kind[0] for kind in _engine.measurement_kinds()}
 
 
-def split_measure(measure: Optional[Measure]) -> tuple[list[str], list[OwnMeasurement]]:
-    """Names of the list, and measurements of the caller's own."""
+def split_measure(measure: Optional[Measure]) -> tuple[list[str], list[CustomMeasurement]]:
+    """Separates names of measurements from custom ones."""
     if measure is None:
         return [], []
     if isinstance(measure, str):
@@ -155,7 +155,7 @@ def split_measure(measure: Optional[Measure]) -> tuple[list[str], list[OwnMeasur
     if not isinstance(measure, Iterable):
         measure = [measure]
     names: list[str] = []
-    own: list[OwnMeasurement] = []
+    custom: list[CustomMeasurement] = []
     for each in measure:
         if isinstance(each, str):
             names += [name for name in _engine.measurement_list(each) if name not in names]
@@ -163,34 +163,34 @@ def split_measure(measure: Optional[Measure]) -> tuple[list[str], list[OwnMeasur
         if isinstance(each, type):
             each = each()
         if not (hasattr(each, "block") or hasattr(each, "sample") or callable(each)):
-            raise TypeError(f"measure has {each!r} in its list, but each must be a name "
-                            "(swirl.measurements() lists them) or have a method sample(snapshot) or "
-                            "block(frames).")
-        own.append(each)
-    return names, own
+            raise TypeError(f"measure contains {each!r}, but each element must be a name or have a "
+                            "method sample(snapshot) or block(frames).\n"
+                            "hint: swirl.measurements() lists the names.")
+        custom.append(each)
+    return names, custom
 
 
 def call_text(function: str, arguments: Mapping[str, object]) -> str:
-    """As one would type it."""
+    """The call as Python code."""
     given = ", ".join(f"{name}={value!r}" for name, value in arguments.items() if value is not None)
     return f"swirl.{function}({given})"
 
 
 class Progress:
-    """A bar by tqdm where it is installed, or whatever the caller has."""
+    """A tqdm bar if tqdm is installed, or the caller's callback."""
 
-    def __init__(self, progress: Union[bool, Told, None], what: str) -> None:
+    def __init__(self, progress: Union[bool, ProgressCallback, None], what: str) -> None:
         self._bar: Any = None
-        self.told: Optional[Told] = None
+        self.callback: Optional[ProgressCallback] = None
         if callable(progress):
-            self.told = progress
+            self.callback = progress
         elif progress:
             try:
                 from tqdm.auto import tqdm
             except ImportError:
                 return
             self._bar = tqdm(total=1.0, desc=what, bar_format="{l_bar}{bar}| {elapsed}<{remaining}")
-            self.told = self._show
+            self.callback = self._show
 
     def _show(self, fraction: float, events: int, periods: float) -> None:
         self._bar.update(fraction - self._bar.n)
@@ -200,22 +200,22 @@ class Progress:
             self._bar.close()
 
 
-def run(*, measure: Optional[Measure] = None, progress: Union[bool, Told, None] = None,
+def run(*, measure: Optional[Measure] = None, progress: Union[bool, ProgressCallback, None] = None,
         trajectory: Optional[PathName] = None, frames: Optional[int] = None,
         event_log: Optional[PathName] = None, checkpoint: Optional[PathName] = None,
         resume: bool = False, overwrite: bool = False, **parameters: Value) -> Result:
-    names, own = split_measure(measure)
-    blocks = OwnBlocks(own)
+    names, custom = split_measure(measure)
+    blocks = CustomBlocks(custom)
     files = _files(trajectory, frames, event_log, checkpoint, resume, overwrite)
-    said = {**parameters, **({"measure": ",".join(names)} if names else {}), **files}
+    given = {**parameters, **({"measure": ",".join(names)} if names else {}), **files}
     bar = Progress(progress, "run")
     try:
         text, reports, raised, headline, report = _engine.run(
-            parameters, names, call_text("run", said), bar.told, blocks.samples_per_period,
-            blocks.period_ended if own else None, files)
+            parameters, names, call_text("run", given), bar.callback, blocks.samples_per_period,
+            blocks.period_ended if custom else None, files)
     finally:
         bar.close()
-    result = Result(text, {**measured_of(reports), **blocks.found()}, headline, report)
+    result = Result(text, {**measured_of(reports), **blocks.results()}, headline, report)
     if isinstance(raised, KeyboardInterrupt):
         raise Interrupted(result) from None
     if raised is not None:
@@ -230,28 +230,28 @@ def _files(trajectory: Optional[PathName], frames: Optional[int], event_log: Opt
                               ("checkpoint", checkpoint)) if path is not None}
     if frames is not None:
         if trajectory is None:
-            raise ValueError("frames is given, but there is no trajectory to put them into.")
+            raise ValueError("frames is given, but trajectory is not.")
         if not isinstance(frames, int) or not 1 <= frames <= 1_000_000:
-            raise ValueError(f"frames is {frames!r}, but it must be a whole number per swirl from 1 "
-                             "to 1000000.")
+            raise ValueError(f"frames is {frames!r}, but it must be a whole number per period from "
+                             "1 to 1000000.")
         files["frames"] = frames
     if resume and checkpoint is None:
-        raise ValueError("resume needs the checkpoint to go on from.")
+        raise ValueError("resume is given, but checkpoint is not.")
     if resume:
         files["resume"] = True
     if overwrite:
         files["overwrite"] = True
-    goes_on = resume and checkpoint is not None and os.path.exists(checkpoint)
-    if not overwrite and not goes_on:
+    continues = resume and checkpoint is not None and os.path.exists(checkpoint)
+    if not overwrite and not continues:
         for path in (checkpoint, trajectory, event_log):
             if path is not None and os.path.exists(path) and os.path.getsize(path) > 0:
-                raise FileExistsError(f"'{os.fspath(path)}' is there already; choose another name, or "
-                                      "give overwrite=True to lose it.")
+                raise FileExistsError(f"'{os.fspath(path)}' already exists.\nhint: choose another name, "
+                                      "or use overwrite=True to replace it.")
     return files
 
 
 def parameter_lines() -> str:
-    """A line or two for each, for the documentation of functions that take them."""
+    """All parameters with descriptions, units and defaults, for docstrings."""
     lines = []
     for p in parameters():
         default = f" [{p.default}]" if p.default else ""
@@ -262,36 +262,37 @@ def parameter_lines() -> str:
 
 
 def with_parameters(function: Callable[..., Any], text: str) -> None:
-    """Gives a function that takes **parameters its documentation, and the names to whoever completes
-    them."""
+    """Sets docstring and signature of a function with **parameters, so that editors complete their
+    names."""
     function.__doc__ = f"{text}\nParameters (docs/parameters.md), the paper's values by default:\n\n" \
                        f"{parameter_lines()}\n"
     signature = inspect.signature(function)
-    kept = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
-    taken = {p.name for p in kept}
+    named = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
+    taken = {p.name for p in named}
     first = [inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=None)
              for p in parameters() if p.name not in taken]
-    before = [p for p in kept if p.kind != p.KEYWORD_ONLY]
-    after = [p for p in kept if p.kind == p.KEYWORD_ONLY]
+    before = [p for p in named if p.kind != p.KEYWORD_ONLY]
+    after = [p for p in named if p.kind == p.KEYWORD_ONLY]
     function.__signature__ = signature.replace(  # type: ignore[attr-defined]
         parameters=before + first + after)
 
 
-with_parameters(run, """One simulation, from its seed to its averages: `swirl run`, in this process.
+with_parameters(run, """One simulation, from its seed to its averages, like `swirl run`.
 
     r = swirl.run(discs=48, mu=1, events=1e6, measure=["density", "pinned"])
     r.rotation.by_time.mean, r.rotation.by_time.error
     r.measured["density"]["by_time"]            # numpy, [y, x]
     r.state_hash
 
-measure: names (swirl.measurements()), "all", and measurements of your own: objects with a method
-    sample(snapshot), called 511 times in every swirl after the warm-up, or block(frames), called once
-    with all of them.
-progress: True for a bar (with tqdm), or a function of (fraction, events, swirls).
-trajectory, frames, event_log, checkpoint, resume, overwrite: files, as for `swirl run`; frames are
-    per swirl [30].
+measure: names (swirl.measurements()), "all", and custom measurements: objects with a method
+    sample(snapshot), called 511 times in each period after the warm-up, or block(frames), called once
+    per period with all its samples.
+progress: True for a bar (needs tqdm), or a function of (fraction, events, periods).
+trajectory, frames, event_log, checkpoint, resume, overwrite: files, as for `swirl run`. frames is the
+    number per period [30].
 
-The bits are those of the command line. Other threads of Python go on meanwhile. Ctrl-C raises
-swirl.Interrupted, a KeyboardInterrupt whose `result` is what was found by then. A wrong value raises
-ValueError, a wrong name or type TypeError, a run that cannot be done swirl.Failure.
+Returns a swirl.Result; its values are bitwise identical to those of the command line. Other Python
+threads run meanwhile. Ctrl-C raises swirl.Interrupted, a KeyboardInterrupt whose `result` holds the
+averages so far. A wrong value raises ValueError, a wrong name or type TypeError, and a run that cannot
+be done swirl.Failure.
 """)

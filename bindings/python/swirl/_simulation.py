@@ -1,4 +1,4 @@
-"""A dish, event by event."""
+"""A simulation, event by event."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _engine
-from ._results import EventCounts, write_aside
+from ._results import EventCounts, write_atomically
 from ._runs import PathName, Value, call_text, with_parameters
 
 Array = npt.ArrayLike
@@ -21,7 +21,7 @@ _columns = ("position", "velocity", "angle", "spin", "radius", "mass", "inertia"
 
 
 class EventKind(enum.IntEnum):
-    """What an event is; `Event.kind` and the column `kind` of events are these."""
+    """Kinds of events: values of `Event.kind` and of the column `kind` of event arrays."""
 
     disc_disc = 0
     disc_wall = 1
@@ -44,135 +44,136 @@ class Simulation:
             if name in parameters and _is_array(parameters[name]):
                 discs[name] = parameters.pop(name)
         if discs and position is None:
-            raise ValueError(f"{next(iter(discs))} is given for each disc, but not their position.")
+            raise ValueError(f"{next(iter(discs))} is given for each disc, but position is not.")
         columns = {name: _floats(name, values) for name, values in discs.items()}
         for name in ("discs", "mixture"):
             if columns and parameters.get(name) is not None:
-                raise ValueError(f"{name} is given, but the discs are those of position; leave one of "
-                                 "the two away.")
-        own_path = None
+                raise ValueError(f"{name} and position are both given, but both define the discs.")
+        custom_path = None
         if path is not None and not isinstance(path, str):
-            own_path = _floats("path", path)
+            custom_path = _floats("path", path)
             for name in ("amplitude", "sides", "speed"):
                 if parameters.get(name) is not None:
-                    raise ValueError(f"{name} is given, but the path has its own; leave one of the "
-                                     "two away.")
+                    raise ValueError(f"{name} and a custom path are both given, but both define the "
+                                     "path.")
         elif path is not None:
             parameters["path"] = path
         for name in ("events", "periods", "warmup"):
             if parameters.get(name) is not None:
-                raise TypeError(f"{name} is given, but a simulation goes on for as long as it is "
-                                "asked to; swirl.run() takes it.")
+                raise TypeError(f"{name} is given, but a simulation has no fixed length.\n"
+                                "hint: use swirl.run(), or advance() of the simulation.")
         times = None if path_times is None else _floats("path_times", path_times)
-        self._dish = _engine.Dish(parameters, columns, own_path, times)
+        self._engine = _engine.Simulation(parameters, columns, custom_path, times)
 
-    # --- going on -----------------------------------------------------------------------------
+    # --- advancing ----------------------------------------------------------------------------
 
     def step(self, count: int = 1) -> npt.NDArray[np.void]:
-        """Executes `count` events; returns them as a structured array, one row each.
+        """Executes `count` events and returns them as a structured array with one row per event.
 
-        Columns: swirls and clock (when: whole periods, and the time since the last of them), time,
-        kind (EventKind), i and j (the discs; j = i at the wall), normal_x and normal_y (from i to j,
-        or to the wall), normal_impulse and tangential_impulse (on j, or on the wall), overlap (a
-        rounding error). Ctrl-C leaves the simulation behind the last event that was executed.
+        Columns: whole_periods and clock (the time since the last whole period), time, kind
+        (EventKind), i and j (the discs; j = i at the wall), normal_x and normal_y (unit vector from i
+        to j, or to the wall), normal_impulse and tangential_impulse (on j or on the wall), overlap (a
+        rounding error). After Ctrl-C the simulation is at the last executed event.
         """
-        return self._dish.step(_whole("count", count))
+        return self._engine.step(_whole("count", count))
 
     def events(self, count: Optional[int] = None) -> Iterator[_engine.Event]:
-        """Executes events one by one; the simulation can be looked at in between. Without a count it
-        does not end."""
-        left = math.inf if count is None else _whole("count", count)
-        while left > 0:
-            yield self._dish.next()
-            left -= 1
+        """Executes and yields events one by one, without end if there is no `count`. The simulation
+        can be inspected after each event."""
+        remaining = math.inf if count is None else _whole("count", count)
+        while remaining > 0:
+            yield self._engine.next()
+            remaining -= 1
 
     def advance(self, *, periods: Optional[float] = None, time: Optional[float] = None,
                 events: Optional[float] = None) -> None:
-        """Goes on for so many swirls, so much time, or so many events, and stands there.
+        """Advances by a number of periods, a time, or a number of events: give one of them.
 
-        Where one stops to look never changes a bit of what comes after.
+        Stopping in between does not alter the trajectory; it stays bitwise identical.
         """
         given = [value for value in (periods, time, events) if value is not None]
         if len(given) != 1:
-            raise TypeError("advance() takes one of periods, time and events.")
+            raise TypeError("advance() takes exactly one of periods, time and events.")
         if events is not None:
-            self._dish.run(_whole("events", events))
+            self._engine.run(_whole("events", events))
             return
         name, value = ("periods", periods) if periods is not None else ("time", time)
         length = _number(name, value)
         if not 0.0 <= length <= 1e15:
             raise ValueError(f"{name} is {length}, but it must be a number from 0 to 1e15.")
         if periods is not None and length == math.floor(length):
-            # Exactly a period later, with no rounding.
-            swirls, clock = self._dish.now()
-            self._dish.advance_to(swirls + int(length), clock)
+            # Whole periods later, without rounding.
+            whole_periods, clock = self._engine.now()
+            self._engine.advance_to(whole_periods + int(length), clock)
         else:
-            self._dish.advance(length * self.period if periods is not None else length)
+            self._engine.advance(length * self.period if periods is not None else length)
 
-    def advance_to(self, swirls: int, clock: float = 0.0) -> None:
-        """Goes on up to a moment: whole swirls, and the time since."""
-        self._dish.advance_to(_whole("swirls", swirls), _number("clock", clock))
+    def advance_to(self, whole_periods: int, clock: float = 0.0) -> None:
+        """Advances to a time: whole periods since the start, and the time since then. Raises
+        ValueError for a time in the past."""
+        self._engine.advance_to(_whole("whole_periods", whole_periods), _number("clock", clock))
 
     def sample(self, periods: float = 1.0, per_period: int = _engine.samples_per_period
                ) -> _engine.Frames:
-        """Goes on for so many swirls and looks at equal steps of time, `per_period` in each.
+        """Advances by `periods` and returns frames at equal time steps, `per_period` in each period.
 
-        The first frame is of now; the simulation stands where the next one would be. All columns are
-        numpy arrays: frames.position is [frame, disc, xy].
+        The first frame is the present state; the simulation ends where the next frame would be. All
+        columns are numpy arrays: frames.position is [frame, disc, xy].
         """
         n = _whole("per_period", per_period)
         if not 1 <= n <= 1_000_000:
             raise ValueError(f"per_period is {n}, but it must be from 1 to 1000000.")
         count = _number("periods", periods) * n
         if not count >= 0:
-            raise ValueError(f"periods is {periods}, but it must be a number from 0 on.")
+            raise ValueError(f"periods is {periods}, but it must be 0 or more.")
         if not count * len(self) <= 1e8:
-            raise ValueError(f"periods is {periods}, which makes {count:g} frames of {len(self)} discs; "
-                             "fewer would be right.")
-        return self._dish.sample(round(count), n)
+            raise ValueError(f"periods is {periods}, but {count:g} frames of {len(self)} discs do not "
+                             "fit into memory.\nhint: reduce periods or per_period.")
+        return self._engine.sample(round(count), n)
 
-    # --- looking ------------------------------------------------------------------------------
+    # --- inspecting ---------------------------------------------------------------------------
 
     def snapshot(self) -> _engine.Snapshot:
-        """All discs and the container, now. It stays what it is when the simulation goes on."""
-        return self._dish.snapshot()
+        """All discs and the container now. The snapshot does not change when the simulation advances."""
+        return self._engine.snapshot()
 
     @property
-    def swirls(self) -> int:
-        """Whole periods since the beginning."""
-        return self._dish.now()[0]
+    def whole_periods(self) -> int:
+        """Whole periods since the start."""
+        return self._engine.now()[0]
 
     @property
     def clock(self) -> float:
         """The time since the last whole period."""
-        return self._dish.now()[1]
+        return self._engine.now()[1]
 
     @property
     def time(self) -> float:
-        """The time since the beginning."""
-        swirls, clock = self._dish.now()
-        return swirls * self.period + clock
+        """The time since the start."""
+        whole_periods, clock = self._engine.now()
+        return whole_periods * self.period + clock
 
     @property
     def periods(self) -> float:
-        """The same in swirls."""
-        swirls, clock = self._dish.now()
-        return swirls + clock / self.period
+        """The time since the start in periods."""
+        whole_periods, clock = self._engine.now()
+        return whole_periods + clock / self.period
 
     @property
     def counts(self) -> EventCounts:
-        """How many events of each kind so far."""
-        discs, wall, vertex, elastic, rolls = self._dish.counts()
+        """Number of events of each kind so far."""
+        discs, wall, vertex, elastic, rolls = self._engine.counts()
         return EventCounts(discs + wall + vertex + rolls, discs, wall, vertex, elastic, rolls)
 
     @property
     def state_hash(self) -> str:
-        """64 bits of every disc's state: equal states, equal hash, on every machine."""
-        return self._dish.state_hash()
+        """64-bit hash of the state as 16 hexadecimal digits. Equal states have equal hashes on every
+        machine."""
+        return self._engine.state_hash()
 
     @property
     def period(self) -> float:
-        return self._dish.period
+        return self._engine.period
 
     @property
     def omega(self) -> float:
@@ -181,49 +182,50 @@ class Simulation:
 
     @property
     def container_radius(self) -> float:
-        return self._dish.container_radius
+        return self._engine.container_radius
 
     @property
     def config(self) -> dict[str, Any]:
-        """Every parameter, resolved. Discs and a path of one's own are not in it."""
-        return dict(json.loads(self._dish.config()))
+        """All resolved parameters. Custom discs and a custom path are not included."""
+        return dict(json.loads(self._engine.config()))
 
     def container_path(self) -> npt.NDArray[np.float64]:
-        """Where the container's centre goes: rows of time, x and y at the beginning of each leg."""
-        return np.array(self._dish.path()).reshape(-1, 3)
+        """The path of the container's centre: time, x and y at the beginning of each segment,
+        [segment, 3]."""
+        return np.array(self._engine.path()).reshape(-1, 3)
 
     def __len__(self) -> int:
-        return len(self._dish)
+        return len(self._engine)
 
     def __repr__(self) -> str:
-        return (f"<swirl.Simulation of {len(self)} discs after {self.periods:.3f} swirls and "
+        return (f"<swirl.Simulation of {len(self)} discs after {self.periods:.3f} periods and "
                 f"{self.counts.total:,} events>")
 
     def _repr_svg_(self) -> str:
         return str(self.snapshot()._repr_svg_())
 
-    # --- keeping ------------------------------------------------------------------------------
+    # --- saving -------------------------------------------------------------------------------
 
     def save(self, file: PathName) -> None:
-        """Everything that it takes to go on with the same bits; swirl.load() reads it."""
-        write_aside(file, self._dish.archive())
+        """Writes the simulation to a file for swirl.load(), which continues bitwise identically."""
+        write_atomically(file, self._engine.to_bytes())
 
     @classmethod
-    def _of_archive(cls, archive: bytes) -> "Simulation":
+    def _from_bytes(cls, data: bytes) -> "Simulation":
         simulation = cls.__new__(cls)
-        simulation._dish = _engine.Dish.of_archive(archive)
+        simulation._engine = _engine.Simulation.from_bytes(data)
         return simulation
 
     def __reduce__(self) -> Any:
-        return type(self)._of_archive, (self._dish.archive(),)
+        return type(self)._from_bytes, (self._engine.to_bytes(),)
 
 
 def load(file: PathName) -> Simulation:
-    """A simulation that was saved."""
+    """Reads a simulation written by Simulation.save(). Raises FileError for an invalid file."""
     with open(file, "rb") as opened:
-        archive = opened.read()
+        data = opened.read()
     try:
-        return Simulation._of_archive(archive)
+        return Simulation._from_bytes(data)
     except _engine.FileError as error:
         raise _engine.FileError(f"'{os.fspath(file)}': {error}") from None
 
@@ -245,7 +247,7 @@ def _whole(name: str, value: object) -> int:
 
 
 def _floats(name: str, values: Array) -> npt.NDArray[np.float64]:
-    """A copy: what the caller does with his own later does not matter."""
+    """A copy, so that the caller may change the original later."""
     try:
         array = np.asarray(values)
         if array.dtype.kind not in "iuf":
@@ -255,7 +257,7 @@ def _floats(name: str, values: Array) -> npt.NDArray[np.float64]:
         raise TypeError(f"{name} must be an array of numbers.") from None
 
 
-with_parameters(Simulation.__init__, """A simulation that goes on as long as it is asked to.
+with_parameters(Simulation.__init__, """A simulation that advances step by step.
 
     sim = swirl.Simulation(discs=48, seed=3)
     for event in sim.events(1000): ...
@@ -263,13 +265,16 @@ with_parameters(Simulation.__init__, """A simulation that goes on as long as it 
     sim.snapshot().position                     # numpy, [disc, xy], read-only
     frames = sim.sample(periods=10)             # frames.position: [frame, disc, xy]
 
-position, velocity, angle, spin: discs of your own, in the lab frame: the swirl centre is the origin,
-    and the container begins at the first vertex of its path, (amplitude, 0). radius, mass and inertia
-    may then be arrays too. Without velocities they begin at rest in the container.
-path: "polygon", "circle", or vertices of your own (N × 2, closed), which the container's centre runs
-    through in one period at constant speed, or at path_times, which begin with 0.
+position [disc, xy], velocity [disc, xy], angle [disc], spin [disc]: custom discs in the lab frame. The
+    swirl centre is the origin, and the container starts at the first vertex of its path,
+    (amplitude, 0). radius, mass and inertia may then be arrays [disc]. Without velocities discs start
+    at rest relative to the container.
+path: "polygon", "circle", or vertices [vertex, xy] of a closed polygon. The container's centre runs
+    through it in one period at constant speed, or is at each vertex at its time in path_times
+    [vertex], which begin with 0.
 
-It can be copied, pickled and saved; copies go on independently with the same bits. Several threads
-may use different simulations at the same time, and one, in turns.
+A simulation can be copied, pickled and saved; copies continue independently and bitwise identically.
+Several threads may use different simulations at the same time. Calls of several threads to one
+simulation wait for each other. A value out of range, or an overlap of discs, raises ValueError.
 """)
 Simulation.__doc__ = Simulation.__init__.__doc__

@@ -1,4 +1,4 @@
-"""Many runs: sweeps, crossings, and a map over them."""
+"""Many runs: sweeps, crossings and maps."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ Values = Any  # one value of a parameter, a list or array of them, or a text: "5
 
 
 class SweepWarning(UserWarning):
-    """What a reader of a sweep's table must know of its rows."""
+    """Some rows of a sweep's table are incomplete."""
 
 
 def _names(measure: Optional[Measure], where: str) -> list[str]:
-    names, own = split_measure(measure)
-    if own:
-        raise TypeError(f"{where} takes names of measurements alone; swirl.map() takes your own too.")
+    names, custom = split_measure(measure)
+    if custom:
+        raise TypeError(f"{where} does not take custom measurements.\nhint: use swirl.map().")
     return names
 
 
@@ -49,8 +49,8 @@ def sweep(out: Optional[PathName] = None, *, seeds: int = 1, measure: Optional[M
     _count("threads", threads, 0)
     if out is None:
         if grow or frames:
-            raise ValueError(f"{'grow' if grow else 'frames'} needs a folder, out, which keeps what "
-                             "is done.")
+            raise ValueError(f"{'grow' if grow else 'frames'} is given, but out, the folder of the "
+                             "sweep, is not.")
         with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as folder:
             return sweep(folder, seeds=seeds, measure=measure, threads=threads, progress=progress,
                          **parameters)
@@ -62,56 +62,57 @@ def sweep(out: Optional[PathName] = None, *, seeds: int = 1, measure: Optional[M
     elif given or names:
         _engine.Plan(given, _count("seeds", seeds, 1), names, _count("frames", frames, 0)).write(folder)
     elif not os.path.exists(os.path.join(folder, "plan.json")):
-        raise ValueError("There is nothing to sweep over: give lists, as in discs=range(5, 49), "
-                         "mu=[0.1, 0.5, 1].")
+        raise ValueError("there is no parameter to sweep over.\n"
+                         "hint: give lists, such as discs=range(5, 49), mu=[0.1, 0.5, 1].")
     bar = Progress(progress if not callable(progress) else None, "sweep")
-    told: Any = progress if callable(progress) else None
-    if told is None and bar.told is not None:
-        shown = bar.told
+    callback: Any = progress if callable(progress) else None
+    if callback is None and bar.callback is not None:
+        show = bar.callback
 
-        def told(done: float, runs: float, events: int) -> None:
-            shown(done / runs if runs else 1.0, events, 0.0)
+        def callback(done: float, runs: float, events: int) -> None:
+            show(done / runs if runs else 1.0, events, 0.0)
     try:
-        _, failed, _, first_failure = _engine.sweep(folder, threads, told)
+        _, failed, _, first_failure = _engine.sweep(folder, threads, callback)
     finally:
         bar.close()
     if failed:
-        warnings.warn(f"{failed} of the runs could not be done, the first is {first_failure}",
+        warnings.warn(f"{failed} runs failed; the first is {first_failure}",
                       SweepWarning, stacklevel=2)
     return collect(folder)
 
 
 def collect(out: PathName) -> Any:
-    """The table of what a sweep has found so far: a pandas DataFrame, as `swirl collect` writes it.
+    """The results of a sweep so far as a pandas DataFrame, like the table of `swirl collect`.
 
-    A row for each combination of parameters: mean and standard error, within and between the
-    replicas, of the rotation and of every number that was measured. `table.attrs["runs"]` counts
-    those that are planned, done, running and failed.
+    Each combination of parameters is one row. It has the mean and the standard error, within and
+    between replicates, of the rotation and of every measured number. `table.attrs["runs"]` counts
+    planned, done, running and failed runs.
     """
     import pandas
     csv, points, done, running, failed, disagreeing, not_steady, without = _engine.collect(
         os.fspath(out))
-    # A hash may look like a number, 12345678e9012345 for one.
+    # As text: a hash such as 12345678e9012345 looks like a number.
     table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip",
                             dtype={"state_hash": str, "steady_state": str})
     table.attrs["runs"] = {"planned": points, "done": done, "running": running, "failed": failed}
     table.attrs["disagreeing"] = disagreeing
     table.attrs["not_steady"] = not_steady
     if without:
-        warnings.warn(f"{without} of the runs made no whole swirl after the warm-up; there is nothing "
-                      "to average of them. More events would be right.", SweepWarning, stacklevel=2)
+        warnings.warn(f"{without} runs have no whole period after the warm-up, so they have no "
+                      "averages.\nhint: increase events.", SweepWarning, stacklevel=2)
     return table
 
 
 @dataclasses.dataclass(frozen=True)
 class Crossing:
-    """Where rotation turns into counterrotation: N_c ± error, 95 % between lower and upper.
+    """The number of discs N_c at which rotation changes to counterrotation.
 
-    `verdict` says whether it does at all; `sentence` reports it with the evidence. `discs` and `error` are
-    NaN if only the bracket from lower to upper is known. All these are by the rotation rate `rate`.
-    `by_rate` has the same for each of the four rates: N_c, N_c_error, N_c_lower, N_c_upper, every change
-    of sign, and the numbers whose sign is undetermined. `points` are rows of discs, the rotation by `rate`
-    (mean, error), that by each of the four, and how many runs it rests on.
+    `discs` is N_c, `error` its standard error, and `lower` to `upper` its 95 % interval. `discs` and
+    `error` are NaN if only the interval is known. All of these refer to the rotation rate `rate`.
+    `verdict` tells whether there is a crossing, and `sentence` reports it with the evidence. `by_rate`
+    has the results for each of the four rates: N_c, N_c_error, N_c_lower, N_c_upper, every change of
+    sign, and the numbers whose sign is undetermined. Each of `points` has the number of discs, the
+    rotation (mean, error) by `rate` and by each of the four rates, and the number of runs.
     """
 
     verdict: str
@@ -133,21 +134,23 @@ class Crossing:
         return self.sentence
 
 
-def crossing(*, fewest: int = 5, most: int = 48, tolerance: float = 0.3,
+def crossing(*, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.3,
              rate: str = "by_time", threads: int = 0,
              progress: Union[bool, Callable[[str, float], object], None] = None,
              **parameters: Any) -> Crossing:
     for name in ("discs", "periods"):
         if parameters.get(name) is not None:
-            raise TypeError(f"{name} is given, but a crossing is looked for from `fewest` to `most` "
-                            "discs, with runs of so many events.")
-    told = progress if callable(progress) else (lambda stage, rate: print(stage)) if progress else None
-    said: dict[str, Any] = {"fewest": fewest, "most": most, "tolerance": tolerance, **parameters}
+            raise TypeError(f"{name} is given, but the search varies it.\n"
+                            "hint: use min_discs, max_discs and events.")
+    callback = progress if callable(progress) else (lambda stage, rate: print(stage)) if progress else None
+    given: dict[str, Any] = {"min_discs": min_discs, "max_discs": max_discs, "tolerance": tolerance,
+                             **parameters}
     if rate != "by_time":
-        said["rate"] = rate
-    text, sentence = _engine.crossing(parameters, _count("fewest", fewest, 1), _count("most", most, 1),
-                                      float(tolerance), rate, _count("threads", threads, 0),
-                                      call_text("crossing", said), told)
+        given["rate"] = rate
+    text, sentence = _engine.crossing(parameters, _count("min_discs", min_discs, 1),
+                                      _count("max_discs", max_discs, 1), float(tolerance), rate,
+                                      _count("threads", threads, 0), call_text("crossing", given),
+                                      callback)
     found = json.loads(text)
 
     def number(name: str) -> float:
@@ -164,31 +167,31 @@ def map_runs(*, seeds: int = 1, measure: Optional[Measure] = None, threads: int 
     plan = _engine.Plan({name: value for name, value in parameters.items() if value is not None},
                         _count("seeds", seeds, 1), [], 0)
     _count("threads", threads, 0)
-    split_measure(measure)  # what is wrong is said before anything is run
+    split_measure(measure)  # raises errors before the first run
     points = plan.points()
     bar = Progress(progress if not callable(progress) else None, "runs")
     workers = threads or len(os.sched_getaffinity(0))
     pool = concurrent.futures.ThreadPoolExecutor(workers)
-    left = threading.Event()
+    stopped = threading.Event()
 
-    def go_on(fraction: float, events: int, periods: float) -> None:
-        # Signals go to the thread that waits below; the others hear of it here.
-        if left.is_set():
+    def stop_if_asked(fraction: float, events: int, periods: float) -> None:
+        # Python delivers signals to the waiting thread below; this stops the runs.
+        if stopped.is_set():
             raise concurrent.futures.CancelledError
 
-    def once(point: dict[str, Any]) -> Result:
-        return run(measure=measure, progress=go_on, **point)
+    def run_point(point: dict[str, Any]) -> Result:
+        return run(measure=measure, progress=stop_if_asked, **point)
 
     try:
-        futures = [pool.submit(once, point) for point in points]
+        futures = [pool.submit(run_point, point) for point in points]
         for done, _ in enumerate(concurrent.futures.as_completed(futures), 1):
             if callable(progress):
                 progress(done, len(points))
-            elif bar.told is not None:
-                bar.told(done / len(points), 0, 0.0)
+            elif bar.callback is not None:
+                bar.callback(done / len(points), 0, 0.0)
         return [future.result() for future in futures]
     finally:
-        left.set()
+        stopped.set()
         pool.shutdown(wait=True, cancel_futures=True)
         bar.close()
 
@@ -197,40 +200,42 @@ _LISTS = """    Every parameter may be a list (discs=range(5, 49), mu=[0.1, 0.5,
     command line ("5:48", "0:0.25:1"); a tuple is one value (mixture=(12, 1.3)).
 """
 
-with_parameters(sweep, f"""Many runs, the product of lists, on all cores: `swirl sweep` and `collect`.
+with_parameters(sweep, f"""Runs all combinations of parameter lists on all cores: `swirl sweep` and `swirl collect`.
 
     table = swirl.sweep("study", discs=range(5, 49), mu=[0.1, 0.5, 1], seeds=8)
 
 Returns a pandas DataFrame (swirl.collect()).
 
-out: the folder of the sweep, the same as the command line's: called again, it does what is missing,
-    and either goes on with what the other has begun. Without it nothing is kept but the table.
-seeds: replicas of each point. measure: names. frames: record every run, so many frames per swirl.
-threads: runs at the same time [one for each core]. grow: add these values, replicas and measurements.
-progress: True for a bar (with tqdm), or a function of (runs done, runs in all, events).
+out: folder of the sweep, in the format of the command line. Another call with the same folder does
+    the missing runs; Python and the command line can continue each other's sweeps. Without `out` only
+    the table is returned.
+seeds: replicates of each point. measure: names of measurements. frames: record every run with so many
+    frames per period. threads: simultaneous runs [one per core]. grow: add these values, replicates
+    and measurements to an existing sweep. progress: True for a bar (needs tqdm), or a function of
+    (finished runs, all runs, events).
 
 {_LISTS}
-Ctrl-C raises KeyboardInterrupt; what is done stays in the folder. A run that could not be done leaves
-its place empty, and a swirl.SweepWarning says so.
+Ctrl-C raises KeyboardInterrupt; finished runs stay in the folder. A failed run leaves its row empty and
+issues a swirl.SweepWarning.
 """)
-with_parameters(crossing, """The number of discs at which rotation turns into counterrotation: `swirl crossing`.
+with_parameters(crossing, """Searches the number of discs at which rotation changes to counterrotation: `swirl crossing`.
 
     c = swirl.crossing(mu=0.5)
     c.discs, c.error, c.sentence
 
     c.by_rate["rigid_by_time"]["N_c"]
 
-fewest, most: the range of discs. tolerance: wanted standard error of N_c. rate: the rotation rate whose
-sign and tolerance decide, by_event, by_time, rigid_by_event or rigid_by_time. threads: [all cores].
-progress: True to print, or a function of (what is done now, events per second). events [2e5] is the
-length of the first runs.
+min_discs, max_discs: range of the search. tolerance: target standard error of N_c. rate: the rotation
+    rate that decides: by_event, by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
+    [one per core]. progress: True to print, or a function of (current stage, events per second).
+    events [2e5]: length of the first runs.
 """)
-with_parameters(map_runs, f"""Runs for the product of lists, on all cores, each with its whole result.
+with_parameters(map_runs, f"""Runs all combinations of parameter lists on all cores and returns the complete results.
 
     results = swirl.map(discs=range(5, 49), measure=[MyMeasurement])
 
-A list of swirl.Result, in the order of a sweep's points (the last list running fastest, then the
-replica); the seeds are those of a sweep. A measurement of your own that is a class gets an instance
-for each run; one that is an object is shared by threads.
+Returns a list of swirl.Result in the order of a sweep's points: replicates vary fastest, then the last
+list. Seeds are those of a sweep. A custom measurement that is a class gets an instance for each run;
+one that is an object is shared by threads.
 
 {_LISTS}""")

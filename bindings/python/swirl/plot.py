@@ -1,8 +1,8 @@
-"""Drawings with matplotlib. Every function draws into axes (those given, or new ones) and returns
-them; nothing is shown or saved.
+"""Plots with matplotlib. Every function draws into the given axes, or into new ones, and returns them.
+Nothing is shown or saved.
 
     import swirl, swirl.plot
-    swirl.plot.dish(sim.snapshot(), color="spin")
+    swirl.plot.snapshot(sim.snapshot(), color="spin")
     swirl.plot.density(result)
 """
 
@@ -28,23 +28,24 @@ def _axes(axes: Optional[Axes]) -> Axes:
     return matplotlib.pyplot.subplots(constrained_layout=True)[1]
 
 
-def dish(look: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes] = None,
-         m_frame: bool = False, color: Any = "tab:blue", velocities: bool = False) -> Axes:
+def snapshot(source: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes] = None,
+             m_frame: bool = False, color: Any = "tab:blue", velocities: bool = False) -> Axes:
     """The discs in their container, in the lab frame or the M-frame.
 
-    color: one for all, "spin" or "speed" (in units of Ω and of the container's speed, with a colour
-    bar), or a number for each disc. velocities: arrows as long as a disc goes in a tenth of the period.
+    color: one colour for all discs, "spin" (in units of Ω) or "speed" (in units of the container's
+    speed) with a colour bar, or one number per disc. velocities: draw arrows of the distance that a
+    disc moves in a tenth of the period.
     """
     from matplotlib.collections import EllipseCollection
     from matplotlib.patches import Circle
-    s = look.snapshot() if isinstance(look, Simulation) else look
+    s = source.snapshot() if isinstance(source, Simulation) else source
     if m_frame:
         s = s.m_frame()
     axes = _axes(axes)
     centre = s.container_centre
     axes.add_patch(Circle(centre, s.container_radius, facecolor="none", edgecolor="0.2", lw=1.5))
     widths = 2.0 * s.radius
-    # A view of ours cannot be written to, and matplotlib keeps what it is given.
+    # matplotlib stores and modifies its argument, but views of a snapshot are read-only.
     discs = EllipseCollection(widths, widths, np.zeros(len(s)), units="x", offsets=s.position.copy(),
                               offset_transform=axes.transData, edgecolor="0.2", lw=0.6)
     label = None
@@ -60,9 +61,9 @@ def dish(look: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes] = No
             raise ValueError(f"color has {values.size} values, but there are {len(s)} discs.")
         discs.set_array(values)
         if label == "spin / Ω":
-            most = float(np.nanmax(np.abs(values), initial=1e-12))
+            limit = float(np.nanmax(np.abs(values), initial=1e-12))
             discs.set_cmap("RdBu_r")
-            discs.set_clim(-most, most)
+            discs.set_clim(-limit, limit)
     axes.add_collection(discs)
     if label:
         axes.figure.colorbar(discs, ax=axes, label=label)
@@ -76,20 +77,21 @@ def dish(look: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes] = No
 
 
 def _table(found: Any, name: str) -> Table:
-    """Of a result, of what was measured, or the table itself."""
+    """The table in a result or in one of its measurements, or the table itself."""
     if isinstance(found, Table):
         return found
     if not isinstance(found, Measured):
         measured = getattr(found, "measured", {})
         if name not in measured:
-            raise ValueError(f"This has no '{name}'; swirl.run(measure=[\"{name}\"]) measures it.")
+            raise ValueError(f"the result has no '{name}'.\nhint: use swirl.run(measure=[\"{name}\"]).")
         found = measured[name]
     table: Table = found.table
     return table
 
 
 def density(found: Any, *, by: str = "time", axes: Optional[Axes] = None) -> Axes:
-    """The density map in the M-frame, of a result that measured "density"; `by` "time" or "event"."""
+    """The density map in the M-frame, averaged by "time" or "event". `found` is a result with the
+    measurement "density"."""
     table = _table(found, "density")
     if by not in ("time", "event"):
         raise ValueError(f"by is {by!r}, but it must be 'time' or 'event'.")
@@ -102,7 +104,8 @@ def density(found: Any, *, by: str = "time", axes: Optional[Axes] = None) -> Axe
 
 
 def flow(found: Any, *, axes: Optional[Axes] = None) -> Axes:
-    """Velocities relative to the container in the M-frame, of a result that measured "flow"."""
+    """Velocities relative to the container in the M-frame. `found` is a result with the measurement
+    "flow"."""
     table = _table(found, "flow")
     axes = _axes(axes)
     x, y = table.axes["x"], table.axes["y"]
@@ -123,7 +126,7 @@ def _round(axes: Axes, x: Any, y: Any) -> None:
 
 
 def profile(found: Any, column: str = "varpi_m", *, axes: Optional[Axes] = None) -> Axes:
-    """A column of "profile" (or another table) against its axis, with its error."""
+    """A column of "profile" or of another table against its axis, with its error as a band."""
     table = _table(found, "profile")
     axes = _axes(axes)
     ((name, at),) = table.axes.items()
@@ -138,10 +141,10 @@ def profile(found: Any, column: str = "varpi_m", *, axes: Optional[Axes] = None)
 
 def rotation(runs: Any, *, against: str = "discs", by: Optional[str] = None,
              axes: Optional[Axes] = None, label: Optional[str] = None) -> Axes:
-    """ϖ/Ω, by time, against a parameter.
+    """The rotation rate ϖ/Ω, averaged by time, against a parameter.
 
-    runs: the table of swirl.sweep(), with a line for each value of the column `by`; or results, for
-    example those of swirl.map().
+    runs: the table of swirl.sweep(), with a line for each value of the column `by`; or results, such as
+    those of swirl.map().
     """
     axes = _axes(axes)
     if hasattr(runs, "groupby"):
@@ -166,11 +169,11 @@ def rotation(runs: Any, *, against: str = "discs", by: Optional[str] = None,
 def _results(runs: Iterable[Result]) -> list[Result]:
     results = list(runs)
     if not all(isinstance(r, Result) for r in results):
-        raise TypeError("rotation() takes the table of swirl.sweep(), or results of runs.")
+        raise TypeError("runs must be the table of swirl.sweep() or results of runs.")
     return results
 
 
 def _parameter(result: Result, name: str) -> float:
     if name not in result.config:
-        raise ValueError(f"There is no parameter '{name}' in the results.")
+        raise ValueError(f"the results have no parameter '{name}'.")
     return float(result.config[name])

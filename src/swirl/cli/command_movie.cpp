@@ -1,4 +1,4 @@
-// swirl movie: the dish in motion.
+// swirl movie: the container in motion.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -31,7 +31,7 @@ MovieConfig movie_config(const MovieCall& call) {
     MovieConfig config;
     config.out = call.out;
     config.frames_folder = call.frames_folder;
-    reject_to_draw_onto_source(
+    reject_output_onto_source(
         *call.source,
         {call.out, call.frames_folder.empty() ? "" : frame_name(call.frames_folder, 1)});
     const bool gif = call.out.size() > 4 && call.out.ends_with(".gif");
@@ -39,27 +39,28 @@ MovieConfig movie_config(const MovieCall& call) {
     config.sources = frame_sources(*call.source);
     config.frames_per_second = call.frames_per_second.value_or(gif ? 25 : 60);
     const FrameSource& first = config.sources.front();
-    // Over a camera's pictures: one after the other, none twice.
+    // Over camera images, each of them is shown once.
     config.pace = call.pace.value_or(
-        first.open_backdrop ? config.frames_per_second / first.frames_per_swirl : 0.5);
+        first.open_backdrop ? config.frames_per_second / first.frames_per_period : 0.5);
     config.start =
         call.start.value_or(first.from.value_or(call.source->slip ? 0.0 : double(default_warmup)));
     if (call.seconds && call.periods)
-        throw UsageError("--seconds and --swirls both set the length of the movie: give one.");
+        throw UsageError(
+            "--seconds and --periods both set the duration, but only one may be given.");
     double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);
     if (call.periods) seconds = *call.periods / config.pace;
-    // A recording is shown to its end, both ends included.
+    // A recording is shown from its first frame to its last.
     if (first.to && !call.seconds && !call.periods)
         seconds = std::floor((*first.to - config.start) / config.pace * config.frames_per_second +
                              1e-9 + 1.0) /
                   config.frames_per_second;
     if (config.frames_per_second < 1)
-        throw UsageError(fmt::format("{} frames per second cannot be had: 1 or more can.",
-                                     config.frames_per_second));
+        throw UsageError(
+            fmt::format("--fps is {}, but it must be 1 or more.", config.frames_per_second));
     const double frames = std::round(seconds * config.frames_per_second);
     if (!(frames >= 1.0 && frames <= 1e6))
         throw UsageError(fmt::format(
-            "A movie of {:g} seconds cannot be made: it must have from 1 to 1000000 frames.",
+            "the duration is {:g} seconds, but the movie must have from 1 to 1000000 frames.",
             seconds));
     config.frames = static_cast<int>(frames);
     if (const auto wrong = problem(config)) throw UsageError(*wrong);
@@ -81,68 +82,67 @@ void make_and_report(const MovieCall& call) {
     const MovieResult result = make_movie(config, control);
     line.clear();
     const std::string where = call.out.empty() ? call.frames_folder : call.out;
-    if (result.frames == 0) throw Interrupted("Stopped before the first frame; nothing written.");
+    if (result.frames == 0)
+        throw Interrupted("stopped before the first frame; no file was written.");
     if (!call.quiet)
         print_all(
-            fmt::format("{}: {} frames, {:.2f} s at {} frames/s, {:g} swirls/s; made in {} "
+            fmt::format("{}: {} frames, {:.2f} s at {} frames/s, {:g} periods/s; made in {} "
                         "({:.0f} frames/s).\n",
                         where, result.frames, double(result.frames) / config.frames_per_second,
                         config.frames_per_second, config.pace, short_duration(seconds()),
                         result.frames / seconds()));
-    if (!call.quiet) print_all(remark_on(config.sources, config.appearance));
+    print_source_warnings(config.sources, config.appearance);
     if (!result.complete)
-        throw Interrupted(fmt::format("Stopped after {} of {} frames; {} holds them.",
+        throw Interrupted(fmt::format("stopped after {} of {} frames; they are in '{}'.",
                                       result.frames, config.frames, where));
 }
 
 void add_movie_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MovieCall>();
     const auto group = "Movie";
-    subcommand.add_option("--out", call->out, "the movie; its ending decides: .mp4, .webm or .gif")
+    subcommand.add_option("--out", call->out, "Movie file: .mp4, .webm or .gif")
         ->type_name("FILE")
         ->group(group);
-    subcommand
-        .add_option("--frames", call->frames_folder,
-                    "write every frame as a PNG file, with or without a movie")
+    subcommand.add_option("--frames", call->frames_folder, "Folder for PNG files of all frames")
         ->type_name("DIR")
         ->group(group);
-    subcommand.add_option("--seconds", call->seconds, "how long it plays [20; .gif 6]")
+    subcommand.add_option("--seconds", call->seconds, "Duration of the movie [20; .gif: 6]")
+        ->type_name("SECONDS")
+        ->group(group);
+    subcommand.add_option("--periods", call->periods, "Duration in periods, instead of --seconds")
+        ->type_name("PERIODS")
+        ->group(group);
+    subcommand.add_option("--pace", call->pace, "Periods per second of the movie [0.5]")
         ->type_name("NUMBER")
         ->group(group);
-    subcommand.add_option("--swirls", call->periods, "how many swirls it shows, instead")
+    subcommand.add_option("--fps", call->frames_per_second, "Frames per second [60; .gif: 25]")
         ->type_name("NUMBER")
         ->group(group);
     subcommand
-        .add_option(
-            "--pace", call->pace,
-            "swirls per second of playing; the paper's table makes 1.88 [0.5; with --over one of "
-            "the camera's frames after the other]")
-        ->type_name("NUMBER")
+        .add_option("--start", call->start, "Period of the first frame [20; of FILE: its first]")
+        ->type_name("PERIODS")
         ->group(group);
-    subcommand.add_option("--fps", call->frames_per_second, "frames per second [60; .gif 25]")
-        ->type_name("NUMBER")
-        ->group(group);
-    subcommand.add_option("--start", call->start, "swirls before the first frame [20]")
-        ->type_name("SWIRLS")
-        ->group(group);
-    subcommand.add_flag("--quiet", call->quiet, "no progress, no report")->group(group);
+    subcommand.add_flag("--quiet", call->quiet, "Suppress progress and report")->group(group);
     call->appearance = add_appearance_options(subcommand);
     call->source = add_source_options(subcommand);
+    subcommand.explain(std::string(source_explanation) +
+                       "With --over, the default --pace shows each camera image once. The pace of "
+                       "the paper's experiment was 1.88.\n");
     subcommand.set_examples(
         {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
          "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
-         "swirl movie --discs 48 --beside 28 --seconds 4 --out swirl.gif",
+         "swirl movie --discs 48 --compare 28 --seconds 4 --out swirl.gif",
          "swirl movie run.h5 --color id --out run.mp4",
          "swirl movie tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre "
          "512,384 --amplitude 1.9 --container-radius 8.6 --over 'frames/%05d.png' --out "
          "dish.mp4"});
     subcommand.callback([call, &subcommand] {
-        take_video_config(subcommand, *call->source, "movie", {{"seconds", "swirls"}});
+        take_video_config(subcommand, *call->source, "movie", {{"seconds", "periods"}});
         make_and_report(*call);
     });
 }
 
-const Command movie_command(60, "movie", "A movie of the dish, in the lab frame or the M-frame.",
+const Command movie_command(60, "movie", "Make a movie in the lab frame or the M-frame.",
                             add_movie_command);
 
 }  // namespace

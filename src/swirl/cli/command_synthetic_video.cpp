@@ -143,7 +143,7 @@ struct GroundTruth {
         container.add({frame, c.x, c.y, s.container_radius * camera.scale});
         for (std::size_t i = 0; i < s.size(); ++i) {
             const Vec2 ideal = view.ideal(s.position(i)), seen = view.seen(ideal);
-            const auto& turned = view.turned(i);
+            const auto& turned = view.rotation(i);
             discs.add({frame, std::int64_t(i), seen.x, seen.y, ideal.x, ideal.y,
                        s.radius[i] * camera.scale, turned[0], turned[1], turned[2]});
         }
@@ -196,7 +196,7 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
             fmt::format("'{}' already exists.\nhint: use --overwrite to replace it.", call.out));
 
     const std::atomic<bool>& stop = stop_signal();
-    const Reel reel = simulated(config, &stop).open();
+    const Playback playback = simulated(config, &stop).open();
     CameraView view(camera);
     MovieWriter writer(call.out, MovieFormat::mp4, camera.size, call.fps, call.quality);
     GroundTruth truth;
@@ -205,9 +205,9 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
     for (std::int64_t k = 0; k < frames; ++k) {
         if (stop.load()) throw Interrupted("stopped before the last frame; no video was written.");
-        Snapshot s = reel(call.from + double(k) / double(camera.frames_per_period));
+        Snapshot s = playback(call.from + double(k) / double(camera.frames_per_period));
         if (call.still) bring_container_to_rest(s);
-        writer.write(planes.of(view.take(s)));
+        writer.write(planes.of(view.render(s)));
         truth.add(k, s, view, camera);
         line.show(double(k + 1) / double(frames), fmt::format("frame {}", k + 1));
     }

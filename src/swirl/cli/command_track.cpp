@@ -132,7 +132,7 @@ void make_overlay(const TrackedVideo& video, const TrackCall& call) {
     config.appearance.coloring = Coloring::id;
     config.appearance.trails = true;
     config.frames_per_second = movie_format(call.overlay) == MovieFormat::gif ? 25 : 60;
-    config.pace = config.frames_per_second / source.frames_per_swirl;
+    config.pace = config.frames_per_second / source.frames_per_period;
     config.start = source.from.value_or(0.0);
     config.frames = static_cast<int>(video.frame_count);
     if (const auto wrong = problem(config)) throw UsageError(*wrong);

@@ -1,5 +1,5 @@
-// The options that say what is drawn or filmed: a recording, a run, a second dish beside it, or the
-// minimal model, or a camera's tracks.
+// Options for what an image or a movie shows: a run, a recording, a camera's tracks or the minimal
+// model.
 #pragma once
 
 #include <memory>
@@ -10,37 +10,42 @@
 #include "swirl/cli/options.hpp"
 #include "swirl/cli/track_options.hpp"
 #include "swirl/render/frame_source.hpp"
-#include "swirl/render/movie.hpp"
+#include "swirl/render/page.hpp"
 #include "swirl/run/parameters.hpp"
 
 namespace swirl {
 
 struct SourceTexts {
     std::shared_ptr<ParameterTexts> parameters;
-    std::string file;  // a recording; of a call also a configuration
+    std::string file;  // a recording, or a configuration before take_video_config()
     TrackTexts camera;
-    std::string pictures;  // of the camera
-    std::int64_t first_picture = 0;
-    std::optional<std::int64_t> beside;
+    std::string images;  // of the camera
+    std::int64_t first_image = 0;
+    std::optional<std::int64_t> compared_discs;
     std::optional<double> slip;
     double ball_radius = 0.5 * paper_container_radius;
 };
 
+/// A paragraph of the help.
+inline constexpr const char* source_explanation =
+    "FILE is a recorded trajectory (.h5), a camera's tracks (CSV of trackpy), a LAMMPS text dump, "
+    "or a TOML file with option names as keys. A TOML file may name a recording as `file`; options "
+    "on the command line take precedence. --over takes a video, or numbered files such as "
+    "'frames/%05d.png'.\n";
+
 std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand);
 
-/// Where FILE is a configuration (.toml), takes what it says of the options that were not given;
-/// it may name a recording as `file`.
+/// If FILE is a configuration (.toml), takes from it every option that was not given.
 void take_video_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
                        const std::vector<std::vector<std::string>>& instead = {});
 
-/// One dish or two. Throws WrongCall or Failure.
+/// One source, or two with --compare. Throws UsageError or Failure.
 std::vector<FrameSource> frame_sources(const SourceTexts& texts);
 
-/// Throws WrongCall if a file that is to be written is what is shown, or one of the pictures that
-/// it is drawn over.
-void reject_to_draw_onto_source(const SourceTexts& texts, const std::vector<std::string>& outputs);
+/// Throws UsageError if an output file is the recording or one of the camera images.
+void reject_output_onto_source(const SourceTexts& texts, const std::vector<std::string>& outputs);
 
-/// What a recording does not tell well enough for what was shown, in lines for the report.
-std::string remark_on(const std::vector<FrameSource>& sources, const Appearance& appearance);
+/// Prints warnings about recordings that do not hold all that is shown.
+void print_source_warnings(const std::vector<FrameSource>& sources, const Appearance& appearance);
 
 }  // namespace swirl

@@ -17,7 +17,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/paper/python_script.hpp"
 #include "swirl/render/label.hpp"
-#include "swirl/render/picture.hpp"
+#include "swirl/render/still.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/tracking/spin.hpp"
@@ -268,13 +268,13 @@ TrackingSettings tracking_settings(const std::string& video, const std::optional
 
 void draw_found(const TrackedVideo& video, const std::string& file, const std::string& caption,
                 const std::filesystem::path& picture) {
-    PictureConfig config;
+    StillConfig config;
     config.sources = {tracked(video.tracks, video.scale(), escaped(caption), file)};
     config.appearance.size = {720, 720};
     config.appearance.coloring = Coloring::id;
     config.at = config.sources.front().from.value_or(0.0);
     config.out = picture.string();
-    make_picture(config);
+    make_still(config);
 }
 
 std::filesystem::path write_video_report(const TrackedVideo& video, const VideoSource& source,

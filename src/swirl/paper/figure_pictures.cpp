@@ -4,7 +4,7 @@
 
 #include "swirl/paper/paper.hpp"
 #include "swirl/render/frame_diagram.hpp"
-#include "swirl/render/picture.hpp"
+#include "swirl/render/still.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
@@ -38,8 +38,8 @@ RunConfig pictured_run(std::int64_t discs, std::uint64_t seed) {
     return config;
 }
 
-PictureConfig light_picture(std::uint64_t seed, Frame frame, const std::string& file) {
-    PictureConfig config;
+StillConfig light_picture(std::uint64_t seed, Frame frame, const std::string& file) {
+    StillConfig config;
     config.sources = {simulated(pictured_run(48, seed))};
     config.appearance.frames = {frame};
     config.appearance.theme = light_theme();
@@ -56,14 +56,14 @@ PictureConfig light_picture(std::uint64_t seed, Frame frame, const std::string& 
     return config;
 }
 
-void title(PictureConfig& config, const std::string& text) {
+void title(StillConfig& config, const std::string& text) {
     if (config.out.ends_with(".png")) config.appearance.title = text;
 }
 
 void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
     const Snapshot s = simulated(pictured_run(28, seed)).open()(20.13);
     // The disc nearest to a place where its arrows have room, right of C.
-    const FrameAt at(s, Frame::m);
+    const FrameTransform at(s, Frame::m);
     std::size_t chosen = 0;
     double nearest = never;
     for (std::size_t i = 0; i < s.size(); ++i) {
@@ -72,9 +72,9 @@ void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
         nearest = dot(away, away);
         chosen = i;
     }
-    Canvas canvas(Size{1500, 560}, *picture_format(file));
+    Canvas canvas(Size{1500, 560}, *image_format(file));
     draw_frame_diagram(canvas, light_theme(), s, chosen);
-    write_picture(file, canvas.finish());
+    write_image(file, canvas.finish());
 } catch (const DrawFailure& failure) {
     throw Failure(failure.what());
 }
@@ -91,21 +91,21 @@ static FigurePlan plan_figure_2a(const PaperSettings& settings) {
     return picture_plan("figure_2a",
                         "Figure 2a: 48 discs in the M-frame at swirl 50.3, pinned and loose.",
                         [seed = settings.seed](const std::string& file) {
-                            PictureConfig config = light_picture(seed, Frame::m, file);
+                            StillConfig config = light_picture(seed, Frame::m, file);
                             config.appearance.coloring = Coloring::pinned;
                             config.appearance.angles = true;
                             config.appearance.slice = 0.75 * pi;
                             title(config, "Pinned and loose discs");
-                            make_picture(config);
+                            make_still(config);
                         });
 }
 
 static FigurePlan plan_figure_5a(const PaperSettings& settings) {
     return picture_plan("figure_5a", "Figure 5a: 48 discs in the lab frame at swirl 50.3.",
                         [seed = settings.seed](const std::string& file) {
-                            PictureConfig config = light_picture(seed, Frame::lab, file);
+                            StillConfig config = light_picture(seed, Frame::lab, file);
                             title(config, "The simulated discs");
-                            make_picture(config);
+                            make_still(config);
                         });
 }
 

@@ -180,11 +180,11 @@ double rotation_in(const PaperMovie& video) {
     const FrameSource& source = movie.sources.front();
     const double start = movie.start, periods = movie.frames * movie.pace / movie.frames_per_second;
     constexpr int samples = 64;  // per swirl
-    const Reel reel = source.open();
+    const Playback playback = source.open();
     const auto count = static_cast<int>(std::lround(periods * samples));
     double sum = 0.0;
     for (int k = 0; k < count; ++k)
-        sum += cluster_rotation(reel(start + (k + 0.5) / samples)).individual;
+        sum += cluster_rotation(playback(start + (k + 0.5) / samples)).individual;
     return sum / count * source.period / (2.0 * pi);
 }
 

@@ -10,7 +10,7 @@ namespace swirl {
 namespace {
 
 constexpr double rim_width = 0.35;  // disc radii
-constexpr int waves_of_a_texture = 14;
+constexpr int waves_per_texture = 14;
 
 struct Preset {
     const char* name;
@@ -18,7 +18,6 @@ struct Preset {
 };
 
 std::vector<Preset> presets() {
-    CameraSettings laboratory;
     CameraSettings phone;
     phone.size = {568, 520};
     phone.scale = 21.0;
@@ -60,7 +59,7 @@ std::vector<Preset> presets() {
     steel.noise = 3.0;
     steel.blur = 0.9;
     steel.exposure = 0.2;
-    return {{"laboratory", laboratory}, {"phone", phone}, {"bad", bad}, {"steel", steel}};
+    return {{"laboratory", {}}, {"phone", phone}, {"bad", bad}, {"steel", steel}};
 }
 
 Rotation product(const Rotation& a, const Rotation& b) {
@@ -71,12 +70,13 @@ Rotation product(const Rotation& a, const Rotation& b) {
     return c;
 }
 
-/// Nearly normal, with variance 1: the sum of four uniform numbers.
+/// Approximately normal with variance 1: the sum of four uniform numbers.
 double nearly_normal(Random& random) {
     const std::uint64_t bits = random.bits();
     double sum = 0.0;
     for (int k = 0; k < 4; ++k) sum += static_cast<double>((bits >> (16 * k)) & 0xffff);
-    return (sum / 65536.0 - 2.0) * 1.7320508;
+    constexpr double root_3 = 1.7320508;  // 1 over the standard deviation of the sum
+    return (sum / 65536.0 - 2.0) * root_3;
 }
 
 }  // namespace
@@ -107,14 +107,14 @@ CameraView::CameraView(const CameraSettings& settings)
     grain_.resize(pixels);
     for (float& g : grain_) g = static_cast<float>(nearly_normal(random_));
     exposed_ = grain_;
-    blur(exposed_);  // grain of a pixel's size would be noise
+    blur(exposed_);  // unblurred grain of one pixel would be noise
     grain_ = exposed_;
-    places_.resize(pixels);
+    positions_.resize(pixels);
     std::size_t at = 0;
     for (int row = 0; row < settings.size.height; ++row)
         for (int column = 0; column < settings.size.width; ++column)
-            places_[at++] = middle_ + in_plane(undistorted({double(column), double(row)}));
-    picture_.resize(pixels);
+            positions_[at++] = middle_ + in_plane(undistorted({double(column), double(row)}));
+    image_.resize(pixels);
 }
 
 Vec2 CameraView::undistorted(const Vec2& seen) const {
@@ -138,8 +138,9 @@ Vec2 CameraView::lean(const Vec2& ideal) const {
 }
 
 Vec2 CameraView::seen(const Vec2& ideal) const {
+    constexpr int iterations = 60;  // of a fixed point
     Vec2 p = ideal;
-    for (int k = 0; k < 60; ++k) p = p + (ideal - middle_ - in_plane(undistorted(p)));
+    for (int k = 0; k < iterations; ++k) p = p + (ideal - middle_ - in_plane(undistorted(p)));
     return p;
 }
 
@@ -147,16 +148,16 @@ Vec2 CameraView::ideal(const Vec2& lab) const {
     return centre_ + settings_.scale * Vec2{settings_.mirrored ? -lab.x : lab.x, -lab.y};
 }
 
-void CameraView::turn_discs(const Snapshot& s) {
+void CameraView::rotate_discs(const Snapshot& s) {
     const std::size_t known = orientations_.size();
     for (std::size_t i = known; i < s.size(); ++i) {
         const double azimuth = 2.0 * pi * random_.uniform(), turn = 2.0 * pi * random_.uniform();
         orientations_.push_back(
             rotation_by({turn * std::cos(azimuth), turn * std::sin(azimuth), 0.3 * turn}));
-        turned_.push_back({0.0, 0.0, 0.0});
+        rotation_.push_back({0.0, 0.0, 0.0});
         last_angle_.push_back(s.orientation(i));
         std::vector<Wave> waves;
-        for (int k = 0; k < waves_of_a_texture; ++k) {
+        for (int k = 0; k < waves_per_texture; ++k) {
             const Vec2 a = random_.in_disc(7.0), b = random_.in_disc(7.0);
             waves.push_back({{a.x, a.y, b.x}, 2.0 * pi * random_.uniform()});
         }
@@ -175,7 +176,7 @@ void CameraView::turn_discs(const Snapshot& s) {
             w[0] = -v.y / s.radius[i] * step;
             w[1] = v.x / s.radius[i] * step;
         }
-        turned_[i] = w;
+        rotation_[i] = w;
         orientations_[i] = product(rotation_by(w), orientations_[i]);
     }
 }
@@ -185,11 +186,11 @@ void CameraView::draw_background(const Vec2& container, double radius,
     const double inner = radius * settings_.scale, outer = inner + rim_width * settings_.scale;
     const double height = settings_.rim_height * settings_.scale;
     for (std::size_t k = 0; k < light.size(); ++k) {
-        const Vec2 d = places_[k] + height * lean(places_[k]) - container;
+        const Vec2 d = positions_[k] + height * lean(positions_[k]) - container;
         const double distance = std::sqrt(dot(d, d));
         double level = settings_.floor;
         if (distance > inner - 1.0) {
-            // The wall catches the lamp's light on one side.
+            // The wall is brighter on the side of the light.
             const double wall = settings_.rim * (1.0 + 0.3 * (d.x - d.y) / (1.42 * distance));
             const double in = std::clamp(distance - inner + 0.5, 0.0, 1.0);
             const double out = std::clamp(distance - outer + 0.5, 0.0, 1.0);
@@ -208,12 +209,12 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
     const int right = std::min(settings_.size.width - 1, static_cast<int>(around.x) + reach);
     const int top = std::max(0, static_cast<int>(around.y) - reach);
     const int bottom = std::min(settings_.size.height - 1, static_cast<int>(around.y) + reach);
-    // The lamp stands to the upper left; in the picture's axes y is down, here it is up.
+    // The light comes from the upper left. y points up here, and down in the image.
     constexpr double lx = -0.35, ly = 0.35, lz = 0.869;
     const Vec2 leaning = lean(centre);
     const double upright = 1.0 / std::sqrt(1.0 + dot(leaning, leaning));
     const double ex = upright * leaning.x, ey = -upright * leaning.y,
-                 ez = upright;  // to the camera
+                 ez = upright;  // direction to the camera
     const double half =
         std::sqrt((lx + ex) * (lx + ex) + (ly + ey) * (ly + ey) + (lz + ez) * (lz + ez));
     const double side = settings_.mirrored ? -1.0 : 1.0;
@@ -222,15 +223,15 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
             const std::size_t k =
                 static_cast<std::size_t>(row) * static_cast<std::size_t>(settings_.size.width) +
                 static_cast<std::size_t>(column);
-            const Vec2 d = places_[k] - centre;
-            // The line of sight passes the centre at that distance.
+            const Vec2 d = positions_[k] - centre;
+            // Distance of the line of sight from the disc's centre.
             const double along = d.x * ex - d.y * ey;
             const double distance = std::sqrt(std::max(0.0, dot(d, d) - along * along));
             const double cover = std::clamp(a - distance + 0.5, 0.0, 1.0);
             if (cover <= 0.0) continue;
             const double up = std::sqrt(std::max(0.0, a * a - distance * distance)) - along;
             const double nx = (d.x + up * ex) / a, ny = (up * ey - d.y) / a, nz = up * ez / a;
-            // Back to the disc's own axes: the transpose of its orientation.
+            // To the disc's axes: the inverse of its orientation is the transpose.
             const double mx = side * nx;
             const double ox = orientation[0] * mx + orientation[3] * ny + orientation[6] * nz;
             const double oy = orientation[1] * mx + orientation[4] * ny + orientation[7] * nz;
@@ -240,7 +241,7 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
                 for (const Wave& wave : textures_[i])
                     pattern += static_cast<double>(std::cos(static_cast<float>(
                         wave.k[0] * ox + wave.k[1] * oy + wave.k[2] * oz + wave.phase)));
-                pattern *= std::sqrt(2.0 / waves_of_a_texture);
+                pattern *= std::sqrt(2.0 / waves_per_texture);
             }
             const double albedo = settings_.disc * (1.0 + settings_.texture * 0.6 * pattern);
             const double lit =
@@ -254,7 +255,7 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
         }
 }
 
-/// Seen at an angle, discs hide those behind them.
+/// Seen at an angle, discs hide those behind them: the most distant discs are drawn first.
 void CameraView::sort_by_distance(const Snapshot& s) {
     order_.resize(s.size());
     for (std::size_t i = 0; i < s.size(); ++i) order_[i] = i;
@@ -267,7 +268,7 @@ void CameraView::sort_by_distance(const Snapshot& s) {
                      [&](std::size_t a, std::size_t b) { return distance(a) > distance(b); });
 }
 
-/// With a Gaussian, first along rows, then along columns.
+/// Convolves with a Gaussian, first along rows, then along columns.
 void CameraView::blur(std::vector<float>& light) const {
     if (!(settings_.blur > 0.05)) return;
     const int reach = static_cast<int>(std::ceil(3.0 * settings_.blur));
@@ -281,12 +282,12 @@ void CameraView::blur(std::vector<float>& light) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
                static_cast<std::size_t>(column);
     };
-    std::vector<float> between(light.size(), 0.0f);
+    std::vector<float> blurred_rows(light.size(), 0.0f);
     for (int row = 0; row < height; ++row)
         for (int k = -reach; k <= reach; ++k) {
             const float weight = weights[static_cast<std::size_t>(k + reach)] / sum;
             for (int column = 0; column < width; ++column)
-                between[at(row, column)] +=
+                blurred_rows[at(row, column)] +=
                     weight * light[at(row, std::clamp(column + k, 0, width - 1))];
         }
     std::fill(light.begin(), light.end(), 0.0f);
@@ -295,14 +296,14 @@ void CameraView::blur(std::vector<float>& light) const {
             const float weight = weights[static_cast<std::size_t>(k + reach)] / sum;
             const int from = std::clamp(row + k, 0, height - 1);
             for (int column = 0; column < width; ++column)
-                light[at(row, column)] += weight * between[at(from, column)];
+                light[at(row, column)] += weight * blurred_rows[at(from, column)];
         }
 }
 
-const std::vector<std::uint8_t>& CameraView::take(const Snapshot& s) {
-    turn_discs(s);
+const std::vector<std::uint8_t>& CameraView::render(const Snapshot& s) {
+    rotate_discs(s);
     sort_by_distance(s);
-    // While the shutter is open discs move in straight lines; one exposure for each pixel of that.
+    // Discs move on straight lines during the exposure: one sample per pixel of their way.
     const double open =
         settings_.exposure * s.period / static_cast<double>(settings_.frames_per_period);
     double fastest = 0.0;
@@ -310,8 +311,8 @@ const std::vector<std::uint8_t>& CameraView::take(const Snapshot& s) {
         fastest = std::max(fastest, dot(s.velocity(i), s.velocity(i)));
     const int exposures =
         std::clamp(static_cast<int>(std::sqrt(fastest) * open * settings_.scale + 0.8), 1, 9);
-    exposed_.assign(picture_.size(), 0.0f);
-    light_.resize(picture_.size());
+    exposed_.assign(image_.size(), 0.0f);
+    light_.resize(image_.size());
     for (int e = 0; e < exposures; ++e) {
         const double after = open * ((e + 0.5) / exposures - 0.5);
         draw_background(ideal(s.container_centre + after * s.container_velocity),
@@ -326,7 +327,7 @@ const std::vector<std::uint8_t>& CameraView::take(const Snapshot& s) {
         const Vec2 spot{0.62 * settings_.size.width, 0.33 * settings_.size.height};
         const double wide = 0.12 * settings_.size.height;
         for (std::size_t k = 0; k < exposed_.size(); ++k) {
-            const Vec2 d = places_[k] - spot;
+            const Vec2 d = positions_[k] - spot;
             const double far = dot(d, d) / (2.0 * wide * wide);
             if (far < 12.0) exposed_[k] += static_cast<float>(settings_.glare * std::exp(-far));
         }
@@ -336,9 +337,9 @@ const std::vector<std::uint8_t>& CameraView::take(const Snapshot& s) {
     for (std::size_t k = 0; k < exposed_.size(); ++k) {
         const double level = illumination * static_cast<double>(exposed_[k]) +
                              settings_.noise * nearly_normal(random_);
-        picture_[k] = static_cast<std::uint8_t>(std::clamp(level + 0.5, 0.0, 255.0));
+        image_[k] = static_cast<std::uint8_t>(std::clamp(level + 0.5, 0.0, 255.0));
     }
-    return picture_;
+    return image_;
 }
 
 }  // namespace swirl

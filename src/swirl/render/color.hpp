@@ -1,10 +1,11 @@
-// Colours, and the two scales that turn a number into one.
+// Colours, and two scales from numbers to colours.
 //
-// All sets were chosen to be told apart with every common kind of colour vision: the categorical
-// hues are those of Okabe and Ito ("Color Universal Design", 2008); the sequential scale rises
-// evenly in lightness, as viridis does (van der Walt and Smith, 2015); the diverging scale goes
-// from blue to vermillion through the theme's neutral tone, the pair that red-green-blind people
-// separate best.
+// All sets can be distinguished with every common kind of colour vision:
+//   - the categorical hues are those of Okabe and Ito ("Color Universal Design", 2008);
+//   - the sequential scale rises evenly in lightness, as viridis does (van der Walt and Smith,
+//     2015);
+//   - the diverging scale goes from blue to vermillion through the theme's neutral colour. People
+//     with red-green colour blindness separate this pair best.
 #pragma once
 
 #include <array>
@@ -26,26 +27,26 @@ constexpr Color mix(const Color& a, const Color& b, double share_of_b) {
             a.blue + share_of_b * (b.blue - a.blue)};
 }
 
-/// How bright it looks, 0 to 1 (Rec. 709 weights on the gamma-encoded values: good enough to choose
-/// between dark and light ink).
+/// Perceived brightness from 0 to 1, with the weights of Rec. 709. They are applied to the
+/// gamma-encoded values, which is good enough to choose between dark and light ink.
 constexpr double brightness(const Color& c) {
     return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;
 }
 
-/// Okabe and Ito's hues, in an order in which neighbours differ also in lightness.
+/// Okabe and Ito's hues, ordered so that neighbours differ in lightness, too.
 inline constexpr std::array<Color, 7> distinct_colors{
     color_from_hex(0x56B4E9), color_from_hex(0xE69F00), color_from_hex(0x009E73),
     color_from_hex(0xCC79A7), color_from_hex(0xF0E442), color_from_hex(0x0072B2),
     color_from_hex(0xD55E00)};
 
-/// Interpolates evenly spaced stops; `u` is cut to 0…1, and a number that is none counts as 0.
+/// Interpolates evenly spaced stops. `u` is clamped to 0…1; NaN counts as 0.
 template <std::size_t count>
 constexpr Color interpolate(const std::array<Color, count>& stops, double u) {
     if (!(u > 0.0)) return stops.front();
     if (u >= 1.0) return stops.back();
-    const double place = u * static_cast<double>(count - 1);
-    const auto below = static_cast<std::size_t>(place);
-    return mix(stops[below], stops[below + 1], place - static_cast<double>(below));
+    const double position = u * static_cast<double>(count - 1);
+    const auto below = static_cast<std::size_t>(position);
+    return mix(stops[below], stops[below + 1], position - static_cast<double>(below));
 }
 
 /// 0…1 → dark blue, green, yellow.

@@ -19,38 +19,14 @@ extern char** environ;
 
 namespace swirl {
 
-Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string& missing,
-               const std::string& output) {
-    // A socket and not a pipe: writing to a dead reader then gives an error instead of a signal.
-    std::array<int, 2> ends{};
-    problems_ = ::memfd_create("ffmpeg-stderr", MFD_CLOEXEC);
-    if (problems_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        const std::string reason = std::strerror(errno);
-        if (problems_ >= 0) ::close(problems_);
-        throw DrawFailure("ffmpeg could not be started: " + reason + ".");
-    }
-    socket_ = ends[0];
-    const int roomy = 1 << 20;
-    ::setsockopt(ends[side == Side::input ? 0 : 1], SOL_SOCKET, SO_SNDBUF, &roomy, sizeof roomy);
+namespace {
 
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    const auto nothing = [&](int descriptor, int how) {
-        posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", how, 0);
-    };
-    if (side == Side::input) {
-        posix_spawn_file_actions_adddup2(&files, ends[1], STDIN_FILENO);
-        nothing(STDOUT_FILENO, O_WRONLY);
-    } else {
-        nothing(STDIN_FILENO, O_RDONLY);
-        posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
-    }
-    posix_spawn_file_actions_adddup2(&files, problems_, STDERR_FILENO);
-    if (!output.empty())
-        posix_spawn_file_actions_addopen(&files, output_number, output.c_str(), O_RDWR | O_NOFOLLOW,
-                                         0);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
+[[noreturn]] void throw_cannot_start(int error) {
+    throw DrawFailure(std::string("cannot start ffmpeg: ") + std::strerror(error) + ".");
+}
+
+/// A child in its own process group, with default handling of signals and none blocked.
+void set_up_process(posix_spawnattr_t& attributes) {
     sigset_t none, all;
     sigemptyset(&none);
     sigfillset(&all);
@@ -59,6 +35,44 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setflags(
         &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+}
+
+}  // namespace
+
+Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string& missing,
+               const std::string& output) {
+    // A socket instead of a pipe: writing to a dead reader gives an error instead of a signal.
+    std::array<int, 2> ends{};
+    errors_ = ::memfd_create("ffmpeg-stderr", MFD_CLOEXEC);
+    if (errors_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+        const int error = errno;
+        if (errors_ >= 0) ::close(errors_);
+        throw_cannot_start(error);
+    }
+    socket_ = ends[0];
+    const int buffer_size = 1 << 20;
+    ::setsockopt(ends[side == Side::input ? 0 : 1], SOL_SOCKET, SO_SNDBUF, &buffer_size,
+                 sizeof buffer_size);
+
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    const auto open_null = [&](int descriptor, int mode) {
+        posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", mode, 0);
+    };
+    if (side == Side::input) {
+        posix_spawn_file_actions_adddup2(&files, ends[1], STDIN_FILENO);
+        open_null(STDOUT_FILENO, O_WRONLY);
+    } else {
+        open_null(STDIN_FILENO, O_RDONLY);
+        posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
+    }
+    posix_spawn_file_actions_adddup2(&files, errors_, STDERR_FILENO);
+    if (!output.empty())
+        posix_spawn_file_actions_addopen(&files, output_number, output.c_str(), O_RDWR | O_NOFOLLOW,
+                                         0);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    set_up_process(attributes);
     std::string name = "ffmpeg";
     std::vector<char*> pointers{name.data()};
     for (std::string& argument : arguments) pointers.push_back(argument.data());
@@ -70,9 +84,9 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
     ::close(ends[1]);
     if (error == 0) return;
     ::close(socket_);
-    ::close(problems_);
+    ::close(errors_);
     if (error == ENOENT) throw DrawFailure(missing);
-    throw DrawFailure(std::string("ffmpeg could not be started: ") + std::strerror(error) + ".");
+    throw_cannot_start(error);
 }
 
 Ffmpeg::~Ffmpeg() {
@@ -80,7 +94,7 @@ Ffmpeg::~Ffmpeg() {
         ::kill(process_, SIGKILL);
         end();
     }
-    ::close(problems_);
+    ::close(errors_);
 }
 
 int Ffmpeg::end() {
@@ -93,28 +107,28 @@ int Ffmpeg::end() {
     return status;
 }
 
-std::string Ffmpeg::said() const {
+std::string Ffmpeg::error_output() const {
     std::array<char, 4096> text{};
-    const ssize_t count = ::pread(problems_, text.data(), text.size(), 0);
+    const ssize_t count = ::pread(errors_, text.data(), text.size(), 0);
     return std::string(text.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
 }
 
 std::string Ffmpeg::problem() const {
-    std::string line = said();
+    std::string line = error_output();
     line.resize(std::min(line.find_first_of("\r\n"), line.size()));
-    // "[libx264 @ 0x5581…] " tells nobody anything.
+    // The prefix "[libx264 @ 0x5581…] " is no information for the user.
     const std::size_t end = line.find("] ");
     if (line.starts_with('[') && line.find(" @ 0x") < end && end != line.npos)
         line.erase(0, end + 2);
     return line;
 }
 
-std::string Ffmpeg::how_it_ended(int status) const {
+std::string Ffmpeg::describe_end(int status) const {
     const std::string how = WIFSIGNALED(status)
                                 ? "was killed by signal " + std::to_string(WTERMSIG(status))
                                 : "ended with code " + std::to_string(WEXITSTATUS(status));
-    const std::string words = problem();
-    return words.empty() ? how + "." : how + " and said: " + words;
+    const std::string cause = problem();
+    return cause.empty() ? how + "." : how + " and printed: " + cause;
 }
 
 }  // namespace swirl

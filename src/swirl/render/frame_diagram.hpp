@@ -1,7 +1,8 @@
-// The drawing that explains the M-frame (paper, Fig. 1c): the dish in the lab with S, C and M; the
-// same dish in the M-frame, where the wall turns clockwise; and the two forces that the M-frame
-// brings: the centrifugal force, away from S everywhere, and the Coriolis force, to the right of a
-// disc's velocity.
+// The diagram that explains the M-frame (paper, Fig. 1c), in three parts:
+//   - the container in the lab, with S, C and M;
+//   - the same container in the M-frame, where the wall turns clockwise;
+//   - the two inertial forces of the M-frame. The centrifugal force points away from S. The
+//     Coriolis force points to the right of a disc's velocity.
 #pragma once
 
 #include "swirl/physics/snapshot.hpp"
@@ -10,8 +11,8 @@
 
 namespace swirl {
 
-/// `now` gives the container's size and place and the period; of its discs only `disc` is drawn, in
-/// the third part, with its velocity in the M-frame and its Coriolis force.
+/// `now` gives the period and the container's size and position. Of its discs only number `disc`
+/// is drawn: in the third part, with its velocity in the M-frame and its Coriolis force.
 void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot& now,
                         std::size_t disc);
 

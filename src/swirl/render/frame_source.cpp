@@ -23,23 +23,24 @@ namespace swirl {
 
 namespace {
 
-/// A number as people write it, with the true minus sign.
+/// The shortest form of a number, with a typographic minus sign.
 std::string plain(double value) {
     const std::string text = fmt::format("{:g}", std::abs(value));
     return value < 0.0 ? "−" + text : text;
 }
 
-/// To four digits: a caption, not a result.
+/// Rounds to four digits, which are enough for a caption.
 double rounded(double value) {
     const double scale = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value) + 1e-300)));
     return value == 0.0 ? 0.0 : std::round(value * scale) / scale;
 }
 
-/// Points along the path of C; the circle gets enough of them to look round.
+/// Points along the path of C. An arc gets enough of them to look round.
 std::vector<Vec2> outline(const ContainerPath& path) {
     std::vector<Vec2> points;
     for (const Segment& segment : path.segments) {
-        const int parts = segment.turning == 0.0 ? 1 : 180;
+        constexpr int points_per_arc = 180;
+        const int parts = segment.turning == 0.0 ? 1 : points_per_arc;
         for (int k = 0; k < parts; ++k)
             points.push_back(
                 segment.position_at(segment.begin + (segment.end - segment.begin) * k / parts));
@@ -47,7 +48,7 @@ std::vector<Vec2> outline(const ContainerPath& path) {
     return points;
 }
 
-/// "$μ_{d}$": a parameter's symbol, as labels are written (render/label.hpp).
+/// "$μ_{d}$": a parameter's symbol in the notation of render/label.hpp.
 std::string symbol_of(const char* name) {
     const std::string symbol = find_parameter(name)->symbol;
     const std::size_t subscript = symbol.find('_');
@@ -59,7 +60,7 @@ std::string caption_of(const RunConfig& config) {
     return fmt::format("{} {}{}", config.discs, body_word(config), config.discs == 1 ? "" : "s");
 }
 
-/// Nothing where it is of another version, or there is nothing.
+/// Nothing if the text is empty or comes from another version.
 std::optional<RunConfig> config_in(const std::string& parameters) try {
     if (parameters.empty()) return std::nullopt;
     return resolve(parameters_in(parameters));
@@ -67,45 +68,78 @@ std::optional<RunConfig> config_in(const std::string& parameters) try {
     return std::nullopt;
 }
 
-/// Spheres, followed from event to event, so that it is known how each is turned.
-class FollowedSpheres {
+/// A clock within a period and the number of whole periods.
+struct Time {
+    std::int64_t periods;
+    double clock;
+
+    Time(double in_periods, double period)
+        : periods(static_cast<std::int64_t>(std::floor(in_periods))),
+          clock((in_periods - std::floor(in_periods)) * period) {}
+};
+
+/// A pass over a simulation.
+class SimulatedPlayback {
   public:
-    FollowedSpheres(const RunConfig& config, const std::atomic<bool>* stop)
-        : path_(make_path(config)),
+    SimulatedPlayback(const RunConfig& config, const std::atomic<bool>* stop)
+        : stop_(stop),
+          path_(make_path(config)),
           simulation_(make_initial_state(config, stop), Progress{}, selected_tuning(stop)),
-          seen_(simulation_.snapshot()),
-          stop_(stop) {
-        seen_.turned.assign(seen_.size(), {});
-        if (!stopped()) next_ = simulation_.step();
+          // In periods: a few hundred thousand events.
+          step_(3000.0 / static_cast<double>(config.discs)) {
+        throw_if_stopped();
+        if (config.shape() == Shape::disc) return;
+        spheres_ = simulation_.snapshot();
+        spheres_->turned.assign(spheres_->size(), {});
+        next_ = simulation_.step();
     }
 
-    Snapshot at(double periods) {
-        const double whole = std::floor(periods);
-        const auto period = static_cast<std::int64_t>(whole);
-        const double clock = (periods - whole) * path_.period;
-        for (int k = 0; next_.periods < period || (next_.periods == period && next_.clock <= clock);
+    Snapshot at(double periods) { return spheres_ ? spheres_at(periods) : discs_at(periods); }
+
+  private:
+    void throw_if_stopped() const {
+        if (stop_ && stop_->load(std::memory_order_relaxed))
+            throw Interrupted("stopped before the time that was to be shown.");
+    }
+
+    Snapshot discs_at(double periods) {
+        const auto advance_to = [&](double target) {
+            const Time time(target, path_.period);
+            simulation_.advance_to(time.periods, time.clock);
+            throw_if_stopped();
+        };
+        const double now =
+            static_cast<double>(simulation_.periods()) + simulation_.clock() / path_.period;
+        for (double k = 1.0; now + k * step_ < periods; ++k) advance_to(now + k * step_);
+        advance_to(periods);
+        return simulation_.snapshot();
+    }
+
+    /// Follows spheres from event to event, because their orientations must be integrated.
+    Snapshot spheres_at(double periods) {
+        constexpr int events_between_checks = 4096;
+        const Time time(periods, path_.period);
+        for (int k = 0; next_.periods < time.periods ||
+                        (next_.periods == time.periods && next_.clock <= time.clock);
              ++k) {
-            if (k % 4096 == 0 && stopped())
-                throw Interrupted("Stopped before the moment that was to be shown.");
-            simulation_.refresh(seen_, next_);
+            if (k % events_between_checks == 0) throw_if_stopped();
+            simulation_.refresh(*spheres_, next_);
             next_ = simulation_.step();
         }
-        Snapshot then = seen_;
-        then.clock = clock;
-        const Segment& segment = path_.segment_at(clock);
-        then.container_centre = segment.position_at(clock);
-        then.container_velocity = segment.velocity_at(clock);
+        Snapshot then = *spheres_;
+        then.clock = time.clock;
+        const Segment& segment = path_.segment_at(time.clock);
+        then.container_centre = segment.position_at(time.clock);
+        then.container_velocity = segment.velocity_at(time.clock);
         return then.up_to_date();
     }
 
-  private:
-    bool stopped() const { return stop_ && stop_->load(std::memory_order_relaxed); }
-
+    const std::atomic<bool>* stop_;
     ContainerPath path_;
     Simulation simulation_;
-    Snapshot seen_;  // before next_
+    double step_;                      // between checks of `stop_`
+    std::optional<Snapshot> spheres_;  // the state before next_; empty for discs
     Event next_{};
-    const std::atomic<bool>* stop_;
 };
 
 }  // namespace
@@ -135,48 +169,23 @@ std::vector<std::string> parameter_labels(const RunConfig& config) {
 
 FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
     FrameSource source;
-    const ContainerPath path = make_path(config);
-    source.open = [config, stop]() -> Reel {
-        const auto reject_stopped = [stop] {
-            if (stop && stop->load(std::memory_order_relaxed))
-                throw Interrupted("Stopped before the moment that was to be shown.");
-        };
-        if (config.shape() != Shape::disc) {
-            const auto spheres = std::make_shared<FollowedSpheres>(config, stop);
-            reject_stopped();
-            return [spheres](double periods) { return spheres->at(periods); };
-        }
-        auto simulation = std::make_shared<Simulation>(make_initial_state(config, stop), Progress{},
-                                                       selected_tuning(stop));
-        reject_stopped();
-        // A few hundred thousand events at once.
-        const double step = 3000.0 / static_cast<double>(config.discs);
-        return [=, period = config.period](double periods) {
-            const auto advance_to = [&](double moment) {
-                const double whole = std::floor(moment);
-                simulation->advance_to(static_cast<std::int64_t>(whole), (moment - whole) * period);
-                reject_stopped();
-            };
-            const double now =
-                static_cast<double>(simulation->periods()) + simulation->clock() / period;
-            for (double k = 1.0; now + k * step < periods; ++k) advance_to(now + k * step);
-            advance_to(periods);
-            return simulation->snapshot();
-        };
+    source.open = [config, stop]() -> Playback {
+        const auto playback = std::make_shared<SimulatedPlayback>(config, stop);
+        return [playback](double periods) { return playback->at(periods); };
     };
-    source.path = outline(path);
+    source.path = outline(make_path(config));
     source.container_radius = config.container_radius;
     source.amplitude = config.amplitude;
     source.period = config.period;
     source.caption = caption_of(config);
     source.parameters = parameter_labels(config);
-    source.knows_slip = config.floor;
+    source.has_slip = config.floor;
     return source;
 }
 
 FrameSource rolling(const RollingBall& ball, double amplitude, double period) {
     FrameSource source;
-    source.open = [=]() -> Reel {
+    source.open = [=]() -> Playback {
         return
             [=](double periods) { return snapshot_at(ball, amplitude, period, periods * period); };
     };
@@ -199,19 +208,20 @@ double periods_of(const Snapshot& s) {
     return static_cast<double>(s.periods) + (s.period > 0.0 ? s.clock / s.period : 0.0);
 }
 
-/// A share u of the way on the shorter arc from p to q, as good as evenly where it is short.
-Quaternion between(const Quaternion& p, const Quaternion& q, double u) {
-    const double same = p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z < 0.0 ? -1.0 : 1.0;
-    const auto mixed = [&](double a, double b) { return a + u * (same * b - a); };
+/// The rotation at a share u of the shorter arc from p to q. Linear interpolation is good enough
+/// for short arcs.
+Quaternion interpolated(const Quaternion& p, const Quaternion& q, double u) {
+    const double sign = p.w * q.w + p.x * q.x + p.y * q.y + p.z * q.z < 0.0 ? -1.0 : 1.0;
+    const auto mixed = [&](double a, double b) { return a + u * (sign * b - a); };
     return unit({mixed(p.w, q.w), mixed(p.x, q.x), mixed(p.y, q.y), mixed(p.z, q.z)});
 }
 
-/// Between `a` and `b`, a share u of the way: straight lines.
-Snapshot between(const Snapshot& a, const Snapshot& b, double u, double periods) {
+/// The state at a share u of the straight lines from `a` to `b`.
+Snapshot interpolated(const Snapshot& a, const Snapshot& b, double u, double periods) {
     Snapshot s = a;
-    const double whole = std::floor(periods);
-    s.periods = static_cast<std::int64_t>(whole);
-    s.clock = (periods - whole) * s.period;
+    const Time time(periods, s.period);
+    s.periods = time.periods;
+    s.clock = time.clock;
     s.container_centre = a.container_centre + u * (b.container_centre - a.container_centre);
     const bool same = a.size() == b.size();
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -221,16 +231,17 @@ Snapshot between(const Snapshot& a, const Snapshot& b, double u, double periods)
         const double from = a.orientation(i);
         s.angle[i] = same ? from + u * (b.orientation(i) - from) : from;
         if (same && !a.turned.empty() && !b.turned.empty())
-            s.turned[i] = between(a.quaternion(i), b.quaternion(i), u);
+            s.turned[i] = interpolated(a.quaternion(i), b.quaternion(i), u);
         s.held_at[i] = s.clock;
     }
     return s;
 }
 
-/// Two neighbouring frames of a recording, moved forwards.
-class Projector {
+/// A pass over a recording: two consecutive frames, moved forwards.
+class RecordedPlayback {
   public:
-    explicit Projector(const SnapshotSeries& series) : series_(series), left_(series.frame(0)) {
+    explicit RecordedPlayback(const SnapshotSeries& series)
+        : series_(series), left_(series.frame(0)) {
         right_ = series_.frames > 1 ? series_.frame(1) : left_;
     }
 
@@ -241,10 +252,11 @@ class Projector {
         }
         const double from = periods_of(left_), step = periods_of(right_) - from;
         const double share = step > 0.0 ? (periods - from) / step : 0.0;
-        // On a frame, to the last bits: exactly that frame.
-        if (share < 1e-9) return left_;
-        if (share > 1.0 - 1e-9) return right_;
-        return between(left_, right_, share, periods);
+        // At the time of a frame up to rounding, return exactly that frame.
+        constexpr double rounding = 1e-9;
+        if (share < rounding) return left_;
+        if (share > 1.0 - rounding) return right_;
+        return interpolated(left_, right_, share, periods);
     }
 
   private:
@@ -256,12 +268,12 @@ class Projector {
 }  // namespace
 
 FrameSource recorded(const SnapshotSeries& series, const std::string& caption) {
-    if (series.frames == 0) throw Failure("There is not one frame in " + caption + ".");
+    if (series.frames == 0) throw Failure(fmt::format("'{}' has no frames.", caption));
     FrameSource source;
     const Snapshot first = series.frame(0), last = series.frame(series.frames - 1);
-    source.open = [series]() -> Reel {
-        auto projector = std::make_shared<Projector>(series);
-        return [projector](double periods) { return projector->at(periods); };
+    source.open = [series]() -> Playback {
+        const auto playback = std::make_shared<RecordedPlayback>(series);
+        return [playback](double periods) { return playback->at(periods); };
     };
     source.container_radius = first.container_radius;
     source.amplitude = std::max(series.reach - first.container_radius, 0.0);
@@ -274,21 +286,21 @@ FrameSource recorded(const SnapshotSeries& series, const std::string& caption) {
                          fmt::format("{} recorded frames", series.frames)};
     source.from = periods_of(first);
     source.to = periods_of(last);
-    const auto known = [](const std::vector<double>& values) {
+    const auto has_values = [](const std::vector<double>& values) {
         return std::none_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
     };
     if (*source.to > *source.from)
-        source.frames_per_swirl =
+        source.frames_per_period =
             static_cast<double>(series.frames - 1) / (*source.to - *source.from);
-    source.knows_spin = known(first.spin);
-    source.knows_orientation = known(first.angle);
-    source.knows_slip = first.are_spheres() && first.on_floor;
+    source.has_spin = has_values(first.spin);
+    source.has_orientation = has_values(first.angle);
+    source.has_slip = first.are_spheres() && first.on_floor;
     return source;
 }
 
 namespace {
 
-/// When the frames of a camera were taken, in swirls.
+/// Numbers, times (in periods) and disc IDs of a camera's frames.
 class FrameTable {
   public:
     FrameTable(const Tracks& tracks, const TrackScale& scale) {
@@ -315,8 +327,8 @@ class FrameTable {
     std::vector<double> times_;
 };
 
-/// Where the camera's pixels lie in the plane of the discs.
-Backdrop placed(const TrackScale& scale, bool y_down) {
+/// Where the camera's pixels are in the plane of the discs.
+Backdrop backdrop_position(const TrackScale& scale, bool y_down) {
     const double unit = 1.0 / scale.pixels_per_radius;
     Backdrop backdrop;
     backdrop.along_x = {scale.clockwise ? -unit : unit, 0.0};
@@ -329,34 +341,33 @@ Backdrop placed(const TrackScale& scale, bool y_down) {
 }  // namespace
 
 FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
-                    const std::string& pictures, std::int64_t first_picture) {
+                    const std::string& images, std::int64_t first_image) {
     const auto table = std::make_shared<const FrameTable>(tracks, scale);
-    const Backdrop place = placed(scale, tracks.y_down);
+    const Backdrop position = backdrop_position(scale, tracks.y_down);
     const SnapshotSeries series = series_of(std::move(tracks), scale);
     FrameSource source = recorded(series, caption);
-    source.frames_per_swirl = scale.frames_per_time * scale.period;
-    if (series.same_discs()) source.open_between = source.open;
-    if (!series.same_discs() || !pictures.empty())
-        source.open = [series, table]() -> Reel {
+    source.frames_per_period = scale.frames_per_time * scale.period;
+    if (series.same_discs()) source.open_interpolated = source.open;
+    if (!series.same_discs() || !images.empty())
+        source.open = [series, table]() -> Playback {
             return
                 [series, table](double periods) { return series.frame(table->nearest(periods)); };
         };
     if (!series.same_discs())
         source.ids = [table](double periods) { return table->ids[table->nearest(periods)]; };
-    if (pictures.empty()) return source;
+    if (images.empty()) return source;
 
-    const NumberedFrames video(pictures);
+    const NumberedFrames video(images);
     for (const std::int64_t number : {table->numbers.front(), table->numbers.back()})
-        if (!video.may_have(number + first_picture))
-            throw Failure(fmt::format(
-                "There is no picture '{}', which frame {} of the tracks would be drawn over.",
-                video.name(number + first_picture), number));
-    source.open_backdrop = [=]() -> BackdropReel {
-        const auto reel = std::make_shared<NumberedFrames>(pictures);
+        if (!video.has_file(number + first_image))
+            throw Failure(fmt::format("no such camera image: '{}', for frame {} of the tracks.",
+                                      video.name(number + first_image), number));
+    source.open_backdrop = [=]() -> BackdropPlayback {
+        const auto playback = std::make_shared<NumberedFrames>(images);
         return [=](double periods) {
-            Backdrop backdrop = place;
+            Backdrop backdrop = position;
             const std::int64_t number = table->numbers[table->nearest(periods)];
-            backdrop.image = reel->picture(number + first_picture);
+            backdrop.image = playback->image(number + first_image);
             return backdrop;
         };
     };
@@ -365,10 +376,10 @@ FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& c
 
 FrameSource recorded(const std::string& file) try {
     auto reader = std::make_shared<TrajectoryReader>(file);
-    if (reader->frames() == 0) throw Failure("There is not one frame in " + file + ".");
+    if (reader->frames() == 0) throw Failure(fmt::format("'{}' has no frames.", file));
     const std::string name = std::filesystem::path(file).filename().string();
     FrameSource source = recorded(series_of(reader), escaped(name));
-    // What the file says of its run is what a film of the run itself would say.
+    // With the parameters of its run, the recording is titled like the run itself.
     if (const auto config = config_in(reader->provenance("parameters"))) {
         source.caption = caption_of(*config);
         const std::string frames = source.parameters.back();

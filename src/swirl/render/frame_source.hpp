@@ -1,5 +1,6 @@
-// What can be filmed: the states of a dish at any moments, asked for in order of time. From the
-// engine, from a recorded file, or from the minimal model of one rolling ball.
+// Sources of what images and movies show: the states of a container at arbitrary times, asked for
+// in order. They come from the engine, from a recording, or from the minimal model of one rolling
+// ball.
 #pragma once
 
 #include <atomic>
@@ -19,53 +20,52 @@
 
 namespace swirl {
 
-/// One pass over it. A second pass is a second call of open().
-using Reel = std::function<Snapshot(double periods)>;
-/// One pass over what a camera saw.
-using BackdropReel = std::function<Backdrop(double periods)>;
+/// One pass over a source: returns the state at a time in periods. Times must not decrease.
+using Playback = std::function<Snapshot(double periods)>;
+/// One pass over the images of a camera.
+using BackdropPlayback = std::function<Backdrop(double periods)>;
 
 struct FrameSource {
-    /// Starts a pass; the times asked of one reel must not decrease.
-    std::function<Reel()> open;
-    std::vector<Vec2> path;  // of C in the lab frame; empty if not known
+    /// Starts a pass. Passes are independent of each other.
+    std::function<Playback()> open;
+    std::vector<Vec2> path;  // of C in the lab frame; empty if it is not known
     double container_radius = 0.0, amplitude = 0.0, period = 0.0;
     std::string caption;                  // "48 discs"
-    std::vector<std::string> parameters;  // for the parameter line (render/label.hpp)
-    /// Swirls covered by a recording; nothing: from 0 without end.
+    std::vector<std::string> parameters;  // for the list of parameters (render/label.hpp)
+    /// The range of a recording in periods. Empty: from 0 on, without end.
     std::optional<double> from = {}, to = {};
-    /// What the recording tells of the discs.
-    bool knows_spin = true, knows_orientation = true;
-    bool knows_slip = false;  // spheres on a floor
-    /// Where discs come and go: their names at that moment, ascending. Empty: they are the same
-    /// all the time.
+    /// The quantities that the states hold.
+    bool has_spin = true, has_orientation = true;
+    bool has_slip = false;  // of spheres on a floor
+    /// If discs come and go: their IDs at a time, ascending. Empty: every state has the same discs.
     std::function<std::vector<std::int64_t>(double periods)> ids = {};
-    /// Where open() shows nothing but recorded frames, though the discs between them are known: a
-    /// pass that has those too. Empty: open() does.
-    std::function<Reel()> open_between = {};
-    /// Where there are pictures of a camera: starts a pass over them.
-    std::function<BackdropReel()> open_backdrop = {};
-    double frames_per_swirl = 0.0;  // of a recording; 0: as many as one likes
+    /// Starts a pass with interpolated states, if open() returns recorded frames only but discs can
+    /// be followed between them. Empty: use open().
+    std::function<Playback()> open_interpolated = {};
+    /// Starts a pass over camera images. Empty: there are none.
+    std::function<BackdropPlayback()> open_backdrop = {};
+    double frames_per_period = 0.0;  // of a recording; 0: any number
 };
 
-/// Exact states at exact times.
+/// Exact states at exact times. The passes throw Interrupted after `stop` was set.
 FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop = nullptr);
 
-/// The paper's minimal model (physics/rolling_ball.hpp) in the paper's container or another one.
+/// The paper's minimal model (physics/rolling_ball.hpp) in a container on a circular path.
 FrameSource rolling(const RollingBall& ball, double amplitude, double period);
 
-/// Frames that were recorded, by us or by a camera. Between two of them discs move in straight
-/// lines. Swirls count from the beginning of the run. Throws Failure if there is not one frame.
+/// Recorded frames. Between two frames discs move on straight lines. Periods count from the
+/// beginning of the run. Throws Failure if there is no frame.
 FrameSource recorded(const SnapshotSeries& series, const std::string& caption);
-/// A trajectory file of ours; throws Failure.
+/// A trajectory file of this program. Throws Failure.
 FrameSource recorded(const std::string& file);
 
-/// Tracks of a camera or of another program. Where discs come and go, or over a camera's pictures,
-/// the nearest frame is shown as it is. `pictures` is a name as for render/numbered_frames.hpp, in
-/// which frame 0 has the number `first_picture`; empty: none. Throws Failure.
+/// Tracks of a camera or of another program. If discs come and go, or over camera images, the
+/// nearest frame is shown without interpolation. `images` is a name as in numbered_frames.hpp, in
+/// which frame 0 has number `first_image`; empty: no images. Throws Failure.
 FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
-                    const std::string& pictures = "", std::int64_t first_picture = 0);
+                    const std::string& images = "", std::int64_t first_image = 0);
 
-/// "$N$ = 48", "$μ_{d}$ = 1", … in the order in which the paper names them.
+/// "$N$ = 48", "$μ_{d}$ = 1", … in the order of the paper.
 std::vector<std::string> parameter_labels(const RunConfig& config);
 
 }  // namespace swirl

@@ -8,7 +8,7 @@ Image::Image(Size size)
     : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, size.width, size.height)) {
     if (cairo_surface_status(surface_) == CAIRO_STATUS_SUCCESS) return;
     cairo_surface_destroy(surface_);
-    throw DrawFailure("There is no memory for a picture of " + std::to_string(size.width) + "x" +
+    throw DrawFailure("not enough memory for an image of " + std::to_string(size.width) + "x" +
                       std::to_string(size.height) + " pixels.");
 }
 
@@ -17,10 +17,10 @@ std::shared_ptr<const Image> Image::from_png(const std::string& path) {
     const cairo_status_t status = cairo_surface_status(surface);
     if (status == CAIRO_STATUS_SUCCESS) return std::shared_ptr<const Image>(new Image(surface));
     cairo_surface_destroy(surface);
-    const std::string reason = status == CAIRO_STATUS_FILE_NOT_FOUND ? "it is not there"
-                               : status == CAIRO_STATUS_READ_ERROR   ? "it is no complete PNG file"
+    const std::string reason = status == CAIRO_STATUS_FILE_NOT_FOUND ? "no such file"
+                               : status == CAIRO_STATUS_READ_ERROR ? "it is not a complete PNG file"
                                                                    : cairo_status_to_string(status);
-    throw DrawFailure("The picture " + path + " cannot be read: " + reason + ".");
+    throw DrawFailure("cannot read the image '" + path + "': " + reason + ".");
 }
 
 Size Image::size() const {

@@ -1,4 +1,4 @@
-// A picture that was taken, to be drawn beneath what is known of the discs.
+// A camera image, drawn beneath the discs.
 #pragma once
 
 #include <cairo.h>
@@ -14,18 +14,18 @@ namespace swirl {
 
 class Image {
   public:
-    /// Black pixels.
+    /// Black pixels. Throws DrawFailure.
     explicit Image(Size size);
-    /// Of any depth, grey or in colour. Throws DrawFailure.
+    /// Reads a PNG file of any bit depth, grey or in colour. Throws DrawFailure.
     static std::shared_ptr<const Image> from_png(const std::string& path);
     ~Image() { cairo_surface_destroy(surface_); }
     Image(const Image&) = delete;
     Image& operator=(const Image&) = delete;
 
     Size size() const;
-    /// May be read by several threads at a time.
+    /// Several threads may read it at a time.
     cairo_surface_t* surface() const { return surface_; }
-    /// To fill it: red, green and blue of each pixel, rows from the top.
+    /// Sets all pixels from red, green and blue of each, rows from the top.
     void fill(const std::uint8_t* rgb);
 
   private:
@@ -33,8 +33,8 @@ class Image {
     cairo_surface_t* surface_;
 };
 
-/// A picture laid into the plane of the discs: the middle of its pixel in column x and row y lies
-/// at origin + x along_x + y along_y.
+/// An image in the plane of the discs: the centre of the pixel in column x and row y is at
+/// origin + x along_x + y along_y.
 struct Backdrop {
     std::shared_ptr<const Image> image;
     Vec2 origin{0.0, 0.0}, along_x{1.0, 0.0}, along_y{0.0, -1.0};

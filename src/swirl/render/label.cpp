@@ -7,7 +7,7 @@ namespace swirl {
 
 namespace {
 
-/// A stretch of text in one face at one size and height.
+/// A piece of text in one font face, size and height.
 struct Run {
     std::string text;
     bool italic = false;
@@ -15,7 +15,7 @@ struct Run {
 };
 
 bool is_symbol(unsigned char c) {
-    // Letters, and every byte of a multi-byte character (Greek).
+    // ASCII letters, and every byte of a multi-byte character (Greek letters).
     return c >= 0x80 || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
@@ -52,7 +52,7 @@ constexpr const char* text_face = "Inter";
 constexpr const char* symbol_face = "STIX";
 constexpr const char* complete_face = "DejaVu Sans";
 
-/// Whether the face now selected has a glyph for every character.
+/// True if the selected face has a glyph for every character.
 bool has_all_glyphs(cairo_t* cairo, const std::string& text) {
     cairo_glyph_t* glyphs = nullptr;
     int count = 0;
@@ -69,8 +69,10 @@ bool has_all_glyphs(cairo_t* cairo, const std::string& text) {
 void select_face(cairo_t* cairo, const Run& run, const LabelStyle& style) {
     const auto slant = run.italic ? CAIRO_FONT_SLANT_ITALIC : CAIRO_FONT_SLANT_NORMAL;
     const auto weight = style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL;
-    // Times-like symbols look small beside a sans-serif of the same size.
-    const double size = style.size * (run.italic ? 1.12 : 1.0) * (run.level != 0 ? 0.72 : 1.0);
+    // Symbols in a Times-like face look small next to a sans-serif face of the same size.
+    constexpr double symbol_scale = 1.12, subscript_scale = 0.72;
+    const double size =
+        style.size * (run.italic ? symbol_scale : 1.0) * (run.level != 0 ? subscript_scale : 1.0);
     cairo_select_font_face(cairo, run.italic ? symbol_face : text_face, slant, weight);
     cairo_set_font_size(cairo, size);
     if (!has_all_glyphs(cairo, run.text))
@@ -105,7 +107,7 @@ std::vector<Run> runs_of(std::string_view text, const LabelStyle& style) {
     return single;
 }
 
-/// Runs `visit(run, x)` for each run with its face selected, from `x` on.
+/// Calls visit(run, left) for each run, with its face selected; the first starts at `x`.
 template <class Visit>
 void for_each_run(cairo_t* cairo, const std::vector<Run>& runs, const LabelStyle& style, double x,
                   Visit&& visit) {
@@ -113,10 +115,10 @@ void for_each_run(cairo_t* cairo, const std::vector<Run>& runs, const LabelStyle
         const double advance = advance_of(cairo, run, style);
         double left = x;
         if (style.even_digits && is_digit(run)) {
-            // Narrow digits in the middle of their place.
-            cairo_text_extents_t own;
-            cairo_text_extents(cairo, run.text.c_str(), &own);
-            left += 0.5 * (advance - own.x_advance);
+            // A narrow digit is centred within the common width.
+            cairo_text_extents_t extents;
+            cairo_text_extents(cairo, run.text.c_str(), &extents);
+            left += 0.5 * (advance - extents.x_advance);
         }
         visit(run, left);
         x += advance;
@@ -131,17 +133,17 @@ double label_width(const Canvas& canvas, std::string_view text, const LabelStyle
     return width;
 }
 
-double draw_label(const Canvas& canvas, std::string_view text, Vec2 place,
+double draw_label(const Canvas& canvas, std::string_view text, Vec2 position,
                   const LabelStyle& style) {
     cairo_t* cairo = canvas.cairo();
     const std::vector<Run> runs = runs_of(text, style);
     const double width = label_width(canvas, text, style);
-    double left = place.x;
+    double left = position.x;
     if (style.align == Align::center) left -= 0.5 * width;
     if (style.align == Align::right) left -= width;
     const auto move_to_run = [&](const Run& run, double x) {
         const double lift = run.level * (run.level > 0 ? 0.38 : 0.22) * style.size;
-        cairo_move_to(cairo, x, place.y - lift);
+        cairo_move_to(cairo, x, position.y - lift);
     };
     if (style.halo) {
         for_each_run(cairo, runs, style, left, [&](const Run& run, double x) {

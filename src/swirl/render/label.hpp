@@ -1,10 +1,9 @@
-// Text with a little mathematics in it. Plain text is set upright; what stands between two dollar
-// signs is set in italics, as symbols are, and there _{…} lowers and ^{…} raises:
+// Text with a little mathematics. Plain text is upright. Between two dollar signs letters are
+// italic, _{…} lowers and ^{…} raises; digits and operators stay upright:
 //
 //     "rotation $ϖ$/$Ω$ at $μ_{d}$ = 1"
 //
-// Digits and operators within the dollars stay upright. A glyph that the chosen fonts lack is taken
-// from DejaVu Sans, which has all that is written here.
+// A glyph that the chosen fonts lack is taken from DejaVu Sans.
 #pragma once
 
 #include <optional>
@@ -15,29 +14,33 @@
 
 namespace swirl {
 
+/// Smaller letters, in pixels, are not legible.
+inline constexpr double min_font_size = 7.0;
+
 enum class Align { left, center, right };
 
 struct LabelStyle {
-    double size;  // of the type, in pixels
+    double size;  // of the font, in pixels
     Color color;
     Align align = Align::left;
     bool bold = false;
     double opacity = 1.0;
-    bool even_digits = false;        // digits of one width, so that a running number stands still
-    std::optional<Color> halo = {};  // drawn behind the letters, to lift them off what is there
+    bool even_digits = false;        // all digits have one width: a running number does not jitter
+    std::optional<Color> halo = {};  // drawn behind the letters, for contrast
 };
 
-/// Writes `text` with its baseline at `place`. Returns the width it took.
-double draw_label(const Canvas& canvas, std::string_view text, Vec2 place, const LabelStyle& style);
+/// Writes `text` with its baseline at `position`, in pixels. Returns its width.
+double draw_label(const Canvas& canvas, std::string_view text, Vec2 position,
+                  const LabelStyle& style);
 
-/// The width that draw_label would take.
+/// The width that draw_label() would return.
 double label_width(const Canvas& canvas, std::string_view text, const LabelStyle& style);
 
-/// The largest size, at most style.size, at which `text` is no wider than `width`.
+/// The largest font size, at most style.size, at which `text` is no wider than `width`.
 double fitting_size(const Canvas& canvas, std::string_view text, const LabelStyle& style,
                     double width);
 
-/// Text as it is, for titles that come from people: dollar signs lose their meaning.
+/// Text that draw_label() writes literally: dollar signs lose their meaning.
 std::string escaped(std::string_view text);
 
 }  // namespace swirl

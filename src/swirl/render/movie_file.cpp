@@ -1,6 +1,7 @@
 #include "swirl/render/movie_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -18,13 +19,12 @@ namespace swirl {
 
 namespace {
 
-/// Why a movie lacks its end, in the words of the system.
-constexpr const char* problem_with_disks[] = {"No space left", "Disk quota exceeded",
-                                              "File too large", "Input/output error"};
+/// Messages of the system that tell that a movie is incomplete.
+constexpr const char* disk_problems[] = {"No space left", "Disk quota exceeded", "File too large",
+                                         "Input/output error"};
 
-bool ends_with(const std::string& text, const char* ending) {
-    const std::size_t length = std::strlen(ending);
-    return text.size() > length && text.compare(text.size() - length, length, ending) == 0;
+bool has_extension(const std::string& path, const char* extension) {
+    return path.size() > std::strlen(extension) && path.ends_with(extension);
 }
 
 const char* name_of(MovieFormat format) {
@@ -40,7 +40,7 @@ const char* name_of(MovieFormat format) {
 }
 
 std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per_second, int loss) {
-    const std::string dimensions = std::to_string(size.width) + "x" + std::to_string(size.height);
+    const std::string dimensions = fmt::format("{}x{}", size.width, size.height);
     std::vector<std::string> args{"-hide_banner", "-nostats",
                                   "-loglevel",    "error",
                                   "-xerror",      "-y",
@@ -57,16 +57,16 @@ std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per
     add({"-i", "pipe:0", "-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
     switch (format) {
         case MovieFormat::mp4:
-            // Flat drawings gain little from the slower presets. What is switched off besides takes
-            // a fifth of this one's time and would make the file a tenth smaller.
+            // Flat drawings gain little from the slower presets. The features switched off here
+            // take a fifth of this preset's time and would make the file a tenth smaller.
             add({"-c:v", "libx264", "-preset", "veryfast", "-threads", "2", "-x264-params",
                  "subme=1:me=dia:weightp=0:8x8dct=0", "-pix_fmt", "yuv420p", "-movflags",
                  "+faststart"});
             args.insert(args.end(), {"-crf", std::to_string(loss)});
             break;
         case MovieFormat::webm:
-            // The quicker way of this encoder: as like the drawing as "good" with 5 (SSIM 0.963
-            // both), in a fifth of the time, and half as large again.
+            // "realtime" is as similar to the drawing as "good" with 5 (SSIM 0.963 for both). It
+            // takes a fifth of the time, and the file is half as large again.
             add({"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-deadline", "realtime",
                  "-cpu-used", "6", "-row-mt", "1", "-tile-columns", "2", "-threads", "2",
                  "-pix_fmt", "yuv420p"});
@@ -85,46 +85,48 @@ std::vector<std::string> arguments(MovieFormat format, Size size, int frames_per
 }  // namespace
 
 std::optional<MovieFormat> movie_format(const std::string& path) {
-    if (ends_with(path, ".mp4")) return MovieFormat::mp4;
-    if (ends_with(path, ".webm")) return MovieFormat::webm;
-    if (ends_with(path, ".gif")) return MovieFormat::gif;
+    if (has_extension(path, ".mp4")) return MovieFormat::mp4;
+    if (has_extension(path, ".webm")) return MovieFormat::webm;
+    if (has_extension(path, ".gif")) return MovieFormat::gif;
     return std::nullopt;
 }
 
 std::optional<std::string> movie_problem(MovieFormat format, Size size, int frames_per_second) {
-    const std::string given = std::to_string(size.width) + "x" + std::to_string(size.height);
-    if (size.width < 16 || size.height < 16 || size.width > 8192 || size.height > 8192)
-        return "A movie of " + given +
-               " pixels cannot be made: each side must be from 16 to 8192 pixels.";
+    constexpr int min_side = 16, max_side = 8192, max_rate = 240;
+    if (std::min(size.width, size.height) < min_side ||
+        std::max(size.width, size.height) > max_side)
+        return fmt::format("--size is {}x{}, but each side must be from {} to {} pixels.",
+                           size.width, size.height, min_side, max_side);
     if (format != MovieFormat::gif && (size.width % 2 != 0 || size.height % 2 != 0))
-        return "A movie of " + given + " pixels cannot be made: the sides of an ." +
-               name_of(format) + " movie must be even.";
-    // A GIF counts in hundredths of a second, and players slow down what is faster than fifty.
+        return fmt::format("--size is {}x{}, but the sides of an .{} movie must be even.",
+                           size.width, size.height, name_of(format));
+    // A GIF counts in hundredths of a second, and players slow down above 50 frames per second.
     if (format == MovieFormat::gif) {
         if (frames_per_second >= 1 && frames_per_second <= 50 && 100 % frames_per_second == 0)
             return std::nullopt;
-        return std::to_string(frames_per_second) +
-               " frames per second cannot be had: a .gif counts in hundredths of a second and "
-               "takes 1, 2, 4, 5, 10, 20, 25 or 50.";
+        return fmt::format(
+            "--fps is {}, but it must be 1, 2, 4, 5, 10, 20, 25 or 50 for a .gif, which counts in "
+            "hundredths of a second.",
+            frames_per_second);
     }
-    if (frames_per_second < 1 || frames_per_second > 240)
-        return std::to_string(frames_per_second) + " frames per second cannot be had: ." +
-               name_of(format) + " movies take 1 to 240.";
+    if (frames_per_second < 1 || frames_per_second > max_rate)
+        return fmt::format("--fps is {}, but it must be from 1 to {} for an .{} movie.",
+                           frames_per_second, max_rate, name_of(format));
     return std::nullopt;
 }
 
 MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
                          int frames_per_second, int loss)
-    : path_(path), aside_(path + ".partial") {
-    open_aside();
+    : path_(path), temporary_(path + ".partial") {
+    open_temporary();
     try {
         ffmpeg_ = std::make_unique<Ffmpeg>(
             arguments(format, size, frames_per_second, loss), Ffmpeg::Side::input,
-            "Movies are made by the program ffmpeg, which was not found: install it "
-            "(apt-get install ffmpeg), or write the frames as pictures with --frames DIR.",
-            aside_);
+            "movies need the program ffmpeg, which was not found.\n"
+            "hint: install it (apt-get install ffmpeg), or write frames with --frames DIR.",
+            temporary_);
     } catch (const DrawFailure&) {
-        ::unlink(aside_.c_str());
+        ::unlink(temporary_.c_str());
         ::close(lock_);
         throw;
     }
@@ -132,38 +134,42 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
 
 MovieWriter::~MovieWriter() {
     ffmpeg_.reset();
-    if (!finished_) ::unlink(aside_.c_str());
+    if (!finished_) ::unlink(temporary_.c_str());
     ::close(lock_);
 }
 
-/// Always a file of our own: the ffmpeg of a movie that was killed still writes into the one that
-/// it was given. (ffmpeg would complain too, but only once the first frames have been drawn.)
-void MovieWriter::open_aside() {
-    for (int attempt = 0; attempt < 100; ++attempt) {
-        lock_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        const bool fresh = lock_ >= 0;
-        if (!fresh && errno == EEXIST)
-            lock_ = ::open(aside_.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+/// Always creates a new file: the ffmpeg of a movie that was killed still writes into the old one.
+/// The lock detects a second process that makes the same movie. (ffmpeg would also report a file
+/// that cannot be written, but only after the first frames.)
+void MovieWriter::open_temporary() {
+    constexpr int max_attempts = 100;
+    for (int attempt = 0; attempt < max_attempts; ++attempt) {
+        lock_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        const bool is_new = lock_ >= 0;
+        if (!is_new && errno == EEXIST)
+            lock_ = ::open(temporary_.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (lock_ < 0 && errno == ENOENT) continue;
         if (lock_ < 0)
-            throw DrawFailure("The movie " + path_ +
-                              " could not be written: " + std::strerror(errno) + ".");
+            throw DrawFailure(
+                fmt::format("cannot write the movie '{}': {}.", path_, std::strerror(errno)));
         const bool locked = ::flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
         struct stat about {};
-        if (locked && fresh && ::fstat(lock_, &about) == 0 && about.st_nlink > 0) return;
-        if (locked && !fresh) ::unlink(aside_.c_str());  // what a kill left behind
+        if (locked && is_new && ::fstat(lock_, &about) == 0 && about.st_nlink > 0) return;
+        if (locked && !is_new) ::unlink(temporary_.c_str());  // left behind by a killed process
         ::close(lock_);
         if (!locked) break;
     }
-    throw DrawFailure("The movie " + path_ +
-                      " is being made by another process; wait for it or choose another name.");
+    throw DrawFailure(
+        fmt::format("the movie '{}' is being made by another process.\n"
+                    "hint: wait for it, or choose another name.",
+                    path_));
 }
 
 void MovieWriter::fail(int status) {
-    ::unlink(aside_.c_str());
+    ::unlink(temporary_.c_str());
     finished_ = true;
-    throw DrawFailure("The movie " + path_ + " could not be made: ffmpeg " +
-                      ffmpeg_->how_it_ended(status));
+    throw DrawFailure(
+        fmt::format("cannot make the movie '{}': ffmpeg {}", path_, ffmpeg_->describe_end(status)));
 }
 
 void MovieWriter::write(std::span<const std::uint8_t> frame) {
@@ -178,24 +184,24 @@ void MovieWriter::write(std::span<const std::uint8_t> frame) {
 }
 
 void MovieWriter::finish() {
-    // Shutting down, not closing: what is still under way arrives, then comes the end.
+    // After shutdown() ffmpeg still receives what was sent; close() might discard it.
     ::shutdown(ffmpeg_->socket(), SHUT_WR);
     const int status = ffmpeg_->end();
-    const bool well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    // ffmpeg has been seen to end with code 0 after it could not write everything.
-    const std::string said = ffmpeg_->said();
-    const bool complained =
-        std::any_of(std::begin(problem_with_disks), std::end(problem_with_disks),
-                    [&](const char* problem) { return said.find(problem) != std::string::npos; });
+    const bool success = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    // ffmpeg may end with code 0 although it could not write everything.
+    const std::string errors = ffmpeg_->error_output();
+    const bool disk_problem =
+        std::any_of(std::begin(disk_problems), std::end(disk_problems),
+                    [&](const char* problem) { return errors.find(problem) != errors.npos; });
     struct stat about {};
     const bool empty = ::fstat(lock_, &about) != 0 || about.st_size == 0;
-    if (!well || complained || empty) fail(status);
+    if (!success || disk_problem || empty) fail(status);
     finished_ = true;
-    // Only now is it known that all of it arrived.
-    if (::fsync(lock_) == 0 && std::rename(aside_.c_str(), path_.c_str()) == 0) return;
+    // Only after fsync() is it certain that all bytes reached the disk.
+    if (::fsync(lock_) == 0 && std::rename(temporary_.c_str(), path_.c_str()) == 0) return;
     const std::string reason = std::strerror(errno);
-    ::unlink(aside_.c_str());
-    throw DrawFailure("The movie " + path_ + " could not be written: " + reason + ".");
+    ::unlink(temporary_.c_str());
+    throw DrawFailure(fmt::format("cannot write the movie '{}': {}.", path_, reason));
 }
 
 }  // namespace swirl

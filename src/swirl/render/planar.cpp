@@ -6,11 +6,11 @@ namespace swirl {
 
 namespace {
 
-// round(65536 · coefficient); the luma ones add up to 219/255, the chroma ones to zero.
+// round(65536 · coefficient). The luma coefficients add up to 219/255, the chroma ones to zero.
 constexpr int y_red = 11966, y_green = 40254, y_blue = 4064;
 constexpr int cb_red = -6596, cb_green = -22189, cb_blue = 28785;
 constexpr int cr_red = 28784, cr_green = -26145, cr_blue = -2639;
-constexpr int half = 1 << 15;
+constexpr int half = 1 << 15;  // added before a shift by 16: rounds to nearest
 
 SWIRL_WIDE void luma_row(const std::uint8_t* __restrict pixel, int width,
                          std::uint8_t* __restrict luma) {
@@ -24,7 +24,7 @@ SWIRL_WIDE void luma_row(const std::uint8_t* __restrict pixel, int width,
 SWIRL_WIDE void chroma_row(const std::uint8_t* __restrict upper,
                            const std::uint8_t* __restrict lower, int pairs,
                            std::uint8_t* __restrict cb, std::uint8_t* __restrict cr) {
-    // Sums of four pixels: two more bits of shift.
+    // Sums of four pixels, so the shift has two more bits.
     for (int x = 0; x < pairs; ++x) {
         const int b = upper[8 * x] + upper[8 * x + 4] + lower[8 * x] + lower[8 * x + 4];
         const int g = upper[8 * x + 1] + upper[8 * x + 5] + lower[8 * x + 1] + lower[8 * x + 5];

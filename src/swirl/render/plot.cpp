@@ -1,8 +1,9 @@
 #include "swirl/render/plot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "swirl/render/label.hpp"
 
@@ -10,37 +11,29 @@ namespace swirl {
 
 namespace {
 
-/// Where the curves go: numbers stand to the left and beneath, the name of the quantity above.
+/// The area of the curves. Numbers are on the left and below, the name of the quantity above.
 Rectangle inner_area(const Rectangle& area, const PlotStyle& style) {
-    const double left = 3.6 * style.type, below = 2.3 * style.type, above = 1.7 * style.type;
-    return {area.x + left, area.y + above, area.width - left - 0.6 * style.type,
+    const double left = 3.6 * style.em, below = 2.3 * style.em, above = 1.7 * style.em;
+    return {area.x + left, area.y + above, area.width - left - 0.6 * style.em,
             area.height - below - above};
 }
 
-Vec2 place(const Rectangle& inner, const PlotStyle& style, double time, double value) {
+Vec2 on_page(const Rectangle& inner, const PlotStyle& style, double time, double value) {
     return {inner.x + inner.width * (time - style.from) / (style.to - style.from),
             inner.y + inner.height * (style.highest - value) / (style.highest - style.lowest)};
 }
 
 std::string number(double value, double step) {
-    char text[32];
     const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
-    std::snprintf(text, sizeof text, "%.*f", decimals, std::abs(value));
-    return (value < -0.5 * step ? "−" : "") + std::string(text);
+    return fmt::format("{}{:.{}f}", value < -0.5 * step ? "−" : "", std::abs(value), decimals);
 }
 
-/// How times are written: where the steps are tiny, counted from the beginning and in a power of
-/// ten, since 20.000001 and 20.000002 tell nobody anything.
+/// Times are written as (time − origin)/unit. For tiny steps the origin is the beginning and the
+/// unit a power of ten: 20.000001 and 20.000002 would not be readable.
 struct TimeAxis {
     double origin = 0.0, unit = 1.0;
     std::string label;
 };
-
-std::string counted_from(double time) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", time);
-    return text;
-}
 
 TimeAxis time_axis(const PlotStyle& style, double step) {
     TimeAxis axis{0.0, 1.0, style.time_label};
@@ -48,42 +41,43 @@ TimeAxis time_axis(const PlotStyle& style, double step) {
     const int thousands = static_cast<int>(std::floor(std::log10(step) / 3.0 + 1e-9));
     axis.origin = style.from;
     axis.unit = std::pow(10.0, 3 * thousands);
-    axis.label = "10$^{−" + std::to_string(-3 * thousands) + "}$ " + style.time_label;
-    if (style.from > 0.0) axis.label += " after " + counted_from(style.from);
+    axis.label = fmt::format("10$^{{−{}}}$ {}", -3 * thousands, style.time_label);
+    if (style.from > 0.0) axis.label += fmt::format(" after {:.6g}", style.from);
     return axis;
 }
 
-/// Names that stand beside the curves, kept apart from each other and from what is above them.
+/// The name of a curve, next to its end.
 struct Tag {
     const Curve* curve;
-    Vec2 place;
+    Vec2 position;
     Align align;
 };
 
-void keep_apart(std::vector<Tag>& tags, double top, double bottom, double minimum) {
+/// Moves the tags so that their distances are at least `minimum` and they lie within the plot.
+void separate(std::vector<Tag>& tags, double top, double bottom, double minimum) {
     std::stable_sort(tags.begin(), tags.end(),
-                     [](const Tag& a, const Tag& b) { return a.place.y < b.place.y; });
+                     [](const Tag& a, const Tag& b) { return a.position.y < b.position.y; });
     double lowest = top;
     for (Tag& tag : tags) {
-        tag.place.y = std::max(tag.place.y, lowest);
-        lowest = tag.place.y + minimum;
+        tag.position.y = std::max(tag.position.y, lowest);
+        lowest = tag.position.y + minimum;
     }
     double highest = bottom;
     for (auto tag = tags.rbegin(); tag != tags.rend(); ++tag) {
-        tag->place.y = std::min(tag->place.y, highest);
-        highest = tag->place.y - minimum;
+        tag->position.y = std::min(tag->position.y, highest);
+        highest = tag->position.y - minimum;
     }
 }
 
-void polyline(cairo_t* cairo, const Rectangle& inner, const PlotStyle& style, const Curve& curve,
-              const std::vector<double>& values, double now) {
+void add_curve(cairo_t* cairo, const Rectangle& inner, const PlotStyle& style, const Curve& curve,
+               const std::vector<double>& values, double now) {
     bool drawing = false;
     for (std::size_t k = 0; k < curve.time.size() && curve.time[k] <= now; ++k) {
         if (curve.time[k] < style.from || std::isnan(values[k])) {
             drawing = false;
             continue;
         }
-        const Vec2 p = place(inner, style, curve.time[k], values[k]);
+        const Vec2 p = on_page(inner, style, curve.time[k], values[k]);
         if (drawing)
             cairo_line_to(cairo, p.x, p.y);
         else
@@ -103,7 +97,7 @@ double round_step(double span, int count) {
 }
 
 void fit_range(PlotStyle& style, std::span<const Curve> curves) {
-    constexpr double tail = 0.025;  // of the raw values, on either side
+    constexpr double tail = 0.025;  // share of the raw values that is ignored at each end
     double lowest = 0.0, highest = 0.0;
     for (const Curve& curve : curves) {
         std::vector<double> raw;
@@ -120,60 +114,55 @@ void fit_range(PlotStyle& style, std::span<const Curve> curves) {
         lowest = std::min(lowest, raw[cut]);
         highest = std::max(highest, raw[raw.size() - 1 - cut]);
     }
-    const double air = std::max(0.05 * (highest - lowest), 0.02);
-    style.lowest = lowest - air;
-    style.highest = highest + air;
+    const double margin = std::max(0.05 * (highest - lowest), 0.02);
+    style.lowest = lowest - margin;
+    style.highest = highest + margin;
 }
 
 void draw_plot_frame(const Canvas& canvas, const Rectangle& area, const Theme& theme,
                      const PlotStyle& style) {
-    cairo_t* cairo = canvas.cairo();
     const Rectangle inner = inner_area(area, style);
     if (inner.width <= 0.0 || inner.height <= 0.0) return;
-    const double line = std::max(0.6, 0.05 * style.type);
-    cairo_rectangle(cairo, inner.x, inner.y, inner.width, inner.height);
-    canvas.set(theme.floor);
-    cairo_fill(cairo);
+    const double line = std::max(0.6, 0.05 * style.em);
+    cairo_rectangle(canvas.cairo(), inner.x, inner.y, inner.width, inner.height);
+    canvas.fill(theme.floor);
 
-    LabelStyle tick{.size = 0.88 * style.type, .color = theme.faint_ink, .align = Align::right};
-    int parts = std::max(2, static_cast<int>(inner.height / (1.7 * style.type)));
+    LabelStyle tick{.size = 0.88 * style.em, .color = theme.faint_ink, .align = Align::right};
+    int parts = std::max(2, static_cast<int>(inner.height / (1.7 * style.em)));
     double step = round_step(style.highest - style.lowest, parts);
-    // One number makes no scale.
+    // At least two numbers are needed to read a scale.
     while (parts < 64 &&
            std::floor(style.highest / step) - std::ceil(style.lowest / step) + 1.0 < 2.0)
         step = round_step(style.highest - style.lowest, parts *= 2);
     for (double k = std::ceil(style.lowest / step); k * step <= style.highest; k += 1.0) {
-        const Vec2 p = place(inner, style, style.from, k * step);
+        const Vec2 p = on_page(inner, style, style.from, k * step);
         const bool zero = k == 0.0;
-        cairo_set_line_width(cairo, zero ? 1.6 * line : line);
-        cairo_move_to(cairo, inner.x, p.y);
-        cairo_line_to(cairo, inner.x + inner.width, p.y);
-        canvas.set(theme.faint_ink, zero ? 0.9 : 0.25);
-        cairo_stroke(cairo);
+        canvas.add_line({inner.x, p.y}, {inner.x + inner.width, p.y});
+        canvas.stroke(zero ? 1.6 * line : line, theme.faint_ink, zero ? 0.9 : 0.25);
         draw_label(canvas, number(k * step, step),
-                   {inner.x - 0.5 * style.type, p.y + 0.32 * style.type}, tick);
+                   {inner.x - 0.5 * style.em, p.y + 0.32 * style.em}, tick);
     }
     tick.align = Align::center;
     const double time_step =
         std::max(round_step(style.to - style.from,
-                            std::max(2, static_cast<int>(inner.width / (5.0 * style.type)))),
+                            std::max(2, static_cast<int>(inner.width / (5.0 * style.em)))),
                  1e-12);
     const TimeAxis axis = time_axis(style, time_step);
     const double from = style.from - axis.origin, to = style.to - axis.origin;
     for (double k = std::ceil(from / time_step - 1e-9); k * time_step <= to + 1e-9 * time_step;
          k += 1.0) {
-        const Vec2 p = place(inner, style, axis.origin + k * time_step, style.lowest);
+        const Vec2 p = on_page(inner, style, axis.origin + k * time_step, style.lowest);
         const std::string text = number(k * time_step / axis.unit, time_step / axis.unit);
-        // Nothing of it beyond the plot, and so beyond the page.
+        // The number stays within the plot, and so within the page.
         const double half = 0.5 * label_width(canvas, text, tick);
         const double x = std::clamp(p.x, area.x + half, area.x + area.width - half);
-        draw_label(canvas, text, {x, p.y + 1.2 * style.type}, tick);
+        draw_label(canvas, text, {x, p.y + 1.2 * style.em}, tick);
     }
-    const LabelStyle name{.size = style.type, .color = theme.ink};
-    draw_label(canvas, style.vertical_label, {inner.x, inner.y - 0.5 * style.type}, name);
+    const LabelStyle name{.size = style.em, .color = theme.ink};
+    draw_label(canvas, style.vertical_label, {inner.x, inner.y - 0.5 * style.em}, name);
     draw_label(canvas, axis.label,
                {inner.x + 0.5 * (inner.width - label_width(canvas, axis.label, name)),
-                inner.y + inner.height + 2.2 * style.type},
+                inner.y + inner.height + 2.2 * style.em},
                name);
 }
 
@@ -182,23 +171,19 @@ void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& 
     cairo_t* cairo = canvas.cairo();
     const Rectangle inner = inner_area(area, style);
     if (inner.width <= 0.0 || inner.height <= 0.0) return;
-    const double line = std::max(1.0, 0.1 * style.type);
+    const double line = std::max(1.0, 0.1 * style.em);
     cairo_save(cairo);
     cairo_rectangle(cairo, inner.x, inner.y, inner.width, inner.height);
     cairo_clip(cairo);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
     for (const Curve& curve : curves) {
-        polyline(cairo, inner, style, curve, curve.raw, now);
-        cairo_set_line_width(cairo, 0.5 * line);
-        canvas.set(mix(theme.floor, curve.color, 0.4));
-        cairo_stroke(cairo);
+        add_curve(cairo, inner, style, curve, curve.raw, now);
+        canvas.stroke(0.5 * line, mix(theme.floor, curve.color, 0.4));
     }
     for (const Curve& curve : curves) {
-        polyline(cairo, inner, style, curve, curve.smooth, now);
-        cairo_set_line_width(cairo, 1.6 * line);
-        canvas.set(curve.color);
-        cairo_stroke(cairo);
+        add_curve(cairo, inner, style, curve, curve.smooth, now);
+        canvas.stroke(1.6 * line, curve.color);
     }
     cairo_restore(cairo);
     std::vector<Tag> tags;
@@ -207,22 +192,20 @@ void draw_plot_curves(const Canvas& canvas, const Rectangle& area, const Theme& 
         if (after == curve.time.begin()) continue;
         const auto last = static_cast<std::size_t>(after - curve.time.begin()) - 1;
         if (std::isnan(curve.smooth[last]) || curve.time[last] < style.from) continue;
-        const Vec2 p = place(inner, style, curve.time[last], curve.smooth[last]);
-        cairo_new_sub_path(cairo);
-        cairo_arc(cairo, p.x, p.y, 2.4 * line, 0.0, 2.0 * 3.14159265358979323846);
-        canvas.set(curve.color);
-        cairo_fill(cairo);
+        const Vec2 p = on_page(inner, style, curve.time[last], curve.smooth[last]);
+        canvas.add_circle(p, 2.4 * line);
+        canvas.fill(curve.color);
         if (curve.label.empty()) continue;
         const bool left = p.x > inner.x + 0.8 * inner.width;
         tags.push_back({&curve,
-                        {p.x + (left ? -0.6 : 0.6) * style.type, p.y - 0.5 * style.type},
+                        {p.x + (left ? -0.6 : 0.6) * style.em, p.y - 0.5 * style.em},
                         left ? Align::right : Align::left});
     }
-    keep_apart(tags, inner.y + 1.0 * style.type, inner.y + inner.height - 0.2 * style.type,
-               1.1 * style.type);
+    separate(tags, inner.y + 1.0 * style.em, inner.y + inner.height - 0.2 * style.em,
+             1.1 * style.em);
     for (const Tag& tag : tags)
-        draw_label(canvas, tag.curve->label, tag.place,
-                   {.size = 0.92 * style.type,
+        draw_label(canvas, tag.curve->label, tag.position,
+                   {.size = 0.92 * style.em,
                     .color = tag.curve->color,
                     .align = tag.align,
                     .halo = theme.floor});

@@ -1,4 +1,4 @@
-// Rotations of what a picture shows, as matrices, row by row.
+// Rotation matrices, stored row by row.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@ namespace swirl {
 
 using Rotation = std::array<double, 9>;
 
-/// By |w| about w, counter-clockwise as seen from where w points: Rodrigues' formula.
+/// The rotation by |w| about w, counter-clockwise as seen from the tip of w (Rodrigues' formula).
 inline Rotation rotation_by(const std::array<double, 3>& w) {
     const double angle = std::sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     if (angle < 1e-12) return {1, 0, 0, 0, 1, 0, 0, 0, 1};

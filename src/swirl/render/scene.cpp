@@ -1,10 +1,9 @@
 #include "swirl/render/scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <string>
 
 #include "swirl/render/ball.hpp"
 #include "swirl/render/label.hpp"
@@ -13,120 +12,387 @@ namespace swirl {
 
 namespace {
 
-constexpr double full_turn = 2.0 * pi;
-constexpr Vec2 nowhere{std::numeric_limits<double>::quiet_NaN(),
-                       std::numeric_limits<double>::quiet_NaN()};
+constexpr Vec2 unknown_position{std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::quiet_NaN()};
+constexpr Color black = color_from_hex(0x000000), white = color_from_hex(0xFFFFFF);
 
-/// Below this radius, in pixels, outlines and marks would only be noise.
-constexpr double smallest_marked_radius = 3.5;
-constexpr double smallest_outlined_radius = 2.5;
+/// Below these radii, in pixels, marks and outlines would only be noise.
+constexpr double min_marked_radius = 3.5;
+constexpr double min_outlined_radius = 2.5;
+/// Length of a disc's orientation mark, in units of its radius.
+constexpr double mark_length = 0.74;
 
-std::size_t number_of(const SceneContent& content, std::size_t i) {
+/// The container's radius in pixels. Line widths and letters scale with it.
+double radius_on_page(const View& view, const Snapshot& now) {
+    return view.pixels_per_unit * now.container_radius;
+}
+
+double length_of(const Vec2& v) { return std::sqrt(dot(v, v)); }
+
+std::size_t id_of(const SceneContent& content, std::size_t i) {
     return content.ids.size() == content.now.size() ? static_cast<std::size_t>(content.ids[i]) : i;
 }
 
-Color disc_color(const SceneStyle& style, const SceneContent& content, const FrameAt& at,
+Color disc_color(const SceneStyle& style, const SceneContent& content, const FrameTransform& frame,
                  std::size_t i) {
     const Theme& theme = style.theme;
+    const Snapshot& now = content.now;
     switch (style.coloring) {
         case Coloring::pinned:
-            if (content.pinned.size() != content.now.size()) return theme.disc;
+            if (content.pinned.size() != now.size()) return theme.disc;
             return content.pinned[i] ? theme.pinned : theme.loose;
-        case Coloring::spin: {
-            const double spin = content.now.spin[i];
-            if (std::isnan(spin)) return theme.disc;
-            return diverging_color(spin / style.full_spin, theme.neutral);
-        }
-        case Coloring::speed: {
-            const Vec2 v = at.velocity(content.now.position(i), content.now.velocity(i));
-            return sequential_color(std::sqrt(dot(v, v)) / style.full_speed);
-        }
-        case Coloring::slip: {
-            if (!content.now.are_spheres()) return theme.disc;
-            const Vec2 c = slip_on_floor(content.now.disc(i), content.now.container_velocity);
-            return sequential_color(std::sqrt(dot(c, c)) / style.full_speed);
-        }
+        case Coloring::spin:
+            if (std::isnan(now.spin[i])) return theme.disc;
+            return diverging_color(now.spin[i] / style.full_spin, theme.neutral);
+        case Coloring::speed:
+            return sequential_color(length_of(frame.velocity(now.position(i), now.velocity(i))) /
+                                    style.full_speed);
+        case Coloring::slip:
+            if (!now.are_spheres()) return theme.disc;
+            return sequential_color(length_of(slip_on_floor(now.disc(i), now.container_velocity)) /
+                                    style.full_speed);
         case Coloring::id:
-            return distinct_colors[number_of(content, i) % distinct_colors.size()];
+            return distinct_colors[id_of(content, i) % distinct_colors.size()];
         case Coloring::none:
             break;
     }
     return theme.disc;
 }
 
-void circle(cairo_t* cairo, const Vec2& centre, double radius) {
-    cairo_new_sub_path(cairo);
-    cairo_arc(cairo, centre.x, centre.y, radius, 0.0, full_turn);
-}
-
-/// A disc in its colour with a darker rim, and a hand that shows how it is turned.
+/// A disc in its colour with a darker rim, and a mark from its centre that shows its orientation.
 void draw_disc(const Canvas& canvas, const Vec2& centre, double radius, const Color& color,
                double orientation) {
-    cairo_t* cairo = canvas.cairo();
-    if (radius < smallest_outlined_radius) {
-        circle(cairo, centre, radius);
-        canvas.set(color);
-        cairo_fill(cairo);
-        return;
-    }
-    const Color rim = mix(color, {0.0, 0.0, 0.0}, 0.45);
-    const double rim_width = std::max(0.7, 0.055 * radius);
-    circle(cairo, centre, radius);
-    canvas.set(rim);
-    cairo_fill(cairo);
-    circle(cairo, centre, radius - rim_width);
-    canvas.set(color);
-    cairo_fill(cairo);
-    if (radius < smallest_marked_radius || std::isnan(orientation)) return;
+    canvas.add_circle(centre, radius);
+    if (radius < min_outlined_radius) return canvas.fill(color);
+    canvas.fill(mix(color, black, 0.45));
+    canvas.add_circle(centre, radius - std::max(0.7, 0.055 * radius));
+    canvas.fill(color);
+    if (radius < min_marked_radius || std::isnan(orientation)) return;
 
-    // The hand: from the middle almost to the rim, dark on light and light on dark.
-    const bool dark_ink = brightness(color) > 0.42;
-    const Color mark = dark_ink ? mix(color, color_from_hex(0x0B0F14), 0.82)
-                                : mix(color, color_from_hex(0xFFFFFF), 0.85);
+    // Dark on light and light on dark.
+    const bool is_light = brightness(color) > 0.42;
+    const Color mark =
+        is_light ? mix(color, color_from_hex(0x0B0F14), 0.82) : mix(color, white, 0.85);
     const Vec2 direction{std::cos(orientation), -std::sin(orientation)};
-    const double reach = 0.74 * radius;
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
-    cairo_set_line_width(cairo, std::max(1.0, 0.17 * radius));
-    cairo_move_to(cairo, centre.x, centre.y);
-    cairo_line_to(cairo, centre.x + reach * direction.x, centre.y + reach * direction.y);
-    canvas.set(mark);
-    cairo_stroke(cairo);
+    const double reach = mark_length * radius;
+    cairo_set_line_cap(canvas.cairo(), CAIRO_LINE_CAP_ROUND);
+    canvas.add_line(centre, {centre.x + reach * direction.x, centre.y + reach * direction.y});
+    canvas.stroke(std::max(1.0, 0.17 * radius), mark);
 }
 
-/// A ring and a hand, to be seen on any picture.
+/// A ring and an orientation mark, with a dark edge so that they are visible on any image.
 void outline_disc(const Canvas& canvas, const Vec2& centre, double radius, const Color& color,
                   double orientation) {
-    cairo_t* cairo = canvas.cairo();
     const double width = std::max(1.2, 0.11 * radius);
     for (const bool shade : {true, false}) {
-        circle(cairo, centre, radius);
-        if (radius >= smallest_marked_radius && !std::isnan(orientation)) {
-            cairo_move_to(cairo, centre.x, centre.y);
-            cairo_line_to(cairo, centre.x + 0.74 * radius * std::cos(orientation),
-                          centre.y - 0.74 * radius * std::sin(orientation));
-        }
-        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
-        cairo_set_line_width(cairo, shade ? 1.9 * width : width);
-        canvas.set(shade ? color_from_hex(0x000000) : color, shade ? 0.4 : 1.0);
-        cairo_stroke(cairo);
+        canvas.add_circle(centre, radius);
+        if (radius >= min_marked_radius && !std::isnan(orientation))
+            canvas.add_line(centre, {centre.x + mark_length * radius * std::cos(orientation),
+                                     centre.y - mark_length * radius * std::sin(orientation)});
+        cairo_set_line_cap(canvas.cairo(), CAIRO_LINE_CAP_ROUND);
+        canvas.stroke(shade ? 1.9 * width : width, shade ? black : color, shade ? 0.4 : 1.0);
     }
 }
 
-/// The wall over a picture: a thin line.
+/// The wall over a camera image, as a thin line.
 void outline_container(const Canvas& canvas, const View& view, const Snapshot& now) {
-    cairo_t* cairo = canvas.cairo();
-    const Vec2 c = view.on_page(FrameAt(now, view.frame).position(now.container_centre));
-    const double radius = view.pixels_per_unit * now.container_radius;
+    const Vec2 c = view.on_page(FrameTransform(now, view.frame).position(now.container_centre));
+    const double radius = radius_on_page(view, now);
     for (const bool shade : {true, false}) {
-        circle(cairo, c, radius);
-        cairo_set_line_width(cairo, std::max(1.0, 0.006 * radius) * (shade ? 3.0 : 1.0));
-        canvas.set(color_from_hex(shade ? 0x000000 : 0xFFFFFF), shade ? 0.35 : 0.9);
-        cairo_stroke(cairo);
+        canvas.add_circle(c, radius);
+        canvas.stroke(std::max(1.0, 0.006 * radius) * (shade ? 3.0 : 1.0), shade ? black : white,
+                      shade ? 0.35 : 0.9);
     }
 }
 
-double line_unit(const View& view, const Snapshot& now) {
-    return view.pixels_per_unit * now.container_radius;
+void draw_backdrop(const Canvas& canvas, const View& view, const SceneContent& content) {
+    const Backdrop& backdrop = *content.backdrop;
+    const FrameTransform frame(content.now, view.frame);
+    const auto on_page = [&](double x, double y) {
+        return view.on_page(
+            frame.position(backdrop.origin + x * backdrop.along_x + y * backdrop.along_y));
+    };
+    // cairo counts from the corner of the first pixel, cameras from its centre.
+    const Vec2 corner = on_page(-0.5, -0.5);
+    const Vec2 right = on_page(0.5, -0.5) - corner, down = on_page(-0.5, 0.5) - corner;
+    cairo_t* cairo = canvas.cairo();
+    const StyleScope scope(canvas);
+    const double half = view.half_side;
+    if (half > 0.0) {
+        if (view.frame == Frame::lab)
+            cairo_rectangle(cairo, view.centre.x - half, view.centre.y - half, 2.0 * half,
+                            2.0 * half);
+        else
+            canvas.add_circle(view.centre, half);
+        cairo_clip(cairo);
+    }
+    const cairo_matrix_t matrix{right.x, right.y, down.x, down.y, corner.x, corner.y};
+    cairo_transform(cairo, &matrix);
+    cairo_set_source_surface(cairo, backdrop.image->surface(), 0.0, 0.0);
+    // A strongly reduced image must be averaged. Otherwise the bilinear filter is faster and as
+    // good.
+    constexpr double strongly_reduced = 0.6;
+    cairo_pattern_set_filter(cairo_get_source(cairo), length_of(right) < strongly_reduced
+                                                          ? CAIRO_FILTER_GOOD
+                                                          : CAIRO_FILTER_BILINEAR);
+    cairo_paint(cairo);
+}
+
+/// Positions of all discs on the page at each instant that trails pass through, oldest first. A
+/// disc that did not exist yet has an unknown position.
+std::vector<std::vector<Vec2>> trail_positions(const View& view, const SceneContent& content) {
+    const std::size_t count = content.now.size();
+    std::vector<std::vector<Vec2>> positions;
+    for (std::size_t k = 0; k <= content.past.size(); ++k) {
+        const bool is_now = k == content.past.size();
+        const Snapshot& then = is_now ? content.now : *content.past[k];
+        const bool has_ids = !is_now && content.past_ids.size() == content.past.size();
+        if (!has_ids && then.size() != count) continue;
+        const FrameTransform frame(then, view.frame);
+        std::vector<Vec2>& row = positions.emplace_back(count, unknown_position);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::size_t j = i;
+            if (has_ids) {
+                const auto& ids = content.past_ids[k];
+                const auto found = std::lower_bound(ids.begin(), ids.end(), content.ids[i]);
+                if (found == ids.end() || *found != content.ids[i]) continue;
+                j = static_cast<std::size_t>(found - ids.begin());
+            }
+            row[i] = view.on_page(frame.position(then.position(j)));
+        }
+    }
+    return positions;
+}
+
+void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content) {
+    if (content.past.empty()) return;
+    cairo_t* cairo = canvas.cairo();
+    const std::size_t count = content.now.size();
+    const std::vector<std::vector<Vec2>> positions = trail_positions(view, content);
+    if (positions.size() < 2) return;
+    // A trail consists of a few bands of one opacity each. Discs of one colour share a path:
+    // drawing segment by segment would take longer than everything else.
+    constexpr std::size_t bands = 8;
+    const FrameTransform frame(content.now, view.frame);
+    const std::size_t segments = positions.size() - 1;
+    const double radius = count > 0 ? view.pixels_per_unit * content.now.radius[0] : 1.0;
+    // Round ends would show through each other where trails are transparent.
+    cairo_set_line_cap(cairo, content.backdrop ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    for (std::size_t band = 0; band < bands; ++band) {
+        const std::size_t from = segments * band / bands, to = segments * (band + 1) / bands;
+        if (from == to) continue;
+        const double age = (static_cast<double>(band) + 1.0) / bands;
+        const double width = std::max(1.0, (0.05 + 0.14 * age) * radius);
+        const double strength = 0.12 + 0.6 * age;
+        for (std::size_t i = 0; i < count; ++i) {
+            cairo_new_sub_path(cairo);
+            for (std::size_t k = from; k <= to; ++k)
+                if (!std::isnan(positions[k][i].x))
+                    cairo_line_to(cairo, positions[k][i].x, positions[k][i].y);
+            if (style.coloring == Coloring::none && i + 1 < count) continue;
+            const Color color = disc_color(style, content, frame, i);
+            if (content.backdrop)
+                canvas.stroke(width, color, strength);
+            else
+                canvas.stroke(width, mix(style.theme.floor, color, strength));
+        }
+    }
+}
+
+void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
+                const SceneContent& content) {
+    const Snapshot& now = content.now;
+    const FrameTransform frame(now, view.frame);
+    const bool balls =
+        style.orientation && now.are_balls() && !now.turned.empty() && !content.backdrop;
+    const Quaternion frame_turn = turn_by(0.0, 0.0, frame.orientation(0.0));
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const double radius = view.pixels_per_unit * now.radius[i];
+        const Vec2 centre = view.on_page(frame.position(now.position(i)));
+        const Color color = disc_color(style, content, frame, i);
+        if (balls && radius >= min_marked_radius) {
+            draw_ball(canvas, centre, radius, color, frame_turn * now.quaternion(i));
+            continue;
+        }
+        const double orientation =
+            style.orientation ? frame.orientation(now.orientation(i)) : std::nan("");
+        (content.backdrop ? outline_disc : draw_disc)(canvas, centre, radius, color, orientation);
+    }
+}
+
+void draw_ghosts(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const SceneContent& content) {
+    const Snapshot& now = content.now;
+    for (std::size_t k = 0; k < content.ghosts.size(); ++k) {
+        const Snapshot& then = *content.ghosts[k];
+        const FrameTransform frame(then, view.frame);
+        const double age = double(k + 1) / double(content.ghosts.size() + 1);
+        // In the lab frame the container was elsewhere, too.
+        if (view.frame == Frame::lab) {
+            const double wall = radius_on_page(view, then);
+            canvas.add_circle(view.on_page(then.container_centre), wall);
+            canvas.stroke(std::max(0.7, 0.012 * wall), style.theme.wall, 0.1 + 0.3 * age);
+        }
+        for (std::size_t i = 0; i < then.size(); ++i) {
+            const Color color =
+                then.size() == now.size() ? disc_color(style, content, frame, i) : style.theme.disc;
+            const double radius = view.pixels_per_unit * then.radius[i];
+            canvas.add_circle(view.on_page(frame.position(then.position(i))), 0.94 * radius);
+            canvas.fill(color, 0.05 + 0.2 * age, Canvas::Path::keep);
+            canvas.stroke(std::max(0.7, 0.045 * radius), color, 0.15 + 0.5 * age);
+        }
+    }
+}
+
+void draw_slice(const Canvas& canvas, const View& view, const SceneStyle& style,
+                const Snapshot& now) {
+    if (!style.slice || view.frame != Frame::m) return;
+    constexpr double half_width = pi / 18.0;  // 10°
+    cairo_t* cairo = canvas.cairo();
+    cairo_move_to(cairo, view.centre.x, view.centre.y);
+    // y points down on the page, so angles change their sign.
+    cairo_arc(cairo, view.centre.x, view.centre.y, radius_on_page(view, now),
+              -*style.slice - half_width, -*style.slice + half_width);
+    cairo_close_path(cairo);
+    canvas.fill(distinct_colors[2], 0.35);
+}
+
+void draw_angles(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const Snapshot& now) {
+    if (!style.angles || view.frame != Frame::m) return;
+    // Relatively larger letters in a small drawing, so that they stay legible.
+    const double unit = radius_on_page(view, now);
+    const double size = std::max(0.055 * unit, std::min(9.5, 0.09 * unit));
+    if (size < min_font_size) return;
+    const LabelStyle label{.size = size, .color = style.theme.ink, .align = Align::center};
+    const double wall = (1.0 + wall_thickness) * unit + 0.9 * size;
+    for (int k = 0; k < 8; ++k) {
+        const double theta = k * pi / 4.0;
+        const Vec2 u{std::cos(theta), -std::sin(theta)};
+        const double reach = wall + 0.5 * size * std::abs(u.x);
+        if (k == 6 && style.points) continue;  // the letter M stands at the bottom
+        draw_label(canvas, std::to_string(45 * k) + "°",
+                   {view.centre.x + reach * u.x, view.centre.y + reach * u.y + 0.35 * size}, label);
+    }
+}
+
+/// The centrifugal force Ω² (p − S) and the Coriolis force −2Ω ẑ × v on each disc, per unit of
+/// mass.
+void draw_forces(const Canvas& canvas, const View& view, const SceneStyle& style,
+                 const Snapshot& now) {
+    if (view.frame != Frame::m || now.size() == 0 || !(now.period > 0.0)) return;
+    const FrameTransform frame(now, view.frame);
+    const double omega = full_turn / now.period;
+    const Vec2 swirl_centre = frame.position({0.0, 0.0});
+    // Both forces have one scale: the largest possible centrifugal force is two radii long.
+    const double largest = omega * omega * (now.container_radius + length_of(swirl_centre));
+    const double scale = 2.0 * now.radius[0] * view.pixels_per_unit / largest;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const Vec2 p = frame.position(now.position(i));
+        const Vec2 v = frame.velocity(now.position(i), now.velocity(i));
+        const Vec2 tail = view.on_page(p);
+        const double width = std::max(1.0, 0.12 * view.pixels_per_unit * now.radius[i]);
+        const auto draw_force = [&](const Vec2& force, const Color& color) {
+            draw_arrow(canvas, tail, {tail.x + scale * force.x, tail.y - scale * force.y}, width,
+                       color, style.theme.floor);
+        };
+        draw_force((omega * omega) * (p - swirl_centre), style.theme.centrifugal);
+        draw_force((-2.0 * omega) * perpendicular(v), style.theme.coriolis);
+    }
+}
+
+void draw_path(const Canvas& canvas, const View& view, const Theme& theme,
+               std::span<const Vec2> path, double line) {
+    cairo_t* cairo = canvas.cairo();
+    for (const Vec2& vertex : path) {
+        const Vec2 p = view.on_page(vertex);
+        cairo_line_to(cairo, p.x, p.y);
+    }
+    cairo_close_path(cairo);
+    canvas.stroke(2.6 * line, theme.floor, 0.75, Canvas::Path::keep);
+    canvas.stroke(1.1 * line, theme.ink, 0.9);
+}
+
+/// S as a cross and C as a dot.
+void draw_centres(const Canvas& canvas, const Theme& theme, const Vec2& s, const Vec2& c,
+                  double unit, double line) {
+    const double arm = 0.022 * unit;
+    for (const bool shade : {true, false}) {
+        cairo_set_line_cap(canvas.cairo(), CAIRO_LINE_CAP_ROUND);
+        canvas.add_line({s.x - arm, s.y}, {s.x + arm, s.y});
+        canvas.add_line({s.x, s.y - arm}, {s.x, s.y + arm});
+        canvas.stroke((shade ? 4.2 : 2.0) * line, shade ? theme.floor : theme.ink);
+    }
+    canvas.add_circle(c, 0.019 * unit + line);
+    canvas.fill(theme.floor);
+    canvas.add_circle(c, 0.019 * unit);
+    canvas.fill(theme.ink);
+}
+
+/// M as a triangle that points at the wall. `letter` is null if letters would be too small.
+void draw_m(const Canvas& canvas, const View& view, const SceneStyle& style,
+            const SceneContent& content, const LabelStyle* letter) {
+    const Snapshot& now = content.now;
+    const FrameTransform frame(now, view.frame);
+    const Vec2 centre = now.container_centre;
+    const double unit = radius_on_page(view, now), line = std::max(0.8, 0.005 * unit);
+    const Vec2 outward = (1.0 / length_of(centre)) * centre;
+    const double wall = now.container_radius * (1.0 + wall_thickness);
+    const Vec2 m = view.on_page(frame.position(centre + wall * outward));
+    Vec2 u = frame.direction(outward);
+    u.y = -u.y;
+    const Vec2 side{-u.y, u.x};
+    // In the lab frame the view ends where the wall reaches farthest, so M lies on the wall.
+    const bool in_lab = view.frame == Frame::lab;
+    const double inward = in_lab ? -wall_thickness * unit : 0.0;
+    const double height = 0.038 * unit;
+    const Vec2 tip{m.x + inward * u.x, m.y + inward * u.y};
+    canvas.add_polygon({tip,
+                        {tip.x + height * u.x + 0.6 * height * side.x,
+                         tip.y + height * u.y + 0.6 * height * side.y},
+                        {tip.x + height * u.x - 0.6 * height * side.x,
+                         tip.y + height * u.y - 0.6 * height * side.y}});
+    if (content.backdrop) canvas.stroke(3.0 * line, style.theme.floor, 0.85, Canvas::Path::keep);
+    canvas.fill(style.theme.ink);
+    if (!letter) return;
+    LabelStyle label = *letter;
+    const double size = label.size;
+    if (in_lab) {
+        label.align = Align::center;
+        draw_label(canvas, "$M$",
+                   {tip.x - 0.65 * size * u.x, tip.y - 0.65 * size * u.y + 0.34 * size}, label);
+        return;
+    }
+    if (!content.backdrop) label.halo = std::nullopt;
+    draw_label(canvas, "$M$", {tip.x + height + 0.35 * size, tip.y + 0.6 * size}, label);
+}
+
+/// An arc from the top, with a head that points along it. It shows only the fraction of the last
+/// turn: the number next to it (sheet.cpp) counts whole turns.
+void draw_turn_arc(const Canvas& canvas, const View& view, const SceneStyle& style,
+                   const SceneContent& content) {
+    if (!content.turns || view.frame != Frame::lab) return;
+    cairo_t* cairo = canvas.cairo();
+    const double unit = radius_on_page(view, content.now), width = 0.035 * unit;
+    const double radius = unit * (1.0 + wall_thickness + 0.045);
+    const Vec2 c = view.on_page(content.now.container_centre);
+    const double turns = *content.turns;
+    const Color color = turns < 0.0 ? style.theme.pinned : style.theme.loose;
+    const double top = -0.5 * pi, sweep = -full_turn * (turns - std::trunc(turns));
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
+    cairo_new_sub_path(cairo);
+    (sweep < 0.0 ? cairo_arc_negative : cairo_arc)(cairo, c.x, c.y, radius, top, top + sweep);
+    canvas.stroke(width, color);
+    const double direction = turns < 0.0 ? 1.0 : -1.0, end = top + sweep;
+    const Vec2 outward{std::cos(end), std::sin(end)};
+    const Vec2 along{-direction * outward.y, direction * outward.x};
+    const Vec2 base = c + radius * outward;
+    canvas.add_polygon({base + 2.4 * width * along,
+                        {base.x + 1.5 * width * outward.x, base.y + 1.5 * width * outward.y},
+                        {base.x - 1.5 * width * outward.x, base.y - 1.5 * width * outward.y}});
+    canvas.fill(color);
 }
 
 }  // namespace
@@ -144,386 +410,68 @@ std::optional<Coloring> coloring_named(std::string_view name) {
 void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const Color& color,
                 const std::optional<Color>& rim) {
     const Vec2 along = tip - tail;
-    const double length = std::sqrt(dot(along, along));
-    const double head = 3.4 * width;
+    const double length = length_of(along), head = 3.4 * width;
     if (!(length > 0.0) || length < 0.6 * head) return;
     const Vec2 u = (1.0 / length) * along;
     const Vec2 side = width * perpendicular(u);
     const Vec2 neck = tip - std::min(head, length) * u;
-    cairo_t* cairo = canvas.cairo();
-    for (const Vec2& corner : {tail + 0.5 * side, neck + 0.5 * side, neck + 1.5 * side, tip,
-                               neck - 1.5 * side, neck - 0.5 * side, tail - 0.5 * side})
-        cairo_line_to(cairo, corner.x, corner.y);
-    cairo_close_path(cairo);
+    canvas.add_polygon({tail + 0.5 * side, neck + 0.5 * side, neck + 1.5 * side, tip,
+                        neck - 1.5 * side, neck - 0.5 * side, tail - 0.5 * side});
     if (rim) {
-        canvas.set(*rim, 0.8);
-        cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-        cairo_set_line_width(cairo, 0.7 * width);
-        cairo_stroke_preserve(cairo);
+        cairo_set_line_join(canvas.cairo(), CAIRO_LINE_JOIN_ROUND);
+        canvas.stroke(0.7 * width, *rim, 0.8, Canvas::Path::keep);
     }
-    canvas.set(color);
-    cairo_fill(cairo);
-}
-
-void draw_backdrop(const Canvas& canvas, const View& view, const SceneContent& content) {
-    const Backdrop& backdrop = *content.backdrop;
-    const FrameAt at(content.now, view.frame);
-    const auto place = [&](double x, double y) {
-        return view.on_page(
-            at.position(backdrop.origin + x * backdrop.along_x + y * backdrop.along_y));
-    };
-    // cairo counts from the corner of the first pixel, cameras from its middle.
-    const Vec2 corner = place(-0.5, -0.5);
-    const Vec2 right = place(0.5, -0.5) - corner, down = place(-0.5, 0.5) - corner;
-    cairo_t* cairo = canvas.cairo();
-    cairo_save(cairo);
-    if (view.half_side > 0.0 && view.frame == Frame::lab)
-        cairo_rectangle(cairo, view.centre.x - view.half_side, view.centre.y - view.half_side,
-                        2.0 * view.half_side, 2.0 * view.half_side);
-    else if (view.half_side > 0.0)
-        circle(cairo, view.centre, view.half_side);
-    if (view.half_side > 0.0) cairo_clip(cairo);
-    const cairo_matrix_t matrix{right.x, right.y, down.x, down.y, corner.x, corner.y};
-    cairo_transform(cairo, &matrix);
-    cairo_set_source_surface(cairo, backdrop.image->surface(), 0.0, 0.0);
-    // A picture that is made much smaller must be averaged; else this is faster and as good.
-    const double scale = std::sqrt(dot(right, right));
-    cairo_pattern_set_filter(cairo_get_source(cairo),
-                             scale < 0.6 ? CAIRO_FILTER_GOOD : CAIRO_FILTER_BILINEAR);
-    cairo_paint(cairo);
-    cairo_restore(cairo);
+    canvas.fill(color);
 }
 
 void draw_container(const Canvas& canvas, const View& view, const SceneStyle& style,
                     const Snapshot& now) {
-    cairo_t* cairo = canvas.cairo();
-    const FrameAt at(now, view.frame);
-    const Vec2 c = view.on_page(at.position(now.container_centre));
-    const double radius = view.pixels_per_unit * now.container_radius;
+    const FrameTransform frame(now, view.frame);
+    const Vec2 c = view.on_page(frame.position(now.container_centre));
+    const double radius = radius_on_page(view, now);
     const double thickness = wall_thickness * radius;
 
-    circle(cairo, c, radius + thickness);
-    canvas.set(style.theme.wall);
-    cairo_fill(cairo);
-    // Marks that stand still on the wall: twelve, one of them broad, so that the wall's turning in
-    // the M-frame, and its not turning in the lab, can be seen.
+    canvas.add_circle(c, radius + thickness);
+    canvas.fill(style.theme.wall);
+    // Twelve marks fixed on the wall, one of them wide. They show that the wall turns in the
+    // M-frame, and that it does not in the lab.
     for (int k = 0; k < 12; ++k) {
-        const double angle = at.orientation(full_turn * k / 12.0);
+        const double angle = frame.orientation(full_turn * k / 12.0);
         const Vec2 u{std::cos(angle), -std::sin(angle)};
-        const double inner = radius, outer = radius + thickness;
-        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
-        cairo_set_line_width(cairo, (k == 0 ? 1.5 : 0.38) * thickness);
-        cairo_move_to(cairo, c.x + inner * u.x, c.y + inner * u.y);
-        cairo_line_to(cairo, c.x + outer * u.x, c.y + outer * u.y);
-        canvas.set(k == 0 ? style.theme.accent : style.theme.wall_mark);
-        cairo_stroke(cairo);
+        const double outer = radius + thickness;
+        cairo_set_line_cap(canvas.cairo(), CAIRO_LINE_CAP_BUTT);
+        canvas.add_line({c.x + radius * u.x, c.y + radius * u.y},
+                        {c.x + outer * u.x, c.y + outer * u.y});
+        canvas.stroke((k == 0 ? 1.5 : 0.38) * thickness,
+                      k == 0 ? style.theme.accent : style.theme.wall_mark);
     }
-    circle(cairo, c, radius);
-    canvas.set(style.theme.floor);
-    cairo_fill(cairo);
-}
-
-void draw_trails(const Canvas& canvas, const View& view, const SceneStyle& style,
-                 const SceneContent& content) {
-    if (content.past.empty()) return;
-    cairo_t* cairo = canvas.cairo();
-    const std::size_t count = content.now.size();
-    std::vector<std::vector<Vec2>> places;  // of all discs on the page, oldest instant first
-    for (std::size_t k = 0; k <= content.past.size(); ++k) {
-        const bool present = k == content.past.size();
-        const Snapshot& then = present ? content.now : *content.past[k];
-        const bool named = !present && content.past_ids.size() == content.past.size();
-        if (!named && then.size() != count) continue;
-        const FrameAt at(then, view.frame);
-        std::vector<Vec2>& row = places.emplace_back(count, nowhere);
-        if (!named) {
-            for (std::size_t i = 0; i < count; ++i)
-                row[i] = view.on_page(at.position(then.position(i)));
-            continue;
-        }
-        // Those who were there already, by name; the names ascend.
-        const auto& names = content.past_ids[k];
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto found = std::lower_bound(names.begin(), names.end(), content.ids[i]);
-            if (found == names.end() || *found != content.ids[i]) continue;
-            const auto j = static_cast<std::size_t>(found - names.begin());
-            row[i] = view.on_page(at.position(then.position(j)));
-        }
-    }
-    if (places.size() < 2) return;
-    // A few bands of one opacity each, all discs of a colour in one path: segment by segment it
-    // would take longer than everything else.
-    constexpr std::size_t bands = 8;
-    const FrameAt at(content.now, view.frame);
-    const std::size_t segments = places.size() - 1;
-    const double radius = count > 0 ? view.pixels_per_unit * content.now.radius[0] : 1.0;
-    // Round ends would show through each other where the trails are transparent.
-    cairo_set_line_cap(cairo, content.backdrop ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
-    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    for (std::size_t band = 0; band < bands; ++band) {
-        const std::size_t from = segments * band / bands, to = segments * (band + 1) / bands;
-        if (from == to) continue;
-        const double age = (static_cast<double>(band) + 1.0) / bands;
-        cairo_set_line_width(cairo, std::max(1.0, (0.05 + 0.14 * age) * radius));
-        for (std::size_t i = 0; i < count; ++i) {
-            cairo_new_sub_path(cairo);
-            for (std::size_t k = from; k <= to; ++k)
-                if (!std::isnan(places[k][i].x))
-                    cairo_line_to(cairo, places[k][i].x, places[k][i].y);
-            const bool own_color = style.coloring != Coloring::none;
-            if (!own_color && i + 1 < count) continue;
-            const Color color = disc_color(style, content, at, i);
-            if (content.backdrop)
-                canvas.set(color, 0.12 + 0.6 * age);
-            else
-                canvas.set(mix(style.theme.floor, color, 0.12 + 0.6 * age));
-            cairo_stroke(cairo);
-        }
-    }
-}
-
-void draw_discs(const Canvas& canvas, const View& view, const SceneStyle& style,
-                const SceneContent& content) {
-    const Snapshot& now = content.now;
-    const FrameAt at(now, view.frame);
-    const bool balls =
-        style.orientation && now.are_balls() && !now.turned.empty() && !content.backdrop;
-    const Quaternion frame = turn_by(0.0, 0.0, at.orientation(0.0));
-    for (std::size_t i = 0; i < now.size(); ++i) {
-        const double radius = view.pixels_per_unit * now.radius[i];
-        if (balls && radius >= smallest_marked_radius) {
-            draw_ball(canvas, view.on_page(at.position(now.position(i))), radius,
-                      disc_color(style, content, at, i), frame * now.quaternion(i));
-            continue;
-        }
-        const double orientation =
-            style.orientation ? at.orientation(now.orientation(i)) : std::nan("");
-        (content.backdrop ? outline_disc : draw_disc)(
-            canvas, view.on_page(at.position(now.position(i))), radius,
-            disc_color(style, content, at, i), orientation);
-    }
-}
-
-void draw_ghosts(const Canvas& canvas, const View& view, const SceneStyle& style,
-                 const SceneContent& content) {
-    cairo_t* cairo = canvas.cairo();
-    const Snapshot& now = content.now;
-    for (std::size_t k = 0; k < content.ghosts.size(); ++k) {
-        const Snapshot& then = *content.ghosts[k];
-        const FrameAt at(then, view.frame);
-        const double age = double(k + 1) / double(content.ghosts.size() + 1);
-        // In the lab the dish was elsewhere, too.
-        if (view.frame == Frame::lab) {
-            const double wall = view.pixels_per_unit * then.container_radius;
-            circle(cairo, view.on_page(then.container_centre), wall);
-            cairo_set_line_width(cairo, std::max(0.7, 0.012 * wall));
-            canvas.set(style.theme.wall, 0.1 + 0.3 * age);
-            cairo_stroke(cairo);
-        }
-        for (std::size_t i = 0; i < then.size(); ++i) {
-            const Color color =
-                then.size() == now.size() ? disc_color(style, content, at, i) : style.theme.disc;
-            const double radius = view.pixels_per_unit * then.radius[i];
-            circle(cairo, view.on_page(at.position(then.position(i))), 0.94 * radius);
-            canvas.set(color, 0.05 + 0.2 * age);
-            cairo_fill_preserve(cairo);
-            cairo_set_line_width(cairo, std::max(0.7, 0.045 * radius));
-            canvas.set(color, 0.15 + 0.5 * age);
-            cairo_stroke(cairo);
-        }
-    }
-}
-
-void draw_slice(const Canvas& canvas, const View& view, const SceneStyle& style,
-                const Snapshot& now) {
-    if (!style.slice || view.frame != Frame::m) return;
-    constexpr double half_width = pi / 18.0;
-    cairo_t* cairo = canvas.cairo();
-    const double radius = view.pixels_per_unit * now.container_radius;
-    cairo_move_to(cairo, view.centre.x, view.centre.y);
-    // The page counts y downwards, so angles change their sign.
-    cairo_arc(cairo, view.centre.x, view.centre.y, radius, -*style.slice - half_width,
-              -*style.slice + half_width);
-    cairo_close_path(cairo);
-    canvas.set(distinct_colors[2], 0.35);
-    cairo_fill(cairo);
-}
-
-void draw_angles(const Canvas& canvas, const View& view, const SceneStyle& style,
-                 const Snapshot& now) {
-    if (!style.angles || view.frame != Frame::m) return;
-    // In a small dish larger, so that they can be read.
-    const double unit = line_unit(view, now),
-                 type = std::max(0.055 * unit, std::min(9.5, 0.09 * unit));
-    if (type < 7.0) return;
-    const LabelStyle label{.size = type, .color = style.theme.ink, .align = Align::center};
-    const double away = (1.0 + wall_thickness) * unit + 0.9 * type;
-    for (int k = 0; k < 8; ++k) {
-        const double theta = k * pi / 4.0;
-        const Vec2 u{std::cos(theta), -std::sin(theta)};
-        const double reach = away + 0.5 * type * std::abs(u.x);
-        // M stands at the bottom already.
-        if (k == 6 && style.points) continue;
-        draw_label(canvas, std::to_string(45 * k) + "°",
-                   {view.centre.x + reach * u.x, view.centre.y + reach * u.y + 0.35 * type}, label);
-    }
-}
-
-void draw_forces(const Canvas& canvas, const View& view, const SceneStyle& style,
-                 const Snapshot& now, std::span<const std::size_t> discs) {
-    if (view.frame != Frame::m || now.size() == 0 || !(now.period > 0.0)) return;
-    const FrameAt at(now, view.frame);
-    const double omega = full_turn / now.period;
-    const Vec2 swirl_centre = at.position({0.0, 0.0});
-    const double amplitude = std::sqrt(dot(swirl_centre, swirl_centre));
-    // Both forces on one scale: the largest centrifugal force in the dish is 2 radii long.
-    const double largest = omega * omega * (now.container_radius + amplitude);
-    const double length = 2.0 * now.radius[0] * view.pixels_per_unit / largest;
-    for (std::size_t i : discs) {
-        const Vec2 p = at.position(now.position(i));
-        const Vec2 v = at.velocity(now.position(i), now.velocity(i));
-        const Vec2 centrifugal = (omega * omega) * (p - swirl_centre);
-        const Vec2 coriolis = (-2.0 * omega) * perpendicular(v);
-        const Vec2 tail = view.on_page(p);
-        const double width = std::max(1.0, 0.12 * view.pixels_per_unit * now.radius[i]);
-        const auto tip = [&](const Vec2& force) {
-            return Vec2{tail.x + length * force.x, tail.y - length * force.y};
-        };
-        draw_arrow(canvas, tail, tip(centrifugal), width, style.theme.centrifugal,
-                   style.theme.floor);
-        draw_arrow(canvas, tail, tip(coriolis), width, style.theme.coriolis, style.theme.floor);
-    }
+    canvas.add_circle(c, radius);
+    canvas.fill(style.theme.floor);
 }
 
 void draw_points(const Canvas& canvas, const View& view, const SceneStyle& style,
                  const SceneContent& content) {
-    cairo_t* cairo = canvas.cairo();
     const Snapshot& now = content.now;
     const Theme& theme = style.theme;
-    const FrameAt at(now, view.frame);
-    const double unit = line_unit(view, now);
-    const double line = std::max(0.8, 0.005 * unit);
-    const Vec2 centre = now.container_centre;
-    const double amplitude = std::sqrt(dot(centre, centre));
-
-    if (style.path && view.frame == Frame::lab && content.path.size() > 1) {
-        for (const Vec2& p : content.path) {
-            const Vec2 q = view.on_page(p);
-            cairo_line_to(cairo, q.x, q.y);
-        }
-        cairo_close_path(cairo);
-        cairo_set_line_width(cairo, 2.6 * line);
-        canvas.set(theme.floor, 0.75);
-        cairo_stroke_preserve(cairo);
-        cairo_set_line_width(cairo, 1.1 * line);
-        canvas.set(theme.ink, 0.9);
-        cairo_stroke(cairo);
-    }
+    const FrameTransform frame(now, view.frame);
+    const double unit = radius_on_page(view, now), line = std::max(0.8, 0.005 * unit);
+    if (style.path && view.frame == Frame::lab && content.path.size() > 1)
+        draw_path(canvas, view, theme, content.path, line);
     if (!style.points) return;
 
-    // Also in a small dish large enough to be read, as long as it does not hide the discs.
-    const double type = style.point_type * std::max(0.062 * unit, std::min(13.0, 0.16 * unit));
-    const bool labelled = type >= 8.0;
-    const LabelStyle label{.size = type, .color = theme.ink, .bold = true, .halo = theme.floor};
-    const Vec2 s = view.on_page(at.position({0.0, 0.0}));
-    const Vec2 c = view.on_page(at.position(centre));
-
-    // S: a cross.
-    const double arm = 0.022 * unit;
-    for (int pass = 0; pass < 2; ++pass) {
-        cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
-        cairo_set_line_width(cairo, (pass == 0 ? 4.2 : 2.0) * line);
-        cairo_move_to(cairo, s.x - arm, s.y);
-        cairo_line_to(cairo, s.x + arm, s.y);
-        cairo_move_to(cairo, s.x, s.y - arm);
-        cairo_line_to(cairo, s.x, s.y + arm);
-        canvas.set(pass == 0 ? theme.floor : theme.ink);
-        cairo_stroke(cairo);
+    // Relatively larger letters in a small drawing, as long as they do not hide the discs.
+    const double size = style.point_size * std::max(0.062 * unit, std::min(13.0, 0.16 * unit));
+    const bool has_letters = size >= 8.0;
+    const LabelStyle label{.size = size, .color = theme.ink, .bold = true, .halo = theme.floor};
+    const Vec2 s = view.on_page(frame.position({0.0, 0.0}));
+    const Vec2 c = view.on_page(frame.position(now.container_centre));
+    draw_centres(canvas, theme, s, c, unit, line);
+    if (has_letters) {
+        draw_label(canvas, "$S$", {s.x - 1.05 * size, s.y - 0.28 * size}, label);
+        draw_label(canvas, "$C$", {c.x + 0.45 * size, c.y + 0.75 * size}, label);
     }
-    // C: a dot.
-    circle(cairo, c, 0.019 * unit + line);
-    canvas.set(theme.floor);
-    cairo_fill(cairo);
-    circle(cairo, c, 0.019 * unit);
-    canvas.set(theme.ink);
-    cairo_fill(cairo);
-    if (labelled) {
-        draw_label(canvas, "$S$", {s.x - 1.05 * type, s.y - 0.28 * type}, label);
-        draw_label(canvas, "$C$", {c.x + 0.45 * type, c.y + 0.75 * type}, label);
-    }
-    if (amplitude == 0.0) return;
-    // M: a triangle outside the wall that points at it.
-    const Vec2 outward = (1.0 / amplitude) * centre;
-    const double wall = now.container_radius * (1.0 + wall_thickness);
-    const Vec2 m = view.on_page(at.position(centre + wall * outward));
-    Vec2 u = at.turned(outward);
-    u.y = -u.y;
-    const Vec2 side{-u.y, u.x};
-    // In the lab frame the picture ends at the wall's farthest reach, so there M lies on the wall.
-    const double inward = view.frame == Frame::lab ? -wall_thickness * unit : 0.0;
-    const double height = 0.038 * unit;
-    const Vec2 tip{m.x + inward * u.x, m.y + inward * u.y};
-    cairo_move_to(cairo, tip.x, tip.y);
-    cairo_line_to(cairo, tip.x + height * u.x + 0.6 * height * side.x,
-                  tip.y + height * u.y + 0.6 * height * side.y);
-    cairo_line_to(cairo, tip.x + height * u.x - 0.6 * height * side.x,
-                  tip.y + height * u.y - 0.6 * height * side.y);
-    cairo_close_path(cairo);
-    if (content.backdrop) {
-        cairo_set_line_width(cairo, 3.0 * line);
-        canvas.set(theme.floor, 0.85);
-        cairo_stroke_preserve(cairo);
-    }
-    canvas.set(theme.ink);
-    cairo_fill(cairo);
-    if (!labelled) return;
-    const Vec2 middle = view.frame == Frame::lab
-                            ? Vec2{tip.x - 0.65 * type * u.x, tip.y - 0.65 * type * u.y}
-                            : Vec2{tip.x + height + 0.35 * type, tip.y + 0.6 * type};
-    if (view.frame == Frame::lab) {
-        LabelStyle centred = label;
-        centred.align = Align::center;
-        draw_label(canvas, "$M$", {middle.x, middle.y + 0.34 * type}, centred);
-    } else {
-        LabelStyle outside = label;
-        if (!content.backdrop) outside.halo = std::nullopt;
-        draw_label(canvas, "$M$", middle, outside);
-    }
-}
-
-void draw_turned(const Canvas& canvas, const View& view, const SceneStyle& style,
-                 const SceneContent& content) {
-    if (!content.turned || view.frame != Frame::lab) return;
-    cairo_t* cairo = canvas.cairo();
-    const Snapshot& now = content.now;
-    const Theme& theme = style.theme;
-    const double unit = line_unit(view, now), width = 0.035 * unit;
-    const double radius = unit * (1.0 + wall_thickness + 0.045);
-    const Vec2 c = view.on_page(now.container_centre);
-    const double turns = *content.turned;
-    const Color color = turns < 0.0 ? theme.pinned : theme.loose;
-    // From the top; beyond a whole turn only the rest is shown, the number tells the whole.
-    const double top = -0.5 * pi, sweep = -full_turn * (turns - std::trunc(turns));
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
-    cairo_set_line_width(cairo, width);
-    cairo_new_sub_path(cairo);
-    if (sweep < 0.0)
-        cairo_arc_negative(cairo, c.x, c.y, radius, top, top + sweep);
-    else
-        cairo_arc(cairo, c.x, c.y, radius, top, top + sweep);
-    canvas.set(color);
-    cairo_stroke(cairo);
-    // A head that points on along the arc.
-    const double sense = turns < 0.0 ? 1.0 : -1.0, end = top + sweep;
-    const Vec2 outward{std::cos(end), std::sin(end)};
-    const Vec2 along{-sense * outward.y, sense * outward.x};
-    const Vec2 base = c + radius * outward;
-    const Vec2 tip = base + 2.4 * width * along;
-    cairo_move_to(cairo, tip.x, tip.y);
-    cairo_line_to(cairo, base.x + 1.5 * width * outward.x, base.y + 1.5 * width * outward.y);
-    cairo_line_to(cairo, base.x - 1.5 * width * outward.x, base.y - 1.5 * width * outward.y);
-    cairo_close_path(cairo);
-    cairo_fill(cairo);
+    if (length_of(now.container_centre) > 0.0)
+        draw_m(canvas, view, style, content, has_letters ? &label : nullptr);
 }
 
 void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
@@ -540,14 +488,10 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
     draw_ghosts(canvas, view, style, content);
     draw_trails(canvas, view, style, content);
     draw_discs(canvas, view, style, content);
-    if (style.forces) {
-        std::vector<std::size_t> all(content.now.size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
-        draw_forces(canvas, view, style, content.now, all);
-    }
+    if (style.forces) draw_forces(canvas, view, style, content.now);
     draw_points(canvas, view, style, content);
     draw_angles(canvas, view, style, content.now);
-    draw_turned(canvas, view, style, content);
+    draw_turn_arc(canvas, view, style, content);
 }
 
 }  // namespace swirl

@@ -1,8 +1,9 @@
 #include "swirl/render/sheet.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 #include "swirl/render/label.hpp"
@@ -11,107 +12,91 @@ namespace swirl {
 
 namespace {
 
-/// Type smaller than this, in pixels, cannot be read.
-constexpr double smallest_type = 7.0;
-
 std::string joined(const std::vector<std::string>& parts) {
     std::string text;
     for (const std::string& part : parts) text += (text.empty() ? "" : "   ·   ") + part;
     return text;
 }
 
-std::string fixed(double value, int decimals) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
-}
+std::string fixed(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
 
 }  // namespace
 
 Sheet::Sheet(const SheetSpec& spec) : spec_(spec) {
-    const Canvas ruler(Size{8, 8});
+    const Canvas ruler(Size{8, 8});  // measures text only
     lay_out(ruler);
 }
 
-/// In the middle over its dish; on the right where the number of turns stands on the left.
+/// Centred over its container, or on the right if the number of turns is on the left.
 void Sheet::lay_out_caption(const Canvas& canvas, const Panel& panel, const Rectangle& square,
                             double gap) {
-    LabelStyle style{.size = type_, .color = spec_.style.theme.faint_ink, .align = Align::center};
-    const double number = panel.turned ? 7.0 * type_ : 0.0;
+    LabelStyle style{.size = em_, .color = spec_.style.theme.faint_ink, .align = Align::center};
+    const double number = panel.shows_turns ? 7.0 * em_ : 0.0;
     style.size = fitting_size(canvas, panel.caption, style, square.width + 0.8 * gap - number);
-    Vec2 place{square.x + 0.5 * square.width, number_line_};
-    if (panel.turned) {
+    Vec2 position{square.x + 0.5 * square.width, caption_line_};
+    if (panel.shows_turns) {
         style.align = Align::right;
-        place.x = square.x + square.width;
-        // The clock may stand on the same line.
-        if (clock_place_ && clock_align_ == Align::right)
-            place.x = std::min(place.x, clock_place_->x - clock_width());
+        position.x = square.x + square.width;
+        // The clock may be on the same line.
+        if (clock_position_ && clock_align_ == Align::right)
+            position.x = std::min(position.x, clock_position_->x - clock_width());
     }
-    texts_.push_back({panel.caption, place, style});
+    texts_.push_back({panel.caption, position, style});
+}
+
+double Sheet::caption_height() const {
+    const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
+                                      [](const Panel& p) { return !p.caption.empty(); });
+    return captions && em_ >= min_font_size ? 1.7 * em_ : 0.0;
 }
 
 void Sheet::lay_out_panels(const Canvas& canvas, const Rectangle& area, double side, double gap) {
     const auto count = static_cast<double>(spec_.panels.size());
     double x = area.x + 0.5 * (area.width - count * side - (count - 1.0) * gap);
-    const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
-                                      [](const Panel& p) { return !p.caption.empty(); });
-    const double caption = captions && type_ >= smallest_type ? 1.7 * type_ : 0.0;
+    const double caption = caption_height();
     const double y = area.y + 0.5 * (area.height - side - caption) + caption;
-    number_line_ = y - 0.55 * type_;
+    caption_line_ = y - 0.55 * em_;
     for (const Panel& panel : spec_.panels) {
         const Rectangle square{x, y, side, side};
         views_.push_back(fitting_view(square, panel.frame, panel.container_radius, panel.amplitude,
-                                      panel.turned ? 0.1 : 0.0));
-        if (caption > 0.0) lay_out_caption(canvas, panel, {x, y, side, side}, gap);
+                                      panel.shows_turns ? 0.1 : 0.0));
+        if (caption > 0.0) lay_out_caption(canvas, panel, square, gap);
         x += side + gap;
     }
-    // One scale for all, so that dishes can be compared by eye.
+    // One scale for all, so that containers can be compared by eye.
     for (const View& view : views_) scale_ = std::min(scale_, view.pixels_per_unit);
     for (View& view : views_) view.pixels_per_unit = scale_;
-}
-
-double Sheet::legend_height() const {
-    return spec_.style.coloring == Coloring::pinned || spec_.style.forces ||
-                   spec_.style.coloring == Coloring::spin ||
-                   spec_.style.coloring == Coloring::speed || spec_.style.coloring == Coloring::slip
-               ? 2.0 * type_
-               : 0.0;
 }
 
 void Sheet::lay_out(const Canvas& canvas) {
     const double width = spec_.size.width, height = spec_.size.height;
     const double shorter = std::min(width, height);
     margin_ = 0.026 * shorter;
-    // Small pictures have larger letters in proportion, as long as they leave room for the dish.
-    type_ = std::max(0.0235 * shorter, std::min(11.0, 0.038 * shorter));
+    // Small pages have relatively larger letters, as long as they leave space for the container.
+    em_ = std::max(0.0235 * shorter, std::min(11.0, 0.038 * shorter));
     const auto count = static_cast<double>(spec_.panels.size());
     const double side = height - 2.0 * margin_;
     const double left_over = width - count * side - (count + 2.0) * margin_;
     const bool has_text =
-        type_ >= smallest_type && (!spec_.title.empty() || !spec_.parameters.empty() || spec_.plot);
-    if (has_text && left_over > 0.36 * height) {
-        const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
-                                          [](const Panel& p) { return !p.caption.empty(); });
-        const double panel = side - (captions ? 1.7 * type_ : 0.0);
-        const double panels = count * panel + (count - 1.0) * margin_;
-        const double column = std::min(width - panels - 4.0 * margin_, column_width(canvas));
-        const double total = panels + 2.0 * margin_ + column;
-        const double x = 0.5 * (width - total);
-        lay_out_panels(canvas, {x, margin_, panels, side}, panel, margin_);
-        lay_out_column(canvas, {x + panels + 2.0 * margin_, margin_, column, side});
-        return;
-    }
-    lay_out_bands(canvas);
+        em_ >= min_font_size && (!spec_.title.empty() || !spec_.parameters.empty() || spec_.plot);
+    if (!has_text || left_over <= 0.36 * height) return lay_out_bands(canvas);
+    const double panel = side - caption_height();
+    const double panels = count * panel + (count - 1.0) * margin_;
+    const double column = std::min(width - panels - 4.0 * margin_, column_width(canvas));
+    const double total = panels + 2.0 * margin_ + column;
+    const double x = 0.5 * (width - total);
+    lay_out_panels(canvas, {x, margin_, panels, side}, panel, margin_);
+    lay_out_column(canvas, {x + panels + 2.0 * margin_, margin_, column, side});
 }
 
-/// As wide as its texts need, and the plot likes.
+/// The width that texts, legend and plot need, at most 0.8 of the page's height.
 double Sheet::column_width(const Canvas& canvas) const {
     const double height = spec_.size.height;
-    double width = spec_.plot ? 0.72 * height : legend_height() > 0.0 ? 0.6 * height : 8.0 * type_;
-    const LabelStyle plain{.size = 1.05 * type_, .color = spec_.style.theme.ink};
+    double width = spec_.plot ? 0.72 * height : !legend().empty() ? 0.6 * height : 8.0 * em_;
+    const LabelStyle plain{.size = 1.05 * em_, .color = spec_.style.theme.ink};
     for (const std::string& parameter : spec_.parameters)
         width = std::max(width, label_width(canvas, parameter, plain));
-    const LabelStyle title{.size = 1.9 * type_, .color = spec_.style.theme.ink, .bold = true};
+    const LabelStyle title{.size = 1.9 * em_, .color = spec_.style.theme.ink, .bold = true};
     width = std::max(width, label_width(canvas, spec_.title, title));
     return std::min(width, 0.8 * height);
 }
@@ -120,201 +105,184 @@ void Sheet::lay_out_column(const Canvas& canvas, const Rectangle& column) {
     const Theme& theme = spec_.style.theme;
     double y = column.y + 0.06 * column.height;
     if (!spec_.title.empty()) {
-        LabelStyle style{.size = 1.9 * type_, .color = theme.ink, .bold = true};
+        LabelStyle style{.size = 1.9 * em_, .color = theme.ink, .bold = true};
         style.size = fitting_size(canvas, spec_.title, style, column.width);
         texts_.push_back({spec_.title, {column.x, y + style.size}, style});
-        y += 1.1 * style.size + 1.3 * type_;
+        y += 1.1 * style.size + 1.3 * em_;
     }
     for (const std::string& parameter : spec_.parameters) {
-        LabelStyle style{.size = 1.05 * type_, .color = theme.faint_ink};
+        LabelStyle style{.size = 1.05 * em_, .color = theme.faint_ink};
         style.size = fitting_size(canvas, parameter, style, column.width);
-        y += 1.75 * type_;
+        y += 1.75 * em_;
         texts_.push_back({parameter, {column.x, y}, style});
     }
-    y += 1.6 * type_;
-    if (legend_height() > 0.0) {
-        legend_area_ = Rectangle{column.x, y, column.width, 2.0 * type_};
-        y += 3.2 * type_;
+    y += 1.6 * em_;
+    if (!legend().empty()) {
+        legend_area_ = Rectangle{column.x, y, column.width, 2.0 * em_};
+        y += 3.2 * em_;
     }
     const double bottom = column.y + column.height;
-    if (spec_.plot && bottom - y > 8.0 * type_) {
-        const double height = std::min(0.36 * column.height, bottom - y - 3.0 * type_);
+    double clock = bottom - 0.5 * em_;
+    if (spec_.plot && bottom - y > 8.0 * em_) {
+        const double height = std::min(0.36 * column.height, bottom - y - 3.0 * em_);
         plot_area_ = Rectangle{column.x, bottom - height, column.width, height};
-        spec_.plot->type = 0.9 * type_;
-        if (spec_.clock) clock_place_ = Vec2{column.x, bottom - height - 0.9 * type_};
-        return;
+        spec_.plot->em = 0.9 * em_;
+        clock = bottom - height - 0.9 * em_;
     }
-    if (spec_.clock) clock_place_ = Vec2{column.x, bottom - 0.5 * type_};
+    if (spec_.clock) clock_position_ = Vec2{column.x, clock};
 }
 
-/// Whether headline, captions and clock have room beside each other.
+/// True if title, captions and clock fit next to each other on one line.
 bool Sheet::title_shares_line(const Canvas& canvas, double inner) const {
-    const LabelStyle title{.size = 1.5 * type_, .color = spec_.style.theme.ink, .bold = true};
-    const LabelStyle caption{.size = type_, .color = spec_.style.theme.ink};
+    const LabelStyle title{.size = 1.5 * em_, .color = spec_.style.theme.ink, .bold = true};
+    const LabelStyle caption{.size = em_, .color = spec_.style.theme.ink};
     const auto count = static_cast<double>(spec_.panels.size());
     double widest = 0.0;
     for (const Panel& panel : spec_.panels) {
-        if (panel.turned) return false;
+        if (panel.shows_turns) return false;
         widest = std::max(widest, label_width(canvas, panel.caption, caption));
     }
-    // The captions stand over dishes that are no wider than the height of the page allows.
+    // The page's height limits the width of the containers below the captions.
     const double side = std::min(0.62 * spec_.size.height, inner / count);
     const double captions = (count - 1.0) * (side + margin_) + widest;
     const double left = 0.5 * (inner - captions);
-    return left > label_width(canvas, spec_.title, title) + 2.0 * type_ && left > 9.5 * type_;
+    return left > label_width(canvas, spec_.title, title) + 2.0 * em_ && left > 9.5 * em_;
 }
 
 void Sheet::lay_out_bands(const Canvas& canvas) {
     const Theme& theme = spec_.style.theme;
     const double width = spec_.size.width, height = spec_.size.height;
     const double inner = width - 2.0 * margin_;
-    const bool readable = type_ >= smallest_type;
+    const bool readable = em_ >= min_font_size;
     double top = margin_, bottom = height - margin_;
     const double clock = readable && spec_.clock ? clock_width() : 0.0;
-    const bool shared = title_shares_line(canvas, inner);
-    if (readable && (!spec_.title.empty() || spec_.clock)) {
-        if (!spec_.title.empty()) {
-            LabelStyle style{.size = 1.5 * type_, .color = theme.ink, .bold = true};
-            style.size = fitting_size(canvas, spec_.title, style, inner - clock);
-            texts_.push_back({spec_.title, {margin_, top + 1.3 * type_}, style});
-        }
-        if (spec_.clock) {
-            clock_place_ = Vec2{width - margin_, top + 1.15 * type_};
-            clock_align_ = Align::right;
-        }
-        // A short headline and the clock share the line of the captions; so the dish is larger.
-        top += spec_.title.empty() || shared ? 0.0 : 2.2 * type_;
+    if (readable && !spec_.title.empty()) {
+        LabelStyle style{.size = 1.5 * em_, .color = theme.ink, .bold = true};
+        style.size = fitting_size(canvas, spec_.title, style, inner - clock);
+        texts_.push_back({spec_.title, {margin_, top + 1.3 * em_}, style});
     }
+    if (readable && spec_.clock) {
+        clock_position_ = Vec2{width - margin_, top + 1.15 * em_};
+        clock_align_ = Align::right;
+    }
+    // A short title and the clock share the line of the captions, so that containers are larger.
+    if (readable && !spec_.title.empty() && !title_shares_line(canvas, inner)) top += 2.2 * em_;
     if (readable && !spec_.parameters.empty()) {
         const std::string line = joined(spec_.parameters);
-        LabelStyle style{.size = 0.9 * type_, .color = theme.faint_ink, .align = Align::center};
+        LabelStyle style{.size = 0.9 * em_, .color = theme.faint_ink, .align = Align::center};
         style.size = fitting_size(canvas, line, style, inner);
-        if (style.size >= smallest_type) {
-            texts_.push_back({line, {0.5 * width, bottom - 0.2 * type_}, style});
-            bottom -= 1.9 * type_;
+        if (style.size >= min_font_size) {
+            texts_.push_back({line, {0.5 * width, bottom - 0.2 * em_}, style});
+            bottom -= 1.9 * em_;
         }
     }
     if (readable && spec_.plot) {
-        const double plot = std::clamp(0.17 * height, 7.0 * type_, 0.3 * height);
+        const double plot = std::clamp(0.17 * height, 7.0 * em_, 0.3 * height);
         const double plot_width = std::min(inner, 2.2 * height);
         plot_area_ = Rectangle{0.5 * (width - plot_width), bottom - plot, plot_width, plot};
-        spec_.plot->type = 0.85 * type_;
-        bottom -= plot + 0.1 * type_;
+        spec_.plot->em = 0.85 * em_;
+        bottom -= plot + 0.1 * em_;
     }
-    if (readable && legend_height() > 0.0) {
-        legend_area_ = Rectangle{margin_, bottom - 1.5 * type_, inner, 1.5 * type_};
-        bottom -= 2.1 * type_;
+    if (readable && !legend().empty()) {
+        legend_area_ = Rectangle{margin_, bottom - 1.5 * em_, inner, 1.5 * em_};
+        bottom -= 2.1 * em_;
     }
     const auto count = static_cast<double>(spec_.panels.size());
-    const bool captions = std::any_of(spec_.panels.begin(), spec_.panels.end(),
-                                      [](const Panel& p) { return !p.caption.empty(); });
-    const double caption = captions && readable ? 1.7 * type_ : 0.0;
-    const double side =
-        std::max(1.0, std::min(bottom - top - caption, (inner - (count - 1.0) * margin_) / count));
+    const double side = std::max(
+        1.0, std::min(bottom - top - caption_height(), (inner - (count - 1.0) * margin_) / count));
     const double spare = inner - count * side;
     lay_out_panels(canvas, {margin_, top, inner, bottom - top}, side,
                    count > 1.0 ? std::min(spare / (count - 1.0), 3.0 * margin_) : 0.0);
 }
 
-/// Of all that the legend holds, before it is made to fit.
-double Sheet::legend_width(const Canvas& canvas, const LabelStyle& label) const {
-    double width = 0.0;
-    const auto add = [&](double mark, std::string_view text) {
-        width += mark * type_ + label_width(canvas, text, label) + 1.6 * type_;
-    };
-    switch (spec_.style.coloring) {
+std::vector<Sheet::LegendEntry> Sheet::legend() const {
+    using Kind = LegendEntry::Kind;
+    const SceneStyle& style = spec_.style;
+    const Theme& theme = style.theme;
+    std::vector<LegendEntry> entries;
+    switch (style.coloring) {
         case Coloring::pinned:
-            add(1.4, "pinned");
-            add(1.4, "loose");
+            entries = {{Kind::dot, theme.pinned, "pinned"}, {Kind::dot, theme.loose, "loose"}};
             break;
         case Coloring::spin:
-            add(14.5, "spin $ω_{i}$");
+            entries = {{Kind::diverging_bar, theme.neutral, "spin $ω_{i}$",
+                        "−" + fixed(style.full_spin, 2), fixed(style.full_spin, 2)}};
             break;
         case Coloring::speed:
-            add(12.0, "speed");
-            break;
         case Coloring::slip:
-            add(12.0, "slip on the floor");
+            entries = {{Kind::sequential_bar, theme.ink,
+                        style.coloring == Coloring::speed ? "speed" : "slip on the floor", "0",
+                        fixed(style.full_speed, 1)}};
             break;
-        default:
+        case Coloring::none:
+        case Coloring::id:
             break;
     }
-    if (!spec_.style.forces) return width;
-    add(2.2, "centrifugal");
-    add(2.2, "Coriolis");
-    return width;
+    if (!style.forces) return entries;
+    entries.push_back({Kind::arrow, theme.centrifugal, "centrifugal"});
+    entries.push_back({Kind::arrow, theme.coriolis, "Coriolis"});
+    return entries;
 }
 
 void Sheet::draw_legend(const Canvas& canvas) const {
     if (!legend_area_) return;
+    using Kind = LegendEntry::Kind;
+    constexpr double spacing = 1.6;  // after each entry, in units of the font size
     cairo_t* cairo = canvas.cairo();
-    const SceneStyle& style = spec_.style;
-    const Theme& theme = style.theme;
+    const Theme& theme = spec_.style.theme;
     const Rectangle& area = *legend_area_;
-    const double baseline = area.y + 1.05 * type_, middle = baseline - 0.34 * type_;
-    const LabelStyle full{.size = 0.95 * type_, .color = theme.ink};
-    const double type =
-        type_ * std::min(1.0, area.width / std::max(legend_width(canvas, full), 1.0));
-    const LabelStyle label{.size = 0.95 * type, .color = theme.ink};
+    const double baseline = area.y + 1.05 * em_, middle = baseline - 0.34 * em_;
+    const std::vector<LegendEntry> entries = legend();
+    // The width of the mark before the text; a colour bar includes the numbers at its ends.
+    const auto mark_width = [](const LegendEntry& entry) {
+        return entry.kind == Kind::dot             ? 1.4
+               : entry.kind == Kind::arrow         ? 2.2
+               : entry.kind == Kind::diverging_bar ? 14.5
+                                                   : 12.0;
+    };
+    const LabelStyle full{.size = 0.95 * em_, .color = theme.ink};
+    double width = 0.0;
+    for (const LegendEntry& entry : entries)
+        width += mark_width(entry) * em_ + label_width(canvas, entry.text, full) + spacing * em_;
+    const double em = em_ * std::min(1.0, area.width / std::max(width, 1.0));
+    const LabelStyle label{.size = 0.95 * em, .color = theme.ink};
     double x = area.x;
-    const auto spot = [&](const Color& color, std::string_view text) {
-        cairo_new_sub_path(cairo);
-        cairo_arc(cairo, x + 0.45 * type, middle, 0.45 * type, 0.0, 2.0 * pi);
-        canvas.set(color);
-        cairo_fill(cairo);
-        x += 1.4 * type;
-        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type;
-    };
-    const auto arrow = [&](const Color& color, std::string_view text) {
-        draw_arrow(canvas, {x, middle}, {x + 1.7 * type, middle}, 0.16 * type, color);
-        x += 2.2 * type;
-        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type;
-    };
-    const auto bar = [&](bool diverging, std::string_view low, std::string_view high,
-                         std::string_view text) {
-        x += draw_label(canvas, low, {x, baseline}, label) + 0.5 * type;
+    const auto draw_bar = [&](const LegendEntry& entry) {
+        x += draw_label(canvas, entry.low, {x, baseline}, label) + 0.5 * em;
         constexpr int steps = 64;
-        const double length = 7.0 * type;
+        const double length = 7.0 * em;
         for (int k = 0; k < steps; ++k) {
             const double u = (k + 0.5) / steps;
-            canvas.set(diverging ? diverging_color(2.0 * u - 1.0, theme.neutral)
-                                 : sequential_color(u));
-            // Each step reaches under the next, so no seam shows between them.
+            // Each step reaches under the next, so that there is no visible seam.
             const double end = k + 1 < steps ? (k + 1.5) / steps : 1.0;
-            cairo_rectangle(cairo, x + length * k / steps, middle - 0.4 * type,
-                            length * (end - static_cast<double>(k) / steps), 0.8 * type);
-            cairo_fill(cairo);
+            cairo_rectangle(cairo, x + length * k / steps, middle - 0.4 * em,
+                            length * (end - static_cast<double>(k) / steps), 0.8 * em);
+            canvas.fill(entry.kind == Kind::diverging_bar
+                            ? diverging_color(2.0 * u - 1.0, entry.color)
+                            : sequential_color(u));
         }
-        x += length + 0.5 * type;
-        x += draw_label(canvas, high, {x, baseline}, label) + 0.9 * type;
-        x += draw_label(canvas, text, {x, baseline}, label) + 1.6 * type;
+        x += length + 0.5 * em;
+        x += draw_label(canvas, entry.high, {x, baseline}, label) + 0.9 * em;
     };
-    switch (style.coloring) {
-        case Coloring::pinned:
-            spot(theme.pinned, "pinned");
-            spot(theme.loose, "loose");
-            break;
-        case Coloring::spin:
-            bar(true, "−" + fixed(style.full_spin, 2), fixed(style.full_spin, 2), "spin $ω_{i}$");
-            break;
-        case Coloring::speed:
-            bar(false, "0", fixed(style.full_speed, 1), "speed");
-            break;
-        case Coloring::slip:
-            bar(false, "0", fixed(style.full_speed, 1), "slip on the floor");
-            break;
-        default:
-            break;
+    for (const LegendEntry& entry : entries) {
+        if (entry.kind == Kind::dot) {
+            canvas.add_circle({x + 0.45 * em, middle}, 0.45 * em);
+            canvas.fill(entry.color);
+            x += mark_width(entry) * em;
+        } else if (entry.kind == Kind::arrow) {
+            draw_arrow(canvas, {x, middle}, {x + 1.7 * em, middle}, 0.16 * em, entry.color);
+            x += mark_width(entry) * em;
+        } else {
+            draw_bar(entry);
+        }
+        x += draw_label(canvas, entry.text, {x, baseline}, label) + spacing * em;
     }
-    if (!style.forces) return;
-    arrow(theme.centrifugal, "centrifugal");
-    arrow(theme.coriolis, "Coriolis");
 }
 
-void Sheet::draw_still(const Canvas& canvas) const {
+void Sheet::draw_static(const Canvas& canvas) const {
     const StyleScope scope(canvas);
     canvas.fill_page(spec_.style.theme.page);
-    for (const Text& text : texts_) draw_label(canvas, text.text, text.place, text.style);
+    for (const Text& text : texts_) draw_label(canvas, text.text, text.position, text.style);
     draw_legend(canvas);
     if (plot_area_) draw_plot_frame(canvas, *plot_area_, spec_.style.theme, *spec_.plot);
 }
@@ -322,29 +290,29 @@ void Sheet::draw_still(const Canvas& canvas) const {
 void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& content) const {
     draw_scene(canvas, views_[k], spec_.style, content);
     const Panel& panel = spec_.panels[k];
-    if (!content.turned || !panel.turned || type_ < smallest_type) return;
-    // On the line of the captions, where the dish never comes.
+    if (!content.turns || !panel.shows_turns || em_ < min_font_size) return;
+    // On the line of the captions, which the container never reaches.
     const double reach = views_[k].pixels_per_unit * panel.container_radius;
     const std::string number =
-        (*content.turned < 0.0 ? "−" : "+") + fixed(std::abs(*content.turned), 2) + " turns";
+        (*content.turns < 0.0 ? "−" : "+") + fixed(std::abs(*content.turns), 2) + " turns";
     const Theme& theme = spec_.style.theme;
-    draw_label(canvas, number, {views_[k].centre.x - 1.24 * reach, number_line_},
-               {.size = 1.1 * type_,
-                .color = *content.turned < 0.0 ? theme.pinned : theme.loose,
+    draw_label(canvas, number, {views_[k].centre.x - 1.24 * reach, caption_line_},
+               {.size = 1.1 * em_,
+                .color = *content.turns < 0.0 ? theme.pinned : theme.loose,
                 .bold = true,
                 .even_digits = true});
 }
 
-void Sheet::draw_moving(const Canvas& canvas, std::span<const SceneContent> contents,
-                        std::span<const Curve> curves, double periods) const {
+void Sheet::draw_frame(const Canvas& canvas, std::span<const SceneContent> contents,
+                       std::span<const Curve> curves, double periods) const {
     const StyleScope scope(canvas);
     for (std::size_t k = 0; k < contents.size() && k < views_.size(); ++k)
         draw_panel(canvas, k, contents[k]);
     if (plot_area_)
         draw_plot_curves(canvas, *plot_area_, spec_.style.theme, *spec_.plot, curves, periods);
-    if (clock_place_)
-        draw_label(canvas, "swirl " + fixed(periods, spec_.clock_decimals), *clock_place_,
-                   {.size = type_,
+    if (clock_position_)
+        draw_label(canvas, "period " + fixed(periods, spec_.clock_decimals), *clock_position_,
+                   {.size = em_,
                     .color = spec_.style.theme.faint_ink,
                     .align = clock_align_,
                     .even_digits = true});

@@ -1,7 +1,6 @@
-// The page of a picture or movie: title, one or more dishes side by side, captions, what the
-// colours mean, the running plot, the line of parameters; laid out for any size. Where there is
-// room to spare at the side, the text stands there as a column; else above and below. What would be
-// too small to read is left out.
+// Lays out the page of an image or movie for any size: title, one or more containers, captions,
+// legend, running plot, list of parameters. On a wide page the text is a column at the side,
+// otherwise it is above and below. Text that would be too small to read is omitted.
 #pragma once
 
 #include <limits>
@@ -22,7 +21,7 @@ struct Panel {
     Frame frame = Frame::lab;
     std::string caption;
     double container_radius = 1.0, amplitude = 0.0;
-    bool turned = false;  // room for the arc of SceneContent::turned, and its number
+    bool shows_turns = false;  // reserves space for the arc of SceneContent::turns and its number
 };
 
 struct SheetSpec {
@@ -31,8 +30,8 @@ struct SheetSpec {
     std::string title;
     std::vector<std::string> parameters;  // "$N$ = 48", …
     std::vector<Panel> panels;
-    std::optional<PlotStyle> plot;  // its `type` is set by the layout
-    bool clock = true;              // the running count of swirls
+    std::optional<PlotStyle> plot;  // the layout sets its `em`
+    bool clock = true;              // the running number of periods
     int clock_decimals = 2;
 };
 
@@ -43,18 +42,23 @@ class Sheet {
     const SheetSpec& spec() const { return spec_; }
     const View& view(std::size_t panel) const { return views_[panel]; }
 
-    /// What is the same in every frame.
-    void draw_still(const Canvas& canvas) const;
-    /// What changes: `contents` has one entry per panel; `curves` belong to the plot; `swirls` is
-    /// the time shown.
-    void draw_moving(const Canvas& canvas, std::span<const SceneContent> contents,
-                     std::span<const Curve> curves, double periods) const;
+    /// Draws what is the same in every frame.
+    void draw_static(const Canvas& canvas) const;
+    /// Draws what changes. `contents` has one entry per panel, `curves` belong to the plot, and
+    /// `periods` is the time shown.
+    void draw_frame(const Canvas& canvas, std::span<const SceneContent> contents,
+                    std::span<const Curve> curves, double periods) const;
 
   private:
     struct Text {
         std::string text;
-        Vec2 place;
+        Vec2 position;
         LabelStyle style;
+    };
+    struct LegendEntry {
+        enum class Kind { dot, arrow, diverging_bar, sequential_bar } kind;
+        Color color;
+        std::string text, low = {}, high = {};  // `low` and `high` end a colour bar
     };
 
     void lay_out(const Canvas& canvas);
@@ -63,23 +67,23 @@ class Sheet {
     void lay_out_panels(const Canvas& canvas, const Rectangle& area, double side, double gap);
     void lay_out_caption(const Canvas& canvas, const Panel& panel, const Rectangle& square,
                          double gap);
+    double caption_height() const;
     bool title_shares_line(const Canvas& canvas, double inner) const;
-    double legend_width(const Canvas& canvas, const LabelStyle& label) const;
+    std::vector<LegendEntry> legend() const;
     void draw_legend(const Canvas& canvas) const;
     void draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& content) const;
-    double legend_height() const;
     double column_width(const Canvas& canvas) const;
-    double clock_width() const { return (6.3 + 0.6 * spec_.clock_decimals) * type_; }
+    double clock_width() const { return (6.3 + 0.6 * spec_.clock_decimals) * em_; }
 
     SheetSpec spec_;
-    double type_ = 0.0;  // size of the ordinary type
+    double em_ = 0.0;  // size of the ordinary font, in pixels
     double margin_ = 0.0;
-    double number_line_ = 0.0;                                // baseline of the captions
+    double caption_line_ = 0.0;                               // baseline of the captions
     double scale_ = std::numeric_limits<double>::infinity();  // pixels per unit of length
     std::vector<View> views_;
     std::vector<Text> texts_;
     std::optional<Rectangle> plot_area_;
-    std::optional<Vec2> clock_place_;
+    std::optional<Vec2> clock_position_;
     Align clock_align_ = Align::left;
     std::optional<Rectangle> legend_area_;
 };

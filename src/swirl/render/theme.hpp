@@ -1,4 +1,4 @@
-// What things look like: one set of colours for dark rooms and projectors, one for paper.
+// Colour themes: a dark one for projectors and screens, a light one for paper.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,15 @@ namespace swirl {
 
 struct Theme {
     Color page;             // behind everything
-    Color floor;            // inside the dish
-    Color wall, wall_mark;  // the ring, and the marks that show whether it turns
-    Color ink, faint_ink;   // text; captions, axes
+    Color floor;            // inside the container
+    Color wall, wall_mark;  // the ring, and the marks that show its rotation
+    Color ink, faint_ink;   // of text; of captions and axes
     Color path;             // of the container's centre
-    Color disc;             // without a meaning
-    Color pinned, loose;    // the paper's red and blue, for every kind of colour vision
+    Color disc;             // without colouring
+    Color pinned, loose;    // the paper's red and blue, adapted to colour blindness
     Color neutral;          // middle of the diverging scale
     Color centrifugal, coriolis, velocity;
-    Color accent;  // the point M, the present moment
+    Color accent;  // of the wide mark on the wall
     Color curve;   // of the running plot
 };
 
@@ -62,7 +62,11 @@ constexpr Theme light_theme() {
             .curve = color_from_hex(0x0072B2)};
 }
 
-/// "dark" or "light"; nothing for any other name.
-std::optional<Theme> theme_named(std::string_view name);
+/// The theme "dark" or "light"; nothing for any other name.
+inline std::optional<Theme> theme_named(std::string_view name) {
+    if (name == "dark") return dark_theme();
+    if (name == "light") return light_theme();
+    return std::nullopt;
+}
 
 }  // namespace swirl

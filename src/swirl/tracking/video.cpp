@@ -45,7 +45,7 @@ std::int64_t first_number(const std::string& pattern) {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
         const std::string file = entry.path().filename().string();
-        if (!is_of_video(name, file)) continue;
+        if (!belongs_to_video(name, file)) continue;
         const std::string digits = file.substr(begin, file.size() - begin - after);
         if (digits.size() > max_digits) continue;
         const std::int64_t number = std::stoll(digits);
@@ -125,7 +125,7 @@ VideoTimes video_times(const std::string& source) {
         if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
         const NumberedFrames names(source);
         const std::int64_t first = first_number(source);
-        while (names.may_have(first + times.frame_count)) ++times.frame_count;
+        while (names.has_file(first + times.frame_count)) ++times.frame_count;
         return times;
     }
     std::vector<std::string> arguments = input_arguments(source);

@@ -1,55 +1,56 @@
-#include "swirl/render/painters.hpp"
+#include "swirl/render/frame_pipeline.hpp"
 
 #include <stdexcept>
 #include <utility>
 
 namespace swirl {
 
-Painters::Painters(unsigned count, std::function<void(const Bytes&)> deliver)
-    : deliver_(std::move(deliver)), max_under_way_(2 * count + 2) {
+FramePipeline::FramePipeline(unsigned workers, std::function<void(const Bytes&)> deliver)
+    : deliver_(std::move(deliver)), max_in_progress_(2 * workers + 2) {
     try {
-        for (unsigned k = 0; k < count; ++k) threads_.emplace_back([this, k] { work(k); });
+        for (unsigned k = 0; k < workers; ++k) threads_.emplace_back([this, k] { work(k); });
         threads_.emplace_back([this] { write(); });
-    } catch (...) {  // no memory or no right for another thread: those that run must end
-        end();
+    } catch (...) {  // no further thread could be started: join the others
+        stop();
         throw;
     }
 }
 
-Painters::~Painters() { end(); }
+FramePipeline::~FramePipeline() { stop(); }
 
-void Painters::end() {
+void FramePipeline::stop() {
     {
         const std::lock_guard lock(mutex_);
         closed_ = true;
         waiting_.clear();
         if (!error_ && delivered_ < submitted_)
-            error_ = std::make_exception_ptr(std::runtime_error("The frames were abandoned."));
+            error_ = std::make_exception_ptr(
+                std::runtime_error("frames were submitted but not delivered."));
     }
     changed_.notify_all();
     for (std::thread& thread : threads_) thread.join();
 }
 
-void Painters::submit(Paint paint) {
+void FramePipeline::submit(Draw draw) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return error_ || submitted_ - delivered_ < max_under_way_; });
+    changed_.wait(lock, [&] { return error_ || submitted_ - delivered_ < max_in_progress_; });
     if (error_) std::rethrow_exception(error_);
-    waiting_.push_back({submitted_++, std::move(paint)});
+    waiting_.push_back({submitted_++, std::move(draw)});
     changed_.notify_all();
 }
 
-void Painters::finish() {
+void FramePipeline::finish() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return error_ || delivered_ == submitted_; });
     if (error_) std::rethrow_exception(error_);
 }
 
-std::size_t Painters::delivered() const {
+std::size_t FramePipeline::delivered() const {
     const std::lock_guard lock(mutex_);
     return delivered_;
 }
 
-void Painters::fail(std::exception_ptr error) {
+void FramePipeline::fail(std::exception_ptr error) {
     {
         const std::lock_guard lock(mutex_);
         if (!error_) error_ = error;
@@ -57,7 +58,7 @@ void Painters::fail(std::exception_ptr error) {
     changed_.notify_all();
 }
 
-void Painters::work(unsigned painter) {
+void FramePipeline::work(unsigned worker) {
     while (true) {
         Task task;
         Bytes bytes;
@@ -73,30 +74,30 @@ void Painters::work(unsigned painter) {
             }
         }
         try {
-            task.paint(painter, bytes);
+            task.draw(worker, bytes);
         } catch (...) {
             fail(std::current_exception());
             return;
         }
         {
             const std::lock_guard lock(mutex_);
-            painted_.emplace(task.number, std::move(bytes));
+            drawn_.emplace(task.number, std::move(bytes));
         }
         changed_.notify_all();
     }
 }
 
-void Painters::write() {
+void FramePipeline::write() {
     while (true) {
         Bytes bytes;
         {
             std::unique_lock lock(mutex_);
             changed_.wait(lock, [&] {
-                return error_ || painted_.contains(delivered_) ||
+                return error_ || drawn_.contains(delivered_) ||
                        (closed_ && delivered_ == submitted_);
             });
-            if (error_ || !painted_.contains(delivered_)) return;
-            bytes = std::move(painted_.extract(delivered_).mapped());
+            if (error_ || !drawn_.contains(delivered_)) return;
+            bytes = std::move(drawn_.extract(delivered_).mapped());
         }
         try {
             deliver_(bytes);

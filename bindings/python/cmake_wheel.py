@@ -1,10 +1,10 @@
-"""Makes a wheel of the Python module: what pip asks for (PEP 517), done by CMake and nothing else.
+"""Builds a wheel of the Python module with CMake: a build backend for pip (PEP 517).
 
-    pip install .                       builds in build/wheel-…, and installs
+    pip install .                       builds in build/wheel-… and installs
     pip wheel . --config-settings=build-dir=build/release
-                                        takes what is built there already
+                                        uses the build in that folder
 
-The wheel is for this machine: it is linked to the system's libraries (HDF5, fmt).
+The wheel works on this machine only: it is linked to the system's libraries (HDF5, fmt).
 """
 
 import base64
@@ -17,7 +17,7 @@ import sysconfig
 import zipfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-# Fixed, so that the same files make the same wheel.
+# A fixed date, so that equal files give equal wheels.
 DATE = (2020, 1, 1, 0, 0, 0)
 
 
@@ -26,7 +26,7 @@ def get_requires_for_build_wheel(config_settings=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    raise NotImplementedError("The source is the repository: git archive HEAD.")
+    raise NotImplementedError("there is no source distribution.\nhint: use git archive HEAD.")
 
 
 def _version():
@@ -35,7 +35,7 @@ def _version():
 
 
 def _built(settings):
-    """The folder of the package, with the module in it."""
+    """Builds the module and returns the folder of the package."""
     folder = settings.get("build-dir")
     if folder is None:
         folder = os.path.join(ROOT, "build", f"wheel-{sys.implementation.cache_tag}")

@@ -1,4 +1,4 @@
-"""swirl picture and the drawn parts of swirl paper, tried from outside."""
+"""swirl image and the movies of swirl paper, as a user calls them."""
 
 import os
 import resource
@@ -21,7 +21,7 @@ def contents(path):
         return file.read()
 
 
-class PictureTest(unittest.TestCase):
+class ImageTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -30,12 +30,12 @@ class PictureTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def test_every_format_is_the_same_twice(self):
+    def test_every_format_is_reproducible(self):
         for ending, signature in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
             both = []
             for name in ("one.", "two."):
                 out = self.path(name + ending)
-                result = swirl("picture", "--discs", "28", "--at", "3.3", "--frame", "both",
+                result = swirl("image", "--discs", "28", "--at", "3.3", "--frame", "both",
                                "--color", "pinned", "--trails", "--size", "400x240", "--theme",
                                "light", "--out", out)
                 self.assertEqual(result.returncode, 0, result.stderr)
@@ -43,43 +43,43 @@ class PictureTest(unittest.TestCase):
             self.assertTrue(both[0].startswith(signature))
             self.assertTrue(both[0] == both[1], ending)
 
-    def test_a_png_has_its_size(self):
-        result = swirl("picture", "--discs", "5", "--at", "0", "--size", "123x77", "--out",
+    def test_png_has_the_given_size(self):
+        result = swirl("image", "--discs", "5", "--at", "0", "--size", "123x77", "--out",
                        self.path("x.png"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(struct.unpack(">II", contents(self.path("x.png"))[16:24]), (123, 77))
 
-    def test_wrong_calls(self):
+    def test_invalid_options_are_rejected(self):
         out = self.path("x.png")
         for arguments, word in (
                 ((), "--out"),
                 (("--out", self.path("x.bmp")), ".svg"),
                 (("--out", out, "--at", "-1"), "-1"),
                 (("--out", out, "--at", "nan"), "nan"),
-                (("--out", out, "--strobe", "0"), "0 flashes"),
+                (("--out", out, "--strobe", "0"), "--strobe is 0"),
                 (("--out", out, "--strobe", "30"), "-9"),
                 (("--out", out, "--every", "0"), "0"),
                 (("--out", out, "--turned", "--frame", "m"), "--frame"),
                 (("--out", out, "--angles"), "--frame"),
                 (("--out", out, "--trail-length", "0"), "--trail-length"),
-                (("--out", out, "--rolling-ball", "1", "--beside", "3"), "--beside"),
+                (("--out", out, "--rolling-ball", "1", "--compare", "3"), "--compare"),
                 (("--out", out, "--rolling-ball", "1", "--ball-radius", "9"), "9")):
-            result = swirl("picture", *arguments)
+            result = swirl("image", *arguments)
             self.assertEqual(result.returncode, 2, (arguments, result.stderr))
             self.assertIn(word, result.stderr)
-            self.assertEqual(result.stderr.count("\n"), 1)
+            self.assertRegex(result.stderr, r"\A[^\n]+\.\n(hint: [^\n]+\.\n)?\Z")
         self.assertEqual(os.listdir(self.folder), [])
 
-    def test_it_is_written_whole_or_not_at_all_and_through_no_link(self):
+    def test_image_is_written_atomically_and_not_through_a_link(self):
         with open(self.path("mine"), "w", encoding="utf-8") as file:
-            file.write("of somebody else")
+            file.write("of another user")
         for ending in ("png", "svg", "pdf"):
             out = self.path("x." + ending)
             os.symlink(self.path("mine"), out + ".partial")
-            call = ("picture", "--discs", "5", "--at", "0", "--size", "64x64", "--quiet", "--out")
+            call = ("image", "--discs", "5", "--at", "0", "--size", "64x64", "--quiet", "--out")
             result = swirl(*call, out)
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertEqual(contents(self.path("mine")), b"of somebody else", ending)
+            self.assertEqual(contents(self.path("mine")), b"of another user", ending)
             os.remove(out + ".partial")
             result = swirl(*call, self.path("no/such/folder." + ending))
             self.assertEqual(result.returncode, 1)
@@ -91,16 +91,16 @@ class PictureTest(unittest.TestCase):
             self.assertIn("File too large", limited.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["mine", "x.pdf", "x.png", "x.svg"])
 
-    def test_a_file_that_is_no_recording_is_a_clear_error(self):
+    def test_invalid_recording_is_an_error(self):
         with open(self.path("x.h5"), "w", encoding="utf-8") as file:
             file.write("hello")
-        result = swirl("picture", self.path("x.h5"), "--out", self.path("x.png"))
+        result = swirl("image", self.path("x.h5"), "--out", self.path("x.png"))
         self.assertEqual(result.returncode, 1)
         self.assertIn("x.h5", result.stderr)
 
-    def test_the_papers_movies(self):
+    def test_movies_of_the_paper_are_made_once(self):
         call = [SWIRL, "paper", "--movies", "--quick", "--quiet", "--out", self.folder]
-        # Stopped after some of them; one of these is damaged, the others are kept.
+        # Stop after some movies and damage one of them: only that one is made again.
         process = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         parts, deadline = self.path("parts"), time.time() + 60
         while time.time() < deadline and not (os.path.isdir(parts)
@@ -120,8 +120,8 @@ class PictureTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(f"{len(done) - 1} of 16 movies were there", result.stdout)
         for name in done:
-            kept = os.stat(self.path(name)).st_mtime_ns == before[name]
-            self.assertEqual(kept, name != done[0])
+            is_old = os.stat(self.path(name)).st_mtime_ns == before[name]
+            self.assertEqual(is_old, name != done[0])
         self.assertGreater(os.path.getsize(self.path(done[0])), 1000)
 
         page = contents(self.path("movies.html")).decode()

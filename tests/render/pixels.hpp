@@ -1,4 +1,4 @@
-// Snapshots to draw, and pixels to look at.
+// Snapshots to draw, and access to the pixels drawn.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace swirl {
 
-/// A dish of radius 8.6 at the given phase (in turns) of a swirl of amplitude 1.892.
+/// The paper's container (radius 8.6, amplitude 1.892) at the given phase, in turns.
 inline Snapshot container(double turns) {
     Snapshot s;
     s.period = 12.0;
@@ -39,11 +39,11 @@ inline Pixel pixel(Canvas& canvas, int x, int y) {
     return {bytes[at + 2], bytes[at + 1], bytes[at]};
 }
 
-inline Pixel pixel(Canvas& canvas, const Vec2& place) {
-    return pixel(canvas, static_cast<int>(place.x), static_cast<int>(place.y));
+inline Pixel pixel(Canvas& canvas, const Vec2& position) {
+    return pixel(canvas, static_cast<int>(position.x), static_cast<int>(position.y));
 }
 
-/// Within one step of 255 in each component.
+/// True if each component differs by at most one of 255 levels.
 inline bool is(const Pixel& p, const Color& c) {
     return std::abs(p.red - 255.0 * c.red) <= 1.0 && std::abs(p.green - 255.0 * c.green) <= 1.0 &&
            std::abs(p.blue - 255.0 * c.blue) <= 1.0;
@@ -54,7 +54,7 @@ struct Patch {
     Vec2 middle{0.0, 0.0};
 };
 
-/// All pixels of one colour.
+/// Number and centroid of all pixels of one colour.
 inline Patch patch_of(Canvas& canvas, const Color& color) {
     Patch patch;
     for (int y = 0; y < canvas.size().height; ++y)

@@ -1,25 +1,25 @@
-// One dish to its ϖ: does the cluster turn with the swirl, or against it? `swirl run --discs 48`
-// answers the same from another initial state.
+// The rotation rate ϖ of 48 discs: does the cluster rotate with the swirl or against it?
+// `swirl run --discs 48` computes the same from another initial state.
 #include <cstdio>
 
-#include "dish.hpp"
+#include "paper_scene.hpp"
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 
 int main() {
-    swirl::Simulation simulation(paper_dish(48, 1.0, 1));
+    swirl::Simulation simulation(paper_scene(48, 1.0, 1));
     const std::int64_t warmup = 20, end = 220;  // periods
     simulation.advance_to(warmup, 0.0);
 
-    // After every event: bring the snapshot up to date, look. A period is a block of the average.
+    // Update the snapshot after every event and sample it. Each period is a block of the average.
     swirl::ClusterRotation rotation;
     swirl::Snapshot snapshot = simulation.snapshot();
-    while (simulation.swirls() < end) {
-        const std::int64_t period = simulation.swirls();
+    while (simulation.periods() < end) {
+        const std::int64_t period = simulation.periods();
         const swirl::Event event = simulation.step();
         simulation.refresh(snapshot, event);
         rotation.sample(snapshot, event);
-        if (simulation.swirls() > period) rotation.close_block();
+        if (simulation.periods() > period) rotation.close_block();
     }
 
     const swirl::Estimate varpi = rotation.estimates().by_event;

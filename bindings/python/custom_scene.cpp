@@ -1,0 +1,188 @@
+#include "custom_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parameters.hpp"
+
+namespace swirl::python {
+namespace {
+
+std::string shape_text(const Numbers& a) {
+    std::string text;
+    for (py::ssize_t d = 0; d < a.ndim(); ++d)
+        text += fmt::format("{}{}", d ? " × " : "", a.shape(d));
+    return a.ndim() == 0 ? "one number" : text;
+}
+
+/// Squares and products of larger numbers could overflow. The parameters of a run cannot lead to
+/// speeds as large.
+constexpr double max_given = 1e15;
+
+void require_finite(const char* name, const Numbers& values) {
+    for (py::ssize_t k = 0; k < values.size(); ++k)
+        if (!(std::abs(values.data()[k]) <= max_given))
+            throw UsageError(
+                fmt::format("{} contains {}, but all values must be numbers from {} to {}.", name,
+                            values.data()[k], -max_given, max_given));
+}
+
+/// `rows` is 0 if any number of rows is allowed.
+void require_pairs(const char* name, const Numbers& values, std::size_t rows) {
+    if (values.ndim() != 2 || values.shape(1) != 2 ||
+        (rows && values.shape(0) != signed_size(rows)))
+        throw UsageError(fmt::format("{} has shape {}, but it must be {} × 2: x and y of each.",
+                                     name, shape_text(values),
+                                     rows ? fmt::format("{}", rows) : "N"));
+    require_finite(name, values);
+}
+
+/// One value for each of n discs; `otherwise` for all if `values` is not given.
+std::vector<double> column_of(const char* name, const std::optional<Numbers>& values, std::size_t n,
+                              double otherwise) {
+    if (!values) return std::vector<double>(n, otherwise);
+    require_finite(name, *values);
+    if (values->ndim() == 0) return std::vector<double>(n, *values->data());
+    if (values->ndim() != 1 || values->shape(0) != signed_size(n))
+        throw UsageError(
+            fmt::format("{} has shape {}, but it must be {} numbers, or one for all discs.", name,
+                        shape_text(*values), n));
+    return {values->data(), values->data() + n};
+}
+
+void require_between(const char* name, const std::vector<double>& values, double from, double to) {
+    for (const double value : values)
+        if (!(value >= from && value <= to))
+            throw UsageError(fmt::format("{} is {} for one disc, but it must be from {} to {}.",
+                                         name, value, from, to));
+}
+
+}  // namespace
+
+void require_sizes_in_range(const std::vector<double>& radius, const std::vector<double>& mass,
+                            const std::vector<double>& inertia) {
+    require_between("radius", radius, smallest_value, largest_value);
+    require_between("mass", mass, smallest_value, largest_value);
+    require_between("inertia", inertia, 1e-30, 1e30);
+}
+
+void require_no_overlap(const InitialState& scene, const Vec2& centre, double tolerance) {
+    const std::vector<Disc>& discs = scene.discs;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const Disc& d = discs[i];
+        largest = std::max(largest, d.radius);
+        const double out = std::hypot(d.position.x - centre.x, d.position.y - centre.y) + d.radius -
+                           scene.container_radius;
+        if (out > tolerance * d.radius)
+            throw UsageError(fmt::format(
+                "disc {} at ({}, {}) extends {:.3g} beyond the container, whose centre is ({}, {}) "
+                "and whose radius is {}.",
+                i, d.position.x, d.position.y, out, centre.x, centre.y, scene.container_radius));
+    }
+    // In order of x, only discs within two radii in x need to be compared.
+    std::vector<std::size_t> order(discs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return discs[a].position.x < discs[b].position.x;
+    });
+    for (std::size_t a = 0; a < order.size(); ++a)
+        for (std::size_t b = a + 1; b < order.size(); ++b) {
+            const Disc &p = discs[order[a]], &q = discs[order[b]];
+            if (q.position.x - p.position.x > p.radius + largest) break;
+            const double distance =
+                std::hypot(p.position.x - q.position.x, p.position.y - q.position.y);
+            const double contact = p.radius + q.radius;
+            if (distance < contact * (1.0 - tolerance))
+                throw UsageError(fmt::format(
+                    "discs {} and {} overlap: their distance is {:.6g}, but their radii add up to "
+                    "{:.6g}.",
+                    std::min(order[a], order[b]), std::max(order[a], order[b]), distance, contact));
+        }
+}
+
+std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
+                           const Segment& first_segment) {
+    require_pairs("position", given.position, 0);
+    const auto n = static_cast<std::size_t>(given.position.shape(0));
+    if (n == 0) throw UsageError("position has shape 0 × 2, but there must be at least one disc.");
+    if (static_cast<double>(n) > max_discs)
+        throw UsageError(
+            fmt::format("position has {} discs, but at most {} can be simulated.", n, max_discs));
+    if (given.velocity) require_pairs("velocity", *given.velocity, n);
+    const auto angle = column_of("angle", given.angle, n, 0.0);
+    const auto spin = column_of("spin", given.spin, n, 0.0);
+    const auto radius = column_of("radius", given.radius, n, config.radius);
+    const auto mass = column_of("mass", given.mass, n, config.mass);
+    // By default the same multiple of m r² for all discs.
+    std::vector<double> inertia(n);
+    const double multiple = config.inertia / (config.mass * config.radius * config.radius);
+    for (std::size_t i = 0; i < n; ++i) inertia[i] = multiple * mass[i] * radius[i] * radius[i];
+    if (given.inertia) inertia = column_of("inertia", given.inertia, n, 0.0);
+    require_sizes_in_range(radius, mass, inertia);
+    std::vector<Disc> discs;
+    discs.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double* const p = given.position.data() + 2 * i;
+        const Vec2 velocity =
+            given.velocity ? Vec2{given.velocity->data()[2 * i], given.velocity->data()[2 * i + 1]}
+                           : first_segment.velocity;
+        discs.push_back(
+            {{p[0], p[1]}, velocity, angle[i], spin[i], 0.0, radius[i], mass[i], inertia[i]});
+    }
+    return discs;
+}
+
+ContainerPath polygon(const Numbers& vertices, const std::optional<Numbers>& times, double period) {
+    require_pairs("path", vertices, 0);
+    const auto n = static_cast<std::size_t>(vertices.shape(0));
+    if (n < 2) throw UsageError("path has one vertex, but it must have at least two.");
+    for (std::size_t k = 0; k < 2 * n; ++k)
+        if (std::abs(vertices.data()[k]) > largest_value)
+            throw UsageError(fmt::format("path contains {}, but it must be from {} to {}.",
+                                         vertices.data()[k], -largest_value, largest_value));
+    if (static_cast<double>(n) > max_sides)
+        throw UsageError(
+            fmt::format("path has {} vertices, but at most {} are allowed.", n, max_sides));
+    const auto vertex = [&](std::size_t k) {
+        return Vec2{vertices.data()[2 * (k % n)], vertices.data()[2 * (k % n) + 1]};
+    };
+    std::vector<double> at(n + 1, 0.0);
+    if (times) {
+        const auto given = column_of("path_times", times, n, 0.0);
+        std::copy(given.begin(), given.end(), at.begin());
+    } else {
+        // The speed is constant, so times are proportional to the length of the path.
+        for (std::size_t k = 0; k < n; ++k) {
+            const Vec2 side = vertex(k + 1) - vertex(k);
+            at[k + 1] = at[k] + std::hypot(side.x, side.y);
+        }
+        if (!(at[n] > 0.0)) throw UsageError("all vertices of path are the same point.");
+        const double time_per_length = period / at[n];
+        for (double& t : at) t *= time_per_length;
+    }
+    at[n] = period;
+    if (at[0] != 0.0)
+        throw UsageError(
+            fmt::format("path_times begins with {}, but it must begin with 0.", at[0]));
+    ContainerPath path{period, {}};
+    const double min_duration = 1e-9 * period;
+    for (std::size_t k = 0; k < n; ++k) {
+        const double duration = at[k + 1] - at[k];
+        if (!(duration >= min_duration))
+            throw UsageError(fmt::format(
+                "path has vertex {} at time {} and the next one at {}, but times must increase up "
+                "to the period {}, and consecutive vertices must differ.",
+                k, at[k], at[k + 1], period));
+        path.segments.push_back(
+            {at[k], at[k + 1], vertex(k), (1.0 / duration) * (vertex(k + 1) - vertex(k)), 0.0});
+    }
+    return path;
+}
+
+}  // namespace swirl::python

@@ -1,0 +1,131 @@
+#include "simulation_archive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "custom_scene.hpp"
+#include "swirl/engine/continuation.hpp"
+#include "swirl/io/checksum.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/state_archive.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+
+namespace swirl::python {
+namespace {
+
+constexpr std::string_view archive_head = "swirl simulation 2\n";
+
+[[noreturn]] void reject_archive(std::string_view reason) {
+    throw FileError(fmt::format("not a swirl simulation that can continue: {}.", reason));
+}
+
+bool same_segments(const std::vector<Segment>& a, const std::vector<Segment>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Segment& x, const Segment& y) {
+                          return x.begin == y.begin && x.end == y.end && x.start.x == y.start.x &&
+                                 x.start.y == y.start.y && x.velocity.x == y.velocity.x &&
+                                 x.velocity.y == y.velocity.y && x.turning == y.turning;
+                      });
+}
+
+/// The path must be that of the parameters, or what polygon() makes of its vertices.
+void require_path(const std::vector<Segment>& segments, const RunConfig& config, bool is_custom) {
+    if (same_segments(segments, make_path(config).segments)) return;
+    if (!is_custom) reject_archive("its path does not match its parameters");
+    Numbers vertices(std::vector<py::ssize_t>{signed_size(segments.size()), 2}),
+        times(signed_size(segments.size()));
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+        vertices.mutable_data()[2 * k] = segments[k].start.x;
+        vertices.mutable_data()[2 * k + 1] = segments[k].start.y;
+        times.mutable_data()[k] = segments[k].begin;
+    }
+    if (!same_segments(segments, polygon(vertices, times, config.period).segments))
+        reject_archive("a segment of its path does not lead to the next one");
+}
+
+/// Custom discs must be in the ranges of discs given as arrays, others must be those of the
+/// parameters.
+void require_discs(const InitialState& scene, const RunConfig& config, bool is_custom,
+                   double clock) {
+    std::vector<double> radius, mass, inertia;
+    InitialState now = scene;
+    for (Disc& d : now.discs) {
+        radius.push_back(d.radius);
+        mass.push_back(d.mass);
+        inertia.push_back(d.inertia);
+        d = d.at(clock);
+    }
+    if (is_custom) {
+        require_sizes_in_range(radius, mass, inertia);
+        // Long-lasting contacts leave overlaps larger than rounding errors.
+        constexpr double tolerance = 1e-3;
+        return require_no_overlap(now, scene.path.segment_at(clock).position_at(clock), tolerance);
+    }
+    const auto second_species =
+        static_cast<std::size_t>(config.mixture ? config.mixture->count : 0);
+    const auto n = static_cast<std::size_t>(config.discs);
+    const double multiple = config.inertia / (config.mass * config.radius * config.radius);
+    bool same = radius.size() == n;
+    for (std::size_t i = 0; same && i < n; ++i) {
+        const bool is_first = i < n - second_species;
+        const double r = is_first ? config.radius : config.mixture->radius;
+        const double m = is_first ? config.mass : config.mixture->mass;
+        same = radius[i] == r && mass[i] == m &&
+               inertia[i] == (is_first ? config.inertia : multiple * m * r * r);
+    }
+    if (!same) reject_archive("its discs do not match its parameters");
+}
+
+}  // namespace
+
+std::string archive_bytes(ArchivedSimulation simulation) {
+    StateWriter write;
+    std::string config = config_text(simulation.config);
+    write(config, simulation.is_custom, simulation.scene.path.segments);
+    Progress& progress = simulation.progress;
+    write(progress.periods, progress.clock, progress.segment, progress.events);
+    write(simulation.scene.discs);
+    const std::uint64_t sum = checksum(write.bytes());
+    std::string bytes(archive_head);
+    bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+    return bytes + write.bytes();
+}
+
+ArchivedSimulation read_archive(std::string_view bytes) {
+    std::uint64_t sum = 0;
+    if (!bytes.starts_with(archive_head) || bytes.size() < archive_head.size() + sizeof sum)
+        reject_archive("it has another beginning or version");
+    std::memcpy(&sum, bytes.data() + archive_head.size(), sizeof sum);
+    bytes.remove_prefix(archive_head.size() + sizeof sum);
+    if (checksum(bytes) != sum) reject_archive("it is damaged");
+    StateReader read(bytes);
+    std::string text;
+    std::vector<Segment> segments;
+    std::vector<Disc> discs;
+    ArchivedSimulation archived;
+    Progress& progress = archived.progress;
+    read(text, archived.is_custom, segments);
+    read(progress.periods, progress.clock, progress.segment, progress.events);
+    read(discs);
+    read.expect_end();
+    try {
+        archived.config = resolve(parameters_in(text));
+        const RunConfig& config = archived.config;
+        if (archived.is_custom && config.shape() != Shape::disc)
+            reject_archive("only discs can be given as arrays");
+        require_path(segments, config, archived.is_custom);
+        archived.scene = without_discs(config, {config.period, std::move(segments)});
+        archived.scene.discs = std::move(discs);
+        if (const char* const reason = impossible_to_continue(archived.scene, progress))
+            reject_archive(reason);
+        require_discs(archived.scene, config, archived.is_custom, progress.clock);
+        return archived;
+    } catch (const UsageError& error) {
+        reject_archive(error.what());
+    }
+}
+
+}  // namespace swirl::python

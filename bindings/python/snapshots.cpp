@@ -1,0 +1,196 @@
+// swirl.Snapshot and swirl.Frames: the arrays of one instant, and of many.
+#include <pybind11/stl.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "arrays.hpp"
+#include "calls.hpp"
+#include "frames.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/io/range_checks.hpp"
+#include "swirl/io/state_archive.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/run/simd.hpp"
+
+namespace swirl::python {
+namespace {
+
+const Frames& frames_of(const SingleFrame& snapshot) { return snapshot.frames; }
+const Frames& frames_of(const Frames& frames) { return frames; }
+
+using Shape = std::vector<py::ssize_t>;
+Shape per_disc(const Frames& f) { return {signed_size(f.discs)}; }
+
+/// One value, or x and y, per frame. A snapshot has no frame axis.
+template <class Owner, bool with_disc, bool with_xy>
+Shape per_frame(const Frames& f) {
+    Shape shape;
+    if constexpr (std::is_same_v<Owner, Frames>) shape.push_back(signed_size(f.size()));
+    if constexpr (with_disc) shape.push_back(signed_size(f.discs));
+    if constexpr (with_xy) shape.push_back(2);
+    return shape;
+}
+
+/// A property: the read-only view of a column.
+template <class Owner, class Column>
+auto column(Column Frames::*member, Shape (*shape)(const Frames&)) {
+    return [member, shape](const py::object& self) {
+        const Frames& frames = frames_of(py::cast<const Owner&>(self));
+        return view_of(frames.*member, shape(frames), self);
+    };
+}
+
+/// Properties that snapshots and frames share.
+template <class Owner, class Class>
+void bind_columns(Class& type) {
+    constexpr auto disc = &per_frame<Owner, true, false>;
+    constexpr auto disc_xy = &per_frame<Owner, true, true>;
+    constexpr auto xy = &per_frame<Owner, false, true>;
+    type.def_property_readonly("position", column<Owner>(&Frames::position, disc_xy))
+        .def_property_readonly("velocity", column<Owner>(&Frames::velocity, disc_xy))
+        .def_property_readonly("angle", column<Owner>(&Frames::angle, disc))
+        .def_property_readonly("spin", column<Owner>(&Frames::spin, disc))
+        .def_property_readonly("radius", column<Owner>(&Frames::radius, per_disc))
+        .def_property_readonly("mass", column<Owner>(&Frames::mass, per_disc))
+        .def_property_readonly("inertia", column<Owner>(&Frames::inertia, per_disc))
+        .def_property_readonly("container_centre", column<Owner>(&Frames::container_centre, xy))
+        .def_property_readonly("container_velocity", column<Owner>(&Frames::container_velocity, xy))
+        .def_property_readonly("container_radius",
+                               [](const Owner& o) { return frames_of(o).container_radius; })
+        .def_property_readonly("period", [](const Owner& o) { return frames_of(o).period; });
+}
+
+/// Order of the columns in a pickled object, for io/state_archive.hpp.
+template <class Visitor>
+void visit_columns(Frames& f, Visitor&& visit) {
+    visit(f.discs, f.period, f.container_radius, f.on_floor, f.are_spheres, f.lie_flat, f.radius,
+          f.mass, f.inertia, f.periods, f.clock, f.time, f.container_centre, f.container_velocity,
+          f.position, f.velocity, f.acceleration, f.rolling_spin, f.angle, f.spin);
+}
+
+py::bytes to_bytes(const Frames& frames) {
+    StateWriter write;
+    Frames copy = frames;
+    visit_columns(copy, write);
+    return py::bytes(write.bytes());
+}
+
+/// Throws FileError unless the bytes hold possible frames.
+Frames from_bytes(const py::bytes& bytes) {
+    Frames f;
+    StateReader read{std::string_view(bytes)};
+    visit_columns(f, read);
+    read.expect_end();
+    const std::size_t n = f.size(), all = n * f.discs, floor = f.are_spheres ? 2 * all : 0;
+    const auto have = [](std::size_t length,
+                         std::initializer_list<const std::vector<double>*> columns) {
+        return std::all_of(columns.begin(), columns.end(),
+                           [&](const auto* column) { return column->size() == length; });
+    };
+    if (f.periods.size() != n || !have(n, {&f.clock, &f.time}) ||
+        !have(2 * n, {&f.container_centre, &f.container_velocity}) ||
+        !have(f.discs, {&f.radius, &f.mass, &f.inertia}) ||
+        !have(2 * all, {&f.position, &f.velocity}) ||
+        !have(floor, {&f.acceleration, &f.rolling_spin}) || !have(all, {&f.angle, &f.spin}))
+        throw FileError("these bytes do not hold swirl frames.");
+    for (std::size_t k = 0; k < n; ++k) require_possible(f.frame(k), Spins::maybe_unknown);
+    return f;
+}
+
+py::tuple rotation_of(const SingleFrame& frame) {
+    const Snapshot s = frame.snapshot();
+    const RotationSample sample = cluster_rotation(s, selected_width());
+    const double omega = 2.0 * pi / s.period;
+    return py::make_tuple(sample.individual / omega, sample.rigid / omega);
+}
+
+void bind_snapshot(py::module_& module) {
+    py::class_<SingleFrame> type(
+        module, "Snapshot",
+        "All discs and the container at one instant in the lab frame. Arrays are read-only views\n"
+        "that never change: position and velocity [disc, xy], spin, angle, radius, mass and\n"
+        "inertia [disc].");
+    forbid_construction(type);
+    bind_columns<SingleFrame>(type);
+    type.def_property_readonly("rolling_spin",
+                               [](const py::object& self) -> py::object {
+                                   if (!py::cast<const SingleFrame&>(self).frames.are_spheres)
+                                       return py::none();
+                                   return column<SingleFrame>(
+                                       &Frames::rolling_spin,
+                                       &per_frame<SingleFrame, true, true>)(self);
+                               })
+        .def_property_readonly("whole_periods",
+                               [](const SingleFrame& s) { return s.frames.periods[0]; })
+        .def_property_readonly("clock", [](const SingleFrame& s) { return s.frames.clock[0]; })
+        .def_property_readonly("time", [](const SingleFrame& s) { return s.frames.time[0]; })
+        .def("m_frame",
+             [](const SingleFrame& frame) {
+                 const Snapshot s = frame.snapshot();
+                 return SingleFrame(seen_from(m_frame(s), s));
+             })
+        .def("rotation", &rotation_of)
+        .def("to_bytes", [](const SingleFrame& s) { return to_bytes(s.frames); })
+        .def("__len__", [](const SingleFrame& s) { return s.frames.discs; });
+    module.def("snapshot_from_bytes", [](const py::bytes& bytes) {
+        const Frames frames = from_bytes(bytes);
+        if (frames.size() != 1) throw FileError("these bytes do not hold a swirl snapshot.");
+        return SingleFrame(frames.frame(0));
+    });
+}
+
+void bind_frames(py::module_& module) {
+    py::class_<Frames, std::shared_ptr<Frames>> type(
+        module, "Frames",
+        "Snapshots of the same discs in order of time, as columns: position and velocity\n"
+        "[frame, disc, xy], spin and angle [frame, disc], time [frame]. frames[k] is a Snapshot.");
+    forbid_construction(type);
+    bind_columns<Frames>(type);
+    constexpr auto per_time = &per_frame<Frames, false, false>;
+    type.def_property_readonly("whole_periods", column<Frames>(&Frames::periods, per_time))
+        .def_property_readonly("clock", column<Frames>(&Frames::clock, per_time))
+        .def_property_readonly("time", column<Frames>(&Frames::time, per_time))
+        .def_property_readonly("discs", [](const Frames& f) { return f.discs; })
+        .def("m_frame",
+             [](const Frames& f) {
+                 auto transformed = std::make_shared<Frames>();
+                 transformed->reserve(f.size(), f.discs);
+                 for (std::size_t k = 0; k < f.size(); ++k) {
+                     const Snapshot s = f.frame(k);
+                     transformed->add(seen_from(m_frame(s), s));
+                 }
+                 return transformed;
+             })
+        .def("to_bytes", &to_bytes)
+        .def("__len__", &Frames::size)
+        .def("__getitem__", [](const Frames& f, py::ssize_t k) {
+            const py::ssize_t count = signed_size(f.size()), at = k < 0 ? k + count : k;
+            if (at < 0 || at >= count)
+                throw py::index_error(
+                    fmt::format("index {} is out of range: there are {} frames.", k, f.size()));
+            return SingleFrame(f.frame(static_cast<std::size_t>(at)));
+        });
+    module.def("frames_from_bytes",
+               [](const py::bytes& bytes) { return std::make_shared<Frames>(from_bytes(bytes)); });
+}
+
+}  // namespace
+
+void forbid_construction(py::object type) {
+    type.attr("__new__") =
+        py::module_::import("builtins")
+            .attr("staticmethod")(py::cpp_function([](const py::args&, const py::kwargs&) {
+                throw py::type_error("only simulations and recordings create these objects.");
+            }));
+}
+
+void bind_snapshots(py::module_& module) {
+    bind_snapshot(module);
+    bind_frames(module);
+}
+
+}  // namespace swirl::python

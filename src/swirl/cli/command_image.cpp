@@ -1,0 +1,76 @@
+// swirl image: the container at one instant.
+#include <fmt/format.h>
+
+#include "swirl/cli/appearance_options.hpp"
+#include "swirl/cli/commands.hpp"
+#include "swirl/cli/output.hpp"
+#include "swirl/cli/source_options.hpp"
+#include "swirl/render/still.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+namespace {
+
+struct ImageCall {
+    std::shared_ptr<SourceTexts> source;
+    std::shared_ptr<AppearanceTexts> appearance;
+    std::optional<double> at;
+    int flashes = 1;
+    double every = 1.0;
+    std::string out;
+    bool quiet = false;
+};
+
+void draw_and_report(const ImageCall& call) {
+    StillConfig config;
+    if (call.out.empty()) throw UsageError("missing required option --out FILE.");
+    config.out = call.out;
+    reject_output_onto_source(*call.source, {call.out});
+    config.appearance = appearance(*call.appearance, Size{1920, 1080});
+    config.sources = frame_sources(*call.source);
+    const std::optional<double> last = config.sources.front().to;
+    config.at = call.at.value_or(last.value_or(call.source->slip ? 0.0 : double(default_warmup)));
+    config.flashes = call.flashes;
+    config.every = call.every;
+    if (const auto wrong = problem(config)) throw UsageError(*wrong);
+    make_still(config);
+    print_source_warnings(config.sources, config.appearance);
+    if (!call.quiet)
+        print_all(fmt::format("{}: period {:g}, {}x{} pixels.\n", call.out, config.at,
+                              config.appearance.size.width, config.appearance.size.height));
+}
+
+void add_image_command(Subcommand& subcommand) {
+    const auto call = std::make_shared<ImageCall>();
+    const auto group = "Image";
+    subcommand.add_option("--out", call->out, "Image file: .png, .svg or .pdf")
+        ->type_name("FILE")
+        ->group(group);
+    subcommand.add_option("--at", call->at, "Instant in periods [20; of FILE: the last]")
+        ->type_name("PERIODS")
+        ->group(group);
+    subcommand
+        .add_option("--strobe", call->flashes, "Number of superimposed instants, up to --at [1]")
+        ->type_name("COUNT")
+        ->group(group);
+    subcommand.add_option("--every", call->every, "Periods between superimposed instants [1]")
+        ->type_name("PERIODS")
+        ->group(group);
+    subcommand.add_flag("--quiet", call->quiet, "Suppress the report")->group(group);
+    call->appearance = add_appearance_options(subcommand);
+    call->source = add_source_options(subcommand);
+    subcommand.explain(source_explanation);
+    subcommand.set_examples(
+        {"swirl image --discs 48 --frame m --color pinned --theme light --out 48.pdf",
+         "swirl image --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
+         "swirl image run.h5 --at 12.5 --trails --out instant.svg"});
+    subcommand.callback([call, &subcommand] {
+        take_video_config(subcommand, *call->source, "image");
+        draw_and_report(*call);
+    });
+}
+
+const Command image_command(61, "image", "Draw the container at one instant.", add_image_command);
+
+}  // namespace
+}  // namespace swirl
