@@ -82,7 +82,7 @@ std::string remark_on_pinned(const std::vector<std::string>& names,
     const bool needs_pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
         return find_measurement(name)->needs_pinned;
     });
-    const double frames_per_period = measured.frames_per_swirl();
+    const double frames_per_period = measured.frames_per_period();
     if (!needs_pinned || fits_criteria(frames_per_period)) return "";
     return fmt::format(
         "there are {:.0f} frames per period, but the criteria for pinned discs assume {}.",
