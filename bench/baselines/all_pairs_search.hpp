@@ -43,9 +43,9 @@ SWIRL_INLINE Flight<Eight> eight_times(const Flight<double>& flight) {
 SWIRL_INLINE void find_times_of_wall_contact(const FlightColumns& discs, const Segment& segment,
                                              double container_radius, double* __restrict times) {
     const double R = container_radius;
-    if (segment.turning != 0.0) {
+    if (segment.turn_rate != 0.0) {
         for (std::size_t i = 0; i < discs.size; ++i)
-            times[i] = time_of_turning_wall_contact(discs.flight(i), segment, R - discs.radius[i]);
+            times[i] = time_of_arc_contact(discs.flight(i), segment, R - discs.radius[i]);
         return;
     }
     const Flight<Eight> centre = eight_times({segment.start, segment.velocity, segment.begin});

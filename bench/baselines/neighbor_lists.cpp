@@ -192,7 +192,7 @@ void NeighborListBaseline::predict(Number i) {
     if (me.at_wall) {
         const Segment& segment = this->segment();
         const double clearance = container_radius_ - me.radius;
-        if (segment.turning != 0.0 ||
+        if (segment.turn_rate != 0.0 ||
             !is_well_inside(
                 separation_at(flight, {segment.start, segment.velocity, segment.begin}, best.time),
                 clearance)) {

@@ -27,7 +27,7 @@ bool same_segments(const std::vector<Segment>& a, const std::vector<Segment>& b)
                       [](const Segment& x, const Segment& y) {
                           return x.begin == y.begin && x.end == y.end && x.start.x == y.start.x &&
                                  x.start.y == y.start.y && x.velocity.x == y.velocity.x &&
-                                 x.velocity.y == y.velocity.y && x.turning == y.turning;
+                                 x.velocity.y == y.velocity.y && x.turn_rate == y.turn_rate;
                       });
 }
 

@@ -26,7 +26,7 @@ inline ContainerPath path_from(const ContainerPath& path, double clock) {
     const auto add = [&](const Segment& segment, double begin, double end, double shift) {
         if (begin < end)
             later.segments.push_back({begin + shift, end + shift, segment.position_at(begin),
-                                      segment.velocity_at(begin), segment.turning});
+                                      segment.velocity_at(begin), segment.turn_rate});
     };
     for (const Segment& segment : path.segments)
         add(segment, std::max(segment.begin, clock), segment.end, -clock);
@@ -42,7 +42,7 @@ inline ContainerPath backwards(const ContainerPath& path) {
     for (auto segment = path.segments.rbegin(); segment != path.segments.rend(); ++segment)
         back.segments.push_back({path.period - segment->end, path.period - segment->begin,
                                  segment->position_at(segment->end),
-                                 -1.0 * segment->velocity_at(segment->end), -segment->turning});
+                                 -1.0 * segment->velocity_at(segment->end), -segment->turn_rate});
     return back;
 }
 

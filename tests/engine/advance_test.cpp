@@ -1,4 +1,4 @@
-// advance_to() in parts: so many events at a time, and the same bits.
+// advance_to() with a limit on the number of events gives the same results.
 #include <gtest/gtest.h>
 
 #include "swirl/engine/placement.hpp"
@@ -17,14 +17,14 @@ InitialState container(double radius) {
     return scene;
 }
 
-TEST(AdvanceInParts, StandsWhereAllAtOnceDoes) {
+TEST(AdvanceInParts, GivesTheSameState) {
     Simulation at_once(container(1.0)), in_parts(container(1.0));
     for (const auto& [periods, clock] :
          {std::pair<std::int64_t, double>{0, 5.0}, {0, 5.0}, {3, 1.25}}) {
         at_once.advance_to(periods, clock);
         std::uint64_t before = in_parts.events().total();
         while (!in_parts.advance_to(periods, clock, 7)) {
-            // Not there: all seven were executed.
+            // The time was not reached, so all seven events were executed.
             EXPECT_EQ(in_parts.events().total(), before + 7);
             before = in_parts.events().total();
         }
@@ -35,7 +35,7 @@ TEST(AdvanceInParts, StandsWhereAllAtOnceDoes) {
     EXPECT_GT(in_parts.events().total(), 1000u);
 }
 
-TEST(AdvanceInParts, NoEventsIsNoWayForward) {
+TEST(AdvanceInParts, WithoutEventsTheClockDoesNotAdvance) {
     Simulation simulation(container(1.0));
     EXPECT_FALSE(simulation.advance_to(1, 0.0, 0));
     EXPECT_EQ(simulation.events().total(), 0u);

@@ -13,7 +13,9 @@ import unittest
 SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__)))))
 # One translation unit, so that the standard headers are read once.
-PARTS = ("src/swirl/engine/placement.cpp", "src/swirl/engine/simulation.cpp",
+PARTS = ("src/swirl/engine/placement.cpp", "src/swirl/engine/neighbors/choose_search.cpp",
+         "src/swirl/engine/neighbors/search_setup.cpp", "src/swirl/engine/simulation_storage.cpp",
+         "src/swirl/engine/simulation.cpp",
          "src/swirl/engine/simd/event_loop_baseline.cpp", "tests/engine/compilers/print_hashes.cpp")
 
 

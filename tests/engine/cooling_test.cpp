@@ -1,17 +1,17 @@
 // A gas of smooth inelastic discs cools by Haff's law (P. K. Haff, J. Fluid Mech. 134, 401, 1983,
 // doi:10.1017/S0022112083003419).
 //
-// A collision loses m (1 − e²) g²/4, g the approach speed. In a gas with Maxwell's velocities the
-// pairs that collide have ⟨g²⟩ = 4 kT/m, so a collision loses (1 − e²) kT, of the N kT that a gas
-// of N discs has:
+// A collision dissipates m (1 − e²) g²/4, where g is the speed of approach. With Maxwell's
+// distribution, pairs that collide have ⟨g²⟩ = 4 kT/m. So a collision dissipates (1 − e²) kT of the
+// N kT that a gas of N discs has:
 //
 //     dT/dC = −(1 − e²) T/N,                  C the number of collisions so far;
-//     √(T₀/T) = 1 + (1 − e²) ω₀ t/4,          as N ω/2 collisions come in unit time, ω ~ √T,
+//     √(T₀/T) = 1 + (1 − e²) ω₀ t/4,          with N ω/2 collisions per unit of time, ω ~ √T,
 //
-// with ω the collisions of a disc in unit time. The velocities of a cooling gas are not quite
-// Maxwell's: the next term of their expansion (van Noije, Ernst, Granular Matter 1, 57, 1998,
-// doi:10.1007/s100350050009) is a₂ = −0.019 at e = 0.95 and lowers the cooling rate by the share
-// 3 a₂/16, 0.35 %.
+// where ω is the collision rate of a disc. The distribution in a cooling gas differs slightly from
+// Maxwell's. The next term of its expansion (van Noije, Ernst, Granular Matter 1, 57, 1998,
+// doi:10.1007/s100350050009) is a₂ = −0.019 at e = 0.95. It lowers the cooling rate by the fraction
+// 3 a₂/16, which is 0.35 %.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,9 +35,9 @@ TEST(InelasticGas, CoolsByHaffsLaw) {
     constexpr double e = 0.95;
     InitialState scene = gas_at_rest(N, 0.3);
     Simulation warm(scene);
-    warm.run(50 * N);  // Maxwell's velocities
+    warm.run(50 * N);  // Maxwell's distribution
 
-    // ω₀ with e = 1, in this dish with its wall.
+    // ω₀ with e = 1, in this container with its wall.
     const double from = warm.snapshot().time();
     const std::uint64_t before = warm.events().disc_disc;
     warm.run(40 * N);
@@ -54,8 +54,8 @@ TEST(InelasticGas, CoolsByHaffsLaw) {
         const double C = static_cast<double>(cooling.events().disc_disc - collisions);
         const double t = cooling.snapshot().time() - start;
         const double E = energy(cooling);
-        // C collisions lose their energy with a scatter of 1/√C of it, 1.9 % at the first look and
-        // 0.5 % at the last; four of these, and the 0.35 % that is left out above.
+        // The energy that C collisions dissipate has a relative standard deviation of 1/√C: 1.9 %
+        // at first, 0.5 % at the end. The tolerance is four of these plus the 0.35 % from above.
         const double tolerance = 4.0 / std::sqrt(C) + 0.004;
         EXPECT_NEAR(std::log(E0 / E) / ((1.0 - e * e) * C / N), 1.0, tolerance) << C;
         EXPECT_NEAR((std::sqrt(E0 / E) - 1.0) / ((1.0 - e * e) * omega * t / 4.0), 1.0, tolerance)
@@ -63,15 +63,15 @@ TEST(InelasticGas, CoolsByHaffsLaw) {
     }
 }
 
-// Luding, McNamara 1998: what meets again within the duration of a contact loses nothing.
-TEST(InelasticGas, LosesNothingWhileContactsLastForEver) {
+// TC model (Luding, McNamara 1998): collisions within the duration of a contact are elastic.
+TEST(InelasticGas, ConservesEnergyIfContactsLastForEver) {
     InitialState scene = gas_at_rest(300, 0.3);
     scene.disc_surface.restitution = scene.wall_surface.restitution = 0.5;
     scene.disc_surface.contact_duration = scene.wall_surface.contact_duration = 1e9;
     Simulation simulation(scene);
     const double E0 = energy(simulation);
     simulation.run(20000);
-    // 20 000 changes of relative size 10⁻¹⁶ · 1/300 each; 10⁻¹² is beyond all of them in a row.
+    // 20 000 rounding errors of relative size 10⁻¹⁶/300 add up to less than 10⁻¹².
     EXPECT_NEAR(energy(simulation) / E0, 1.0, 1e-12);
     EXPECT_EQ(simulation.events().elastic_by_tc,
               simulation.events().disc_disc + simulation.events().disc_wall);

@@ -6,7 +6,7 @@ namespace swirl {
 namespace {
 
 void expect_golden(Width width) {
-    if (!has_width(width)) GTEST_SKIP() << "this processor has no such vectors";
+    if (!has_width(width)) GTEST_SKIP() << "this processor does not support this width";
     for (const GoldenRun& golden : golden_runs()) {
         Simulation simulation(golden.scene, {}, {0, width});
         simulation.run(golden.events);
@@ -14,11 +14,11 @@ void expect_golden(Width width) {
     }
 }
 
-TEST(GoldenHash, OfTheBaseline) { expect_golden(Width::baseline); }
-TEST(GoldenHash, OfAvx2) { expect_golden(Width::avx2); }
-TEST(GoldenHash, OfAvx512) { expect_golden(Width::avx512); }
+TEST(GoldenHash, Baseline) { expect_golden(Width::baseline); }
+TEST(GoldenHash, Avx2) { expect_golden(Width::avx2); }
+TEST(GoldenHash, Avx512) { expect_golden(Width::avx512); }
 
-TEST(GoldenHash, EveryTrajectoryHasItsOwn) {
+TEST(GoldenHash, DifferBetweenTrajectories) {
     const auto runs = golden_runs();
     for (std::size_t a = 0; a < runs.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) EXPECT_NE(runs[a].hash, runs[b].hash);

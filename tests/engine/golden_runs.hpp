@@ -1,5 +1,6 @@
-// A few trajectories and where they end, to the bit. Whoever changes a number here has changed the
-// physics, the order of its roundings, or what the hash is made of, and says so in the CHANGELOG.
+// Some trajectories and the hashes of their final states. A change of a hash means that the
+// physics, the order of rounding, or the definition of the hash has changed. It must be in the
+// CHANGELOG.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ struct GoldenRun {
     const char* name;
     InitialState scene;
     std::uint64_t events;
-    std::uint64_t hash;  // Simulation::state_hash() after so many events
+    std::uint64_t hash;  // Simulation::state_hash() after `events` events
 };
 
 inline InitialState golden_circle() {
@@ -37,7 +38,7 @@ inline std::vector<GoldenRun> golden_runs() {
         {"restitution", golden_walton(), 20000, 0xb89cac39392593cfu},
         {"gas of 2000", gas_at_rest(2000, 0.7), 50000, 0x802cf8bbd151c318u},
         {"48 spheres on a floor", sphere_container(48), 20000, 0x267ebf43bc3a9349u},
-        {"spheres of three kinds", sphere_mixture(), 20000, 0xc3d231d32b19022bu},
+        {"spheres of three species", sphere_mixture(), 20000, 0xc3d231d32b19022bu},
         {"coins", coin_container(36), 20000, 0xb9396db00e95ef24u},
     };
 }

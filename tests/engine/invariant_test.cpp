@@ -1,6 +1,6 @@
-// The engine's promises (invariant.hpp) can be broken: each of these is, and the program stops
-// in the function of that name. What they say of healthy runs is told by all other tests of this
-// floor, which make the same calls in the build that checks.
+// Each test violates one of the engine's invariants (invariant.hpp); the program must stop in the
+// function of that name. All other tests of this layer check the invariants of valid runs, in the
+// build with checks.
 #include "swirl/engine/invariant.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,8 @@
 
 #if defined(SWIRL_INTERNAL_CHECKS)
 
-// The sanitizer's stack trace tells the name of the promise. Its library must be able to see this.
+// The sanitizer's stack trace contains the name of the invariant. This option turns the trace on;
+// the sanitizer's library must be able to find it.
 extern "C" __attribute__((visibility("default"))) const char* __asan_default_options() {
     return "handle_sigill=1";
 }
@@ -28,9 +29,9 @@ void run(const InitialState& initial, const Progress& progress = {}) {
         if (has_width(width)) Simulation(initial, progress, {0, width}).run(1000);
 }
 
-TEST_F(BrokenPromise, HealthyRunsKeepThem) { run(paper_container(28)); }
+TEST_F(InvariantViolation, ValidRunPasses) { run(paper_container(28)); }
 
-TEST_F(BrokenPromise, ACollisionThatGivesEnergyIsFound) {
+TEST_F(InvariantViolation, GainOfEnergyIsDetected) {
     InitialState initial = paper_container(28);
     initial.disc_surface.restitution = 1.5;
     EXPECT_DEATH(run(initial), "energy_never_grows");
@@ -39,19 +40,19 @@ TEST_F(BrokenPromise, ACollisionThatGivesEnergyIsFound) {
     EXPECT_DEATH(run(initial), "energy_never_grows");
 }
 
-TEST_F(BrokenPromise, FrictionThatPullsIsFound) {
+TEST_F(InvariantViolation, NegativeFrictionIsDetected) {
     InitialState initial = paper_container(28);
     initial.disc_surface.mu = -0.5;
     EXPECT_DEATH(run(initial), "friction_obeys_coulombs_law");
 }
 
-TEST_F(BrokenPromise, EventsBeforeTheClockAreFound) {
+TEST_F(InvariantViolation, EventBeforeTheClockIsDetected) {
     Progress late;
     late.clock = 9.0;
     EXPECT_DEATH(run(gas_at_rest(60, 0.3), late), "time_never_goes_back");
 }
 
-/// Two discs on lists, the smallest state that can be corrupted.
+/// Two discs with neighbour lists: the smallest state that can be corrupted.
 struct TwoDiscs {
     alignas(64) double times[8], top_times[8];
     std::uint32_t winners[8];
@@ -62,29 +63,29 @@ struct TwoDiscs {
     } cold[3];
     Skin skins[2];
     Segment segment{0.0, 10.0, {0.0, 0.0}, {0.0, 0.0}, 0.0};
-    EngineState state{};
+    VerletListsState state{};
 
     TwoDiscs() {
         for (std::uint32_t i = 0; i < 8; ++i) times[i] = top_times[i] = never, winners[i] = 0;
         for (std::uint32_t i = 0; i < 2; ++i) {
             discs[i] = {{3.0 * i, 0.0}, {0.0, 0.0}, 0.0, 1.0, 0.0, 0, 0, 1, 0};
             cold[i] = {{no_event, 0, 0.0}, {1 - i, 2, 2, 2}};
-            skins[i] = {static_cast<float>(3.0 * i), 0.0f, 0.6f, {2}};
+            skins[i] = {static_cast<float>(3.0 * i), 0.0f, 0.6f, 2};
             times[i] = 1.0 + i;
         }
         top_times[0] = 1.0;
         state.size = 2;
-        state.capacity = 4;
+        state.list_capacity = 4;
         state.cold_bytes = sizeof cold[0];
         state.discs = discs;
         state.cold_discs = reinterpret_cast<unsigned char*>(cold);
         state.skins = skins;
-        state.levels = 2;
-        state.top_rows = 1;
-        state.first_time = 1.0;
-        state.level_times[0] = times;
-        state.level_times[1] = top_times;
-        state.level_winners[1] = winners;
+        state.queue.levels = 2;
+        state.queue.top_rows = 1;
+        state.queue.first_time = 1.0;
+        state.queue.level_times[0] = times;
+        state.queue.level_times[1] = top_times;
+        state.queue.level_winners[1] = winners;
         state.segments = &segment;
         state.segment_count = 1;
         state.container_radius = 10.0;
@@ -96,53 +97,53 @@ struct TwoDiscs {
     }
 };
 
-TEST_F(BrokenPromise, AHealthyStateIsAccepted) { TwoDiscs().check(); }
+TEST_F(InvariantViolation, ValidListsPass) { TwoDiscs().check(); }
 
-TEST_F(BrokenPromise, AListWithoutItsCounterpartIsFound) {
+TEST_F(InvariantViolation, AsymmetricListIsDetected) {
     TwoDiscs two;
-    two.discs[1].neighbours = 0;
+    two.discs[1].list_length = 0;
     EXPECT_DEATH(two.check(), "neighbour_lists_are_symmetric");
 }
-TEST_F(BrokenPromise, AMissingNeighbourIsFound) {
+TEST_F(InvariantViolation, MissingNeighbourIsDetected) {
     TwoDiscs two;
-    two.discs[0].neighbours = two.discs[1].neighbours = 0;
+    two.discs[0].list_length = two.discs[1].list_length = 0;
     EXPECT_DEATH(two.check(), "neighbour_lists_are_complete");
 }
-TEST_F(BrokenPromise, ADiscThatHasLeftItsSkinIsFound) {
+TEST_F(InvariantViolation, DiscOutsideItsSkinIsDetected) {
     TwoDiscs two;
     two.discs[1].position.y = 0.7;
     EXPECT_DEATH(two.check(), "discs_are_within_their_skins");
 }
-TEST_F(BrokenPromise, AWinnerThatIsNotTheFirstIsFound) {
+TEST_F(InvariantViolation, WrongWinnerOfARowIsDetected) {
     TwoDiscs two;
     two.winners[0] = 1;
     EXPECT_DEATH(two.check(), "winners_are_the_first_of_their_rows");
 }
-TEST_F(BrokenPromise, AFirstOfAllThatIsNotIsFound) {
+TEST_F(InvariantViolation, WrongFirstEventIsDetected) {
     TwoDiscs two;
-    two.state.first_disc = 1;
-    EXPECT_DEATH(two.check(), "the_first_of_all_is_noted");
+    two.state.queue.first_disc = 1;
+    EXPECT_DEATH(two.check(), "the_first_event_is_stored");
 }
-TEST_F(BrokenPromise, AnOverlapIsFound) {
+TEST_F(InvariantViolation, OverlapIsDetected) {
     TwoDiscs two;
     two.discs[0].position.x = 0.5;
     two.discs[1].position.x = 2.49;
     EXPECT_DEATH(two.check(), "no_two_discs_overlap");
 }
-TEST_F(BrokenPromise, ADiscOutsideIsFound) {
+TEST_F(InvariantViolation, DiscOutsideTheContainerIsDetected) {
     TwoDiscs two;
     two.state.container_radius = 3.9;
     EXPECT_DEATH(two.check(), "no_disc_is_outside_the_container");
 }
-TEST_F(BrokenPromise, ACollisionAtADistanceIsFound) {
+TEST_F(InvariantViolation, CollisionAtADistanceIsDetected) {
     const Body before{{0.0, 0.0}, 0.0, 1.0, 1.0, 1.0};
     const Collided still{before, before, {0.0, 0.0}};
     EXPECT_DEATH(check_disc_collision(still, still, {2.1, 0.0}, {}, {}, 0.0, false),
                  "discs_touch_at_contact");
 }
-TEST_F(BrokenPromise, MomentumFromNowhereIsFound) {
+TEST_F(InvariantViolation, WrongWorkOfAnImpulseIsDetected) {
     const Body before{{1.0, 0.0}, 0.0, 1.0, 1.0, 1.0}, after{{0.5, 0.0}, 0.0, 1.0, 1.0, 1.0};
-    // A force on one of two: energy as if its work had been done.
+    // One of two bodies loses momentum and energy without an impulse.
     EXPECT_DEATH(check_disc_collision({before, after, {0.0, 0.0}}, {before, before, {0.0, 0.0}},
                                       {2.0, 0.0}, {}, {}, 0.0, false),
                  "energy_changes_by_the_work_of_the_impulses");

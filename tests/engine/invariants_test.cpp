@@ -1,4 +1,4 @@
-// What a trajectory must keep, whatever the discs do.
+// Conserved quantities and identities of trajectories.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,9 +44,9 @@ InitialState circle_container(std::size_t n, double mu_disc, double mu_wall) {
     return scene;
 }
 
-// In the frame that turns with the swirl centre the dish stands still, and K − ΩL is the energy
-// there. A smooth wall and smooth discs conserve it.
-TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumIsConservedWithoutFriction) {
+// In the frame that turns about the swirl centre the container is at rest, and K − ΩL is the energy
+// there. Without friction it is conserved.
+TEST(ExactCircle, ConservesEnergyMinusOmegaLWithoutFriction) {
     const InitialState scene = circle_container(48, 0.0, 0.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
@@ -58,14 +58,14 @@ TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumIsConservedWithoutFriction)
     const int blocks = sanitized ? 2 : 100;
     for (int block = 0; block < blocks; ++block) {
         simulation.run(10000);
-        // K and ΩL are of order 100; 10⁶ events with errors of 10⁻¹⁶ of that each, in random order,
-        // make 10⁻¹¹.
+        // K and ΩL are of order 100. 10⁶ events with random relative errors of 10⁻¹⁶ add up to
+        // 10⁻¹¹.
         ASSERT_NEAR(invariant(), before, 1e-10) << "after " << simulation.events().total();
     }
 }
 
-// The discs' friction is a loss in every frame, so there K − ΩL can only fall.
-TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumNeverGrowsWithDiscFrictionOnly) {
+// Friction between discs dissipates energy in every frame, so K − ΩL can only decrease.
+TEST(ExactCircle, EnergyMinusOmegaLDecreasesWithFrictionBetweenDiscs) {
     const InitialState scene = circle_container(40, 1.0, 0.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
@@ -81,9 +81,9 @@ TEST(TrueCircle, EnergyMinusOmegaTimesAngularMomentumNeverGrowsWithDiscFrictionO
     EXPECT_LT(before, first - 1.0);
 }
 
-// With friction at the wall, each hit changes it by −ΩR J_t − loss: the test of the wall's part in
-// the budget. The loss in the frame of the wall follows from the disc's velocities there.
-TEST(TrueCircle, AWallHitChangesTheInvariantByTheTorqueOfFrictionAndTheLoss) {
+// With friction at the wall, each wall collision changes K − ΩL by −ΩR J_t − loss. The loss in the
+// frame of the wall follows from the disc's velocities there.
+TEST(ExactCircle, WallFrictionChangesEnergyMinusOmegaLByTorqueAndLoss) {
     const InitialState scene = circle_container(20, 0.0, 1.0);
     const double omega = scene.path.omega();
     Simulation simulation(scene);
@@ -113,7 +113,7 @@ TEST(TrueCircle, AWallHitChangesTheInvariantByTheTorqueOfFrictionAndTheLoss) {
     EXPECT_GT(hits, 1000);
 }
 
-TEST(StillDish, ASmoothDiscKeepsTheAngleOfItsChordForEver) {
+TEST(ContainerAtRest, SmoothDiscBouncesAtAConstantAngle) {
     InitialState scene = gas_at_rest(1, 0.02);
     scene.discs[0].position = {1.3, -2.1};
     scene.discs[0].velocity = {0.83, 0.41};
@@ -132,7 +132,7 @@ TEST(StillDish, ASmoothDiscKeepsTheAngleOfItsChordForEver) {
     for (int hit = 0; hit < 100000; ++hit) {
         before = now;
         now = next_hit();
-        // Each hit adds rounding errors of 10⁻¹⁵; 10⁵ in random order make 3·10⁻¹³.
+        // Each collision adds rounding errors of 10⁻¹⁵; 10⁵ random ones add up to 3·10⁻¹³.
         ASSERT_NEAR(now.impulse.normal, impulse, 1e-11) << "hit " << hit;
         ASSERT_NEAR(dot(before.normal, now.normal), turn_cos, 1e-11);
         ASSERT_NEAR(cross(before.normal, now.normal), turn_sin, 1e-11);
@@ -140,7 +140,7 @@ TEST(StillDish, ASmoothDiscKeepsTheAngleOfItsChordForEver) {
     EXPECT_EQ(simulation.disc(0).spin, 0.7);
 }
 
-TEST(StillDish, SmoothDiscsKeepTheirEnergy) {
+TEST(ContainerAtRest, SmoothDiscsConserveEnergy) {
     InitialState scene = paper_container(48, 0.0, 0.0);
     scene.path = still_path(10.0);
     Random random(4);
@@ -155,7 +155,7 @@ TEST(StillDish, SmoothDiscsKeepTheirEnergy) {
     EXPECT_NEAR(energy(simulation.snapshot()) / before, 1.0, 1e-11);
 }
 
-TEST(StillDish, SmoothDiscsKeepTheirAngularMomentum) {
+TEST(ContainerAtRest, SmoothDiscsConserveAngularMomentum) {
     Simulation simulation(gas_at_rest(200, 0.5));
     const double before = angular_momentum(simulation.snapshot());
     simulation.run(200000);
@@ -164,8 +164,8 @@ TEST(StillDish, SmoothDiscsKeepTheirAngularMomentum) {
 
 // Clausius: d/dt Σ m r·v = 2K + Σ over collisions of (impulse on j) · (r_j − r_i), so over any time
 //     G(t) − G(0) = ∫ 2K dt + Σ σ J_n (pairs) − Σ (R − r) J_n (wall);
-// friction acts across the line of centres and does not enter.
-TEST(StillDish, TheVirialIdentityHoldsWithAndWithoutFriction) {
+// friction acts across the line of centres and does not contribute.
+TEST(ContainerAtRest, VirialIdentityHoldsWithAndWithoutFriction) {
     for (const double mu : {0.0, 0.8}) {
         InitialState scene = gas_at_rest(60, 0.6);
         scene.disc_surface.mu = scene.wall_surface.mu = mu;

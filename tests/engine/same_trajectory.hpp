@@ -1,5 +1,5 @@
-// One trajectory by two roads, compared event by event and bit for bit; and the widths of vectors
-// for which that is done.
+// Compares a trajectory of the engine with that of a reference, event by event and bitwise, for
+// every vector width.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ inline void expect_same_state(const Disc& a, const Disc& b) {
     ASSERT_TRUE(same_bits(a.spin, b.spin));
     ASSERT_TRUE(same_bits(a.time, b.time));
 }
-/// What spheres have besides.
+/// The additional state of spheres.
 inline void expect_same_sphere(const Disc& a, const Disc& b) {
     ASSERT_TRUE(same_bits(a.rolling_spin.x, b.rolling_spin.x));
     ASSERT_TRUE(same_bits(a.rolling_spin.y, b.rolling_spin.y));
@@ -35,13 +35,13 @@ inline void expect_same_sphere(const Disc& a, const Disc& b) {
 }
 
 /// Runs both and compares every event's time, partners and impulse, and all discs at the end.
-template <class Plain = Reference>
+template <class Slow = Reference>
 void expect_same_trajectory(const InitialState& scene, int events, const Tuning& tuning) {
     const bool spheres = scene.shape != Shape::disc;
-    Plain plain(scene);
+    Slow reference(scene);
     Simulation engine(scene, {}, tuning);
     for (int k = 0; k < events; ++k) {
-        const Event expected = plain.step(), found = engine.step();
+        const Event expected = reference.step(), found = engine.step();
         ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
         ASSERT_EQ(expected.periods, found.periods);
         ASSERT_EQ(expected.kind, found.kind) << "event " << k;
@@ -54,16 +54,16 @@ void expect_same_trajectory(const InitialState& scene, int events, const Tuning&
         ASSERT_LT(found.overlap, 1e-12) << "event " << k;
     }
     for (std::size_t i = 0; i < scene.discs.size(); ++i) {
-        expect_same_state(plain.disc(i), engine.disc(i));
-        if (spheres) expect_same_sphere(plain.disc(i), engine.disc(i));
+        expect_same_state(reference.disc(i), engine.disc(i));
+        if (spheres) expect_same_sphere(reference.disc(i), engine.disc(i));
     }
 }
 
-/// A test for each width that this processor has.
+/// A test for each vector width that this processor supports.
 class OfEveryWidth : public ::testing::TestWithParam<Width> {
   protected:
     void SetUp() override {
-        if (!has_width(GetParam())) GTEST_SKIP() << "this processor has no such vectors";
+        if (!has_width(GetParam())) GTEST_SKIP() << "this processor does not support this width";
     }
 };
 
@@ -79,9 +79,9 @@ inline std::string width_name(const ::testing::TestParamInfo<Width>& width) {
     }
 }
 
-/// Saved after so many events and resumed, a run ends as one that went through.
-inline void expect_resumed_bit_for_bit(const InitialState& scene, std::uint64_t events,
-                                       std::uint64_t saved_after) {
+/// A run that is saved after some events and resumed must end like one without interruption.
+inline void expect_bitwise_identical_after_resuming(const InitialState& scene, std::uint64_t events,
+                                                    std::uint64_t saved_after) {
     Simulation whole(scene), first(scene);
     whole.run(events);
     first.run(saved_after);

@@ -1,4 +1,4 @@
-// Scenes the tests share.
+// Initial states that several tests use.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,25 @@
 
 namespace swirl {
 
-/// Under the sanitizers, which look at every access and take twenty times as long, the statistics
-/// are left to the release build.
+/// The sanitizers make programs twenty times slower, so only the release build runs long tests.
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool sanitized = true;
 #else
 inline constexpr bool sanitized = false;
 #endif
 
-inline InitialState state_of(const std::vector<Disc>& kinds, std::size_t n, double container_radius,
-                             ContainerPath path, double mu_disc, double mu_wall, double speed = 0.1,
-                             std::uint64_t seed = 1) {
+inline InitialState state_of(const std::vector<Disc>& species, std::size_t n,
+                             double container_radius, ContainerPath path, double mu_disc,
+                             double mu_wall, double speed = 0.1, std::uint64_t seed = 1) {
     std::vector<double> radii;
-    for (std::size_t i = 0; i < n; ++i) radii.push_back(kinds[i % kinds.size()].radius);
+    for (std::size_t i = 0; i < n; ++i) radii.push_back(species[i % species.size()].radius);
     const auto centres = place_discs(radii, container_radius, seed);
     if (!centres) throw std::runtime_error("the test's discs do not fit");
     InitialState scene{{}, std::move(path), container_radius, {mu_disc}, {mu_wall}};
     Random random(seed + 1);
     const Segment& segment = scene.path.segments.front();
     for (std::size_t i = 0; i < n; ++i) {
-        Disc d = kinds[i % kinds.size()];
+        Disc d = species[i % species.size()];
         d.position = segment.start + (*centres)[i];
         d.velocity = segment.velocity + random.in_disc(speed);
         scene.discs.push_back(d);
@@ -43,7 +42,7 @@ inline Disc unit_disc(double inertia = paper_inertia) {
     return {{0, 0}, {0, 0}, 0, 0, 0, 1.0, 1.0, inertia};
 }
 
-/// The paper's dish.
+/// The paper's container.
 inline InitialState paper_container(std::size_t n, double mu_disc = 1.0, double mu_wall = 1.0,
                                     std::uint64_t seed = 1) {
     return state_of({unit_disc()}, n, paper_container_radius,
@@ -51,7 +50,7 @@ inline InitialState paper_container(std::size_t n, double mu_disc = 1.0, double 
                     seed);
 }
 
-/// Three kinds of disc, in the paper's dish.
+/// Three species of discs.
 inline InitialState mixture_container(std::size_t n = 40) {
     return state_of({{{0, 0}, {0, 0}, 0, 0, 0, 1.0, 1.0, 10.0},
                      {{0, 0}, {0, 0}, 0, 0, 0, 0.6, 0.36, 0.0648},
@@ -59,8 +58,8 @@ inline InitialState mixture_container(std::size_t n = 40) {
                     n, 10.0, polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
 }
 
-/// Large discs in a sea of small ones of the same material, in a dish that swirls. The small ones
-/// come first.
+/// Large discs among small ones of the same material, in a moving container. The small ones come
+/// first.
 inline InitialState large_among_small(std::size_t large, std::size_t small, double small_radius,
                                       double container_radius) {
     const double r = small_radius;
@@ -85,13 +84,13 @@ inline InitialState large_among_small(std::size_t large, std::size_t small, doub
     return scene;
 }
 
-/// An elastic gas of smooth discs in a dish that stands still.
+/// An elastic gas of smooth discs in a container at rest.
 inline InitialState gas_at_rest(std::size_t n, double packing_fraction, double speed = 1.0) {
     return state_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing_fraction),
                     still_path(10.0), 0.0, 0.0, speed, 3);
 }
 
-/// Solid spheres on a floor, in the paper's dish.
+/// Solid spheres on a floor, in the paper's container.
 inline InitialState sphere_container(std::size_t n, double deceleration = 1.92, double mu = 0.2,
                                      double restitution = 0.9) {
     InitialState scene =
@@ -102,13 +101,13 @@ inline InitialState sphere_container(std::size_t n, double deceleration = 1.92, 
     scene.floor.deceleration = deceleration;
     return scene;
 }
-/// The same with a rolling resistance, μ_r g; this one brings many to rest on the floor.
+/// The same with rolling resistance μ_r g; the default brings many spheres to rest on the floor.
 inline InitialState resisting_container(std::size_t n, double resistance = 1.5) {
     InitialState scene = sphere_container(n);
     scene.floor.rolling_resistance = resistance;
     return scene;
 }
-/// The same of discs that lie flat on the floor.
+/// The same with coins, discs that lie flat on the floor.
 inline InitialState coin_container(std::size_t n, double deceleration = 1.92) {
     InitialState scene = sphere_container(n, deceleration);
     for (Disc& d : scene.discs) d.inertia = solid_inertia(d.mass, d.radius);
@@ -116,7 +115,7 @@ inline InitialState coin_container(std::size_t n, double deceleration = 1.92) {
     scene.floor.bodies_lie_flat = true;
     return scene;
 }
-/// Three kinds of sphere, solid and hollow.
+/// Three species of spheres, solid and hollow.
 inline InitialState sphere_mixture() {
     InitialState scene = mixture_container(30);
     for (std::size_t i = 0; i < scene.discs.size(); ++i) {

@@ -9,7 +9,7 @@
 namespace swirl {
 namespace {
 
-/// More than are looked at in pairs, as dense as the paper's 48, or thin.
+/// More spheres than the search of all pairs handles, dense or dilute.
 InitialState many_spheres(std::size_t n, double packing, double deceleration) {
     const double R = std::sqrt(static_cast<double>(n) / packing),
                  scale = R / paper_container_radius;
@@ -21,37 +21,36 @@ InitialState many_spheres(std::size_t n, double packing, double deceleration) {
     scene.floor.deceleration = deceleration;
     return scene;
 }
-class SpheresInEveryWidth : public OfEveryWidth {};
-TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBit) {
+class SpheresEqualReference : public OfEveryWidth {};
+TEST_P(SpheresEqualReference, InThePaperContainer) {
     for (const std::size_t n : {1u, 2u, 5u, 16u, 17u, 28u, 33u, 48u, 55u})
         expect_same_trajectory(sphere_container(n), 4000, {0, GetParam()});
 }
-TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitForAMixture) {
+TEST_P(SpheresEqualReference, ForAMixture) {
     expect_same_trajectory(sphere_mixture(), 10000, {0, GetParam()});
 }
-TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitOnAllFloors) {
+TEST_P(SpheresEqualReference, WithWeakAndStrongFrictionAgainstTheFloor) {
     for (const double deceleration : {0.0, 1e-3, 0.1, 50.0})
         expect_same_trajectory(sphere_container(28, deceleration), 4000, {0, GetParam()});
 }
-TEST_P(SpheresInEveryWidth, TheSearchThroughCellsIsTheReferenceBitForBit) {
+TEST_P(SpheresEqualReference, WithCells) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 55u})
-        expect_same_trajectory(sphere_container(n), 3000, {0, GetParam(), NeighbourSearch::cells});
-    expect_same_trajectory(sphere_mixture(), 5000, {0, GetParam(), NeighbourSearch::cells});
-    expect_same_trajectory(sphere_container(28, 0.0), 3000,
-                           {0, GetParam(), NeighbourSearch::cells});
+        expect_same_trajectory(sphere_container(n), 3000, {0, GetParam(), SearchMethod::cells});
+    expect_same_trajectory(sphere_mixture(), 5000, {0, GetParam(), SearchMethod::cells});
+    expect_same_trajectory(sphere_container(28, 0.0), 3000, {0, GetParam(), SearchMethod::cells});
     for (const double packing : {0.6, 0.1})
         for (const double deceleration : {0.0, 0.5})
             expect_same_trajectory(many_spheres(90, packing, deceleration), 2000, {0, GetParam()});
 }
-TEST_P(SpheresInEveryWidth, CoinsAreTheReferenceBitForBit) {
-    for (const NeighbourSearch search : {NeighbourSearch::best, NeighbourSearch::cells})
+TEST_P(SpheresEqualReference, ForCoins) {
+    for (const SearchMethod search : {SearchMethod::best, SearchMethod::cells})
         for (const double deceleration : {0.1, 1.92})
             for (const std::size_t n : {1u, 5u, 48u})
                 expect_same_trajectory(coin_container(n, deceleration), 3000,
                                        {0, GetParam(), search});
 }
-TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitWithRollingResistance) {
-    for (const NeighbourSearch search : {NeighbourSearch::best, NeighbourSearch::cells})
+TEST_P(SpheresEqualReference, WithRollingResistance) {
+    for (const SearchMethod search : {SearchMethod::best, SearchMethod::cells})
         for (const double resistance : {0.01, 1.5})
             for (const std::size_t n : {1u, 5u, 28u, 48u})
                 expect_same_trajectory(resisting_container(n, resistance), 3000,
@@ -60,18 +59,18 @@ TEST_P(SpheresInEveryWidth, EngineIsTheReferenceBitForBitWithRollingResistance) 
     mixture.floor.rolling_resistance = 0.1;
     expect_same_trajectory(mixture, 5000, {0, GetParam()});
 }
-TEST_P(SpheresInEveryWidth, SlowEngineIsTheReferenceBitForBitOverAHundredThousandEvents) {
-    for (const NeighbourSearch search : {NeighbourSearch::all_pairs, NeighbourSearch::cells}) {
+TEST_P(SpheresEqualReference, SlowOverAHundredThousandEvents) {
+    for (const SearchMethod search : {SearchMethod::all_pairs, SearchMethod::cells}) {
         for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
             expect_same_trajectory(sphere_container(n), 100000, {0, GetParam(), search});
         expect_same_trajectory(sphere_mixture(), 100000, {0, GetParam(), search});
     }
 }
-INSTANTIATE_TEST_SUITE_P(, SpheresInEveryWidth, every_width(), width_name);
+INSTANTIATE_TEST_SUITE_P(, SpheresEqualReference, every_width(), width_name);
 
-/// Spheres and discs of the same masses and moments of inertia go the same way to the last bit; of
-/// their spins, that about the vertical does.
-void expect_spheres_are_discs_bit_for_bit(const InitialState& spheres, int events) {
+/// Spheres and discs of the same masses and moments of inertia must have bitwise identical
+/// positions, velocities and vertical spins.
+void expect_spheres_equal_discs(const InitialState& spheres, int events) {
     InitialState discs = spheres;
     discs.shape = Shape::disc;
     Simulation a(discs), b(spheres);
@@ -88,87 +87,85 @@ void expect_spheres_are_discs_bit_for_bit(const InitialState& spheres, int event
         ASSERT_TRUE(same_bits(disc.velocity.x, sphere.velocity.x));
         ASSERT_TRUE(same_bits(disc.velocity.y, sphere.velocity.y));
         ASSERT_TRUE(same_bits(disc.spin, sphere.spin));
-        // Nothing turns it about the other axes.
+        // No torque acts about the horizontal axes.
         ASSERT_EQ(sphere.rolling_spin.x, spheres.discs[i].rolling_spin.x);
         ASSERT_EQ(sphere.rolling_spin.y, spheres.discs[i].rolling_spin.y);
     }
 }
-// Without a floor and without friction at the contacts, or without its vertical part, spheres are
-// discs.
-TEST(Spheres, WithoutFloorAndFrictionTheyAreDiscsBitForBit) {
+TEST(Spheres, EqualDiscsWithoutFloorAndFriction) {
     for (const std::size_t n : {2u, 5u, 28u, 48u}) {
         InitialState spheres = sphere_container(n, 0.0, 0.0);
         for (Disc& d : spheres.discs) d.rolling_spin = {0.7, -0.3};
-        expect_spheres_are_discs_bit_for_bit(spheres, 20000);
+        expect_spheres_equal_discs(spheres, 20000);
     }
     InitialState mixture = sphere_mixture();
     mixture.floor.deceleration = 0.0;
     mixture.disc_surface.mu = mixture.wall_surface.mu = 0.0;
-    expect_spheres_are_discs_bit_for_bit(mixture, 20000);
+    expect_spheres_equal_discs(mixture, 20000);
 }
-TEST(Spheres, WithoutFloorAndVerticalFrictionTheyAreDiscsBitForBit) {
+TEST(Spheres, EqualDiscsWithoutFloorAndVerticalFriction) {
     for (InitialState spheres : {sphere_container(28, 0.0, 0.5), sphere_mixture()}) {
         spheres.floor.deceleration = 0.0;
         for (Disc& d : spheres.discs) d.rolling_spin = {0.7, -0.3};
         spheres.disc_surface.vertical_friction = spheres.wall_surface.vertical_friction = 0.0;
-        expect_spheres_are_discs_bit_for_bit(spheres, 20000);
+        expect_spheres_equal_discs(spheres, 20000);
     }
 }
 
-TEST(Spheres, ResumedFromTheirStatesAndTheProgressTheyContinueBitForBit) {
-    expect_resumed_bit_for_bit(sphere_container(40), 30000, 12345);
-    expect_resumed_bit_for_bit(resisting_container(40, 0.1), 30000, 12345);
+TEST(Spheres, AreBitwiseIdenticalAfterResuming) {
+    expect_bitwise_identical_after_resuming(sphere_container(40), 30000, 12345);
+    expect_bitwise_identical_after_resuming(resisting_container(40, 0.1), 30000, 12345);
 }
 
-void expect_refreshed_snapshots_are_new_ones(const InitialState& scene) {
+void expect_refreshed_snapshots_equal_new_ones(const InitialState& scene) {
     Simulation simulation(scene);
-    Snapshot kept = simulation.snapshot();
+    Snapshot refreshed = simulation.snapshot();
     for (int k = 0; k < 3000; ++k) {
         const Event event = simulation.step();
-        // Just before the event everybody is where the snapshot says.
+        // Just before the event the snapshot's positions are still valid.
         if (event.kind == EventKind::disc_disc) {
-            Snapshot before = kept;
+            Snapshot before = refreshed;
             before.clock = event.clock;
             const Vec2 s = before.position(event.j) - before.position(event.i);
             ASSERT_NEAR(std::hypot(s.x, s.y), 2.0, 1e-12);
         }
-        simulation.refresh(kept, event);
+        simulation.refresh(refreshed, event);
     }
     const Snapshot fresh = simulation.snapshot();
-    EXPECT_EQ(kept.x, fresh.x);
-    EXPECT_EQ(kept.vy, fresh.vy);
-    EXPECT_EQ(kept.ax, fresh.ax);
-    EXPECT_EQ(kept.spin_x, fresh.spin_x);
-    EXPECT_EQ(kept.held_at, fresh.held_at);
-    const Snapshot dated = fresh.up_to_date();
-    for (std::size_t i = 0; i < dated.size(); ++i) {
-        EXPECT_EQ(dated.held_at[i], dated.clock);
-        EXPECT_EQ(dated.position(i).x, fresh.position(i).x);
-        EXPECT_EQ(dated.vx[i], fresh.velocity(i).x);
-        EXPECT_EQ(dated.rolls(i), fresh.rolls(i));
+    EXPECT_EQ(refreshed.x, fresh.x);
+    EXPECT_EQ(refreshed.vy, fresh.vy);
+    EXPECT_EQ(refreshed.ax, fresh.ax);
+    EXPECT_EQ(refreshed.spin_x, fresh.spin_x);
+    EXPECT_EQ(refreshed.held_at, fresh.held_at);
+    const Snapshot now = fresh.up_to_date();
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        EXPECT_EQ(now.held_at[i], now.clock);
+        EXPECT_EQ(now.position(i).x, fresh.position(i).x);
+        EXPECT_EQ(now.vx[i], fresh.velocity(i).x);
+        EXPECT_EQ(now.rolls(i), fresh.rolls(i));
     }
 }
-TEST(Spheres, ARefreshedSnapshotIsANewOneAndWhatItSaysOfLaterComesTrue) {
-    expect_refreshed_snapshots_are_new_ones(sphere_container(20));
-    expect_refreshed_snapshots_are_new_ones(resisting_container(20));
+TEST(Spheres, RefreshedSnapshotEqualsANewOneAndPredictsPositions) {
+    expect_refreshed_snapshots_equal_new_ones(sphere_container(20));
+    expect_refreshed_snapshots_equal_new_ones(resisting_container(20));
 }
 
-// The two searches, where the reference would take too long.
-TEST(Spheres, CellsAndAllPairsAgreeBitForBitOverManySwirls) {
+// Compares the two searches where the reference would take too long.
+TEST(Spheres, CellsEqualAllPairsOverManyPeriods) {
     for (const InitialState& scene : {sphere_container(48), coin_container(48),
                                       sphere_container(40, 0.05), resisting_container(48, 0.1)}) {
-        Simulation pairs(scene), cells(scene, {}, {0, Width::best, NeighbourSearch::cells});
+        Simulation pairs(scene), cells(scene, {}, {0, Width::best, SearchMethod::cells});
         pairs.run(200000);
         cells.run(200000);
         EXPECT_EQ(pairs.state_hash(), cells.state_hash());
     }
 }
-TEST(Spheres, ManyResumedInTheMiddleOfALegContinueBitForBit) {
-    expect_resumed_bit_for_bit(many_spheres(300, 0.7, 1.0), 30000, 12345);
+TEST(Spheres, AreBitwiseIdenticalAfterResumingWithinASegment) {
+    expect_bitwise_identical_after_resuming(many_spheres(300, 0.7, 1.0), 30000, 12345);
 }
 
-// A coin that never meets the wall is soon at rest on the floor, leg after leg.
-TEST(Spheres, ACoinThatNeverMeetsTheWallGoesWithTheFloor) {
+// A coin that never touches the wall soon rests on the floor, in every segment.
+TEST(Spheres, CoinAwayFromTheWallMovesWithTheFloor) {
     InitialState scene = coin_container(1);
     scene.discs[0].position = scene.path.segments[0].start;
     scene.discs[0].velocity = scene.path.segments[0].velocity;
@@ -181,8 +178,8 @@ TEST(Spheres, ACoinThatNeverMeetsTheWallGoesWithTheFloor) {
     }
 }
 
-// Alone and away from the wall: 2/7 of every jump of the floor's velocity, as soon as it rolls.
-TEST(Spheres, ASphereThatNeverMeetsTheWallFollowsTheFloorByTwoSevenths) {
+// It gains 2/7 of every jump of the floor's velocity, as soon as it rolls (floor.hpp).
+TEST(Spheres, SphereAwayFromTheWallGainsTwoSeventhsOfTheFloorsVelocity) {
     InitialState scene = sphere_container(1);
     const Vec2 u = scene.path.segments[0].velocity;
     scene.discs[0].position = scene.path.segments[0].start;
@@ -200,9 +197,9 @@ TEST(Spheres, ASphereThatNeverMeetsTheWallFollowsTheFloorByTwoSevenths) {
     }
 }
 
-// Against a resistance it comes to rest on the floor: after 2/7 of a jump it rolls with 5/7 of it
-// over the floor, and stops before the next.
-TEST(Spheres, AgainstAResistanceASphereThatNeverMeetsTheWallStopsOnTheFloorOnEveryLeg) {
+// After 2/7 of a jump it rolls with 5/7 of it relative to the floor, and stops before the next
+// jump.
+TEST(Spheres, RollingResistanceStopsASphereInEverySegment) {
     InitialState scene = resisting_container(1);
     const Vec2 u = scene.path.segments[0].velocity;
     scene.discs[0].position = scene.path.segments[0].start;
@@ -221,8 +218,8 @@ TEST(Spheres, AgainstAResistanceASphereThatNeverMeetsTheWallStopsOnTheFloorOnEve
     }
 }
 
-// In a dish at rest: w²/2a, however many times the clocks have restarted on the way.
-TEST(Spheres, AgainstAResistanceASphereRollsItsSpeedSquaredOverTwiceTheDeceleration) {
+// In a container at rest the distance is w²/2a, no matter how often the clocks restart.
+TEST(Spheres, RollingResistanceDeterminesTheStoppingDistance) {
     InitialState scene = resisting_container(1, 0.02);
     scene.path = still_path(1.0);
     const double w = 0.3, a = 5.0 / 7.0 * 0.02;
@@ -237,9 +234,8 @@ TEST(Spheres, AgainstAResistanceASphereRollsItsSpeedSquaredOverTwiceTheDecelerat
     EXPECT_NEAR(simulation.disc(0).position.x, -3.0 + w * w / (2.0 * a), 1e-12);
 }
 
-// How it has turned is the way over the floor, also where the floor has just taken another
-// velocity.
-TEST(Spheres, WhatSlowsDownTurnsByItsWayOverTheFloor) {
+// Its rotation is the distance over the floor, also just after the floor's velocity has changed.
+TEST(Spheres, SlowingSphereTurnsByItsDistanceOverTheFloor) {
     InitialState scene = resisting_container(1, 0.5);
     const Segment& segment = scene.path.segments[0];
     const Vec2 w{0.6, 0.0};
@@ -256,9 +252,9 @@ TEST(Spheres, WhatSlowsDownTurnsByItsWayOverTheFloor) {
     EXPECT_NEAR(2.0 * std::acos(std::abs(s.turned[0].w)), way, 1e-9);
 }
 
-// The limits: a floor that hardly rubs is none, to the first order of what it does; on one that
-// rubs much a sphere rolls, but for a share of the time that goes with 1/(μ_f g).
-TEST(Spheres, AFloorThatHardlyRubsIsNoneAndOnOneThatRubsMuchTheyRoll) {
+// The limits: very weak friction against the floor is a perturbation of first order; with strong
+// friction spheres roll, except for a fraction of the time in proportion to 1/(μ_f g).
+TEST(Spheres, SlideFreelyOnAWeakFloorAndRollOnAStrongOne) {
     const auto after = [](double deceleration) {
         Simulation simulation(sphere_container(5, deceleration));
         simulation.advance_to(0, 6.0);
@@ -275,9 +271,9 @@ TEST(Spheres, AFloorThatHardlyRubsIsNoneAndOnOneThatRubsMuchTheyRoll) {
         return maximum;
     };
     const double at_1e6 = distance(1e-6);
-    EXPECT_GT(at_1e6, 1e-7);  // it does something: ½ a t² is 2·10⁻⁵
+    EXPECT_GT(at_1e6, 1e-7);  // the effect is ½ a t² = 2·10⁻⁵
     EXPECT_LT(at_1e6, 1e-2);
-    // A thousandth of the friction, a thousandth of the way: up to the roundings of the second.
+    // A thousandth of the friction gives a thousandth of the distance, up to its rounding errors.
     EXPECT_NEAR(distance(1e-9) / at_1e6, 1e-3, 1e-5);
 
     const auto rolling_share = [](double deceleration) {
@@ -298,8 +294,9 @@ TEST(Spheres, AFloorThatHardlyRubsIsNoneAndOnOneThatRubsMuchTheyRoll) {
     EXPECT_GT(rolling_share(100.0), 0.9);
 }
 
-/// The same sphere by small steps: no events, the friction of the floor as a force.
-TEST(Spheres, TinyStepsAgreeOnTheFlightToTheirOwnOrder) {
+// Compares with time steps, in which friction against the floor is a force. The error must decrease
+// like the length of a step.
+TEST(Spheres, ParabolaAgreesWithTimeSteps) {
     InitialState scene = sphere_container(1, 0.7);
     scene.discs[0].position = scene.path.segments[0].start + Vec2{-1.0, 0.5};
     scene.discs[0].velocity = {0.9, -0.2};
@@ -313,7 +310,7 @@ TEST(Spheres, TinyStepsAgreeOnTheFlightToTheirOwnOrder) {
         for (int k = 0; k < steps; ++k) {
             const Vec2 c = slip_on_floor(d, scene.path.segment_at((k + 0.5) * dt).velocity);
             const double slip = std::hypot(c.x, c.y);
-            // No further than to rest: c falls by 3.5 times what v changes.
+            // At most until the slip c is zero; c changes 3.5 times as fast as v.
             const double push = std::min(0.7 * dt, slip / 3.5) / slip;
             d.velocity = d.velocity - push * c;
             d.rolling_spin = d.rolling_spin + 2.5 * Vec2{-push * c.y, push * c.x};
@@ -326,9 +323,9 @@ TEST(Spheres, TinyStepsAgreeOnTheFlightToTheirOwnOrder) {
     EXPECT_LT(error(100000), 3e-5);
 }
 
-// Spheres that do not bounce lie on each other and on the wall, apart by less than a rounding
-// error; a contact there that changes nothing would be repeated for ever, at the same instant.
-TEST(Spheres, ThatDoNotBounceDoNotMeetForEverAtTheSameInstant) {
+// With restitution 0 spheres rest at each other and at the wall, separated by less than a rounding
+// error. A contact there that changes nothing would repeat without end at the same instant.
+TEST(Spheres, WithoutRestitutionDoNotCollideEndlesslyAtOneInstant) {
     for (const std::size_t n : {2u, 20u, 48u}) {
         Simulation simulation(sphere_container(n, 1.92, 0.2, 0.0));
         int at_once = 0, max_at_once = 0;

@@ -1,6 +1,7 @@
-// Spheres on the floor once more, by small steps in time: velocities, three spins, friction on the
-// floor and at contacts written down in three dimensions, without an event, a parabola or a root.
-// What steps get wrong goes down with their length; what is left is what the two disagree about.
+// An independent simulation of spheres on a floor, with small time steps. Velocities, three spins,
+// friction against the floor and at contacts are written in three dimensions, without events,
+// parabolas or roots. The error of time stepping decreases with the step; the rest would be a
+// disagreement between the two.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,9 +38,10 @@ struct Container {
     std::vector<Sphere> spheres;
 };
 
-/// The floor brings the slip of its contact towards 0, by no more than μ_f g dt on the velocity. A
-/// torque μ_r g dt against the spin, by no more than stops it, acts where the slip is gone.
-void rub_on_floor(Sphere& s, const Vec3& floor, double deceleration, double resistance, double dt) {
+/// Friction against the floor reduces the slip by at most μ_f g dt in the velocity, at most to 0.
+/// If there is no slip, a torque μ_r g dt acts against the spin, at most until the spin is 0.
+void apply_floor_friction(Sphere& s, const Vec3& floor, double deceleration, double resistance,
+                          double dt) {
     const auto slip_of = [&] { return s.velocity - floor + outer(s.spin, -1.0 * up); };
     if (const Vec3 level{s.spin.x, s.spin.y, 0.0}; norm(slip_of()) < 1e-9 && norm(level) > 0.0)
         s.spin = s.spin - (std::min(resistance * dt / inertia, norm(level)) / norm(level)) * level;
@@ -52,9 +54,9 @@ void rub_on_floor(Sphere& s, const Vec3& floor, double deceleration, double resi
     s.spin = s.spin + (1.0 / inertia) * outer(-1.0 * up, J);
 }
 
-/// A contact between spheres, or of a sphere (i) with the wall (no j), the normal from i to j.
-/// Upwards the floor holds the spheres: only the spins give way.
-void rub_at_contact(Sphere& i, Sphere* j, const Vec3& wall, const Vec3& n, double mu, double e) {
+/// A collision between spheres i and j, or of sphere i with the wall (j is null). The normal points
+/// from i to j. The floor prevents vertical motion, so vertical impulses change only the spins.
+void collide_spheres(Sphere& i, Sphere* j, const Vec3& wall, const Vec3& n, double mu, double e) {
     const Vec3 other = j ? j->velocity + outer(j->spin, -1.0 * n) : wall;
     const Vec3 slip_and_approach = other - (i.velocity + outer(i.spin, n));
     const double approach = -inner(slip_and_approach, n);
@@ -62,7 +64,7 @@ void rub_at_contact(Sphere& i, Sphere* j, const Vec3& wall, const Vec3& n, doubl
     const double normal = (1.0 + e) * approach / bodies;
     const Vec3 tangent = outer(n, up);
     const double s_t = inner(slip_and_approach, tangent), s_z = slip_and_approach.z;
-    // Who is lifted responds with its mass; the wall has none.
+    // The lifted sphere responds with its mass; the wall does not move.
     const double lifted = j || s_z > 0.0 ? 1.0 : 0.0;
     const double m_t = 1.0 / (bodies * (1.0 + 1.0 / inertia));
     const double m_z = 1.0 / (lifted + bodies / inertia);
@@ -84,31 +86,31 @@ void rub_at_contact(Sphere& i, Sphere* j, const Vec3& wall, const Vec3& n, doubl
     j->spin = j->spin + (1.0 / inertia) * outer(-1.0 * n, friction);
 }
 
-/// Who overlaps and comes nearer has met during the step. Returns how many did.
+/// Collides all pairs that overlap and approach after a step. Returns the number of collisions.
 int collide_all(Container& container, const Vec3& centre, const Vec3& wall) {
-    int met = 0;
+    int collisions = 0;
     for (std::size_t i = 0; i < container.spheres.size(); ++i) {
         Sphere& s = container.spheres[i];
         const Vec3 out = s.position - centre;
         if (norm(out) > container.radius - 1.0 && inner(s.velocity - wall, out) > 0.0) {
-            rub_at_contact(s, nullptr, wall, (1.0 / norm(out)) * out, container.mu,
-                           container.restitution);
-            ++met;
+            collide_spheres(s, nullptr, wall, (1.0 / norm(out)) * out, container.mu,
+                            container.restitution);
+            ++collisions;
         }
         for (std::size_t j = i + 1; j < container.spheres.size(); ++j) {
             Sphere& t = container.spheres[j];
             const Vec3 apart = t.position - s.position;
             if (inner(apart, apart) > 4.0 || inner(t.velocity - s.velocity, apart) >= 0.0) continue;
-            rub_at_contact(s, &t, {}, (1.0 / norm(apart)) * apart, container.mu,
-                           container.restitution);
-            ++met;
+            collide_spheres(s, &t, {}, (1.0 / norm(apart)) * apart, container.mu,
+                            container.restitution);
+            ++collisions;
         }
     }
-    return met;
+    return collisions;
 }
 
 int step_to(Container& container, double end, double dt) {
-    int met = 0;
+    int collisions = 0;
     const auto steps = std::int64_t(std::llround(end / dt));
     for (std::int64_t k = 0; k < steps; ++k) {
         const double t = end * (double(k) + 0.5) / double(steps);
@@ -116,12 +118,13 @@ int step_to(Container& container, double end, double dt) {
         const Vec2 c = segment.position_at(t + 0.5 * dt), u = segment.velocity_at(t);
         const Vec3 floor{u.x, u.y, 0.0};
         for (Sphere& s : container.spheres) {
-            rub_on_floor(s, floor, container.floor_deceleration, container.rolling_resistance, dt);
+            apply_floor_friction(s, floor, container.floor_deceleration,
+                                 container.rolling_resistance, dt);
             s.position = s.position + dt * s.velocity;
         }
-        met += collide_all(container, {c.x, c.y, 0.0}, floor);
+        collisions += collide_all(container, {c.x, c.y, 0.0}, floor);
     }
-    return met;
+    return collisions;
 }
 
 InitialState five_spheres() {
@@ -156,7 +159,7 @@ Container container_of(const InitialState& scene) {
     return container;
 }
 
-/// The largest difference of a place, a velocity or a spin.
+/// The largest difference of a coordinate, a velocity or a spin.
 double difference(const Container& container, const Simulation& simulation, double time) {
     double maximum = 0.0;
     const Snapshot now = simulation.snapshot();
@@ -174,37 +177,39 @@ double difference(const Container& container, const Simulation& simulation, doub
     return maximum;
 }
 
-void expect_small_steps_come_to_the_same(const InitialState& scene) {
+void expect_time_steps_converge_to_events(const InitialState& scene) {
     constexpr double end = 5.0;
     Simulation simulation(scene);
     simulation.advance_to(0, end);
-    // Otherwise nothing is compared: contacts of both kinds, and spheres that have begun to roll.
+    // The comparison must include all kinds of events.
     ASSERT_GE(simulation.events().disc_disc, 2u);
     ASSERT_GE(simulation.events().disc_wall, 3u);
     ASSERT_GE(simulation.events().begins_to_roll, 3u);
     std::vector<double> errors;
     for (const double dt : {1e-3, 1e-4, 1e-5, 1e-6}) {
         Container container = container_of(scene);
-        const int met = step_to(container, end, dt);
+        const int collisions = step_to(container, end, dt);
         errors.push_back(difference(container, simulation, end));
-        EXPECT_EQ(met, int(simulation.events().disc_disc + simulation.events().disc_wall)) << dt;
+        EXPECT_EQ(collisions, int(simulation.events().disc_disc + simulation.events().disc_wall))
+            << dt;
     }
-    // The moment of a contact is wrong by up to dt, so the error goes with dt, though not evenly:
-    // over a factor of a thousand by at least a hundred.
+    // The time of a contact is wrong by up to dt, so the error is roughly proportional to dt. Over
+    // a factor of 1000 it must decrease by at least 100.
     EXPECT_LT(errors.back(), errors.front() / 100.0);
-    // A contact too late by dt at a relative speed of 4, grown fivefold at each of two more.
+    // A contact that is late by dt at a relative speed of 4, amplified fivefold at each of two
+    // more.
     EXPECT_LT(errors.back(), 1e-4);
     for (std::size_t k = 0; k < errors.size(); ++k)
         testing::Test::RecordProperty("error at 1e-" + std::to_string(k + 3),
                                       std::to_string(errors[k]));
 }
-TEST(TimeStepping, SmallStepsComeToWhatTheEventsSayInProportionToTheirLength) {
-    expect_small_steps_come_to_the_same(five_spheres());
+TEST(TimeStepping, ConvergesToTheEventDrivenResult) {
+    expect_time_steps_converge_to_events(five_spheres());
 }
-TEST(TimeStepping, WithRollingResistanceTheyDo) {
+TEST(TimeStepping, ConvergesWithRollingResistance) {
     InitialState scene = five_spheres();
     scene.floor.rolling_resistance = 0.2;
-    expect_small_steps_come_to_the_same(scene);
+    expect_time_steps_converge_to_events(scene);
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
-"""The objects compiled for wide vectors define nothing but what the program picks at run time.
+"""The object files for wide vectors define only the table that the program chooses at run time.
 
-Whatever else they left for the linker to share (an inline function that was not inlined is a weak
-symbol) could be taken for everybody: the program would then run AVX-512 instructions on a processor
-that has none."""
+Any other shared symbol, such as an inline function that was not inlined, could be linked into code
+for all processors. The program would then run AVX-512 instructions on a processor without them."""
 
 import os
 import re
@@ -23,7 +22,7 @@ ALLOWED = {
 
 
 def shared_symbols(library):
-    """What each member of the library defines for others: {member: [symbol]}."""
+    """The external symbols of each member of the library: {member: [symbol]}."""
     out = subprocess.run(["nm", "-C", "--defined-only", "--extern-only", library],
                          check=True, capture_output=True, text=True).stdout
     found, member = {}, None
@@ -36,7 +35,7 @@ def shared_symbols(library):
     return found
 
 
-@unittest.skipUnless(os.uname().machine == "x86_64", "wide vectors are of x86-64")
+@unittest.skipUnless(os.uname().machine == "x86_64", "wide vectors exist on x86-64 only")
 class WideObjects(unittest.TestCase):
     def test_define_only_their_own_table(self):
         for (library, member), allowed in ALLOWED.items():
@@ -45,8 +44,8 @@ class WideObjects(unittest.TestCase):
                 self.assertEqual(symbols[member], allowed)
 
     def test_no_other_function_has_wide_instructions(self):
-        """The registers of AVX and AVX-512 appear in these objects only, and in functions that the
-        compiler made several versions of (their names end with .avx2 and the like)."""
+        """Registers of AVX and AVX-512 appear only in these objects, and in functions of which the
+        compiler made several versions (their names end with .avx2 and the like)."""
         for library in sorted({library for library, _ in ALLOWED}):
             out = subprocess.run(["objdump", "-d", "--no-show-raw-insn",
                                   os.path.join(LIBRARIES, library)],
@@ -60,9 +59,9 @@ class WideObjects(unittest.TestCase):
                 elif "%ymm" in line or "%zmm" in line:
                     wide.add((member, function))
             self.assertTrue(wide, "the wide objects must have wide instructions")
-            stray = [(m, f) for m, f in wide if "_avx" not in m and
+            unexpected = [(m, f) for m, f in wide if "_avx" not in m and
                      not re.search(r"\.(avx|arch_)\w*", f)]
-            self.assertEqual(stray, [])
+            self.assertEqual(unexpected, [])
 
 
 if __name__ == "__main__":

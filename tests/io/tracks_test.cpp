@@ -93,7 +93,8 @@ TEST(TrackpyTable, ErrorsNameTheLine) {
     EXPECT_NE(rejected(head + "0,0,,2\n").find("line 2: '' is not a finite number"),
               std::string::npos);
     EXPECT_NE(rejected(head + "0,0,1e999,2\n").find("line 2"), std::string::npos);
-    EXPECT_NE(rejected(head + "0.5,0,1,2\n").find("'0.5' is not a whole number"), std::string::npos);
+    EXPECT_NE(rejected(head + "0.5,0,1,2\n").find("'0.5' is not a whole number"),
+              std::string::npos);
     EXPECT_NE(rejected(head + "0,0,1\n").find("line 2: 3 values, but the header names 4 columns"),
               std::string::npos);
     EXPECT_NE(rejected(head + "0,5,1,2\n1,5,1,2\n0,5,1,2\n")

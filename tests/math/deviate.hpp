@@ -1,4 +1,4 @@
-// A nearly normal number with variance 1: the sum of twelve uniform ones.
+// A nearly normally distributed number with variance 1: the sum of twelve uniform numbers.
 #pragma once
 
 #include "swirl/math/random.hpp"

@@ -11,8 +11,8 @@
 
 #include "random_cases.hpp"
 
-// Here at the width of the compiler's default target; the wider ones are held to it by the engine's
-// tests, which force each width and compare every bit.
+// These tests use the width of the compiler's default target. The engine's tests compare all widths
+// bitwise.
 namespace swirl {
 namespace {
 
@@ -69,13 +69,13 @@ void expect_each_lane_is_the_scalar() {
     }
 }
 
-RC_GTEST_PROP(Lanes, EachLaneIsTheScalarBitForBit, ()) {
+RC_GTEST_PROP(Lanes, EachLaneEqualsTheScalar, ()) {
     expect_each_lane_is_the_scalar<2>();
     expect_each_lane_is_the_scalar<4>();
     expect_each_lane_is_the_scalar<8>();
 }
 
-RC_GTEST_PROP(Lanes, SmallestAndWhereItIs, ()) {
+RC_GTEST_PROP(Lanes, FindsTheSmallestLane, ()) {
     const Numbers<8> a = draw_numbers<8>();
     double minimum = infinity;
     for (const double x : a.value) minimum = x < minimum ? x : minimum;
@@ -85,7 +85,7 @@ RC_GTEST_PROP(Lanes, SmallestAndWhereItIs, ()) {
     RC_ASSERT(lanes_equal(a.lanes(), minimum) == where);
 }
 
-RC_GTEST_PROP(Lanes, ReplacingOneLaneKeepsTheOthers, ()) {
+RC_GTEST_PROP(Lanes, ReplacesOneLaneOnly, ()) {
     const Numbers<8> a = draw_numbers<8>();
     const auto k = *rc::gen::inRange(0u, 8u);
     const Numbers<8> changed = stored(with_lane(a.lanes(), k, 7.25));
@@ -110,13 +110,13 @@ void expect_pairs_become_columns() {
     }
 }
 
-TEST(Lanes, PairsBecomeColumns) {
+TEST(Lanes, LoadsPairsAsColumns) {
     expect_pairs_become_columns<4>();
     expect_pairs_become_columns<8>();
 }
 
-// The fourth of each row may be the bits of something else.
-TEST(Lanes, ThreeOfFourFloatsBecomeColumns) {
+// The fourth number of each row may be any bits.
+TEST(Lanes, LoadsThreeOfFourFloatsAsColumns) {
     alignas(16) float fours[8][4];
     const float* rows[8];
     for (int k = 0; k < 8; ++k) {
@@ -134,13 +134,13 @@ TEST(Lanes, ThreeOfFourFloatsBecomeColumns) {
     }
 }
 
-// Longer lists are looked through in pieces of 64.
-TEST(Lanes, WhereverADiscStandsInAListItIsFound) {
+// Long lists are searched in pieces of 64.
+TEST(Lanes, FindsADiscAnywhereInAList) {
     for (const std::uint32_t room : {4u, 12u, 64u, 68u, 124u}) {
         std::vector<std::uint32_t> list(room);
         for (std::uint32_t slot = 0; slot < room; ++slot) list[slot] = 1000 + slot;
         for (std::uint32_t slot = 0; slot < room; ++slot)
-            EXPECT_EQ(place_in_list(list.data(), room, 1000 + slot), slot) << "of " << room;
+            EXPECT_EQ(index_in_list(list.data(), room, 1000 + slot), slot) << "of " << room;
     }
 }
 

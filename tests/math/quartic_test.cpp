@@ -12,8 +12,9 @@ namespace {
 
 __extension__ typedef __float128 Half;
 
-/// The sum of two numbers of 113 bits, of which the second is a rounding error of the first: 67
-/// digits. Sum and product of two such halves are exact (Dekker 1971, doi:10.1007/BF01397083).
+/// A number with 67 digits: the sum of two numbers of 113 bits, where the second is a rounding
+/// error of the first. Sums and products of such halves are exact (Dekker 1971,
+/// doi:10.1007/BF01397083).
 class Wide {
   public:
     Wide(double value = 0.0) : high_(value) {}
@@ -57,8 +58,7 @@ class Wide {
     Half high_, low_ = 0;
 };
 
-// The same question, answered by a method that has nothing in common with quartic.hpp but the
-// polynomial, in 67 digits.
+// An independent method in 67 digits, which shares only the polynomial with quartic.hpp.
 
 struct WideQuartic {
     Wide c[5];
@@ -66,8 +66,8 @@ struct WideQuartic {
         : c{f.c0 + added, f.c1, f.c2, f.c3, f.c4} {}
 
     Wide value(Wide t) const { return (((c[4] * t + c[3]) * t + c[2]) * t + c[1]) * t + c[0]; }
-    /// Not above the least value from a to b: the polynomial about a, with its negative
-    /// coefficients at the far end.
+    /// A lower bound of the values from a to b: the polynomial about a with only its negative
+    /// coefficients, at b.
     Wide lower_bound(Wide a, Wide b) const {
         const Wide w = b - a;
         const Wide d1 = ((4.0 * c[4] * a + 3.0 * c[3]) * a + 2.0 * c[2]) * a + c[1];
@@ -76,7 +76,7 @@ struct WideQuartic {
         const auto down = [](const Wide& x) { return x > 0.0 ? Wide() : x; };
         return value(a) + w * (down(d1) + w * (down(d2) + w * (down(d3) + w * down(c[4]))));
     }
-    /// The first time, to 10⁻²⁴ of the stretch, at which it is 0 or less; −1 if it is above
+    /// The first time at which it is 0 or less, to 10⁻²⁴ of the interval; −1 if it is positive
     /// everywhere.
     Wide first_zero(Wide a, Wide b, int depth = 0) const {
         if (lower_bound(a, b) > 0.0) return -1.0;
@@ -87,7 +87,7 @@ struct WideQuartic {
     }
 };
 
-/// What rounding may make of a value of f up to time t: thirty roundings, of the largest term.
+/// A bound of the rounding error of f up to time t: thirty roundings of the largest term.
 double rounding_of(const Quartic& f, double t) {
     const double sum =
         std::abs(f.c0) +
@@ -95,17 +95,17 @@ double rounding_of(const Quartic& f, double t) {
     return 30.0 * 0x1p-53 * sum;
 }
 
-/// Both directions: at the time found f is 0, and before it, or up to the horizon, it never was
-/// below. Says what is wrong.
+/// Checks both directions: f is 0 at the result, and it is not negative before the result, or
+/// before the horizon. Returns a description of the error.
 std::string wrong(const Quartic& f, double horizon, double grain) {
     const double found = first_fall(f, horizon, grain);
     const double end = found == never ? horizon : found;
-    // Who begins a little below 0, by the rounding of a contact, has fallen when f is a grain
-    // lower.
+    // If f begins slightly below 0, by the rounding of a contact, the contact is where f is lower
+    // by a grain.
     const double error = rounding_of(f, horizon) + 2.0 * grain + larger(-f.c0, 0.0);
     const std::string place = " at " + std::to_string(end) + " of " + std::to_string(horizon);
     if (end < 0.0 || end > horizon) return "outside" + place;
-    // Now is right for who touches, or overlaps, and approaches, however deep.
+    // The result is 0 if the two touch, or overlap by any amount, and approach.
     if (found == 0.0 && f.c0 <= 0.0 && f.c1 < 0.0) return "";
     if (found != never && std::abs(double(WideQuartic(f).value(found))) > error)
         return "no zero" + place;
@@ -131,7 +131,7 @@ struct Encounters {
         const Vec2 s = vector(4.0);
         return room(s, vector(2.0), vector(acceleration()), smaller(4.0, dot(s, s)));
     }
-    /// They come as close as σ, and a part in 10² to 10¹⁶ more or less.
+    /// The closest approach is σ, plus or minus a relative difference of 10⁻² to 10⁻¹⁶.
     Quartic grazing(double horizon) {
         const Vec2 s = vector(4.0), v = vector(2.0), g = vector(acceleration());
         const Quartic distance = room(s, v, g, 0.0);
@@ -140,7 +140,7 @@ struct Encounters {
         const double more = std::pow(10.0, -between(2.0, 16.0)) * (random.bits() % 2 ? 1.0 : -1.0);
         return room(s, v, g, smaller(closest * (1.0 + more), distance.c0));
     }
-    /// They touch, up to a rounding error, and part, approach, or hardly do either.
+    /// They touch up to a rounding error, and separate, approach, or hardly move.
     Quartic touching() {
         const Vec2 n = vector(1.0);
         const double length = square_root(dot(n, n));
@@ -148,7 +148,7 @@ struct Encounters {
         const Vec2 along = between(-1.0, 1.0) * std::pow(10.0, -between(0.0, 12.0)) * s;
         return room(s, along + between(-1.0, 1.0) * perpendicular(s), vector(acceleration()), 4.0);
     }
-    /// A sphere inside the dish.
+    /// A sphere inside the container.
     Quartic wall() {
         const Quartic f = room(vector(7.6), vector(2.0), vector(acceleration()), 7.6 * 7.6);
         return {-f.c0, -f.c1, -f.c2, -f.c3, -f.c4};
@@ -167,21 +167,21 @@ void expect_first_falls(int cases, std::uint64_t seed) {
     }
 }
 
-TEST(Quartic, TheReferenceHasFiftyDigits) {
+TEST(Quartic, ReferenceHasFiftyDigits) {
     const Wide third = 1.0 + Wide(0x1p-100) + Wide(0x1p-200);
     EXPECT_EQ(double(third * third - 1.0 - Wide(0x1p-99) - Wide(3.0 * 0x1p-200)), 0x1p-299);
 }
-TEST(Quartic, FirstFallIsThatOfHighPrecision) { expect_first_falls(3000, 1); }
-TEST(Quartic, SlowFirstFallIsThatOfHighPrecisionInMillionsOfCases) {
+TEST(Quartic, FirstFallAgreesWithHighPrecision) { expect_first_falls(3000, 1); }
+TEST(Quartic, SlowFirstFallAgreesWithHighPrecisionInMillionsOfCases) {
     expect_first_falls(500000, 2);
 }
 
-// (τ − 1)(τ − 2)(τ − 3)(τ − 4) is above 0, below between 1 and 2, above, below between 3 and 4.
-TEST(Quartic, OfFourRootsTheFirstAtWhichItFalls) {
+// (τ − 1)(τ − 2)(τ − 3)(τ − 4) is negative between 1 and 2 and between 3 and 4.
+TEST(Quartic, FirstFallIsTheFirstOfFourRoots) {
     const Quartic f{24.0, -50.0, 35.0, -10.0, 1.0};
     EXPECT_NEAR(first_fall(f, 10.0, 0.0), 1.0, 1e-14);
     EXPECT_EQ(first_fall(f, 0.9, 0.0), never);
-    // Begun between 1 and 2, where it is below and falls, or below and rises.
+    // Started between 1 and 2, where it is negative and falls, or negative and rises.
     const auto later = [&](double by) {
         const double c1 = f.slope(by), c2 = 0.5 * f.curvature(by), c3 = 4.0 * by - 10.0;
         return Quartic{f.value(by), c1, c2, c3, 1.0};
@@ -192,16 +192,17 @@ TEST(Quartic, OfFourRootsTheFirstAtWhichItFalls) {
     EXPECT_EQ(first_fall(later(4.5), 10.0, 0.0), never);
 }
 
-// Pressed together by accelerations: what rises from 0 comes back, also if it never gets above.
-TEST(Quartic, WhoHasTouchedAndIsPressedTogetherTouchesAgainLater) {
+// Accelerations press the bodies together: f rises from 0 and falls again, even if it is never
+// positive.
+TEST(Quartic, BodiesPressedTogetherTouchAgainLater) {
     EXPECT_NEAR(first_fall({0.0, 1e-3, -2.0, 0.0, 0.0}, 1.0, 0x1p-50), 5e-4, 1e-16);
     const double below = first_fall({-1e-16, 1e-12, -2.0, 0.0, 0.0}, 1.0, 0x1p-50);
     EXPECT_GT(below, 1e-9);
     EXPECT_LT(below, 1e-7);
-    // Risen by less than a rounding error, and back within one of the clock.
+    // f rises by less than a rounding error, and is back within a rounding error of the clock.
     const double hardly = first_fall({0.0, 5.6e-16, -7.0, 0.0, 0.0}, 1.0, 0x1p-50);
     EXPECT_NEAR(hardly, square_root(0x1p-50 / 7.0), 1e-12);
-    // At rest on each other, exactly.
+    // Exactly at rest on each other.
     const double resting = first_fall({0.0, 0.0, -2.0, 0.0, 0.0}, 1.0, 0x1p-50);
     EXPECT_NEAR(resting, square_root(0x1p-51), 1e-12);
 }

@@ -26,7 +26,7 @@ TEST(UnitCircle, QuarterTurnsAreExact) {
     }
 }
 
-RC_GTEST_PROP(UnitCircle, IsCosineAndSineToTheLastDigit, ()) {
+RC_GTEST_PROP(UnitCircle, AgreesWithCosineAndSine, ()) {
     const double u = draw(-1.0, 1.0);
     const long double angle = 2.0L * 3.14159265358979323846264338327950288L * u;
     const Vec2 found = unit_circle(u);
@@ -34,7 +34,7 @@ RC_GTEST_PROP(UnitCircle, IsCosineAndSineToTheLastDigit, ()) {
     RC_ASSERT(std::abs(static_cast<double>(std::sin(angle) - found.y)) <= ulp_of_one);
 }
 
-RC_GTEST_PROP(QuickUnitCircle, IsCosineAndSineToTheLastDigits, ()) {
+RC_GTEST_PROP(QuickUnitCircle, AgreesWithCosineAndSine, ()) {
     const double u = draw(-1.0, 1.0);
     const long double angle = 2.0L * 3.14159265358979323846264338327950288L * u;
     const Vec2 found = quick_unit_circle(u);
@@ -42,9 +42,10 @@ RC_GTEST_PROP(QuickUnitCircle, IsCosineAndSineToTheLastDigits, ()) {
     RC_ASSERT(std::abs(static_cast<double>(std::sin(angle) - found.y)) <= 2.0 * ulp_of_one);
 }
 
-// 1 − cos φ = 2 sin² φ/2, in which nothing cancels. Of φ − sin φ are rounded φ², φ³ and its product
-// with the sum, by half a unit each, and the sum by about one (2.53 were seen in 3·10⁶ angles).
-RC_GTEST_PROP(TurnBy, KeepsTheDigitsOfSmallAngles, ()) {
+// 1 − cos φ = 2 sin² φ/2, in which nothing cancels. In φ − sin φ the rounded quantities are φ², φ³
+// and its product with the sum, by half a unit each, and the sum by about one. (The largest error
+// in 3·10⁶ angles was 2.53 units.)
+RC_GTEST_PROP(TurnBy, HasFullPrecisionForSmallAngles, ()) {
     const double phi = draw(-2.0, 2.0) * std::exp2(-draw(0.0, 100.0));
     const Turn turn = turn_by(phi);
     const long double half = std::sin(0.5L * phi);
@@ -61,24 +62,23 @@ RC_GTEST_PROP(TurnBy, KeepsTheDigitsOfSmallAngles, ()) {
               3.0 * ulp_of_one * std::abs(turn.lag));
 }
 
-RC_GTEST_PROP(TurnBy, IsTheUnitCircleForLargeAngles, ()) {
+RC_GTEST_PROP(TurnBy, AgreesWithUnitCircleForLargeAngles, ()) {
     const double phi = draw(-7.0, 7.0);
     const Turn turn = turn_by(phi);
     RC_ASSERT(std::abs(turn.sine - std::sin(phi)) <= 8.0 * ulp_of_one);
     RC_ASSERT(std::abs(turn.versine - (1.0 - std::cos(phi))) <= 8.0 * ulp_of_one);
 }
 
-RC_GTEST_PROP(UnitCircle, MirrorsAndQuarterTurnsGiveTheSameBits, ()) {
+RC_GTEST_PROP(UnitCircle, IsBitwiseSymmetric, ()) {
     const double u = *rc::gen::inRange(0, 1 << 20) * 0x1p-22;  // u + k/4 is exact
     const Vec2 a = unit_circle(u), back = unit_circle(-u), quarter = unit_circle(u + 0.25);
     RC_ASSERT(back.x == a.x && back.y == -a.y);
     RC_ASSERT(quarter.x == -a.y && quarter.y == a.x);
 }
 
-RC_GTEST_PROP(UnitCircle, TurnsOfIsItsInverse, ()) {
+RC_GTEST_PROP(UnitCircle, IsInvertedByTurnsOf, ()) {
     const double u = *rc::gen::inRange(0, 1000000) * 1e-6, length = draw(0.001, 1000.0);
-    // u < 1; each of the two is within 2⁻⁵² of the truth, which is worth 2⁻⁵²/2π turns in the
-    // first.
+    // u < 1; each of the two has an error below 2⁻⁵², which is 2⁻⁵²/2π turns in the first.
     const double back = turns_of(length * unit_circle(u));
     const double error = std::abs(back - u);
     RC_ASSERT(std::min(error, 1.0 - error) <= 2.0 * ulp_of_one);
@@ -94,7 +94,7 @@ TEST(TurnsOf, AxesAndDiagonalsAreExact) {
     EXPECT_EQ(turns_of({1, -1}), 0.875);
 }
 
-TEST(TurnsOf, TheNullVectorHasNoneAndWhatIsNotANumberStaysSo) {
+TEST(TurnsOf, IsZeroForTheNullVectorAndNaNForNaN) {
     EXPECT_EQ(turns_of({0, 0}), 0.0);
     EXPECT_TRUE(std::isnan(turns_of({std::nan(""), 1.0})));
     EXPECT_TRUE(std::isnan(turns_of({1.0, std::nan("")})));

@@ -1,18 +1,18 @@
-"""Mutation testing: does a test notice when the source is wrong? (docs/explanation/reliability.md)
+"""Mutation testing: does a test fail when the source is wrong? (docs/explanation/reliability.md)
 
 Each entry of mutations.py changes one piece of text in a source file of statistics, measure or physics. The
-mutated file goes to a scratch folder that the compiler searches first; the source tree stays as it
-is. For every test file of that layer that includes the mutated file, this script compiles one
+mutated file goes to a scratch folder that the compiler searches first; the source tree is not
+changed. For every test file of that layer that includes the mutated file, this script compiles one
 program and runs it, until one fails: then the mutation is killed. Each program must pass without
 the mutation before it may kill one.
 
     mutate.py                       all mutations
     mutate.py measure/slip          those of files whose path contains this text
-    mutate.py --number 17           one of them
+    mutate.py --number 17           one mutation
     mutate.py --check               only checks that each text occurs exactly once
 
-It exits with 1 if a mutation survives that the table does not declare equivalent, if one that it
-does is killed, if one does not compile, or if the table no longer matches the sources.
+The exit code is 1 if a mutation survives that the table does not declare equivalent, if an equivalent one
+is killed, if one does not compile, or if the table no longer matches the sources.
 """
 
 import argparse
@@ -39,7 +39,7 @@ WIDE = {"_avx2.cpp": ["-mavx2"],
         "_avx512.cpp": ["-mavx512f", "-mavx512vl", "-mavx512dq", "-mavx512bw",
                         "-mprefer-vector-width=512"]}
 LIBRARIES = ["-lrapidcheck", "-lgmock_main", "-lgmock", "-lgtest"]
-# Every test program of these layers needs a few seconds. A mutation may make it run for ever.
+# Test programs of these layers need a few seconds. A mutated one may run without end.
 CPU_SECONDS = 60
 
 
@@ -81,7 +81,7 @@ def parts(test):
 
 
 def tests_of(file):
-    """The test files of the layer that see the file: first the one of its name."""
+    """The test files of the layer that include the file; the one with its name comes first."""
     layer = file.split("/")[2]
     stem = os.path.basename(file).split(".")[0]
     folders = ("statistics", "measure") if layer == "statistics" else (layer,)
@@ -91,8 +91,8 @@ def tests_of(file):
                                            file not in included(test), test))
 
 
-class Workshop:
-    """Compiles and runs test programs in a scratch folder; what was compiled is kept."""
+class Builder:
+    """Compiles and runs test programs in a scratch folder, and caches the objects."""
 
     def __init__(self, scratch):
         self.scratch = scratch
@@ -106,7 +106,7 @@ class Workshop:
                         self.headers + ".gch"], check=True)
 
     def compiled(self, part, file, text, overlay):
-        """The object of `part`, with `text` in the place of `file`. None: it does not compile."""
+        """The object of `part`, compiled with `text` instead of `file`; None if it does not compile."""
         seen = included(part)
         hashed = hashlib.sha256(part.encode())
         for path in sorted(seen):
@@ -118,7 +118,7 @@ class Workshop:
         if part == file:
             where = os.path.join(overlay, part.removeprefix("src/"))
         wide = [flag for ending, flags in WIDE.items() if part.endswith(ending) for flag in flags]
-        # The file of standard headers was compiled without these; it does not fit.
+        # The precompiled headers were compiled without these flags, so they cannot be used.
         headers = [] if wide else ["-include", self.headers]
         made = target + f".{threading.get_ident()}"
         search = ["-I" + folder for folder in (overlay, os.path.join(SOURCE, "src"),
@@ -132,7 +132,7 @@ class Workshop:
 
     def run(self, test, file=None, text=None, overlay=""):
         """Compiles and runs one test file. Returns "passed", "failed", "time" or "not compiled", and
-        of what."""
+        the test or the file concerned."""
         objects = []
         for part in parts(test):
             made = self.compiled(part, file, text, overlay or self.scratch)
@@ -163,7 +163,7 @@ class Workshop:
             sys.exit(f"error: {test} fails without a mutation: {self.baselines[test]}")
 
     def judge(self, number):
-        """Returns "killed", "survived" or "not compiled", and by what."""
+        """Returns "killed", "survived" or "not compiled", and the test or the file concerned."""
         file, before, after, *_ = MUTATIONS[number]
         text = text_of(file).replace(before, after)
         overlay = os.path.join(self.scratch, f"mutation_{number}")
@@ -210,8 +210,8 @@ def main():
     count, wrong = {"killed": 0, "equivalent": 0, "survived": 0, "not compiled": 0}, 0
     with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch, \
             concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        workshop = Workshop(scratch)
-        for number, (outcome, what) in zip(chosen, pool.map(workshop.judge, chosen)):
+        builder = Builder(scratch)
+        for number, (outcome, what) in zip(chosen, pool.map(builder.judge, chosen)):
             file, before, after, description, *equivalent = MUTATIONS[number]
             if outcome == "survived" and equivalent:
                 outcome, what = "equivalent", equivalent[0]

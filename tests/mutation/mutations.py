@@ -1,5 +1,5 @@
-"""The mutations of mutate.py: (file, text before, text after, what is wrong then). A fifth entry says
-why no test can notice: the mutated program does the same."""
+"""The mutations of mutate.py: (file, text before, text after, the defect). A fifth entry explains why no
+test can notice: the mutated program is equivalent."""
 
 STATISTICS = "src/swirl/statistics/block_average.hpp"
 STUDENT = "src/swirl/statistics/student.hpp"
@@ -29,6 +29,7 @@ RADIAL = "src/swirl/measure/radial_density.hpp"
 FRUSTRATION = "src/swirl/measure/spin_frustration.cpp"
 LAW = "src/swirl/physics/collision_law.hpp"
 TIME = "src/swirl/physics/contact_time.hpp"
+ARC = "src/swirl/physics/arc_contact.hpp"
 PATH = "src/swirl/physics/container_path.hpp"
 DISC = "src/swirl/physics/disc.hpp"
 TURNED = "src/swirl/physics/orientation.hpp"
@@ -233,23 +234,23 @@ MUTATIONS = [
     (LAW, "return surface.restitution < 1.0 && since_last", "return since_last",
      "the TC model of elastic discs"),
     (LAW, "i.spin = i.spin + i.radius * J.tangential * i.inverse_inertia;",
-     "i.spin = i.spin - i.radius * J.tangential * i.inverse_inertia;", "friction turns a disc back"),
+     "i.spin = i.spin - i.radius * J.tangential * i.inverse_inertia;", "friction turns a disc the wrong way"),
     (LAW, "return {1.0 / (inverse_masses + lever)};", "return {1.0 / inverse_masses};",
      "friction ignores the moments of inertia"),
     (TIME, "larger(c, Real(0.0)) / (square_root(discriminant) - b);",
      "c / (square_root(discriminant) - b);", "overlapping discs collide in the past"),
-    (TIME, "const auto meet = (b < Real(0.0)) & (discriminant >= Real(0.0));",
-     "const auto meet = discriminant >= Real(0.0);", "separating discs collide"),
-    (TIME, "smaller(c, Real(-0x1p-52) * square)", "c", "a disc that slides along the wall is stuck"),
-    (TIME, "more < 0.0 || 4.0 * A * B > more * more", "true",
-     "a later contact on the circle is taken for the first"),
-    (TIME, "const double c = f.c - (room + start.c);", "const double c = f.c;",
-     "a disc at the wall of a circle has no room"),
+    (TIME, "const auto touch = (b < Real(0.0)) & (discriminant >= Real(0.0));",
+     "const auto touch = discriminant >= Real(0.0);", "separating discs collide"),
+    (TIME, "smaller(c, Real(-0x1p-52) * square)", "c", "a disc that slides along the wall collides without end"),
+    (ARC, "more < 0.0 || 4.0 * A * B > more * more", "true",
+     "a later contact on an arc is taken for the first"),
+    (ARC, "const double c = f.c - (gap + start.c);", "const double c = f.c;",
+     "a disc at the wall of an arc ignores its gap"),
     (PATH, "if (t < segment.end) return segment;", "if (t <= segment.end) return segment;",
      "the end of a segment belongs to the segment before"),
-    (PATH, "(1.0 / turning) * (u.y * velocity + (1.0 - u.x) * across)",
-     "(1.0 / turning) * (u.y * velocity - (1.0 - u.x) * across)", "a turning segment bends the wrong way"),
-    (DISC, "d.angle = angle + (t - time) * spin;", "", "a disc that is brought up to date does not turn"),
+    (PATH, "(1.0 / turn_rate) * (u.y * velocity + (1.0 - u.x) * across)",
+     "(1.0 / turn_rate) * (u.y * velocity - (1.0 - u.x) * across)", "an arc bends the wrong way"),
+    (DISC, "d.angle = angle + (t - time) * spin;", "", "a synchronised disc does not rotate"),
     (DISC, "d.inertia * dot(d.rolling_spin, d.rolling_spin)", "0.0",
      "the energy of rolling is missing"),
     (DISC, "return 0.5 * mass * radius * radius;", "return 0.5 * mass * radius;",
@@ -259,11 +260,11 @@ MUTATIONS = [
     (TURNED, "const Vec2 half = unit_circle(angle / (4.0 * pi));",
      "const Vec2 half = unit_circle(angle / (2.0 * pi));", "a sphere turns twice as far"),
     (SNAPSHOT, "return {vx[i] + elapsed * ax[i], vy[i] + elapsed * ay[i]};", "return {vx[i], vy[i]};",
-     "the velocity of a sphere is not brought up to date"),
+     "the velocity of a sphere is not that at the clock"),
     (SNAPSHOT, "const double half_square = 0.5 * elapsed * elapsed;",
      "const double half_square = elapsed * elapsed;", "a sphere is accelerated twice"),
     (SNAPSHOT, "angle[i] + (clock - held_at[i]) * spin[i]", "angle[i]",
-     "an orientation is not brought up to date"),
+     "an orientation is not that at the clock"),
     (SNAPSHOT, "static_cast<double>(periods) * period + clock", "clock",
      "time begins again in every period"),
     (BALL, "double rotation_in_m_frame() const { return -gamma(); }",

@@ -27,7 +27,7 @@ Body draw_body() {
     return {velocity, spin, radius, 1.0 / mass, 1.0 / inertia};
 }
 
-/// Two discs in contact and closing in.
+/// Two discs that touch and approach.
 Collision draw_collision() {
     const Body i = draw_body(), j = draw_body();
     const Vec2 separation = (i.radius + j.radius) * unit_circle(draw(0.0, 1.0));
@@ -42,7 +42,7 @@ Collision draw_collision() {
     return c;
 }
 
-/// A disc at the wall of a moving dish and closing in on it.
+/// A disc that touches and approaches the wall of a moving container.
 Collision draw_wall_collision() {
     Collision c = draw_collision();
     c.j = wall_body(c.j.velocity);
@@ -60,8 +60,8 @@ Axes axes(const Collision& c) {
     return {n, {n.y, -n.x}};
 }
 
-/// The velocity of j's surface past i's at the contact, from the points themselves: contact point
-/// of i at +R_i n, of j at −R_j n, each moving with v + ω ẑ × (its place).
+/// The velocity of j's surface relative to i's at the contact, computed from the points: +R_i n
+/// from i and −R_j n from j, each with velocity v + ω ẑ × (its position).
 Vec2 surface_velocity(const Collision& c) {
     const Vec2 n = axes(c).normal;
     const Vec2 of_i = c.i.velocity + c.i.spin * perpendicular(c.i.radius * n);
@@ -74,7 +74,7 @@ double closing_speed(const Collision& c) { return -dot(surface_velocity(c), axes
 Vec2 momentum(const Collision& c) {
     return (1.0 / c.i.inverse_mass) * c.i.velocity + (1.0 / c.j.inverse_mass) * c.j.velocity;
 }
-/// Orbital and spin, about a point where i sits at `at`.
+/// Orbital and spin angular momentum about a point from which i is at `at`.
 double angular_momentum(const Collision& c, const Vec2& at) {
     return cross(at, c.i.velocity) / c.i.inverse_mass +
            cross(at + c.separation, c.j.velocity) / c.j.inverse_mass +
@@ -127,9 +127,9 @@ TEST(CollisionLaw, GoldenCollisionWithTheWall) {
     EXPECT_EQ(wall.spin, 0.0);
 }
 
-TEST(CollisionLaw, ASpinningDiscRollsAlongTheWallInTheDirectionOfAWheel) {
-    // Counter-clockwise spin at the wall's right-hand side: the outer point moves up, so friction
-    // pushes the disc down.
+TEST(CollisionLaw, SpinningDiscRollsAlongTheWallLikeAWheel) {
+    // With counter-clockwise spin at the right-hand side of the wall, the outer point moves up, so
+    // friction pushes the disc down.
     Body disc = paper_body({1, 0}), wall = wall_body({0, 0});
     disc.spin = 1.0;
     collide(disc, wall, {7.6, 0}, {1.0});
@@ -137,7 +137,7 @@ TEST(CollisionLaw, ASpinningDiscRollsAlongTheWallInTheDirectionOfAWheel) {
     EXPECT_LT(disc.spin, 1.0);
 }
 
-TEST(CollisionLaw, SmoothDiscsKeepTheirSpin) {
+TEST(CollisionLaw, ConservesSpinWithoutFriction) {
     Body i = paper_body({0, 1}), j = paper_body({0.5, -1});
     i.spin = 0.7;
     collide(i, j, {0, 2}, {0.0});
@@ -155,7 +155,7 @@ RC_GTEST_PROP(CollisionLaw, ConservesMomentum, ()) {
     RC_ASSERT(std::abs(momentum(c).y - before.y) < rounding);
 }
 
-RC_GTEST_PROP(CollisionLaw, ConservesAngularMomentumOrbitalAndSpinAboutEveryPoint, ()) {
+RC_GTEST_PROP(CollisionLaw, ConservesAngularMomentumAboutEveryPoint, ()) {
     Collision c = draw_collision();
     const Vec2 at = draw_vector(10.0);
     const double before = angular_momentum(c, at);
@@ -163,7 +163,7 @@ RC_GTEST_PROP(CollisionLaw, ConservesAngularMomentumOrbitalAndSpinAboutEveryPoin
     RC_ASSERT(std::abs(angular_momentum(c, at) - before) < 100 * rounding);
 }
 
-RC_GTEST_PROP(CollisionLaw, LosesExactlyTheEnergyOfTheClosedForm, ()) {
+RC_GTEST_PROP(CollisionLaw, DissipatesTheEnergyOfTheClosedForm, ()) {
     Collision c = draw_collision();
     const double u = closing_speed(c), s = slip(c);
     const double before = energy_of(c.i, {0, 0}) + energy_of(c.j, {0, 0});
@@ -172,7 +172,7 @@ RC_GTEST_PROP(CollisionLaw, LosesExactlyTheEnergyOfTheClosedForm, ()) {
     const double tangential_mass =
         1.0 / (c.i.inverse_mass + c.j.inverse_mass + c.i.radius * c.i.radius * c.i.inverse_inertia +
                c.j.radius * c.j.radius * c.j.inverse_inertia);
-    // Work of the two impulses: J (speed before + speed after)/2 each.
+    // The work of each impulse is J (speed before + speed after)/2.
     const double Jt = std::abs(J.tangential), e = c.surface.restitution;
     const double loss =
         0.5 * normal_mass * (1.0 - e * e) * u * u + Jt * (std::abs(s) - 0.5 * Jt / tangential_mass);
@@ -197,7 +197,7 @@ RC_GTEST_PROP(CollisionLaw, RestitutionReversesTheApproach, ()) {
     RC_ASSERT(std::abs(closing_speed(c) + c.surface.restitution * before) < rounding);
 }
 
-RC_GTEST_PROP(CollisionLaw, AStickingContactReversesTheFractionBetaOfItsSlip, ()) {
+RC_GTEST_PROP(CollisionLaw, StickingContactReversesTheFractionBetaOfItsSlip, ()) {
     Collision c = *rc::gen::element(0, 1) ? draw_collision() : draw_wall_collision();
     c.surface.mu = 1e6;
     const double before = slip(c);
@@ -206,29 +206,29 @@ RC_GTEST_PROP(CollisionLaw, AStickingContactReversesTheFractionBetaOfItsSlip, ()
     RC_ASSERT(std::abs(slip(c) + c.surface.tangential_restitution * before) < rounding);
 }
 
-RC_GTEST_PROP(CollisionLaw, AStickingContactOfThePaperStopsItsSlip, ()) {
+RC_GTEST_PROP(CollisionLaw, StickingContactWithoutBetaStopsItsSlip, ()) {
     Collision c = *rc::gen::element(0, 1) ? draw_collision() : draw_wall_collision();
     c.surface = {1e6, 1.0, 0.0};
     apply(c);
     RC_ASSERT(std::abs(slip(c)) < rounding);
 }
 
-RC_GTEST_PROP(CollisionLaw, FrictionIsCoulombAndOpposesTheSlip, ()) {
+RC_GTEST_PROP(CollisionLaw, FrictionObeysCoulombsLawAndOpposesTheSlip, ()) {
     Collision c = *rc::gen::element(0, 1) ? draw_collision() : draw_wall_collision();
     const double before = slip(c);
     const Impulse J = apply(c);
     RC_ASSERT(J.normal > 0.0);
     RC_ASSERT(std::abs(J.tangential) <= c.surface.mu * J.normal);
-    // On j along r, and so against the slip of j past i.
+    // The impulse on j is along r, so it opposes the slip of j past i.
     RC_ASSERT(J.tangential * before <= 0.0);
     if (!J.sticks) {
         RC_ASSERT(std::abs(J.tangential) == c.surface.mu * J.normal);
-        // A contact that slides does not come to slide the other way faster than by β.
+        // A sliding contact does not reverse its slip by more than the fraction β.
         RC_ASSERT(slip(c) * before >= -c.surface.tangential_restitution * before * before - 1e-12);
     }
 }
 
-RC_GTEST_PROP(CollisionLaw, SwappingTheDiscsGivesTheSameBits, ()) {
+RC_GTEST_PROP(CollisionLaw, IsBitwiseSymmetric, ()) {
     Collision c = draw_collision();
     Collision swapped{c.j, c.i, -1.0 * c.separation, c.surface};
     const Impulse J = apply(c), K = apply(swapped);
@@ -270,7 +270,7 @@ RC_GTEST_PROP(CollisionLaw, IsCovariantUnderRotations, ()) {
     RC_ASSERT(std::abs(turned.j.spin - c.j.spin) < rounding);
 }
 
-RC_GTEST_PROP(CollisionLaw, IsCovariantUnderMirrors, ()) {
+RC_GTEST_PROP(CollisionLaw, IsCovariantUnderReflections, ()) {
     Collision c = draw_collision();
     const auto mirror = [](const Vec2& v) { return Vec2{-v.x, v.y}; };
     Collision mirrored = c;
@@ -296,7 +296,7 @@ RC_GTEST_PROP(CollisionLaw, DependsOnTheDirectionOfTheSeparationOnly, ()) {
     RC_ASSERT(std::abs(farther.j.spin - c.j.spin) < rounding);
 }
 
-RC_GTEST_PROP(CollisionLaw, TheWallIsTheLimitOfAHeavyDisc, ()) {
+RC_GTEST_PROP(CollisionLaw, WallIsTheLimitOfAHeavyDisc, ()) {
     Collision wall = draw_wall_collision(), heavy = wall;
     heavy.j.radius = 1.0;
     heavy.j.inverse_mass = heavy.j.inverse_inertia = 1e-14;
@@ -307,7 +307,7 @@ RC_GTEST_PROP(CollisionLaw, TheWallIsTheLimitOfAHeavyDisc, ()) {
     RC_ASSERT(std::abs(heavy.i.spin - wall.i.spin) < 1e-10);
 }
 
-TEST(TcModel, ACollisionSoonerThanTheDurationOfAContactIsElastic) {
+TEST(TcModel, CollisionWithinTheContactDurationIsElastic) {
     Surface surface;
     surface.restitution = 0.5;
     surface.contact_duration = 0.1;
@@ -317,7 +317,7 @@ TEST(TcModel, ACollisionSoonerThanTheDurationOfAContactIsElastic) {
     EXPECT_FALSE(is_elastic_by_tc_model(surface, 3.0));
     EXPECT_EQ(at_contact(surface, 0.099).restitution, 1.0);
     EXPECT_EQ(at_contact(surface, 0.1).restitution, 0.5);
-    // All else is left as it is.
+    // Nothing else changes.
     surface.mu = 0.3;
     surface.tangential_restitution = 0.2;
     const Surface elastic = at_contact(surface, 0.0);
@@ -326,7 +326,7 @@ TEST(TcModel, ACollisionSoonerThanTheDurationOfAContactIsElastic) {
     EXPECT_EQ(elastic.contact_duration, 0.1);
 }
 
-TEST(TcModel, WithoutADurationOrALossNothingChanges) {
+TEST(TcModel, HasNoEffectWithoutDurationOrDissipation) {
     Surface surface;
     surface.restitution = 0.5;
     EXPECT_FALSE(is_elastic_by_tc_model(surface, 0.0));

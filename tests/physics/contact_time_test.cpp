@@ -12,8 +12,9 @@
 namespace swirl {
 namespace {
 
-// |distance² − σ²| at the time found. The positions are below 200 (10 + speed 4 × the longest wait
-// allowed below), so their squares are 4·10⁴, known to 2⁻⁵³; a dozen roundings.
+// Tolerance of |distance² − σ²| at the computed time. Positions are below 200 (10 + speed 4 × the
+// longest wait allowed below), so their squares are below 4·10⁴ with relative errors of 2⁻⁵³; a
+// dozen roundings.
 constexpr double longest_wait = 40.0;
 constexpr double rounding_of_squares = 1e-10;
 
@@ -31,7 +32,7 @@ double distance2(const Flyer& i, const Flyer& j, double t) {
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// Two discs that do not overlap at the moment from which they are both known.
+/// Two discs that do not overlap at the later of their two times.
 struct Pair {
     Flyer i, j;
     double sum;
@@ -44,7 +45,7 @@ Pair draw_pair() {
     return p;
 }
 
-/// The same, with j aimed at some point of i, grazing included.
+/// The same, with j aimed at a point of i; it may graze.
 Pair draw_meeting_pair() {
     Pair p = draw_pair();
     const Vec2 from = p.j.position_at(p.from), s = p.i.position_at(p.from) - from;
@@ -55,7 +56,7 @@ Pair draw_meeting_pair() {
     return p;
 }
 
-RC_GTEST_PROP(TimeOfContact, AScanFindsNoEarlierContact, ()) {
+RC_GTEST_PROP(TimeOfContact, NoEarlierContactExists, ()) {
     const Pair p = *rc::gen::element(0, 1) ? draw_pair() : draw_meeting_pair();
     const double found = time_of_contact(p.i, p.j, p.sum);
     const double until = std::min(found, p.from + longest_wait);
@@ -65,7 +66,7 @@ RC_GTEST_PROP(TimeOfContact, AScanFindsNoEarlierContact, ()) {
     RC_ASSERT(closest >= p.sum * p.sum - rounding_of_squares);
 }
 
-RC_GTEST_PROP(TimeOfContact, AtTheTimeFoundTheDiscsTouchAndApproach, ()) {
+RC_GTEST_PROP(TimeOfContact, DiscsTouchAndApproach, ()) {
     const Pair p = draw_meeting_pair();
     const double t = time_of_contact(p.i, p.j, p.sum);
     RC_PRE(t < p.from + longest_wait);
@@ -75,7 +76,7 @@ RC_GTEST_PROP(TimeOfContact, AtTheTimeFoundTheDiscsTouchAndApproach, ()) {
     RC_ASSERT(dot(s, p.j.velocity - p.i.velocity) < rounding_of_squares);
 }
 
-RC_GTEST_PROP(TimeOfContact, NeverMeansThatTheClosestApproachIsFarther, ()) {
+RC_GTEST_PROP(TimeOfContact, IsNeverIfTheClosestApproachIsFarther, ()) {
     const Pair p = draw_pair();
     RC_PRE(time_of_contact(p.i, p.j, p.sum) == never);
     const Vec2 s = p.j.position_at(p.from) - p.i.position_at(p.from);
@@ -84,7 +85,7 @@ RC_GTEST_PROP(TimeOfContact, NeverMeansThatTheClosestApproachIsFarther, ()) {
     RC_ASSERT(distance2(p.i, p.j, closest) >= p.sum * p.sum - rounding_of_squares);
 }
 
-RC_GTEST_PROP(TimeOfContact, SeparatingMeansNeverEvenWhenTheyOverlap, ()) {
+RC_GTEST_PROP(TimeOfContact, IsNeverForSeparatingDiscsEvenIfTheyOverlap, ()) {
     Pair p = draw_pair();
     const double overlap = draw(-1.0, 1.0);
     const Vec2 s = p.j.position_at(p.from) - p.i.position_at(p.from);
@@ -93,7 +94,7 @@ RC_GTEST_PROP(TimeOfContact, SeparatingMeansNeverEvenWhenTheyOverlap, ()) {
     RC_ASSERT(time_of_contact(p.i, p.j, p.sum) == never);
 }
 
-RC_GTEST_PROP(TimeOfContact, TouchingOrOverlappingByARoundingErrorAndApproachingMeansNow, ()) {
+RC_GTEST_PROP(TimeOfContact, IsNowForTouchingAndApproachingDiscs, ()) {
     Pair p = draw_pair();
     const Vec2 s = p.j.position_at(p.from) - p.i.position_at(p.from);
     RC_PRE(dot(s, p.j.velocity - p.i.velocity) < 0.0);
@@ -101,12 +102,12 @@ RC_GTEST_PROP(TimeOfContact, TouchingOrOverlappingByARoundingErrorAndApproaching
     RC_ASSERT(time_of_contact(p.i, p.j, p.sum) == p.from);
 }
 
-RC_GTEST_PROP(TimeOfContact, SwappingTheDiscsGivesTheSameBits, ()) {
+RC_GTEST_PROP(TimeOfContact, IsBitwiseSymmetric, ()) {
     const Pair p = draw_pair();
     RC_ASSERT(same_bits(time_of_contact(p.i, p.j, p.sum), time_of_contact(p.j, p.i, p.sum)));
 }
 
-RC_GTEST_PROP(TimeOfContact, EightLanesGiveTheBitsOfEightScalars, ()) {
+RC_GTEST_PROP(TimeOfContact, EightLanesEqualEightScalars, ()) {
     const Flyer i = draw_flyer();
     alignas(64) double x[8], y[8], vx[8], vy[8], held[8], sum[8], found[8];
     for (int k = 0; k < 8; ++k) {
@@ -126,26 +127,26 @@ RC_GTEST_PROP(TimeOfContact, EightLanesGiveTheBitsOfEightScalars, ()) {
             found[k], time_of_contact(i, Flyer{{x[k], y[k]}, {vx[k], vy[k]}, held[k]}, sum[k])));
 }
 
-TEST(TimeOfContact, NobodyIsNeverMet) {
+TEST(TimeOfContact, IsNeverWithTheSentinel) {
     const double nan = std::nan("");
     EXPECT_EQ(time_of_contact(Flyer{{0, 0}, {1, 0}, 0}, Flyer{{nan, nan}, {0, 0}, 0}, 2.0), never);
 }
 
-TEST(TimeOfContact, HeadOnIsTheGapOverTheSpeed) {
+TEST(TimeOfContact, HeadOnIsGapDividedBySpeed) {
     EXPECT_EQ(time_of_contact(Flyer{{0, 0}, {1, 0}, 0}, Flyer{{10, 0}, {-3, 0}, 0}, 2.0), 2.0);
 }
 
-TEST(TimeOfContact, ATinyGapLosesNoDigits) {
-    // The gap 2⁻⁴⁰ closes at speed 2⁻¹⁰: in the form (−b − √)/a it would be lost in b.
+TEST(TimeOfContact, TinyGapKeepsAllDigits) {
+    // The gap is 2⁻⁴⁰, the speed 2⁻¹⁰. In the form (−b − √)/a the gap would be lost in b.
     const Flyer i{{0, 0}, {0x1p-10, 0}, 0}, j{{2.0 + 0x1p-40, 0}, {0, 0}, 0};
     EXPECT_NEAR(time_of_contact(i, j, 2.0), 0x1p-30, 0x1p-30 * 1e-11);
 }
 
-TEST(TimeOfContact, AtRestRelativeToEachOtherMeansNever) {
+TEST(TimeOfContact, IsNeverAtRelativeRest) {
     EXPECT_EQ(time_of_contact(Flyer{{0, 0}, {1, 1}, 0}, Flyer{{2, 0}, {1, 1}, 0}, 2.0), never);
 }
 
-/// A disc inside the dish at the moment from which both are known.
+/// A disc inside the container at the later of their two times.
 struct Inside {
     Disc disc;
     double radius;
@@ -166,9 +167,9 @@ double wall_distance(const Inside& in, const Segment& segment, double t) {
     return in.radius - in.disc.radius - std::hypot(s.x, s.y);
 }
 
-// The straight wall root: a wait of up to 2·9/0.01 would need a wider tolerance; waits beyond the
-// leg's end are not used by anybody.
-RC_GTEST_PROP(TimeOfWallContact, OnASideTheDiscTouchesThenAndNotBefore, ()) {
+// Only waits within the segment are tested, since later ones are not used. A wait of up to 2·9/0.01
+// would need a wider tolerance.
+RC_GTEST_PROP(TimeOfWallContact, OnAStraightSegmentIsTheFirstContact, ()) {
     const ContainerPath path = polygon_path(1.892, 11.866071, *rc::gen::inRange(3, 31));
     const Segment& segment = path.segments[*rc::gen::inRange<std::size_t>(0, path.segments.size())];
     const Inside in = draw_inside(segment);
@@ -181,7 +182,7 @@ RC_GTEST_PROP(TimeOfWallContact, OnASideTheDiscTouchesThenAndNotBefore, ()) {
     if (t < segment.end + 20.0) RC_ASSERT(std::abs(wall_distance(in, segment, t)) < 1e-12);
 }
 
-RC_GTEST_PROP(TimeOfWallContact, OnTheCircleTheDiscTouchesThenAndNotBefore, ()) {
+RC_GTEST_PROP(TimeOfWallContact, OnAnArcIsTheFirstContact, ()) {
     const ContainerPath path = circular_path(draw(0.1, 3.0), 11.866071);
     const Segment& segment = path.segments[0];
     const Inside in = draw_inside(segment);
@@ -194,80 +195,79 @@ RC_GTEST_PROP(TimeOfWallContact, OnTheCircleTheDiscTouchesThenAndNotBefore, ()) 
     if (t < segment.end) RC_ASSERT(std::abs(wall_distance(in, segment, t)) < 1e-12);
 }
 
-// Whoever asks for the wall up to some time is told the same bits, or a time before which the disc
-// does not reach it.
-RC_GTEST_PROP(TimeOfWallContact, OnTheCircleHowLongOneAsksChangesNoBit, ()) {
+// With a limit `latest` the result is bitwise the same, or a lower bound of the contact.
+RC_GTEST_PROP(TimeOfWallContact, OnAnArcTheLimitDoesNotChangeTheResult, ()) {
     const ContainerPath path = circular_path(draw(0.1, 30.0), 11.866071);
     const Segment& segment = path.segments[0];
     const Inside in = draw_inside(segment);
     const double clearance = in.radius - in.disc.radius;
     const double t = time_of_wall_contact(in.disc, segment, in.radius);
     const double latest = in.disc.time + draw(0.0, 1.5) * (std::min(t, segment.end) - in.disc.time);
-    const WallContact asked = turning_wall_contact(
-        in.disc.flight(), segment.flight_at(in.disc.time), segment, clearance, latest);
+    const WallContact limited = arc_wall_contact(in.disc.flight(), segment.flight_at(in.disc.time),
+                                                 segment, clearance, latest);
     if (t <= latest) {
-        RC_ASSERT(asked.time == t);
-        RC_ASSERT(!asked.is_later);
+        RC_ASSERT(limited.time == t);
+        RC_ASSERT(!limited.is_later);
     }
     if (t > latest) {
-        RC_ASSERT(asked.time > latest);
-        const bool kept = asked.is_later ? asked.time <= t : asked.time == t;
-        RC_ASSERT(kept);
+        RC_ASSERT(limited.time > latest);
+        const bool consistent = limited.is_later ? limited.time <= t : limited.time == t;
+        RC_ASSERT(consistent);
     }
 }
 
-// What is left at τ + δ is told by the terms at τ, but for what follows the eighth.
-RC_GTEST_PROP(TimeOfWallContact, OnTheCircleTheTermsNearAMomentTellWhatFollows, ()) {
+// The expansion at τ gives the value at τ + δ, up to terms beyond the eighth order.
+RC_GTEST_PROP(TimeOfWallContact, OnAnArcTheExpansionIsCorrect, ()) {
     const Segment segment = circular_path(draw(0.1, 3.0), 11.866071).segments[0];
     const Inside in = draw_inside(segment);
-    const TurningWall wall(in.disc.flight(), segment.flight_at(in.disc.time), segment.turning,
-                           in.radius - in.disc.radius);
-    const double tau = draw(0.0, 1.0) / segment.turning, phi = draw(-0.5, 0.5);
-    const double x = phi / segment.turning;
-    const TurningWall::Near f = wall.at(tau);
+    const ArcWall wall(in.disc.flight(), segment.flight_at(in.disc.time), segment.turn_rate,
+                       in.radius - in.disc.radius);
+    const double tau = draw(0.0, 1.0) / segment.turn_rate, phi = draw(-0.5, 0.5);
+    const double x = phi / segment.turn_rate;
+    const ArcWall::Expansion f = wall.at(tau);
     const double told =
         f.c + x * (2.0 * f.b +
                    x * (f.q + x * (f.k + x * (f.l + x * (f.m + x * (f.n + x * (f.o + x * f.p)))))));
-    // The bound, in which |s|² is at most 2 clearance², holds for as long.
-    const TurningWall::Near there = wall.at(tau + x);
+    // The bound L assumes |s|² ≤ 2 clearance².
+    const ArcWall::Expansion there = wall.at(tau + x);
     RC_PRE(larger(f.c, there.c) < wall.square());
     const double rest = 3.1e-5 * wall.K() * std::pow(std::abs(phi), 7.0) * x * x;
     RC_ASSERT(std::abs(there.c - told) <= rest + 1e-13 * (wall.square() + wall.K() * x * x));
 }
 
-// The quick way answers only where what it has found is the first contact: of discs that fly anyhow
-// about two in five times, of those in the paper's dish nearly always.
-TEST(TimeOfWallContact, OnTheCircleTheQuickWayFindsWhatTheParabolasFind) {
+// Newton's method returns a contact only if it is the first: for random discs in about two of five
+// cases, for those in the paper's container nearly always.
+TEST(TimeOfWallContact, OnAnArcNewtonAgreesWithParabolas) {
     Random random(5);
     const auto draw_in = [&random](double from, double to) {
         return from + (to - from) * random.uniform();
     };
     const Segment segment = circular_path(1.892, 11.866071).segments[0];
-    const double clearance = 7.6, eighth = (0.25 * pi) / segment.turning;
+    const double clearance = 7.6, eighth = (0.25 * pi) / segment.turn_rate;
     int quick = 0;
-    constexpr int asked = 20000;
-    for (int k = 0; k < asked; ++k) {
+    constexpr int cases = 20000;
+    for (int k = 0; k < cases; ++k) {
         Disc d{{}, {}, 0.0, 0.0, draw_in(0.0, 6.0), 1.0, 1.0, 1.0, {}, 0.0};
         d.position = segment.position_at(d.time) +
                      draw_in(0.7, 0.999) * clearance * unit_circle(random.uniform());
         d.velocity =
             segment.velocity_at(d.time) + draw_in(0.0, 1.0) * unit_circle(random.uniform());
-        const TurningWall wall(d.flight(), segment.flight_at(d.time), segment.turning, clearance);
-        const double wait = quick_turning_wall_contact(wall, wall.first());
+        const ArcWall wall(d.flight(), segment.flight_at(d.time), segment.turn_rate, clearance);
+        const double wait = arc_contact_by_newton(wall, wall.at_start());
         if (wait == never) continue;
         ++quick;
-        const double t = slow_turning_wall_contact(wall, d.time, eighth, never, never).time;
-        // Where the disc grazes the wall its distance is what is known, not the time.
+        const double t = arc_contact_by_parabolas(wall, d.time, eighth, never, never).time;
+        // If the disc grazes the wall its distance is well defined, not the time.
         const Inside in{d, clearance + d.radius};
         EXPECT_LT(std::abs(wall_distance(in, segment, 0.5 * (d.time + wait + t))), 1e-12) << k;
         EXPECT_NEAR(d.time + wait, t, 1e-5) << k;
     }
-    EXPECT_GT(quick, asked / 4);
+    EXPECT_GT(quick, cases / 4);
 }
 
-// A disc that overlaps the wall a little and leaves it counts as just inside: the quick way leads
-// it to where it overlaps as much again.
-TEST(TimeOfWallContact, OnTheCircleTheQuickWayLeadsFromAnOverlapToTheSameOverlap) {
+// A disc that overlaps the wall slightly and leaves it counts as just inside. Newton's method then
+// finds the time when it overlaps as much again.
+TEST(TimeOfWallContact, OnAnArcNewtonKeepsASmallOverlap) {
     const Segment segment = circular_path(1.892, 11.866071).segments[0];
     constexpr double clearance = 7.6, overlap = 1e-8;
     int quick = 0;
@@ -275,25 +275,25 @@ TEST(TimeOfWallContact, OnTheCircleTheQuickWayLeadsFromAnOverlapToTheSameOverlap
         const Vec2 out = unit_circle(k / 64.0);
         const Flyer disc{segment.start + (clearance + overlap) * out,
                          segment.velocity - 0.3 * out + 0.5 * perpendicular(out), 0.0};
-        const TurningWall wall(disc, segment.flight_at(0.0), segment.turning, clearance);
-        const TurningWall::Near start = wall.first();
-        const double wait = quick_turning_wall_contact(wall, start);
+        const ArcWall wall(disc, segment.flight_at(0.0), segment.turn_rate, clearance);
+        const ArcWall::Expansion start = wall.at_start();
+        const double wait = arc_contact_by_newton(wall, start);
         if (wait == never) continue;
         ++quick;
-        // A dozen roundings of squares of order 60; the overlap's is 1.5·10⁻⁷.
+        // A dozen roundings of squares of order 60; the overlap itself is 1.5·10⁻⁷.
         EXPECT_NEAR(wall.at(wait).c, start.c, 1e-12) << k;
     }
     EXPECT_GT(quick, 10);
 }
 
-// Hop after hop along the wall, in which the centre does little more than push: each is as long as
-// a parabola, but for the turning of the push.
-TEST(TimeOfWallContact, OnTheCircleAShortHopKeepsItsDigits) {
+// Short flights along the wall, during which the centre mainly accelerates. Each lasts as long as a
+// parabola, except for the rotation of the acceleration.
+TEST(TimeOfWallContact, OnAnArcShortFlightsKeepTheirDigits) {
     const double amplitude = 2.0, period = 12.0, omega = 2.0 * pi / period;
     const Segment segment = circular_path(amplitude, period).segments[0];
     const double push = amplitude * omega * omega;
     for (double speed = 1e-2; speed > 1e-9; speed *= 0.1) {
-        // At the wall, outwards of the path, and leaving it straight inwards.
+        // At the outermost point of the wall, leaving it radially.
         Disc d{segment.start, segment.velocity, 0, 0, 0, 1.0, 1.0, 10.0};
         d.position.x += 7.6;
         d.velocity.x -= speed;
@@ -302,7 +302,8 @@ TEST(TimeOfWallContact, OnTheCircleAShortHopKeepsItsDigits) {
     }
 }
 
-/// When the disc touches the wall of radius `container_radius` on any leg of the polygon.
+/// The time when the disc touches a wall of radius `container_radius` on any segment of the
+/// polygon.
 double contact_on_polygon(const Disc& disc, const ContainerPath& path, double container_radius) {
     for (const Segment& segment : path.segments) {
         if (segment.end <= disc.time) continue;
@@ -312,13 +313,13 @@ double contact_on_polygon(const Disc& disc, const ContainerPath& path, double co
     return never;
 }
 
-RC_GTEST_PROP(TimeOfWallContact, TheCircleIsThePolygonWithManySides, ()) {
+RC_GTEST_PROP(TimeOfWallContact, CircleIsTheLimitOfPolygons, ()) {
     static const int sides = 10000;
     static const ContainerPath circle = circular_path(1.892, 11.866071);
     static const ContainerPath polygon = polygon_path(1.892, 11.866071, sides);
     const Inside in = draw_inside(circle.segments[0]);
-    // The polygon's centre is never farther from the circle's than the sagitta, so the contact
-    // with the turning wall lies between those with a polygon's wall that much nearer and farther.
+    // The distance between both centres is at most the sagitta. So the contact lies between those
+    // with a polygon's wall that is nearer and farther by the sagitta.
     const double sagitta = 1.0001 * 1.892 * (pi / sides) * (pi / sides) / 2.0;
     RC_PRE(wall_distance(in, circle.segments[0], in.disc.time) > 2.0 * sagitta);
     const double t = time_of_wall_contact(in.disc, circle.segments[0], in.radius);
@@ -327,13 +328,13 @@ RC_GTEST_PROP(TimeOfWallContact, TheCircleIsThePolygonWithManySides, ()) {
     RC_ASSERT(later >= t);
 }
 
-TEST(TimeOfWallContact, AcrossAStillDishIsTheChordOverTheSpeed) {
+TEST(TimeOfWallContact, AtRestIsChordDividedBySpeed) {
     const Segment segment = still_path(100.0).segments[0];
     const Disc d{{-7.6, 0}, {0.5, 0}, 0, 0, 0, 1.0, 1.0, 10.0};
     EXPECT_NEAR(time_of_wall_contact(d, segment, 8.6), 15.2 / 0.5, 1e-13);
 }
 
-TEST(TimeOfWallContact, AtTheWallAndApproachingMeansNow) {
+TEST(TimeOfWallContact, IsNowAtTheWallAndApproaching) {
     const Segment still = still_path(100.0).segments[0];
     const Segment turning = circular_path(1.0, 10.0).segments[0];
     Disc d{{7.6, 0}, {0.5, 0.1}, 0, 0, 0, 1.0, 1.0, 10.0};
@@ -342,15 +343,15 @@ TEST(TimeOfWallContact, AtTheWallAndApproachingMeansNow) {
     EXPECT_EQ(time_of_wall_contact(d, turning, 8.6), 0.0);
 }
 
-TEST(TimeOfWallContact, ADiscThatMovesWithTheDishNeverTouchesIt) {
+TEST(TimeOfWallContact, IsNeverForADiscThatMovesWithTheContainer) {
     const ContainerPath path = polygon_path(1.892, 11.866071, 30);
     const Segment& segment = path.segments[0];
     const Disc d{segment.start, segment.velocity, 0, 0, 0, 1.0, 1.0, 10.0};
     EXPECT_EQ(time_of_wall_contact(d, segment, 8.6), never);
 }
 
-TEST(TimeOfWallContact, ADiscSlidingAlongTheWallHitsItLater) {
-    // b = 0 at the wall exactly: it must not collide for ever at one instant.
+TEST(TimeOfWallContact, IsLaterForADiscThatSlidesAlongTheWall) {
+    // b = 0 exactly at the wall: it must not collide endlessly at one instant.
     const Segment segment = still_path(100.0).segments[0];
     const Disc d{{7.6, 0}, {0, 1}, 0, 0, 0, 1.0, 1.0, 10.0};
     const double t = time_of_wall_contact(d, segment, 8.6);
@@ -378,7 +379,7 @@ SlidingPair draw_sliding_pair() {
     return p;
 }
 
-RC_GTEST_PROP(TimeOfContactOnParabolas, IsTheFirstAtWhichTheyTouch, ()) {
+RC_GTEST_PROP(TimeOfContactOnParabolas, IsTheFirstContact, ()) {
     const SlidingPair p = draw_sliding_pair();
     const double found = time_of_contact(p.encounter());
     const double from = p.j.time, until = std::min(p.i_rolls, p.j_rolls);
@@ -391,8 +392,8 @@ RC_GTEST_PROP(TimeOfContactOnParabolas, IsTheFirstAtWhichTheyTouch, ()) {
     RC_ASSERT(std::abs(p.distance2(found) - p.sum * p.sum) < rounding_of_squares);
 }
 
-// What is told of eight at once is what is told of each, and the bound is on the safe side.
-RC_GTEST_PROP(TimeOfContactOnParabolas, EightAtOnceAreAsOneByOne, ()) {
+// Eight pairs at once give the results of eight single pairs, and the bound misses no contact.
+RC_GTEST_PROP(TimeOfContactOnParabolas, EightLanesEqualEightScalars, ()) {
     const Parabola<double> i = draw_sliding_pair().i;
     alignas(64) double x[8], y[8], vx[8], vy[8], ax[8], ay[8], time[8], rolls[8], sum[8], told[8];
     Parabola<double> j[8];
@@ -427,7 +428,7 @@ RC_GTEST_PROP(TimeOfContactOnParabolas, EightAtOnceAreAsOneByOne, ()) {
     }
 }
 
-RC_GTEST_PROP(TimeOfContactOnParabolas, WithoutRelativeAccelerationItIsTheDiscsBitForBit, ()) {
+RC_GTEST_PROP(TimeOfContactOnParabolas, WithoutRelativeAccelerationEqualsThatOfDiscs, ()) {
     const Pair p = draw_meeting_pair();
     const Parabola<double> i{p.i.position, p.i.velocity, {0.0, 0.0}, p.i.time};
     const Parabola<double> j{p.j.position, p.j.velocity, {0.0, 0.0}, p.j.time};
@@ -435,7 +436,7 @@ RC_GTEST_PROP(TimeOfContactOnParabolas, WithoutRelativeAccelerationItIsTheDiscsB
                         time_of_contact(p.i, p.j, p.sum)));
 }
 
-RC_GTEST_PROP(TimeOfWallContactOnParabolas, IsTheFirstAtWhichItTouches, ()) {
+RC_GTEST_PROP(TimeOfWallContactOnParabolas, IsTheFirstContact, ()) {
     const Segment segment{0.0, 1000.0, draw_vector(1.0), draw_vector(1.0), 0.0};
     const double clearance = 7.6;
     const Vec2 inside = draw_vector(5.0);

@@ -7,19 +7,19 @@
 namespace swirl {
 namespace {
 
-// Positions of order 1 after a handful of roundings.
+// Positions of order 1 after a few roundings.
 constexpr double rounding = 1e-14;
 
 double length(const Vec2& v) { return std::hypot(v.x, v.y); }
 
-TEST(ContainerPath, ThePaperDishMovesAtSpeedOne) {
+TEST(ContainerPath, PaperContainerMovesAtSpeedOne) {
     const ContainerPath path = polygon_path(paper_amplitude, paper_period, paper_sides);
     ASSERT_EQ(path.segments.size(), 30u);
     // The SI's numbers are given to seven digits (T) and four (A): A = 1.892 gives 0.99999.
     for (const Segment& segment : path.segments) EXPECT_NEAR(length(segment.velocity), 1.0, 5e-4);
 }
 
-TEST(ContainerPath, LegsFollowOneAnotherAndClose) {
+TEST(ContainerPath, SegmentsAreContiguousAndClosed) {
     for (const int sides : {3, 4, 30, 301}) {
         const ContainerPath path = polygon_path(1.892, 11.866071, sides);
         ASSERT_EQ(path.segments.size(), static_cast<std::size_t>(sides));
@@ -35,7 +35,7 @@ TEST(ContainerPath, LegsFollowOneAnotherAndClose) {
     }
 }
 
-TEST(ContainerPath, VerticesLieOnTheCircleStartingAtThePositiveXAxisAndRunCounterClockwise) {
+TEST(ContainerPath, VerticesLieOnTheCircleCounterClockwiseFromPlusX) {
     const ContainerPath path = polygon_path(2.0, 10.0, 7);
     EXPECT_EQ(path.segments[0].start.x, 2.0);
     EXPECT_EQ(path.segments[0].start.y, 0.0);
@@ -45,7 +45,7 @@ TEST(ContainerPath, VerticesLieOnTheCircleStartingAtThePositiveXAxisAndRunCounte
     }
 }
 
-TEST(ContainerPath, SidesHaveTheSpeedOfTheClosedForm) {
+TEST(ContainerPath, SidesHaveTheirAnalyticSpeed) {
     for (const int sides : {3, 30, 300}) {
         const double speed = 2.0 * 1.5 * sides * std::sin(pi / sides) / 8.0;
         for (const Segment& segment : polygon_path(1.5, 8.0, sides).segments)
@@ -54,11 +54,11 @@ TEST(ContainerPath, SidesHaveTheSpeedOfTheClosedForm) {
     }
 }
 
-TEST(ContainerPath, TheExactCircleIsOneTurningLeg) {
+TEST(ContainerPath, ExactCircleIsOneArc) {
     const ContainerPath path = circular_path(1.892, 11.866071);
     ASSERT_EQ(path.segments.size(), 1u);
     const Segment& segment = path.segments[0];
-    EXPECT_EQ(segment.turning, path.omega());
+    EXPECT_EQ(segment.turn_rate, path.omega());
     for (int k = 0; k <= 100; ++k) {
         const double t = path.period * k / 100;
         const Vec2 C = segment.position_at(t), V = segment.velocity_at(t);
@@ -69,10 +69,10 @@ TEST(ContainerPath, TheExactCircleIsOneTurningLeg) {
     }
 }
 
-TEST(ContainerPath, ThePolygonTendsToTheCircle) {
+TEST(ContainerPath, PolygonsConvergeToTheCircle) {
     const ContainerPath circle = circular_path(1.892, 11.866071);
     const ContainerPath polygon = polygon_path(1.892, 11.866071, 3000);
-    // The sagitta A (π/M)²/2 is the farthest a chord is from its arc.
+    // The largest distance of a chord from its arc is the sagitta A (π/M)²/2.
     const double sagitta = 1.892 * (pi / 3000) * (pi / 3000) / 2.0;
     double farthest = 0.0;
     for (int k = 0; k < 10000; ++k) {
@@ -84,7 +84,7 @@ TEST(ContainerPath, ThePolygonTendsToTheCircle) {
     EXPECT_GT(farthest, 0.9 * sagitta);
 }
 
-TEST(ContainerPath, LegAtFindsTheLegAndTheEndBelongsToTheNext) {
+TEST(ContainerPath, SegmentAtAssignsAnEndToTheNextSegment) {
     const ContainerPath path = polygon_path(1.0, 6.0, 3);
     EXPECT_EQ(&path.segment_at(0.0), &path.segments[0]);
     EXPECT_EQ(&path.segment_at(path.segments[0].end), &path.segments[1]);
@@ -92,7 +92,7 @@ TEST(ContainerPath, LegAtFindsTheLegAndTheEndBelongsToTheNext) {
     EXPECT_EQ(&path.segment_at(6.0), &path.segments[2]);
 }
 
-TEST(ContainerPath, WithoutAmplitudeTheContainerStandsStillOnEveryPath) {
+TEST(ContainerPath, ZeroAmplitudeIsAContainerAtRest) {
     for (const ContainerPath& path : {polygon_path(0.0, 7.0, 30), circular_path(0.0, 7.0)}) {
         ASSERT_EQ(path.segments.size(), 1u);
         EXPECT_EQ(length(path.segments[0].velocity), 0.0);

@@ -20,7 +20,7 @@ Disc sphere(const Vec2& velocity, const Vec2& rolling_spin = {0.0, 0.0}) {
 Disc rolling_sphere(const Vec2& velocity) {
     return sphere(velocity, spin_of_rolling(velocity, 1.0));
 }
-/// Slides until it rolls.
+/// The sphere after sliding until it rolls.
 Disc settled(const Disc& d, const Floor& floor, const Vec2& u = {0.0, 0.0}) {
     const FloorMotion motion = floor_motion(d, floor, u);
     return motion.begins_to_roll == never ? d : set_rolling(d, motion, floor, u);
@@ -32,7 +32,7 @@ Disc draw_sphere() {
     return {draw_vector(5.0), velocity, 0.0, draw(-2.0, 2.0), draw(0.0, 3.0), r, m, I, spin};
 }
 
-TEST(Floor, ASphereSetSlidingRollsAtFiveSeventhsOfItsSpeed) {
+TEST(Floor, SlidingSphereRollsAtFiveSeventhsOfItsSpeed) {
     const double v = 1.4, deceleration = 0.3;
     const Disc start = sphere({v, 0.0});
     const Floor floor{deceleration};
@@ -44,7 +44,7 @@ TEST(Floor, ASphereSetSlidingRollsAtFiveSeventhsOfItsSpeed) {
     EXPECT_NEAR(rolls.rolling_spin.y, 5.0 / 7.0 * v, rounding);
 }
 
-TEST(Floor, ASphereThatRollsStaysRolling) {
+TEST(Floor, RollingSphereContinuesToRoll) {
     const Vec2 u{0.3, -0.7};
     const Disc rolls = settled(sphere({1.234567, 0.345678}, {0.9, 0.1}), {1.92}, u);
     const FloorMotion motion = floor_motion(rolls, {1.92}, u);
@@ -53,7 +53,7 @@ TEST(Floor, ASphereThatRollsStaysRolling) {
     EXPECT_EQ(motion.acceleration.y, 0.0);
 }
 
-TEST(Floor, AtTheEndOfALegARollingSphereGainsTwoSeventhsOfTheJump) {
+TEST(Floor, RollingSphereGainsTwoSeventhsOfAVelocityJumpOfTheFloor) {
     const ContainerPath path = polygon_path(paper_amplitude, paper_period, paper_sides);
     Disc d = rolling_sphere({0.1, 0.2});
     d = settled(d, {1.92}, path.segments[0].velocity);
@@ -67,8 +67,8 @@ TEST(Floor, AtTheEndOfALegARollingSphereGainsTwoSeventhsOfTheJump) {
     }
 }
 
-// The law of collisions and the floor together.
-TEST(Floor, ARollingSphereThatMeetsARestingOneGivesItFiveSeventhsOfItsSpeed) {
+// The collision law combined with the floor.
+TEST(Floor, RollingSphereGivesARestingOneFiveSeventhsOfItsSpeed) {
     const Floor floor{0.7};
     const Disc moving = rolling_sphere({1.0, 0.0}), resting = sphere({0.0, 0.0});
     SphereBody i{{moving.velocity, 0.0, 1.0, 1.0, 1.0 / moving.inertia}, moving.rolling_spin};
@@ -78,7 +78,7 @@ TEST(Floor, ARollingSphereThatMeetsARestingOneGivesItFiveSeventhsOfItsSpeed) {
     EXPECT_NEAR(settled(sphere(j.velocity, j.rolling_spin), floor).velocity.x, 5.0 / 7.0, rounding);
 }
 
-TEST(Floor, TwoRollingSpheresHeadOnReturnWithFiveEMinusTwoSevenths) {
+TEST(Floor, RollingSpheresHeadOnReturnWithFiveEMinusTwoSevenths) {
     const Floor floor{0.7};
     for (const double e : {1.0, 0.9, 0.4, 0.1, 0.0}) {
         const Disc right = rolling_sphere({1.0, 0.0}), left = rolling_sphere({-1.0, 0.0});
@@ -92,7 +92,7 @@ TEST(Floor, TwoRollingSpheresHeadOnReturnWithFiveEMinusTwoSevenths) {
     }
 }
 
-RC_GTEST_PROP(Floor, FrictionActsAgainstTheSlipAndStopsItInTime, ()) {
+RC_GTEST_PROP(Floor, FrictionOpposesTheSlipAndStopsIt, ()) {
     const Disc d = draw_sphere();
     const Vec2 u = draw_vector(1.0);
     const Floor floor{draw(0.01, 3.0)};
@@ -109,8 +109,8 @@ RC_GTEST_PROP(Floor, FrictionActsAgainstTheSlipAndStopsItInTime, ()) {
                        floor.deceleration) < 1e-12);
 }
 
-// A coin stops as a block does that slides on a table: after v/(μ_f g), v²/(2 μ_f g) further on.
-TEST(Floor, ACoinSetSlidingStopsOnTheFloorAndKeepsItsSpin) {
+// A coin stops like a sliding block, after the time v/(μ_f g) and the distance v²/(2 μ_f g).
+TEST(Floor, SlidingCoinStopsAndKeepsItsSpin) {
     const double v = 1.4, deceleration = 0.3;
     const Vec2 u{0.25, -0.5};
     Disc start = sphere({u.x + v, u.y});
@@ -129,11 +129,12 @@ TEST(Floor, ACoinSetSlidingStopsOnTheFloorAndKeepsItsSpin) {
     EXPECT_EQ(floor_motion(rests, floor, u).begins_to_roll, never);
 }
 
-/// As strong as its friction, so that both show.
+/// Rolling resistance as strong as friction, so that both effects are visible.
 Floor resisting_floor(double resistance) { return {0.9, false, resistance}; }
 
-// a = μ_r g / (1 + I/(m R²)), 5/7 μ_r g of a solid sphere: it stops after w/a, w²/2a further on.
-TEST(Floor, AgainstAResistanceARollingSphereStopsAfterItsSpeedSquaredOverTwiceTheDeceleration) {
+// a = μ_r g / (1 + I/(m R²)), 5/7 μ_r g for a solid sphere. It stops after the time w/a and the
+// distance w²/2a.
+TEST(Floor, RollingResistanceStopsASphere) {
     const double w = 0.8, a = 5.0 / 7.0 * 0.02;
     const Vec2 u{0.25, -0.5};
     const Floor floor = resisting_floor(0.02);
@@ -151,14 +152,14 @@ TEST(Floor, AgainstAResistanceARollingSphereStopsAfterItsSpeedSquaredOverTwiceTh
     EXPECT_EQ(floor_motion(rests, floor, u).begins_to_roll, never);
 }
 // I = 2/3 m r²: 3/5 μ_r g.
-TEST(Floor, AShellStopsLaterThanASolidSphere) {
+TEST(Floor, RollingResistanceStopsAShellLater) {
     Disc start = rolling_sphere({0.8, 0.0});
     start.inertia = shell_inertia(1.0, 1.0);
     EXPECT_NEAR(floor_motion(start, resisting_floor(0.02), {0.0, 0.0}).begins_to_roll,
                 0.8 / (3.0 / 5.0 * 0.02), 1e3 * rounding);
 }
-// It acts on what rolls only: what slides moves as ever, and slows down as soon as it rolls.
-TEST(Floor, ResistanceActsOnceASphereRolls) {
+// It does not act on a sliding sphere, which slows down as soon as it rolls.
+TEST(Floor, RollingResistanceActsOnlyWhileASphereRolls) {
     const Vec2 u{0.1, 0.2};
     const Disc start = sphere({1.4, -0.3}, {0.2, 0.3});
     const Floor without{0.9}, with = resisting_floor(0.05);
@@ -171,9 +172,9 @@ TEST(Floor, ResistanceActsOnceASphereRolls) {
     EXPECT_NEAR(std::hypot(slows.acceleration.x, slows.acceleration.y), 5.0 / 7.0 * 0.05, rounding);
     EXPECT_LT(dot(slows.acceleration, rolls.velocity - u), 0.0);
 }
-// On the way it rolls, to the last bit, and its energy in the frame of the floor falls by the work
+// While it slows down it rolls exactly. Its energy in the frame of the floor decreases by the work
 // of the torque, μ_r m g R times the angle.
-RC_GTEST_PROP(Floor, WhatSlowsDownRollsAndLosesTheWorkOfTheTorque, ()) {
+RC_GTEST_PROP(Floor, RollingResistanceDissipatesTheWorkOfItsTorque, ()) {
     Disc d = draw_sphere();
     const Vec2 u = draw_vector(1.0);
     d.rolling_spin = spin_of_rolling(d.velocity - u, d.radius);
@@ -184,7 +185,7 @@ RC_GTEST_PROP(Floor, WhatSlowsDownRollsAndLosesTheWorkOfTheTorque, ()) {
     const Disc later = moved_to(d, motion, t);
     const Vec2 rolls = spin_of_rolling(later.velocity - u, d.radius);
     RC_ASSERT(later.rolling_spin.x == rolls.x && later.rolling_spin.y == rolls.y);
-    // What the linear law of the spin says is the same.
+    // The constant rate of the spin gives the same.
     const Vec2 spin = d.rolling_spin + (t - d.time) * motion.spin_rate;
     RC_ASSERT(std::hypot(spin.x - rolls.x, spin.y - rolls.y) < 1e-11);
     const auto energy = [&](Disc s) {
@@ -193,19 +194,19 @@ RC_GTEST_PROP(Floor, WhatSlowsDownRollsAndLosesTheWorkOfTheTorque, ()) {
     };
     const Vec2 way = later.position - d.position - (t - d.time) * u;
     const double loss = d.mass * floor.rolling_resistance * std::hypot(way.x, way.y);
-    // Ways of up to 10⁴ where the resistance is small.
+    // With small resistance distances are up to 10⁴.
     RC_ASSERT(std::abs(energy(d) - energy(later) - loss) < 1e-11 * (1.0 + energy(d)));
 }
-TEST(Floor, WithoutResistanceWhatRollsIsNotAccelerated) {
+TEST(Floor, RollingSphereWithoutResistanceIsNotAccelerated) {
     const FloorMotion motion =
         floor_motion(rolling_sphere({0.5, 0.1}), resisting_floor(0.0), {0, 0});
     EXPECT_EQ(motion.begins_to_roll, never);
     EXPECT_FALSE(motion.slows_down);
 }
 
-// The force acts along a line through the point on the floor, so the angular momentum about a line
-// on the floor along it is untouched: m R v + I ω for both directions.
-RC_GTEST_PROP(Floor, AngularMomentumAboutTheLineOfFloorContactIsConserved, ()) {
+// The force acts at the contact point, so it conserves the angular momentum about lines on the
+// floor through that point: m R v + I ω for both directions.
+RC_GTEST_PROP(Floor, ConservesAngularMomentumAboutTheContactPoint, ()) {
     const Disc d = draw_sphere();
     const Vec2 u = draw_vector(1.0);
     const Floor floor{draw(0.01, 3.0)};
@@ -222,7 +223,7 @@ RC_GTEST_PROP(Floor, AngularMomentumAboutTheLineOfFloorContactIsConserved, ()) {
     RC_ASSERT(rolls.spin == d.spin);
 }
 
-RC_GTEST_PROP(Floor, EnergyFallsInTheFrameOfTheFloorByTheWorkOfTheSlip, ()) {
+RC_GTEST_PROP(Floor, SlidingDissipatesTheWorkOfFriction, ()) {
     const Disc d = draw_sphere();
     const Vec2 u = draw_vector(1.0);
     const Floor floor{draw(0.01, 3.0)};
@@ -239,7 +240,7 @@ RC_GTEST_PROP(Floor, EnergyFallsInTheFrameOfTheFloorByTheWorkOfTheSlip, ()) {
               1e-12 * (1.0 + energy(d)));
 }
 
-TEST(Floor, WithoutAFloorASphereFliesAsADisc) {
+TEST(Floor, WithoutFloorSpheresMoveLikeDiscs) {
     const Disc d = sphere({0.3, 0.4}, {1.0, 2.0});
     const FloorMotion motion = floor_motion(d, {}, {1.0, 0.0});
     EXPECT_EQ(motion.begins_to_roll, never);

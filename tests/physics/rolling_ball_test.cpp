@@ -10,16 +10,16 @@ namespace {
 constexpr double T = paper_period, A = paper_amplitude;
 const double omega = 2.0 * pi / T;
 
-TEST(RollingBall, GammaRunsFromZeroToTheRatioOfTheRadii) {
+TEST(RollingBall, GammaIsBetweenZeroAndTheRatioOfRadii) {
     EXPECT_EQ((RollingBall{9.0, 6.0, 0.0}).gamma(), 0.0);
     EXPECT_EQ((RollingBall{9.0, 6.0, 1.0}).gamma(), 1.5);
     EXPECT_EQ((RollingBall{9.0, 6.0, 0.0}).rotation(), 1.0);
     EXPECT_EQ((RollingBall{9.0, 6.0, 1.0}).rotation(), -0.5);
-    // Rotation meets counterrotation at s = R_ball/R_container.
+    // The boundary of rotation and counterrotation is s = R_ball/R_container.
     EXPECT_NEAR((RollingBall{9.0, 6.0, 6.0 / 9.0}).rotation(), 0.0, 1e-15);
 }
 
-TEST(RollingBall, WithoutSlipTheContactMovesWithTheWall) {
+TEST(RollingBall, ContactMovesWithTheWallWithoutSlip) {
     const RollingBall ball{8.6, 5.0, 1.0, 0.3};
     for (const double t : {0.0, 3.0, 11.0, 40.0}) {
         const Snapshot s = snapshot_at(ball, A, T, t);
@@ -30,7 +30,7 @@ TEST(RollingBall, WithoutSlipTheContactMovesWithTheWall) {
     }
 }
 
-TEST(RollingBall, TouchesTheWallAndMovesAsItsVelocitySays) {
+TEST(RollingBall, TouchesTheWallAndMovesWithItsVelocity) {
     const RollingBall ball{8.6, 5.0, 0.5};
     const double dt = 1e-6;
     for (const double t : {0.5, 11.8, 30.0}) {
@@ -53,7 +53,7 @@ TEST(RollingBall, IsOppositeTheSwirlCentreWithoutLag) {
     EXPECT_EQ(snapshot_at({}, A, T, 3.0 * T + 1.0).periods, 3);
 }
 
-TEST(RollingBall, TurnsAgainstTheSwirlInTheMFrame) {
+TEST(RollingBall, CounterrotatesInTheMFrame) {
     EXPECT_EQ((RollingBall{9.0, 6.0, 1.0}).rotation_in_m_frame(), -1.5);
     EXPECT_EQ((RollingBall{9.0, 6.0, 0.5}).rotation_in_m_frame(), -0.75);
 }

@@ -5,7 +5,7 @@
 namespace swirl {
 namespace {
 
-TEST(Snapshot, SpheresOfAnotherNumberHaveAllTheirColumns) {
+TEST(Snapshot, ResizingSpheresResizesAllColumns) {
     Snapshot s;
     s.resize_for_spheres(2);
     s.turned.resize(2);
@@ -19,7 +19,7 @@ TEST(Snapshot, SpheresOfAnotherNumberHaveAllTheirColumns) {
     EXPECT_TRUE(discs.spin_x.empty() && discs.turned.empty());
 }
 
-// Every number has a short binary form, so nothing is rounded.
+// All numbers have short binary forms, so nothing is rounded.
 Snapshot two_bodies(bool spheres) {
     Snapshot s;
     s.periods = 3;
@@ -33,7 +33,7 @@ Snapshot two_bodies(bool spheres) {
     return s;
 }
 
-TEST(Snapshot, ADiscIsWhereItHasFlownSinceItsOwnTime) {
+TEST(Snapshot, DiscMovesUniformlyFromItsOwnTime) {
     const Snapshot s = two_bodies(false);
     EXPECT_EQ(s.time(), 27.0);
     EXPECT_EQ(s.position(0).x, 5.0);
@@ -44,7 +44,7 @@ TEST(Snapshot, ADiscIsWhereItHasFlownSinceItsOwnTime) {
 }
 
 // x + v t + ½ a t² and v + a t after the time 2.
-TEST(Snapshot, ASphereIsWhereItsParabolaTakesIt) {
+TEST(Snapshot, SphereMovesAlongItsParabola) {
     const Snapshot s = two_bodies(true);
     EXPECT_EQ(s.position(0).x, 6.0);
     EXPECT_EQ(s.position(0).y, -0.5);
@@ -55,7 +55,7 @@ TEST(Snapshot, ASphereIsWhereItsParabolaTakesIt) {
     EXPECT_EQ(s.spin_rate(0).y, -0.25);
 }
 
-TEST(Snapshot, BroughtUpToDateItShowsTheSameAndIsHeldNow) {
+TEST(Snapshot, UpToDateKeepsPositionsAndSetsTheTime) {
     for (const bool spheres : {false, true}) {
         const Snapshot s = two_bodies(spheres), now = s.up_to_date();
         for (std::size_t i = 0; i < s.size(); ++i) {

@@ -30,8 +30,8 @@ struct Collision {
         const double d = std::hypot(separation.x, separation.y);
         return {separation.x / d, separation.y / d};
     }
-    /// Velocity of the contact point of j against that of i, in three dimensions and from the
-    /// spins as vectors.
+    /// Velocity of the contact point of j relative to that of i, in three dimensions, from the spin
+    /// vectors.
     Vec3 slip() const {
         const Vec2 n = normal();
         const Vec3 of_i = cross3(spin_of(i), {i.radius * n.x, i.radius * n.y, 0.0});
@@ -55,8 +55,8 @@ struct Collision {
     }
 };
 
-/// What the lifted partner of a collision adds to the vertical slip, and its vertical energy: the
-/// planar state after the collision no longer has them.
+/// The contribution of the lifted sphere to the vertical slip, and its vertical energy. The planar
+/// state after the collision does not contain them.
 struct Lifted {
     double inverse_mass, slip, energy;
     Lifted(const Collision& c, const Impulse& J)
@@ -91,7 +91,7 @@ SphereBody draw_body() {
     const double mass = draw(0.2, 5.0), inertia = draw(0.05, 1.0) * mass * radius * radius;
     return {{velocity, spin, radius, 1.0 / mass, 1.0 / inertia}, draw_vector(2.0)};
 }
-/// Two spheres, or one and the wall, that touch and close in.
+/// Two spheres, or one and the wall, that touch and approach.
 Collision draw_collision(bool wall) {
     const SphereBody i = draw_body(), j = draw_body();
     Collision c{i,
@@ -108,7 +108,7 @@ Collision draw_collision(bool wall) {
 }
 Collision draw_collision() { return draw_collision(*rc::gen::element(0, 1) == 1); }
 
-RC_GTEST_PROP(SphereCollision, ImpulsesChangeVelocitiesAndSpinsAsForcesAtTheContactDo, ()) {
+RC_GTEST_PROP(SphereCollision, ImpulsesActAtTheContact, ()) {
     const Collision before = draw_collision(false);
     Collision after = before;
     const Impulse J = collide(after.i, after.j, after.separation, after.surface);
@@ -125,7 +125,7 @@ RC_GTEST_PROP(SphereCollision, ImpulsesChangeVelocitiesAndSpinsAsForcesAtTheCont
             cross3({arm * n.x, arm * n.y, 0.0}, {sign * on_j.x, sign * on_j.y, sign * on_j.z});
         const Vec3 a = spin_of(was), b = spin_of(is);
         const double k = was.inverse_inertia;
-        // Inertia may be a thousandth: spins of a thousand.
+        // Inertia may be as small as 0.001, so spins may be 1000.
         RC_ASSERT(std::abs(b.x - a.x - k * torque.x) < 1e3 * rounding);
         RC_ASSERT(std::abs(b.y - a.y - k * torque.y) < 1e3 * rounding);
         RC_ASSERT(std::abs(b.z - a.z - k * torque.z) < 1e3 * rounding);
@@ -134,16 +134,16 @@ RC_GTEST_PROP(SphereCollision, ImpulsesChangeVelocitiesAndSpinsAsForcesAtTheCont
     check(before.j, after.j, 1.0, -before.j.radius);
 }
 
-// About any vertical axis; about horizontal ones the floor's reaction to J_z has a torque.
-RC_GTEST_PROP(SphereCollision, MomentumAndVerticalAngularMomentumOfTwoAreConserved, ()) {
+// About vertical axes only: about horizontal ones the floor's reaction to J_z has a torque.
+RC_GTEST_PROP(SphereCollision, ConservesMomentumAndVerticalAngularMomentum, ()) {
     Collision c = draw_collision(false);
-    const Vec2 place = draw_vector(5.0);  // of i
+    const Vec2 position = draw_vector(5.0);  // of i
     const auto momentum = [&] {
         return (1.0 / c.i.inverse_mass) * c.i.velocity + (1.0 / c.j.inverse_mass) * c.j.velocity;
     };
     const auto angular_momentum = [&] {
-        return cross(place, c.i.velocity) / c.i.inverse_mass +
-               cross(place + c.separation, c.j.velocity) / c.j.inverse_mass +
+        return cross(position, c.i.velocity) / c.i.inverse_mass +
+               cross(position + c.separation, c.j.velocity) / c.j.inverse_mass +
                c.i.spin / c.i.inverse_inertia + c.j.spin / c.j.inverse_inertia;
     };
     const Vec2 p = momentum();
@@ -152,11 +152,11 @@ RC_GTEST_PROP(SphereCollision, MomentumAndVerticalAngularMomentumOfTwoAreConserv
     const Vec2 lost = momentum() - p;
     RC_ASSERT(std::abs(lost.x) < 10.0 * rounding);
     RC_ASSERT(std::abs(lost.y) < 10.0 * rounding);
-    // Momenta of up to 10 at places up to 10 away.
+    // Momenta of up to 10 at distances of up to 10.
     RC_ASSERT(std::abs(angular_momentum() - L) < 100.0 * rounding);
 }
 
-// With the vertical energy of the lifted sphere, which the planar state does not have.
+// The energy includes the vertical energy of the lifted sphere.
 RC_GTEST_PROP(SphereCollision, EnergyNeverGrowsInTheFrameOfTheWall, ()) {
     Collision c = draw_collision();
     const double before = c.energy();
@@ -164,7 +164,7 @@ RC_GTEST_PROP(SphereCollision, EnergyNeverGrowsInTheFrameOfTheWall, ()) {
     RC_ASSERT(c.energy() + Lifted(c, J).energy <= before * (1.0 + rounding));
 }
 
-RC_GTEST_PROP(SphereCollision, WithLessVerticalFrictionEnergyDoesNotGrowEither, ()) {
+RC_GTEST_PROP(SphereCollision, EnergyNeverGrowsWithLessVerticalFriction, ()) {
     Collision c = draw_collision();
     c.surface.vertical_friction = draw(0.0, 1.0);
     const double before = c.energy();
@@ -174,8 +174,7 @@ RC_GTEST_PROP(SphereCollision, WithLessVerticalFrictionEnergyDoesNotGrowEither, 
     RC_ASSERT(J.vertical * slip.z <= 0.0);
 }
 
-// Their rolling is then as free as that of discs, which have none.
-RC_GTEST_PROP(SphereCollision, WithoutVerticalFrictionNothingChangesTheRolling, ()) {
+RC_GTEST_PROP(SphereCollision, WithoutVerticalFrictionKeepsTheRollingSpin, ()) {
     Collision c = draw_collision();
     c.surface.vertical_friction = 0.0;
     const Vec2 i = c.i.rolling_spin, j = c.j.rolling_spin;
@@ -188,7 +187,7 @@ RC_GTEST_PROP(SphereCollision, WithoutVerticalFrictionNothingChangesTheRolling, 
     RC_ASSERT(c.j.rolling_spin.x == j.x && c.j.rolling_spin.y == j.y);
 }
 
-RC_GTEST_PROP(SphereCollision, WithoutFrictionAndElasticEnergyIsConserved, ()) {
+RC_GTEST_PROP(SphereCollision, ConservesEnergyIfElasticAndSmooth, ()) {
     Collision c = draw_collision();
     c.surface = {0.0};
     const double before = c.energy();
@@ -196,7 +195,7 @@ RC_GTEST_PROP(SphereCollision, WithoutFrictionAndElasticEnergyIsConserved, ()) {
     RC_ASSERT(std::abs(c.energy() - before) <= before * rounding);
 }
 
-RC_GTEST_PROP(SphereCollision, FrictionTakesTheEnergyOfItsDerivation, ()) {
+RC_GTEST_PROP(SphereCollision, FrictionDissipatesTheDerivedEnergy, ()) {
     Collision c = draw_collision();
     const Slip slip(c);
     const double masses = c.i.inverse_mass + c.j.inverse_mass;
@@ -208,7 +207,7 @@ RC_GTEST_PROP(SphereCollision, FrictionTakesTheEnergyOfItsDerivation, ()) {
               rounding * (1.0 + before));
 }
 
-RC_GTEST_PROP(SphereCollision, FrictionObeysCoulombAndSticksIfThatSufficesToStopTheSlip, ()) {
+RC_GTEST_PROP(SphereCollision, FrictionObeysCoulombsLawAndSticksIfItCan, ()) {
     Collision c = draw_collision();
     const Vec3 before = c.slip();
     const Slip slip(c);
@@ -219,15 +218,15 @@ RC_GTEST_PROP(SphereCollision, FrictionObeysCoulombAndSticksIfThatSufficesToStop
     RC_ASSERT(J.sticks == ((1.0 + beta) * slip.sticking() <= coulomb));
     if (!J.sticks) return;
     const Vec3 after = c.slip();
-    // Spins of a thousand, as above.
+    // Spins may be 1000, as above.
     RC_ASSERT(std::abs(after.x + beta * before.x) < 1e3 * rounding);
     RC_ASSERT(std::abs(after.y + beta * before.y) < 1e3 * rounding);
     RC_ASSERT(std::abs(after.z + Lifted(c, J).slip + beta * before.z) < 1e3 * rounding);
 }
 
-// Between the direction against the slip and that of J*, and against the slip where friction is
-// weak: k² = 10⁻⁸ of the angle between the two is left.
-RC_GTEST_PROP(SphereCollision, WeakFrictionOpposesTheSlipAndStrongFrictionTurnsToSticking, ()) {
+// The impulse is between the direction against the slip and that of J*. Weak friction is against
+// the slip, up to k² = 10⁻⁸ of the angle between the two.
+RC_GTEST_PROP(SphereCollision, FrictionTurnsFromOpposingTheSlipToSticking, ()) {
     Collision c = draw_collision();
     c.surface.tangential_restitution = 0.0;
     const Slip s(c);
@@ -250,7 +249,7 @@ RC_GTEST_PROP(SphereCollision, WeakFrictionOpposesTheSlipAndStrongFrictionTurnsT
     RC_ASSERT(std::abs(against_slip(friction(1e-4))) <= 2e-8 * std::abs(apart) + rounding);
     const double at_half = against_slip(friction(0.5)), at_most = against_slip(friction(0.9999));
     RC_ASSERT(at_half * apart >= -rounding && std::abs(at_half) <= std::abs(apart) + rounding);
-    // 1 − k² is 2·10⁻⁴, times an angle of less than one; and m_s |s| may be shorter than K.
+    // 1 − k² is 2·10⁻⁴, times an angle below 1; and m_s |s| may be smaller than K.
     RC_ASSERT(std::abs(at_most - apart) < 1e-3);
 }
 
@@ -265,7 +264,7 @@ Vec2 integrated_friction(const Slip& slip, double coulomb) {
         const double step = coulomb / steps;
         const Vec2 half = s + answer((-0.5 * step / std::hypot(s.x, s.y)) * s);
         const Vec2 kick = (-step / std::hypot(half.x, half.y)) * half;
-        // It sticks: what is left is stopped.
+        // It sticks: the rest of the slip is stopped.
         if (dot(s, s + answer(kick)) <= 0.0) return J - Vec2{slip.m_t * s.x, slip.m_z * s.y};
         s = s + answer(kick);
         J = J + kick;
@@ -273,9 +272,10 @@ Vec2 integrated_friction(const Slip& slip, double coulomb) {
     return J;
 }
 
-// Solid spheres and shells, at the wall and each other, of unlike masses and sizes, with slips of
-// all directions and from weak friction to such as sticks: within the bounds that the law states.
-TEST(SphereCollision, SlidingFrictionIsCloseToThatWhichOpposesTheSlipThroughoutTheContact) {
+// Solid spheres and shells of unequal masses and sizes, with each other and at the wall, with slip
+// in all directions, from weak friction to sticking. The bounds are those that collision_law.hpp
+// states.
+TEST(SphereCollision, SlidingFrictionIsCloseToTheIntegralOverTheContact) {
     const auto worst = [](double inertia_factor) {
         double maximum = 0.0;
         for (const double other_mass : {0.0, 1.0, 100.0, 0.01})
@@ -310,7 +310,7 @@ TEST(SphereCollision, SlidingFrictionIsCloseToThatWhichOpposesTheSlipThroughoutT
 
 SphereBody rolling_along_x(double v) { return {{{v, 0.0}, 0.0, 1.0, 1.0, 2.5}, {0.0, v}}; }
 
-TEST(SphereCollision, ASphereThatRollsIntoTheWallIsLiftedAndKeepsTwoSeventhsOfItsSpin) {
+TEST(SphereCollision, SphereRollingIntoTheWallIsLiftedAndKeepsTwoSeventhsOfItsSpin) {
     // Rolling along +x: ω_y = v. Head-on, so nothing slips horizontally.
     SphereBody i = rolling_along_x(0.8), wall = wall_for_spheres({0.0, 0.0});
     const Collision c{i, wall, {7.6, 0.0}, {100.0}};
@@ -323,7 +323,7 @@ TEST(SphereCollision, ASphereThatRollsIntoTheWallIsLiftedAndKeepsTwoSeventhsOfIt
     EXPECT_EQ(i.velocity.x, -0.8);
 }
 
-TEST(SphereCollision, ASphereThatSpinsBackwardsAtTheWallIsPushedDownAndLosesAllOfIt) {
+TEST(SphereCollision, SphereSpinningBackwardsAtTheWallIsPushedDownAndStops) {
     SphereBody i = rolling_along_x(0.8), wall = wall_for_spheres({0.0, 0.0});
     i.rolling_spin.y = -0.5;
     const Impulse J = collide(i, wall, {7.6, 0.0}, {100.0});
@@ -332,31 +332,31 @@ TEST(SphereCollision, ASphereThatSpinsBackwardsAtTheWallIsPushedDownAndLosesAllO
     EXPECT_NEAR(i.rolling_spin.y, 0.0, 1e-15);
 }
 
-// One behind the other the front one's back comes up, the rear one's front goes down: the rear one
-// is lifted. Its mass and both spins respond, so the slip takes a sixth of a mass.
-TEST(SphereCollision, BetweenTwoEqualSolidSpheresVerticalSlipTakesASixthOfItForAnImpulse) {
+// One sphere rolls behind the other. The back of the front one moves up and the front of the rear
+// one moves down, so the rear one is lifted. Its mass and both spins respond: m_z is a sixth of a
+// mass.
+TEST(SphereCollision, EffectiveVerticalMassOfEqualSolidSpheresIsASixth) {
     SphereBody i = rolling_along_x(1.0), j = rolling_along_x(0.5);
     const Impulse J = collide(i, j, {2.0, 0.0}, {100.0});
     EXPECT_NEAR(J.vertical, -1.5 / 6.0, 1e-15);
     EXPECT_NEAR(i.rolling_spin.y, 1.0 - 2.5 * 0.25, 1e-15);
     EXPECT_NEAR(j.rolling_spin.y, 0.5 - 2.5 * 0.25, 1e-15);
     EXPECT_NEAR(i.velocity.x, 0.5, 1e-15);
-    // The other way round it is j.
+    // In the reverse order j is lifted.
     i = rolling_along_x(-1.0);
     j = rolling_along_x(-1.2);
     EXPECT_NEAR(collide(i, j, {2.0, 0.0}, {100.0}).vertical, 2.2 / 6.0, 1e-15);
 }
 
-// A rolling sphere's front goes down, its back up: fronts that meet do not rub, a front on a back
-// does, with the sum of the speeds.
-TEST(SphereCollision, RollingSpheresRubWithTheSumOfTheirSpeedsAlongTheNormal) {
+// The front of a rolling sphere moves down, its back up. Two fronts do not slip; a front and a back
+// slip with the sum of the speeds.
+TEST(SphereCollision, RollingSpheresSlipWithTheSumOfTheirNormalVelocities) {
     const auto rolling = rolling_along_x;
     EXPECT_EQ((Collision{rolling(1.0), rolling(-1.0), {2.0, 0.0}, {}}).slip().z, 0.0);
     EXPECT_EQ(std::abs((Collision{rolling(1.0), rolling(0.5), {2.0, 0.0}, {}}).slip().z), 1.5);
 }
 
-// One law: without vertical slip a sphere's collision is a disc's, bit for bit.
-RC_GTEST_PROP(SphereCollision, WithoutVerticalSlipItIsTheDiscsBitForBit, ()) {
+RC_GTEST_PROP(SphereCollision, WithoutVerticalSlipEqualsThatOfDiscs, ()) {
     Collision c = draw_collision();
     c.i.rolling_spin = c.j.rolling_spin = {0.0, 0.0};
     Body i = c.i, j = c.j;
@@ -374,9 +374,9 @@ RC_GTEST_PROP(SphereCollision, WithoutVerticalSlipItIsTheDiscsBitForBit, ()) {
     }
 }
 
-// On a floor a collision within t_c parts the two with the speed of a hop of t_c, or elastically;
-// others are as ever.
-TEST(SphereCollision, PressedTogetherOnAFloorTheyPartWithTheSpeedOfAHopOfTheContactDuration) {
+// On a floor, a collision within t_c is elastic, or separates the two for a time t_c at least.
+// Other collisions are unchanged.
+TEST(SphereCollision, SpheresPressedTogetherSeparateForTheContactDuration) {
     const Surface surface{0.0, 0.5, 0.0, 1e-2};
     const Floor floor{2.0};
     const auto speed_after = [&](double u, double since_last, const Floor& on) {

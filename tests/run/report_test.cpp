@@ -119,7 +119,8 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
               "the rotation switches between two states, −0.05 and 1, 14 times");
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("mixes both states")));
     result.steady_spin.verdict = result.steady.verdict = SteadyState::Verdict::too_short;
-    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("steady state not verified")));
+    EXPECT_THAT(warnings(result),
+                testing::ElementsAre(testing::HasSubstr("steady state not verified")));
     result.config.mu_disc = result.config.mu_wall = 0.0;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
     // Rotation and spins may be steady while the energy grows.
@@ -133,7 +134,8 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::too_short;
     // On a floor the energy does not grow, because floor friction dissipates it.
     result.config.floor = true;
-    EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("steady state not verified")));
+    EXPECT_THAT(warnings(result),
+                testing::ElementsAre(testing::HasSubstr("steady state not verified")));
 }
 
 // 3.3e-10 is the overlap after half a million bounces (docs/physics.md).
@@ -145,7 +147,8 @@ TEST(Warnings, ReportSpheresThatSinkIntoTheWallWithoutContactDuration) {
     result.config.body = Shape::sphere;
     result.config.floor = true;
     result.max_overlap = 3.3e-10;
-    EXPECT_TRUE(warnings(result).empty());  // with a contact duration, a large container may cause it
+    EXPECT_TRUE(
+        warnings(result).empty());  // with a contact duration, a large container may cause it
     result.config.contact_duration = 0.0;
     EXPECT_THAT(warnings(result),
                 testing::ElementsAre(testing::AllOf(testing::HasSubstr("spheres that the floor"),

@@ -150,8 +150,8 @@ void reject_output_onto_source(const SourceTexts& texts, const std::vector<std::
     for (const std::string& output : outputs) {
         if (output.empty()) continue;
         reject_same_files({texts.file, output});
-        if (!texts.images.empty() &&
-            belongs_to_video(canonical_name(texts.images).string(), canonical_name(output).string()))
+        if (!texts.images.empty() && belongs_to_video(canonical_name(texts.images).string(),
+                                                      canonical_name(output).string()))
             throw UsageError(fmt::format(
                 "'{}' is an output, but it also belongs to the camera images (--over {}).\n"
                 "hint: choose another name.",

@@ -1,8 +1,6 @@
-// What every collision must keep (invariant.hpp): the discs touch; momentum, linear and
-// angular, is conserved; energy does not grow, in the frame of the wall where there is one, and
-// falls by what the impulses work.
-//
-// Included by one file per vector width, like event_loop.hpp, and under the same rule.
+// Invariants of a collision (invariant.hpp): the discs touch; linear and angular momentum are
+// conserved; energy does not grow (for the wall, in its frame), and decreases by the work of the
+// impulses.
 #pragma once
 
 #include "swirl/engine/invariant.hpp"
@@ -13,33 +11,36 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// Rounding errors of velocities and impulses are 10⁻¹³ and of what follows from them not much
-/// larger; what is wrong is wrong by far more. Of a length it is what is left for bodies that are
-/// pressed together for long: one rounding is handed on to the next contact.
+/// Allowed relative error. Rounding errors of velocities and impulses are about 10⁻¹³, and those of
+/// derived quantities are not much larger; a wrong result is off by far more. For lengths it also
+/// covers bodies that are pressed together for long, where rounding errors accumulate from contact
+/// to contact.
 inline constexpr double allowed_rounding = 1e-10;
 
 SWIRL_INLINE bool is_rounding(double error, double scale) {
     return magnitude(error) <= allowed_rounding * scale;
 }
 
-// How far from touching two bodies may be at their contact, with nothing wrong but the rounding of
-// doubles, each by ε = 2⁻⁵³ of itself. What they hold, places, velocities and times, is exact by
-// definition. Let L be the largest coordinate on their ways, s how far apart they are at the later
-// of the times held, from where the contact is predicted (contact_time.hpp), v how fast that
-// changes, σ the distance of contact, and t its time.
+// How far from touching two bodies may be at their contact because of the rounding of doubles, each
+// by ε = 2⁻⁵³ of its value. The stored positions, velocities and times are exact by definition. Let
+// L be the largest coordinate on their ways. Let s be their separation at the later of the stored
+// times, from which the contact is predicted (contact_time.hpp), and v its rate of change. Let σ be
+// the distance of contact, and t its time.
 //
-// 1. A place at a time is x + u (t − t₀), where u (t − t₀) leads from one coordinate to another and
-//    is no longer than 2L: the difference, the product and the sum are rounded by 2εL, 2εL and εL.
-//    With two bodies, two coordinates, at the prediction and at the contact: 28 εL at most.
-// 2. At the time τ that is found, |s + vτ|² − σ² is not zero, since c, 2bτ and aτ² are rounded by
-//    3εs², 6εs|vτ| and 3ε|vτ|², and the way |vτ| is no longer than s + σ ≤ 2s: 27 εs². A
-//    discriminant D that is wrong by δ adds cδ/(√D − b)²; δ is 8εb² at most and (√D − b)² no less
-//    than b², so 8 εs², also of discs that graze, whose τ has lost half of its digits, and of those
-//    that are said to miss each other. As |x|² − σ² = (|x| + σ)(|x| − σ), the distance is off by
-//    18 εs²/σ. That grows with the square of the way: in a dish of 10⁷ radii it is 0.1 of them.
-// 3. The sum now + τ is rounded by εt, in which they come nearer by εt|v|.
+// 1. A position at a time is x + u (t − t₀). Here u (t − t₀) leads from one coordinate to another
+//    and
+//    is at most 2L. The difference, the product and the sum are rounded by 2εL, 2εL and εL. For two
+//    bodies and two coordinates, at the prediction and at the contact: at most 28 εL.
+// 2. At the computed time τ, |s + vτ|² − σ² is not zero. c, 2bτ and aτ² are rounded by 3εs²,
+//    6εs|vτ|
+//    and 3ε|vτ|², and |vτ| is at most s + σ ≤ 2s: together 27 εs². An error δ of the discriminant D
+//    adds cδ/(√D − b)². As δ ≤ 8εb² and (√D − b)² ≥ b², this is at most 8 εs². It holds for grazing
+//    discs, too, whose τ has lost half of its digits, and for discs that miss each other. As
+//    |x|² − σ² = (|x| + σ)(|x| − σ), the distance is off by 18 εs²/σ. That grows with the square of
+//    the way: in a container of 10⁷ radii it is 0.1 radii.
+// 3. The sum now + τ is rounded by εt, in which the distance changes by εt|v|.
 //
-// For disc and wall s and σ are the clearance R − r at most, and so is s²/σ.
+// For disc and wall s and σ are at most the clearance R − r, and so is s²/σ.
 inline constexpr double roundings = 32.0 * 0x1p-53;
 
 SWIRL_INLINE double size_of(const Vec2& x) { return larger(magnitude(x.x), magnitude(x.y)); }
@@ -52,7 +53,7 @@ SWIRL_INLINE double rounding_of_contact(const Flight<double>& i, const Flight<do
                             larger(size_of(i.position_at(t)), size_of(j.position_at(t))));
     return roundings * (L + dot(s, s) / sum_of_radii + t * square_root(dot(v, v)));
 }
-/// The container's centre turns, or begins where its leg does.
+/// The same for the wall; the container's centre is computed from the start of its segment.
 SWIRL_INLINE double rounding_of_wall_contact(const Flight<double>& disc, const Segment& segment,
                                              double clearance, double t) {
     const Flight<double> centre = segment.flight_at(t);
@@ -62,8 +63,8 @@ SWIRL_INLINE double rounding_of_wall_contact(const Flight<double>& disc, const S
     return roundings * (L + clearance + t * square_root(dot(v, v)));
 }
 
-/// A body before and after a collision, seen from a frame that moves with a velocity of its own.
-/// The wall, whose mass is infinite, has no energy in its own frame and gains none.
+/// A body before and after a collision, seen from a frame that moves with the velocity `frame`. The
+/// wall has infinite mass; in its own frame it has no energy and gains none.
 struct Collided {
     Body before, after;
     Vec2 frame;
@@ -90,7 +91,7 @@ struct Collided {
     }
 };
 
-/// The energy that both impulses bring: with u the speed of approach and m_n, m_t the effective
+/// The energy that both impulses add: with u the speed of approach and m_n, m_t the effective
 /// masses, −u J_n + J_n²/2m_n along the normal and slip J_t + J_t²/2m_t along the tangent.
 SWIRL_INLINE double work_of(const Impulse& J, const Body& i, const Body& j, const Vec2& normal) {
     const Vec2 tangent{normal.y, -normal.x};
@@ -108,22 +109,22 @@ SWIRL_INLINE double work_of(const Impulse& J, const Body& i, const Body& j, cons
                                           const Surface& surface, const Impulse& J) {
     const double before = i.energy(i.before) + j.energy(j.before);
     const double after = i.energy(i.after) + j.energy(j.after);
-    promise::friction_obeys_coulombs_law(J.normal >= 0.0 &&
-                                         magnitude(J.tangential) <=
-                                             surface.mu * J.normal * (1.0 + allowed_rounding));
-    // Velocities are held in the lab, where a dish may be a million times as fast as its discs are
-    // against each other: each is rounded to 2⁻⁵³ of its size, and moves the energy by as much
-    // times the momentum. Sixteen such roundings are more than a collision has.
+    invariant::friction_obeys_coulombs_law(J.normal >= 0.0 &&
+                                           magnitude(J.tangential) <=
+                                               surface.mu * J.normal * (1.0 + allowed_rounding));
+    // Velocities are stored in the lab frame, where a container may be a million times as fast as
+    // its discs relative to each other. Each is rounded to 2⁻⁵³ of its value, which changes the
+    // energy by that times the momentum. A collision has fewer than sixteen such roundings.
     const double rounded = 16.0 * 0x1p-53 * (i.speed() + j.speed()) *
                            (i.momentum() + j.momentum() + J.normal + magnitude(J.tangential));
     const double allowed = allowed_rounding * before + rounded;
-    promise::energy_never_grows(after - before <= allowed);
-    promise::energy_changes_by_the_work_of_the_impulses(
+    invariant::energy_never_grows(after - before <= allowed);
+    invariant::energy_changes_by_the_work_of_the_impulses(
         magnitude(after - before - work_of(J, i.before, j.before, normal)) <= allowed);
 }
 
-/// `separation` points from i to j; `contact` is how long it is when they touch, but for
-/// `rounding`. Angular momentum is taken about the centre of i, where i gains spin alone.
+/// `separation` points from i to j; its length at contact is the sum of radii, up to `rounding`.
+/// Angular momentum is taken about the centre of i, where only the spin of i contributes.
 [[maybe_unused]] static void check_disc_collision(const Collided& i, const Collided& j,
                                                   const Vec2& separation, const Surface& surface,
                                                   const Impulse& J, double rounding,
@@ -137,23 +138,23 @@ SWIRL_INLINE double work_of(const Impulse& J, const Body& i, const Body& j, cons
                          (square_root(dot(i.before.velocity, i.before.velocity)) +
                           square_root(dot(j.before.velocity, j.before.velocity))) /
                              smaller(i.before.inverse_mass, j.before.inverse_mass);
-    promise::momentum_is_conserved(is_rounding(gain.x, scale) && is_rounding(gain.y, scale));
+    invariant::momentum_is_conserved(is_rounding(gain.x, scale) && is_rounding(gain.y, scale));
 
     if (overlapped_at_start) return;
-    promise::discs_touch_at_contact(magnitude(distance - contact) <=
-                                    allowed_rounding * contact + rounding);
+    invariant::discs_touch_at_contact(magnitude(distance - contact) <=
+                                      allowed_rounding * contact + rounding);
     const double angular =
         cross(separation, j.gain_of_momentum()) + i.gain_of_spin() + j.gain_of_spin();
     const double spins = magnitude(i.before.spin / i.before.inverse_inertia) +
                          magnitude(j.before.spin / j.before.inverse_inertia);
-    // The impulse along the tangent has the radii for its levers, which the rounding leaves out.
-    promise::angular_momentum_is_conserved(magnitude(angular) <=
-                                           allowed_rounding * (contact * scale + spins) +
-                                               rounding * magnitude(J.tangential));
+    // The lever arms of the tangential impulse are the radii, which do not include the rounding.
+    invariant::angular_momentum_is_conserved(magnitude(angular) <=
+                                             allowed_rounding * (contact * scale + spins) +
+                                                 rounding * magnitude(J.tangential));
 }
 
-/// `from_centre` points from the centre of the container to the disc; `contact` is how long it is
-/// when the disc touches the wall, but for `rounding`.
+/// `from_centre` points from the centre of the container to the disc; `contact` is its length when
+/// the disc touches the wall, up to `rounding`.
 [[maybe_unused]] static void check_wall_collision(const Collided& disc, const Collided& wall,
                                                   const Vec2& from_centre, double contact,
                                                   const Surface& surface, const Impulse& J,
@@ -161,8 +162,8 @@ SWIRL_INLINE double work_of(const Impulse& J, const Body& i, const Body& j, cons
     const double distance = square_root(dot(from_centre, from_centre));
     check_energy(disc, wall, (1.0 / distance) * from_centre, surface, J);
     if (overlapped_at_start) return;
-    promise::discs_touch_at_contact(magnitude(distance - contact) <=
-                                    allowed_rounding * (contact + disc.before.radius) + rounding);
+    invariant::discs_touch_at_contact(magnitude(distance - contact) <=
+                                      allowed_rounding * (contact + disc.before.radius) + rounding);
 }
 
 }  // namespace SWIRL_TARGET

@@ -8,11 +8,11 @@
 namespace swirl {
 namespace {
 
-/// Above it counting on would not be exact in a double.
+/// Larger counts would not be exact in a double.
 constexpr std::uint64_t largest_number = std::uint64_t{1} << 53;
 
-/// How far a disc may stick out of the container, in its radii: rounding moves it by less than
-/// 10⁻⁶, beyond which a run ends with an error anyway.
+/// How far a disc may extend beyond the container, in its radii. Rounding moves it by less than
+/// 10⁻⁶; with more, a run would end with an error anyway.
 constexpr double largest_excess = 1e-3;
 
 bool is_countable(const Progress& progress) {
@@ -45,14 +45,15 @@ bool lies_within(const InitialState& scene, const Segment& segment, const Disc& 
 const char* impossible_to_continue(const InitialState& scene, const Progress& progress) {
     const auto& segments = scene.path.segments;
     if (scene.discs.empty()) return "there are no discs";
-    if (progress.segment >= segments.size()) return "the container is on no leg of its path";
-    if (!is_countable(progress)) return "a number of events or swirls is out of range";
+    if (progress.segment >= segments.size()) return "the path has no segment with this number";
+    if (!is_countable(progress)) return "a number of events or periods is out of range";
     const Segment& segment = segments[progress.segment];
     const double clock = progress.clock;
     if (!(clock >= segment.begin && clock <= segment.end))
-        return "the clock is not on the leg of the path";
+        return "the clock is not within the segment of the path";
     const auto ended = std::uint64_t(progress.periods) * segments.size() + progress.segment;
-    if (progress.events.path_vertex != ended) return "legs of the path were left out";
+    if (progress.events.path_vertex != ended)
+        return "the number of path vertices does not match the time";
     for (const Disc& d : scene.discs) {
         if (!is_sound(d)) return "a disc has a number that is out of range";
         if (!(d.time >= 0.0 && d.time <= clock && d.last_collision >= 0.0 &&

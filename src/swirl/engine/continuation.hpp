@@ -1,5 +1,5 @@
-// Whether a simulation can continue from discs and a progress that a file says it had reached. A
-// file can hold anything; the engine believes what it is given.
+// Validates discs and progress that were read from a file, before a simulation continues from them.
+// The engine itself does not check its input.
 #pragma once
 
 #include "swirl/engine/simulation.hpp"
@@ -7,12 +7,13 @@
 
 namespace swirl {
 
-/// What no simulation in this container on this path can have reached: the end of a sentence that
-/// begins with "it says that". Null if there is nothing. Checked are
-///   - the time: the clock lies on the leg, and as many legs have ended as the swirls have;
-///   - each disc: finite numbers, a positive size, a time between the start of the swirl and the
+/// Why no simulation in this container, on this path, can have reached this state; null if it can.
+/// The text is a clause without a full stop. Checked are
+///   - the time: the clock is within the segment, and the number of ended segments is that of the
+///     periods;
+///   - each disc: finite numbers, a positive size, a time between the start of the period and the
 ///     clock, and a position inside the container at the clock.
-/// Discs may overlap: the overlap of a contact is in its event.
+/// Discs may overlap: rounding errors of a contact remain in the state.
 const char* impossible_to_continue(const InitialState& scene, const Progress& progress);
 
 }  // namespace swirl

@@ -1,41 +1,31 @@
-// The loop: take the event that comes first, execute it, predict again for the discs it changed.
+// The event loop: take the pending event that comes first, execute it, and predict the next events
+// of the discs it changed.
 //
-// Each disc has one pending event, its earliest (Lubachevsky 1991; Smallenburg 2022). When i and k
-// are due to meet, at least one of them, the one that collided last, has seen the other as it is
-// now; so the soonest of all meetings is somebody's pending event. One whose partner has collided
-// since, its collision counter tells, is invalidated: it is too early rather than too late, and
-// when its time comes, its disc is predicted again.
+// Each disc has one pending event, its earliest (Lubachevsky 1991; Smallenburg 2022). If discs i
+// and k will collide, at least one of them has predicted that with the other's current state: the
+// one that collided last. So the earliest of all collisions is the pending event of some disc.
 //
-// Each disc keeps the state it had after its last collision, at its own time, until the next; no
-// prediction and no list touches it.
+// An *invalidated event* is a pending event whose partner has collided since the prediction. The
+// partner's collision counter shows that. The event does not happen as predicted, but it is never
+// too late: nothing else can happen to the disc before. When its time comes, the disc is predicted
+// again.
 //
-// `Search` is a neighbour search: who may meet whom. It changes the speed, never a bit.
+// Each disc keeps the state it had after its last collision, at its own time, until the next one.
+// No prediction, list or measurement changes it. Therefore results do not depend on the search.
 //
-//     start(state)                       makes all predictions
-//     next(state)                        the pending event that comes first
-//     predict_again(state, event)        its disc is predicted anew: the event was invalidated
-//     take_out(state, event)             nothing is pending any more for the discs of the first
-//                                        event; of several at one instant, says the first in order
-//     predict_changed(state, discs, t)   predicts one or two discs that have just collided
-//     leg_ended(state, t)                predicts what depends on the container's course anew
-//     stretch_ended(state)               renews what it wanted to at EngineState::stretch_end, if
-//                                        that is before the leg's end
-//     is_outgrown(state)                 whether another search is to take over: this one is still
-//                                        right, but no longer fast
-//     check(state, t)                    asks what the search promises (invariant.hpp)
+// `Search` is a neighbour search: neighbors/neighbor_search.hpp states what the loop requires from
+// it. Spheres on a floor have a fourth kind of event, which the loop for discs does not test for: a
+// sphere begins to roll.
 //
-//     Bodies                             Discs; or Spheres (resolve.hpp): their search has this
-//
-// Spheres on a floor have a fourth kind of event, which the loop of discs does not ask about: one
-// begins to roll.
-//
-// Included by one file per vector width, and compiled with that width's instructions. So that the
-// linker cannot mix them up, nothing in here may leave a symbol of its own: functions are inlined
-// or static, and a test looks at the objects.
+// One file per vector width includes this header, and with it resolve.hpp and the searches, and is
+// compiled with that width's instructions. The linker must not mix the versions up. So no function
+// in these headers may have a symbol that is visible outside: all are inlined or static.
+// tests/engine/wide_objects_test.py checks the object files.
 #pragma once
 
 #include "swirl/engine/neighbors/engine_state.hpp"
 #include "swirl/engine/neighbors/engine_state_checks.hpp"
+#include "swirl/engine/neighbors/neighbor_search.hpp"
 #include "swirl/engine/neighbors/wall_times.hpp"
 #include "swirl/engine/pending_event.hpp"
 #include "swirl/engine/resolve.hpp"
@@ -43,32 +33,21 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-template <class Search>
-struct BodiesOf {
-    using Type = Discs;
-};
-template <class Search>
-requires requires { typename Search::Bodies; }
-struct BodiesOf<Search> {
-    using Type = typename Search::Bodies;
-};
-template <class Search>
-using Bodies = typename BodiesOf<Search>::Type;
-
-template <class Search>
+/// Whether a sphere begins to roll.
+template <NeighborSearch Search>
 SWIRL_INLINE bool is_of_floor(const PendingEvent& event) {
-    return Bodies<Search>::have_floor && event.partner == the_floor;
+    return Search::Bodies::have_floor && event.partner == the_floor;
 }
 
-/// The next event that happens.
-template <class Search>
-SWIRL_INLINE PendingEvent next_event(EngineState& state) {
+/// Returns the next event that happens. Invalidated events before it are predicted again.
+template <NeighborSearch Search>
+SWIRL_INLINE PendingEvent next_event(typename Search::State& state) {
     for (;;) {
         const PendingEvent next = Search::next(state);
-        if (next.time >= state.stretch_end) [[unlikely]] {
+        if (next.time >= state.interval_end) [[unlikely]] {
             const double end = state.segments[state.segment].end;
-            if (state.stretch_end >= end) return {end, state.size, state.size};
-            if constexpr (requires { Search::segment_ended(state); }) Search::segment_ended(state);
+            if (state.interval_end >= end) return {end, state.size, state.size};
+            if constexpr (RenewsWithinSegment<Search>) Search::interval_ended(state);
             continue;
         }
         if (is_of_floor<Search>(next) || state.is_valid(next)) return next;
@@ -76,11 +55,11 @@ SWIRL_INLINE PendingEvent next_event(EngineState& state) {
     }
 }
 
-/// In the build that checks invariants, and only there.
-template <class Search>
-SWIRL_INLINE void check(const EngineState& state, const PendingEvent& next) {
-    if constexpr (internal_checks && Bodies<Search>::have_floor) {
-        promise::time_never_goes_back(next.time >= state.clock);
+/// Checks invariants, in the build that does so (invariant.hpp).
+template <NeighborSearch Search>
+SWIRL_INLINE void check(const typename Search::State& state, const PendingEvent& next) {
+    if constexpr (internal_checks && Search::Bodies::have_floor) {
+        invariant::time_never_goes_back(next.time >= state.clock);
         if (is_time_to_check(state)) Search::check(state, next.time);
     } else if constexpr (internal_checks) {
         check_order(state, next);
@@ -90,24 +69,24 @@ SWIRL_INLINE void check(const EngineState& state, const PendingEvent& next) {
     }
 }
 
-/// What is to be known of the leg before anybody predicts.
+/// Prepares what predictions need to know of the segment.
 SWIRL_INLINE void begin_segment(EngineState& state) {
-    state.stretch_end = state.segments[state.segment].end;
-    state.turning_centre.time = -never;
-    if (state.on_turning_segment()) renew_turning_bound(state, state.clock);
+    state.interval_end = state.segments[state.segment].end;
+    state.arc_centre.time = -never;
+    if (state.on_arc()) renew_arc_bound(state, state.clock);
 }
 
-/// Not inlined: the collisions, which are most events, have the registers to themselves.
-template <class Search>
-[[gnu::noinline]] static Event end_segment(EngineState& state) {
-    const Event event = start_next_segment<Bodies<Search>>(state);
+/// Not inlined, so that collisions, which are most events, have all registers.
+template <NeighborSearch Search>
+[[gnu::noinline]] static Event end_segment(typename Search::State& state) {
+    const Event event = start_next_segment<typename Search::Bodies>(state);
     begin_segment(state);
     Search::segment_ended(state, event.clock);
     return event;
 }
 
-template <class Search>
-SWIRL_INLINE Event execute(EngineState& state, const PendingEvent& next) {
+template <NeighborSearch Search>
+SWIRL_INLINE Event execute(typename Search::State& state, const PendingEvent& next) {
     if (next.disc == state.size) {
         check<Search>(state, next);
         return end_segment<Search>(state);
@@ -115,53 +94,57 @@ SWIRL_INLINE Event execute(EngineState& state, const PendingEvent& next) {
     const PendingEvent due = Search::remove(state, next);
     check<Search>(state, due);
     state.clock = due.time;
-    if constexpr (Bodies<Search>::have_floor) {
+    if constexpr (Search::Bodies::have_floor) {
         if (is_of_floor<Search>(due)) {
-            const Event event = Bodies<Search>::begin_to_roll(state, due.disc, due.time);
+            const Event event = Search::Bodies::begin_to_roll(state, due.disc, due.time);
             Search::predict_changed(state, {due.disc}, due.time);
             return event;
         }
     }
     if (due.is_with_wall()) {
-        const Event event = collide_with_wall<Bodies<Search>>(state, due.disc, due.time);
+        const Event event = collide_with_wall<typename Search::Bodies>(state, due.disc, due.time);
         Search::predict_changed(state, {due.disc}, due.time);
         return event;
     }
-    const Event event = collide_discs<Bodies<Search>>(state, due.first(), due.second(), due.time);
+    const Event event =
+        collide_discs<typename Search::Bodies>(state, due.first(), due.second(), due.time);
     Search::predict_changed(state, {due.first(), due.second()}, due.time);
     return event;
 }
 
-template <class Search>
-static void start(EngineState& state) {
+// The functions of EventLoop, which do not know the type of the search's state.
+
+template <NeighborSearch Search>
+static void start(EngineState& shared) {
+    auto& state = static_cast<typename Search::State&>(shared);
     if constexpr (internal_checks)
         state.overlapped_at_start = !all_discs_are_apart(state, state.clock);
     begin_segment(state);
     Search::start(state);
 }
 
-template <class Search>
-static Event step(EngineState& state) {
+template <NeighborSearch Search>
+static Event step(EngineState& shared) {
+    auto& state = static_cast<typename Search::State&>(shared);
     return execute<Search>(state, next_event<Search>(state));
 }
 
-/// As many events as asked for, or as come up to (swirls, clock], or until the search is outgrown;
-/// says how many.
-template <class Search>
-static std::uint64_t run(EngineState& state, std::uint64_t count, std::int64_t periods,
+template <NeighborSearch Search>
+static std::uint64_t run(EngineState& shared, std::uint64_t count, std::int64_t periods,
                          double clock) {
+    auto& state = static_cast<typename Search::State&>(shared);
     for (std::uint64_t done = 0; done < count; ++done) {
         const PendingEvent next = next_event<Search>(state);
         if (state.periods > periods || (state.periods == periods && next.time > clock)) return done;
         execute<Search>(state, next);
-        if constexpr (requires { Search::should_switch_search(state); })
+        if constexpr (CanAskToBeReplaced<Search>)
             if (Search::should_switch_search(state)) [[unlikely]]
                 return done + 1;
     }
     return count;
 }
 
-template <class Search>
+template <NeighborSearch Search>
 constexpr EventLoop event_loop(const char* width) {
     return {width, start<Search>, step<Search>, run<Search>};
 }

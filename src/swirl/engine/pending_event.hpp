@@ -1,9 +1,10 @@
-// What may happen next, and in which order things happen: the earlier first; of events at the same
-// instant the one with the smaller first disc, then the one with the smaller second, the wall
-// counting as the disc itself. So the order of events does not depend on who found which.
+// A predicted event, and the order of events. The earlier event comes first. Of events at the same
+// instant, the one with the smaller first disc comes first, then the one with the smaller second
+// disc; the wall counts as the disc itself. So the order does not depend on which disc predicted
+// which event.
 //
-// Of the events of one disc that is the order of its partners' numbers, whichever of the two discs
-// comes first in each; a search through one disc's partners need compare no more than these.
+// For the events of one disc this is the order of the partners' numbers, no matter which of the two
+// discs comes first in each event. A search among one disc's partners need not compare more.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,11 @@
 
 namespace swirl {
 
-/// In the place of a partner: the sphere no longer slides on the floor. Larger than the number of
-/// any disc.
+/// As a partner: the sphere begins to roll on the floor. Larger than any disc number.
 inline constexpr std::uint32_t the_floor = 0xffffff10u;
 
-/// `disc` meets `partner`, or the wall: then `partner` is the disc itself; or it begins to roll.
-/// When the leg ends both are N, the number of discs.
+/// `disc` collides with `partner`. For the wall `partner` is the disc itself; if a sphere begins to
+/// roll it is `the_floor`. At the end of a path segment both are N, the number of discs.
 struct PendingEvent {
     double time;
     std::uint32_t disc, partner;
@@ -27,7 +27,7 @@ struct PendingEvent {
     SWIRL_INLINE constexpr std::uint32_t second() const { return disc < partner ? partner : disc; }
 };
 
-/// Of two events at the same instant.
+/// Whether event a comes before event b at the same instant.
 SWIRL_INLINE constexpr bool is_first_in_order(const PendingEvent& a, const PendingEvent& b) {
     return a.first() < b.first() || (a.first() == b.first() && a.second() < b.second());
 }

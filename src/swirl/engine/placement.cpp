@@ -15,9 +15,8 @@
 namespace swirl {
 namespace {
 
-/// The caller's question whether to go on, asked every few thousandths of a second: in every loop
-/// over discs or sites, of which there may be hundreds of millions. Where it has ended, what is
-/// found is of no use.
+/// The caller's request to stop, polled every few thousandths of a second in every loop over discs
+/// or sites, of which there may be hundreds of millions. After it has ended, results are unusable.
 class Deadline {
   public:
     explicit Deadline(const std::function<bool()>& is_stopped) : is_stopped_(is_stopped) {}
@@ -33,10 +32,10 @@ class Deadline {
 
 constexpr double row_height = 0.86602540378443864676;  // √3/2
 
-/// The narrowest lattice from which places are drawn, in units of the widest that would do.
-constexpr double sparsest = 1.0 / 16.0;
+/// The narrowest lattice from which sites are drawn, relative to the widest that has enough sites.
+constexpr double min_relative_spacing = 1.0 / 16.0;
 
-/// Sites of the triangular lattice of the given spacing within `reach` of one of them.
+/// Visits all sites of a triangular lattice within `reach` of its central site.
 template <class Visit>
 void for_each_site(double spacing, double reach, Deadline& deadline, Visit visit) {
     const auto rows = static_cast<long>(reach / (spacing * row_height)) + 1;
@@ -59,22 +58,23 @@ std::size_t count_sites(double spacing, double reach, Deadline& deadline) {
     return count;
 }
 
-/// The widest spacing that still has n sites, to one part in 10⁶, or whatever it has come to when
-/// patience ends. A lattice narrower than `least` is not looked at; then nothing is found.
+/// The widest spacing that has at least n sites, to one part in 10⁶; less precise if the deadline
+/// ends. Returns nothing if that would be below `minimum`.
 template <class CountSites>
 std::optional<double> widest_spacing(std::size_t n, double widest, double minimum,
                                      CountSites count_sites_of, Deadline& deadline) {
     double enough = 0.0, too_wide = widest;
     // Halve until it is narrow enough, then bisect.
-    for (double guess = too_wide; enough == 0.0; guess = larger(0.5 * guess, minimum)) {
-        if (count_sites_of(guess) >= n)
-            enough = guess;
-        else if (guess <= minimum || deadline.ended())
+    for (double spacing = too_wide; enough == 0.0; spacing = larger(0.5 * spacing, minimum)) {
+        if (count_sites_of(spacing) >= n)
+            enough = spacing;
+        else if (spacing <= minimum || deadline.ended())
             return std::nullopt;
         else
-            too_wide = guess;
+            too_wide = spacing;
     }
-    while (too_wide - enough > 1e-6 * enough && !deadline.ended()) {
+    constexpr double precision = 1e-6;
+    while (too_wide - enough > precision * enough && !deadline.ended()) {
         const double middle = 0.5 * (enough + too_wide);
         (count_sites_of(middle) >= n ? enough : too_wide) = middle;
     }
@@ -85,7 +85,7 @@ Vec2 turned(const Vec2& site, const Vec2& turn) {
     return {turn.x * site.x - turn.y * site.y, turn.y * site.x + turn.x * site.y};
 }
 
-/// n of the sites at random, which then are the first n and all there are.
+/// Keeps n of the sites, chosen at random.
 void choose(std::size_t n, std::vector<Vec2>& sites, Random& random, Deadline& deadline) {
     for (std::size_t k = 0; k < n && !deadline.ended(); ++k)
         std::swap(sites[k], sites[k + random.below(sites.size() - k)]);
@@ -103,10 +103,10 @@ std::vector<Vec2> choose_sites(std::size_t n, double spacing, double reach, Rand
     return sites;
 }
 
-/// Moves each disc within its free space, if it may be there.
+/// Displaces each disc at random by at most `freedom`, if the new position is allowed.
 template <class IsAllowed>
-void shake(std::vector<Vec2>& centres, double freedom, Random& random, Deadline& deadline,
-           IsAllowed is_allowed) {
+void displace(std::vector<Vec2>& centres, double freedom, Random& random, Deadline& deadline,
+              IsAllowed is_allowed) {
     for (Vec2& centre : centres) {
         if (deadline.ended()) return;
         const Vec2 moved = centre + random.in_disc(freedom);
@@ -114,7 +114,7 @@ void shake(std::vector<Vec2>& centres, double freedom, Random& random, Deadline&
     }
 }
 
-/// Square cells no smaller than the largest disc, so that whoever overlaps is in a cell next door.
+/// Square cells at least as wide as the largest disc, so overlapping discs are in adjacent cells.
 class Cells {
   public:
     Cells(const std::vector<Vec2>& centres, double container_radius, double width,
@@ -149,18 +149,19 @@ class Cells {
     std::vector<std::size_t> head_, next_;
 };
 
-/// Pushes overlapping discs apart, and all of them into the dish, until none overlaps: each sweep
-/// moves the two discs of an overlapping pair away from each other by half the overlap and a
-/// little more. False if thousands of sweeps do not suffice, or what can be done in some seconds.
+/// Pushes overlapping discs apart, and all discs into the container, until none overlaps. Each
+/// sweep moves the two discs of an overlapping pair away from each other by half the overlap plus a
+/// small margin. Returns false if the limit of sweeps, or of tested pairs, is not enough.
 bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
                 double container_radius, Deadline& deadline) {
-    long pairs = 300'000'000;
+    long pairs = 300'000'000;  // some seconds of work
+    constexpr int max_sweeps = 4000;
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double margin = 1e-3 * *std::min_element(radii.begin(), radii.end());
-    for (int sweep = 0; sweep < 4000 && pairs > 0 && !deadline.ended(); ++sweep) {
+    for (int sweep = 0; sweep < max_sweeps && pairs > 0 && !deadline.ended(); ++sweep) {
         bool overlap = false;
-        // The cells are made for the centres as they are now; a push within the sweep is smaller
-        // than the cells, and whoever is missed is found in the next one.
+        // Cells are built once per sweep. A push is smaller than a cell, and a pair that is missed
+        // is found in the next sweep.
         const Cells cells(centres, container_radius, 2.0 * (largest + margin), deadline);
         for (std::size_t i = 0; i < centres.size(); ++i) {
             if (i % 64 == 0 && (pairs < 0 || deadline.ended())) return false;
@@ -189,11 +190,11 @@ bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
     return false;
 }
 
-/// In radii of the smallest disc: overlaps are reckoned so much deeper.
+/// Overlaps count as this much deeper, in radii of the smallest disc.
 constexpr double relaxation_margin = 1e-5;
 
-/// Discs that are pressed against each other and against the wall, and slide down the energy of
-/// their overlaps. Ends without overlap, or in a dead end.
+/// Minimises the energy of the overlaps of discs with each other and with the wall. It ends without
+/// overlap, or in a local minimum.
 class Relaxation {
   public:
     Relaxation(const std::vector<double>& radii, double container_radius, Random& random)
@@ -206,15 +207,16 @@ class Relaxation {
         for (const double r : radii) centres_.push_back(random.in_disc(container_radius - r));
     }
 
-    /// FIRE (Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201): molecular dynamics that is
-    /// turned towards the force while it goes downhill, and stopped when it goes uphill. Takes its
-    /// steps off `budget`: one for each disc, or for each sixteen discs that were looked at.
+    /// FIRE (Bitzek et al. 2006, doi:10.1103/PhysRevLett.97.170201): molecular dynamics whose
+    /// velocity is turned towards the force while it goes downhill, and reset when it goes uphill.
+    /// Subtracts its work from `budget`: one for each disc and step, or for each sixteen tested
+    /// pairs.
     bool succeeds(long& budget, Deadline& deadline) {
         double step = 0.1, turn = 0.1;
         int downhill = 0;
-        for (int k = 0; k < longest && budget > 0 && !deadline.ended(); ++k) {
+        for (int k = 0; k < max_steps && budget > 0 && !deadline.ended(); ++k) {
             const bool overlap = find_forces(budget, deadline);
-            budget -= std::max(static_cast<long>(radii_.size()), looks_ / 16);
+            budget -= std::max(static_cast<long>(radii_.size()), tested_pairs_ / 16);
             if (deadline.ended()) return false;
             if (!overlap) return true;
             double power = 0.0, force2 = 0.0, speed2 = 0.0;
@@ -248,21 +250,22 @@ class Relaxation {
     std::vector<Vec2> centres() const { return centres_; }
 
   private:
-    static constexpr int longest = 20000;     // steps
-    static constexpr double balanced = 1e-6;  // forces, in margins²: it will not get better
+    static constexpr int max_steps = 20000;
+    // Squared forces below this, in margins², are a local minimum.
+    static constexpr double balanced = 1e-6;
 
-    /// The force on each disc, which is the depth of its overlaps; they are reckoned with a margin,
-    /// so that in the end there are none. False if there are none now, true also if there is no
-    /// budget or patience left to tell.
+    /// Computes the force on each disc: the depth of its overlaps plus the margin, so that none are
+    /// left at the end. Returns whether there are overlaps; also true if the budget is used up or
+    /// the deadline has ended.
     bool find_forces(long budget, Deadline& deadline) {
         bool overlap = false;
-        looks_ = 0;
+        tested_pairs_ = 0;
         std::fill(force_.begin(), force_.end(), Vec2{0.0, 0.0});
         const Cells cells(centres_, container_radius_, width_, deadline);
         for (std::size_t i = 0; i < centres_.size(); ++i) {
-            if (i % 64 == 63 && (looks_ > 16 * budget || deadline.ended())) return true;
+            if (i % 64 == 63 && (tested_pairs_ > 16 * budget || deadline.ended())) return true;
             cells.near(centres_[i], [&](std::size_t j) {
-                ++looks_;
+                ++tested_pairs_;
                 if (j <= i) return;
                 const Vec2 s = centres_[j] - centres_[i];
                 const double touch = radii_[i] + radii_[j];
@@ -288,10 +291,10 @@ class Relaxation {
     const std::vector<double>& radii_;
     double container_radius_, margin_, width_;
     std::vector<Vec2> centres_, force_, velocity_;
-    long looks_ = 0;  // at pairs, when the forces were last found
+    long tested_pairs_ = 0;  // tested pairs in the last call
 };
 
-/// Two discs side by side fill a diameter of the dish.
+/// The smallest container radius for these two discs side by side.
 double sum_of_two_largest(const std::vector<double>& radii) {
     double first = 0.0, second = 0.0;
     for (const double r : radii) {
@@ -301,8 +304,8 @@ double sum_of_two_largest(const std::vector<double>& radii) {
     return first + second;
 }
 
-/// Random places relaxed, again and again, until one of them ends without overlap. The budget is
-/// some seconds' worth.
+/// Relaxes random positions, again and again, until one attempt ends without overlap. The budget is
+/// some seconds of work.
 std::optional<std::vector<Vec2>> relax(const std::vector<double>& radii, double container_radius,
                                        Random& random, Deadline& deadline) {
     for (long budget = 100'000'000; budget > 0 && !deadline.ended();) {
@@ -312,12 +315,12 @@ std::optional<std::vector<Vec2>> relax(const std::vector<double>& radii, double 
     return std::nullopt;
 }
 
-/// Two discs of any sizes on a diameter; or discs of one size on a ring, with one in the middle
-/// from seven on. For up to nine that is the densest arrangement there is (Pirl 1969,
+/// Two discs of any size on a diameter; or discs of one size on a ring, from seven on with one in
+/// the middle. For up to nine discs this is the densest arrangement (Pirl 1969,
 /// doi:10.1002/mana.19690400110), so with a negative `slack` they do not fit.
 struct FewDiscs {
     std::size_t on_ring;
-    double slack;  // of the container's radius above the smallest that holds them
+    double slack;  // the container's radius minus the smallest that holds them
 };
 
 std::optional<FewDiscs> as_few_discs(const std::vector<double>& radii, double container_radius) {
@@ -331,8 +334,8 @@ std::optional<FewDiscs> as_few_discs(const std::vector<double>& radii, double co
     return FewDiscs{on_ring, container_radius - (radii[0] + ring)};
 }
 
-/// Where each has the same room towards its neighbours and the wall. Turned by a random angle, it
-/// is tried again if roundings make two overlap: there may be no room at all.
+/// Positions in which all gaps to neighbours and wall are equal, rotated by a random angle. The
+/// slack may be zero, so if rounding makes two discs overlap another angle is tried.
 std::optional<std::vector<Vec2>> place_few(const FewDiscs& few, const std::vector<double>& radii,
                                            double container_radius, Random& random) {
     for (int trial = 0; trial < 1000; ++trial) {
@@ -357,11 +360,11 @@ std::optional<std::vector<Vec2>> place_few(const FewDiscs& few, const std::vecto
     return std::nullopt;
 }
 
-/// A disc this many times as small as the largest has its place in the gaps between the large.
+/// Discs smaller than the largest by this factor are put into the gaps between larger discs.
 constexpr double very_unequal = 16.0;
 
-/// Puts n discs of one size, or less, on lattice sites that are free of others, and shakes them.
-/// Adds them to `centres`; false if there are fewer free sites than discs.
+/// Puts n discs, none larger than `radius`, on lattice sites where they overlap no other disc, and
+/// displaces them at random. Appends them to `centres`. Returns false if there are too few sites.
 bool fill_gaps(std::size_t n, double radius, double container_radius, std::vector<Vec2>& centres,
                const std::vector<double>& radii, Random& random, Deadline& deadline) {
     const double largest = *std::max_element(radii.begin(), radii.end());
@@ -398,7 +401,7 @@ bool fill_gaps(std::size_t n, double radius, double container_radius, std::vecto
     for_each_free_site(spacing, [&](const Vec2& site) { sites.push_back(site); });
     if (deadline.ended() || sites.size() < n) return false;
     choose(n, sites, random, deadline);
-    shake(sites, 0.49 * (spacing - touching), random, deadline, is_free);
+    displace(sites, 0.49 * (spacing - touching), random, deadline, is_free);
     centres.insert(centres.end(), sites.begin(), sites.end());
     return true;
 }
@@ -406,8 +409,8 @@ bool fill_gaps(std::size_t n, double radius, double container_radius, std::vecto
 std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double container_radius,
                                        Random& random, Deadline& deadline);
 
-/// The large discs first, then those that are smaller by far, into the gaps, and so on. Nothing if
-/// one of the sizes does not find room.
+/// Places the large discs first, then much smaller ones into the gaps, and so on. Returns nothing
+/// if the discs of one size do not fit.
 std::optional<std::vector<Vec2>> place_by_size(const std::vector<double>& radii,
                                                double container_radius, Random& random,
                                                Deadline& deadline) {
@@ -437,7 +440,7 @@ std::optional<std::vector<Vec2>> place_by_size(const std::vector<double>& radii,
     return centres;
 }
 
-/// Discs that may fit, without overlap.
+/// Places discs that may fit, without overlap (placement.hpp describes the cases).
 std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double container_radius,
                                        Random& random, Deadline& deadline) {
     const double largest = *std::max_element(radii.begin(), radii.end());
@@ -448,16 +451,16 @@ std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double 
         [&](double spacing) { return count_sites(spacing, reach, deadline); }, deadline);
     if (!widest) return std::nullopt;
     if (*widest > 2.0 * largest) {
-        // Halfway between touching and the widest lattice: empty sites, and room to shake. In a
-        // dish that is all but empty a wider one, with some hundred sites for each disc.
+        // Halfway between touching and the widest lattice, so that there are empty sites and
+        // freedom to displace. In a nearly empty container wider, with some hundred sites per disc.
         const double spacing =
-            larger(largest + 0.5 * smaller(*widest, 3.0 * largest), sparsest * *widest);
+            larger(largest + 0.5 * smaller(*widest, 3.0 * largest), min_relative_spacing * *widest);
         auto centres = choose_sites(radii.size(), spacing, reach, random, deadline);
-        shake(centres, 0.49 * (spacing - 2.0 * largest), random, deadline,
-              [&](const Vec2& p) { return dot(p, p) <= reach * reach; });
+        displace(centres, 0.49 * (spacing - 2.0 * largest), random, deadline,
+                 [&](const Vec2& p) { return dot(p, p) <= reach * reach; });
         return centres;
     }
-    // With less room than the margin with which overlaps are relaxed, that would not end.
+    // With less slack than the margin of the relaxation, the latter would not end.
     const auto few = as_few_discs(radii, container_radius);
     if (few && few->slack < relaxation_margin * smallest)
         return place_few(*few, radii, container_radius, random);
@@ -472,9 +475,9 @@ std::optional<std::vector<Vec2>> place(const std::vector<double>& radii, double 
     return relax(radii, container_radius, random, deadline);
 }
 
-/// Morton's curve through the squares of a grid over the dish, 2¹⁶ by 2¹⁶: near numbers are near
-/// places, and mostly the other way round.
-std::uint32_t place_on_curve(const Vec2& p, double container_radius) {
+/// Index along Morton's curve through a grid of 2¹⁶ by 2¹⁶ squares over the container. Near indices
+/// are near positions, and mostly vice versa.
+std::uint32_t index_on_curve(const Vec2& p, double container_radius) {
     const auto row = [&](double x) {
         const double share = 0.5 + 0.5 * (x / container_radius);
         return static_cast<std::uint32_t>(65535.0 * larger(0.0, smaller(share, 1.0)));
@@ -489,30 +492,30 @@ std::uint32_t place_on_curve(const Vec2& p, double container_radius) {
 }
 
 struct OnCurve {
-    std::uint32_t place, disc;
+    std::uint32_t index, disc;
 };
 
-constexpr std::size_t discs_till_asked = 1 << 10;
+constexpr std::size_t discs_per_poll = 1 << 10;
 
-/// Eleven bits at a time, from the last on.
-void sort_by_place(std::vector<OnCurve>& all, Deadline& deadline) {
+/// Radix sort, eleven bits at a time, from the lowest on.
+void sort_by_index(std::vector<OnCurve>& all, Deadline& deadline) {
     constexpr std::uint32_t digits = 1u << 11;
     std::vector<OnCurve> sorted(all.size());
     for (int shift = 0; shift < 32; shift += 11) {
-        const auto digit = [&](const OnCurve& one) { return one.place >> shift & (digits - 1); };
+        const auto digit = [&](const OnCurve& one) { return one.index >> shift & (digits - 1); };
         std::vector<std::size_t> next(digits + 1, 0);
         for (const OnCurve& one : all) ++next[digit(one) + 1];
         for (std::size_t d = 1; d < digits; ++d) next[d] += next[d - 1];
         for (std::size_t k = 0; k < all.size(); ++k) {
-            if (k % discs_till_asked == 0 && deadline.ended()) return;
+            if (k % discs_per_poll == 0 && deadline.ended()) return;
             sorted[next[digit(all[k])]++] = all[k];
         }
         all.swap(sorted);
     }
 }
 
-/// Of discs of one radius those beside each other have near numbers, so that whom an event looks at
-/// is near in memory, too.
+/// Renumbers discs of one radius along the curve, so that the neighbours that an event reads are
+/// near in memory.
 std::vector<Vec2> numbered_along_curve(const std::vector<Vec2>& centres,
                                        const std::vector<double>& radii, double container_radius,
                                        Deadline& deadline) {
@@ -523,22 +526,22 @@ std::vector<Vec2> numbered_along_curve(const std::vector<Vec2>& centres,
     };
     std::map<double, Numbers> of_radius;
     for (std::uint32_t i = 0; i < centres.size(); ++i) {
-        if (i % discs_till_asked == 0 && deadline.ended()) return {};
-        curve[i] = {place_on_curve(centres[i], container_radius), i};
+        if (i % discs_per_poll == 0 && deadline.ended()) return {};
+        curve[i] = {index_on_curve(centres[i], container_radius), i};
         of_radius[radii[i]].all.push_back(i);
     }
-    sort_by_place(curve, deadline);
+    sort_by_index(curve, deadline);
     std::vector<Vec2> numbered(centres.size());
     for (std::size_t k = 0; k < curve.size(); ++k) {
-        if (k % discs_till_asked == 0 && deadline.ended()) return {};
+        if (k % discs_per_poll == 0 && deadline.ended()) return {};
         Numbers& numbers = of_radius[radii[curve[k].disc]];
         numbered[numbers.all[numbers.given++]] = centres[curve[k].disc];
     }
     return numbered;
 }
 
-/// As many discs are all in the processor's nearer caches, however they are numbered.
-constexpr std::size_t near_in_any_order = 4000;
+/// Up to this many discs fit into the processor's nearest caches, so their order does not matter.
+constexpr std::size_t max_in_any_order = 4000;
 
 }  // namespace
 
@@ -563,7 +566,7 @@ std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
     Random random(seed);
     Deadline deadline(is_stopped);
     auto centres = place(radii, container_radius, random, deadline);
-    if (centres && radii.size() > near_in_any_order)
+    if (centres && radii.size() > max_in_any_order)
         centres = numbered_along_curve(*centres, radii, container_radius, deadline);
     return deadline.ended() ? std::nullopt : std::move(centres);
 }

@@ -1,4 +1,4 @@
-// Where the discs are at the beginning (not in the paper): without overlap, from a seed.
+// The positions of the discs at the beginning (not from the paper): without overlap, from a seed.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,32 @@
 
 namespace swirl {
 
-/// No more discs of this radius than that fit into the dish. Their centres are at least 2r apart in
-/// a circle of radius R − r, and a convex set of area A and perimeter P holds at most
-/// 2A/√3 + P/2 + 1 points that are no closer than 1 (Oler 1961, doi:10.1007/BF02546388).
+/// An upper bound for the number of discs of this radius in the container. Their centres are at
+/// least 2r apart in a circle of radius R − r. A convex set of area A and perimeter P holds at most
+/// 2A/√3 + P/2 + 1 points at distances of at least 1 (Oler 1961, doi:10.1007/BF02546388).
 double max_discs_in_container(double radius, double container_radius);
 
-/// One centre for each radius, relative to the centre of the dish, no two discs closer than
-/// touching and none through the wall. Nothing if they do not fit, or if no arrangement was found
-/// in some seconds (close to the densest packing there is), or if `is_stopped`, which is asked
-/// every few hundredths of a second, said so.
+/// Returns one centre for each radius, relative to the centre of the container, without overlaps of
+/// discs or with the wall. Returns nothing in three cases: the discs do not fit; no arrangement was
+/// found within a fixed amount of work of some seconds (near the densest packing); or `is_stopped`,
+/// which is polled every few hundredths of a second, returned true. The method depends on the
+/// density:
 ///
-/// Sites of a triangular lattice about the centre, turned by a random angle, N of them taken at
-/// random, each shaken within its free space: at R = 8.6 this holds up to 55 unit discs, since 55
-/// sites lie within √13 lattice spacings and (R − r)/√13 = 2.108 > 2. A mixture that does not fit
-/// on the lattice of its largest disc starts on a narrower one and is pushed apart until no two
-/// overlap; discs 16 times as small as the largest, or smaller, go onto a lattice of their own in
-/// the gaps that the larger leave. What is denser still starts from random places and slides down
-/// the energy of its overlaps until there are none; so the paper's dish takes up to 59 discs. Two
-/// discs, or up to nine of one size, in a container that hardly holds them stand in their densest
-/// arrangement.
+/// 1. Dilute. Sites of a triangular lattice about the centre, rotated by a random angle; N of them
+///    are
+///    chosen at random, and each disc is displaced within its free space. At R = 8.6 this works for
+///    up to 55 unit discs: 55 sites lie within √13 lattice spacings, and (R − r)/√13 = 2.108 > 2.
+/// 2. A mixture that does not fit on the lattice of its largest disc starts on a narrower one and
+///    is
+///    pushed apart until there are no overlaps. Discs at least 16 times as small as the largest are
+///    put on a lattice of their own, in the gaps between larger ones.
+/// 3. Dense. Random positions that slide down the energy of their overlaps until there are none. So
+///    the paper's container takes up to 59 discs.
+/// 4. Two discs, or up to nine of one size, in a container that hardly holds them: their densest
+///    arrangement.
 ///
-/// Of more than 4,000 discs, those of one radius are numbered along Morton's curve (1966, "A
-/// computer oriented geodetic data base"): whoever is near has a near number and is near in memory.
+/// Above 4,000 discs, those of one radius are numbered along Morton's curve (1966, "A computer
+/// oriented geodetic data base"), so that neighbours are near each other in memory.
 std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
                                              double container_radius, std::uint64_t seed,
                                              const std::function<bool()>& is_stopped = {});

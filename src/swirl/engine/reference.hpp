@@ -1,7 +1,7 @@
-// The paper's method (SI, "Finding the next event") as one would tell it: find the times of all
-// events that may come, take the first, apply it. One disc or sphere after the other and nothing
-// remembered; the engine must agree with it bit for bit. When they touch, and what a collision does
-// to them, is reference_bodies.hpp.
+// The reference implementation: the paper's method (SI, "Finding the next event") in its simplest
+// form. It computes the times of all possible events, takes the earliest and executes it, with one
+// particle at a time and no memory of earlier predictions. The engine must agree with it bitwise.
+// When bodies touch, and what a collision does, is in reference_bodies.hpp.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class Reference {
     explicit Reference(const InitialState& initial)
         : path_(initial.path), bodies_(initial), size_(bodies_.size()) {}
 
-    /// Says of the event what decides it; the normal and the overlap are left empty.
+    /// Executes and returns the next event; its normal and overlap stay empty.
     Event step() { return apply(first_of_all()); }
 
     PendingEvent first_of_all() const {
@@ -31,7 +31,7 @@ class Reference {
             consider({bodies_.wall_time(i, segment()), i, i});
             consider({bodies_.begins_to_roll(i), i, the_floor});
             for (std::uint32_t j = i + 1; j < size_; ++j)
-                consider({bodies_.meeting_time(i, j), i, j});
+                consider({bodies_.contact_time(i, j), i, j});
         }
         return segment().end <= first.time ? PendingEvent{segment().end, size_, size_} : first;
     }
@@ -43,9 +43,15 @@ class Reference {
             return {periods_, bodies_.begin_to_roll(i), EventKind::begins_to_roll, i, i, {}, {},
                     0.0};
         if (event.is_with_wall())
-            return {periods_, t, EventKind::disc_wall, i, i, {}, bodies_.hit_wall(i, t, segment()),
+            return {periods_,
+                    t,
+                    EventKind::disc_wall,
+                    i,
+                    i,
+                    {},
+                    bodies_.collide_with_wall(i, t, segment()),
                     0.0};
-        return {periods_, t, EventKind::disc_disc, i, j, {}, bodies_.hit(i, j, t), 0.0};
+        return {periods_, t, EventKind::disc_disc, i, j, {}, bodies_.collide_pair(i, j, t), 0.0};
     }
 
     const Disc& disc(std::size_t i) const { return bodies_.disc(i); }

@@ -1,5 +1,5 @@
-// What discs, coins and spheres do between two events and at each, as the reference asks it of them
-// (reference.hpp): the physics of one body after the other, straight from physics/.
+// How discs, coins and spheres move between events and what an event does to them, for the
+// reference implementation (reference.hpp): one body at a time, straight from physics/.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ class ReferenceBodies {
         : state_(initial),
           motions_(initial.discs.size()),
           floor_velocity_(initial.path.segments.front().velocity) {
-        for (std::uint32_t i = 0; i < size(); ++i) note_motion(i);
+        for (std::uint32_t i = 0; i < size(); ++i) update_motion(i);
     }
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(state_.discs.size()); }
     const Disc& disc(std::size_t i) const { return state_.discs[i]; }
 
-    double meeting_time(std::uint32_t i, std::uint32_t j) const {
+    double contact_time(std::uint32_t i, std::uint32_t j) const {
         if (!are_spheres()) return time_of_contact(disc(i), disc(j));
         return time_of_contact(
             Encounter<double>(parabola(disc(i), motions_[i]), parabola(disc(j), motions_[j]),
@@ -38,75 +38,77 @@ class ReferenceBodies {
     }
     double begins_to_roll(std::uint32_t i) const { return motions_[i].begins_to_roll; }
 
-    Impulse hit(std::uint32_t i, std::uint32_t j, double t) {
+    Impulse collide_pair(std::uint32_t i, std::uint32_t j, double t) {
         Disc &a = state_.discs[i], &b = state_.discs[j];
         const double since_last = t - larger(last_collision(i), last_collision(j));
-        bring_to(i, t);
-        bring_to(j, t);
+        move_to(i, t);
+        move_to(j, t);
         const Surface surface = surface_at_contact(
             state_.disc_surface, since_last, b.position - a.position, b.velocity - a.velocity);
-        const Impulse J = are_spheres() ? hit(a, b, sphere_body(a), sphere_body(b), surface)
-                                        : hit(a, b, body(a), body(b), surface);
-        note_motion(i);
-        note_motion(j);
+        const Impulse J = are_spheres()
+                              ? collide_pair(a, b, sphere_body(a), sphere_body(b), surface)
+                              : collide_pair(a, b, body(a), body(b), surface);
+        update_motion(i);
+        update_motion(j);
         return J;
     }
-    Impulse hit_wall(std::uint32_t i, double t, const Segment& segment) {
+    Impulse collide_with_wall(std::uint32_t i, double t, const Segment& segment) {
         Disc& a = state_.discs[i];
         const double since_last = t - last_collision(i);
-        bring_to(i, t);
+        move_to(i, t);
         const Vec2 from_centre = a.position - segment.position_at(t), u = segment.velocity_at(t);
         const Surface surface =
             surface_at_contact(state_.wall_surface, since_last, from_centre, u - a.velocity);
         const Impulse J =
-            are_spheres() ? hit_wall(a, sphere_body(a), wall_for_spheres(u), from_centre, surface)
-                          : hit_wall(a, body(a), wall_body(u), from_centre, surface);
-        note_motion(i);
+            are_spheres()
+                ? collide_with_wall(a, sphere_body(a), wall_for_spheres(u), from_centre, surface)
+                : collide_with_wall(a, body(a), wall_body(u), from_centre, surface);
+        update_motion(i);
         return J;
     }
-    /// Says when.
+    /// Returns the time.
     double begin_to_roll(std::uint32_t i) {
         state_.discs[i] = set_rolling(disc(i), motions_[i], state_.floor, floor_velocity_);
-        note_motion(i);
+        update_motion(i);
         return disc(i).time;
     }
 
-    /// With the last leg of a swirl everybody is brought up to date and all clocks restart. The
-    /// floor takes another velocity at the end of each, which every sphere on it feels.
-    void end_segment(double t, const Segment& next, bool ends_swirl) {
+    /// At the end of a period all discs are synchronised and all clocks restart. At the end of
+    /// every segment the floor gets another velocity, so spheres on it are synchronised.
+    void end_segment(double t, const Segment& next, bool ends_period) {
         floor_velocity_ = next.velocity;
-        if (!ends_swirl && (!are_spheres() || state_.floor.deceleration == 0.0)) return;
+        if (!ends_period && (!are_spheres() || state_.floor.deceleration == 0.0)) return;
         for (std::uint32_t i = 0; i < size(); ++i) {
-            bring_to(i, t);
-            if (ends_swirl) state_.discs[i].time = state_.discs[i].last_collision = 0.0;
-            note_motion(i);
+            move_to(i, t);
+            if (ends_period) state_.discs[i].time = state_.discs[i].last_collision = 0.0;
+            update_motion(i);
         }
     }
 
   private:
-    /// Or coins.
+    /// Spheres or coins.
     bool are_spheres() const { return state_.shape != Shape::disc; }
-    /// What the floor does to sphere i from now on.
-    void note_motion(std::uint32_t i) {
+    /// Updates how the floor moves sphere i from now on.
+    void update_motion(std::uint32_t i) {
         if (are_spheres()) motions_[i] = floor_motion(disc(i), state_.floor, floor_velocity_);
     }
-    /// When the last collision was that the TC model asks for.
+    /// The last collision in the sense of the TC model.
     double last_collision(std::uint32_t i) const {
         return are_spheres() ? disc(i).last_collision : disc(i).time;
     }
-    void bring_to(std::uint32_t i, double t) {
+    void move_to(std::uint32_t i, double t) {
         state_.discs[i] = are_spheres() ? moved_to(disc(i), motions_[i], t) : disc(i).at(t);
     }
     static Body body(const Disc& d) {
         return {d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia};
     }
     static SphereBody sphere_body(const Disc& d) { return {body(d), d.rolling_spin}; }
-    static void move_on(Disc& d, const Body& after) {
+    static void set_velocities(Disc& d, const Body& after) {
         d.velocity = after.velocity;
         d.spin = after.spin;
     }
-    static void move_on(Disc& d, const SphereBody& after) {
-        move_on(d, static_cast<const Body&>(after));
+    static void set_velocities(Disc& d, const SphereBody& after) {
+        set_velocities(d, static_cast<const Body&>(after));
         d.rolling_spin = after.rolling_spin;
         d.last_collision = d.time;
     }
@@ -117,17 +119,18 @@ class ReferenceBodies {
                              : at_contact(surface, since_last);
     }
     template <class AnyBody>
-    static Impulse hit(Disc& a, Disc& b, AnyBody body_a, AnyBody body_b, const Surface& surface) {
+    static Impulse collide_pair(Disc& a, Disc& b, AnyBody body_a, AnyBody body_b,
+                                const Surface& surface) {
         const Impulse J = collide(body_a, body_b, b.position - a.position, surface);
-        move_on(a, body_a);
-        move_on(b, body_b);
+        set_velocities(a, body_a);
+        set_velocities(b, body_b);
         return J;
     }
     template <class AnyBody>
-    static Impulse hit_wall(Disc& a, AnyBody body_a, AnyBody wall, const Vec2& from_centre,
-                            const Surface& surface) {
+    static Impulse collide_with_wall(Disc& a, AnyBody body_a, AnyBody wall, const Vec2& from_centre,
+                                     const Surface& surface) {
         const Impulse J = collide(body_a, wall, from_centre, surface);
-        move_on(a, body_a);
+        set_velocities(a, body_a);
         return J;
     }
 

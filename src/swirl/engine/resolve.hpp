@@ -1,5 +1,7 @@
-// What an event does to the discs. When the next one comes, and between whom, is for the loop to
-// find (event_loop.hpp).
+// What an event does: a collision of two discs, a collision with the wall, a sphere that begins to
+// roll, or the container's next path segment. The event loop (event_loop.hpp) finds out which event
+// comes next. The collision law is in collision_law.hpp; the friction coefficients are those of
+// EngineState::disc_surface and EngineState::wall_surface.
 #pragma once
 
 #include "swirl/engine/collision_checks.hpp"
@@ -11,7 +13,8 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// What an event needs of a disc: it flies straight, and the floor is none of its business.
+/// How events read and change discs. A disc moves uniformly between collisions; the floor has no
+/// effect.
 struct Discs {
     using Body = swirl::Body;
     static constexpr bool have_floor = false;
@@ -21,22 +24,22 @@ struct Discs {
     }
     SWIRL_INLINE static Body body_at(const EngineState& state, std::uint32_t i, double) {
         const HotDisc& d = state.discs[i];
-        const DiscKind& kind = state.kinds[d.kind];
-        return {d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia};
+        const Species& species = state.species[d.species];
+        return {d.velocity, d.spin, d.radius, species.inverse_mass, species.inverse_inertia};
     }
     SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_body(velocity); }
     SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
         return state.discs[i].time;
     }
-    SWIRL_INLINE static bool feel_every_segment(const EngineState&) { return false; }
+    SWIRL_INLINE static bool change_with_segment(const EngineState&) { return false; }
 
-    /// How two meet, or one and the wall.
+    /// The surface that a contact of two discs, or of one and the wall, has.
     SWIRL_INLINE static Surface at_contact(const EngineState&, const Surface& surface,
                                            double since_last, const Vec2&, const Vec2&) {
         return swirl::at_contact(surface, since_last);
     }
 
-    /// Brings disc i to time t and gives it its new velocities.
+    /// Moves disc i to the position of its collision at time t and stores its new velocities.
     SWIRL_INLINE static void write_back(EngineState& state, std::uint32_t i, const Vec2& position,
                                         double t, const Body& body) {
         HotDisc& disc = state.discs[i];
@@ -46,8 +49,8 @@ struct Discs {
         disc.spin = body.spin;
         ++disc.collisions;
     }
-    /// All clocks restart.
-    SWIRL_INLINE static void bring_up_to_date(EngineState& state, std::uint32_t i, bool) {
+    /// All clocks restart: moves disc i to its position now, which is time 0 of the next period.
+    SWIRL_INLINE static void synchronise(EngineState& state, std::uint32_t i, bool) {
         HotDisc& disc = state.discs[i];
         state.cold(i).angle = state.cold(i).angle + (state.clock - disc.time) * disc.spin;
         disc.position = disc.flight().position_at(state.clock);
@@ -56,14 +59,15 @@ struct Discs {
     }
 };
 
-/// And of a sphere: it may slide, and its flight follows from its state and the floor's velocity.
+/// How events read and change spheres. A sphere may slide, so its parabola follows from its state
+/// and the floor's velocity.
 struct Spheres {
     using Body = SphereBody;
     static constexpr bool have_floor = true;
 
     SWIRL_INLINE static Disc load(const EngineState& state, std::uint32_t i) {
         const HotDisc& d = state.discs[i];
-        const DiscKind& kind = state.kinds[d.kind];
+        const Species& species = state.species[d.species];
         const SphereState& sphere = state.spheres[i];
         return {d.position,
                 d.velocity,
@@ -71,12 +75,12 @@ struct Spheres {
                 d.spin,
                 d.time,
                 d.radius,
-                kind.mass,
-                kind.inertia,
+                species.mass,
+                species.inertia,
                 sphere.rolling_spin,
                 sphere.last_collision};
     }
-    /// And how it moves from now on.
+    /// Stores the state, and the motion that follows from it.
     SWIRL_INLINE static void store(EngineState& state, std::uint32_t i, const Disc& sphere) {
         HotDisc& d = state.discs[i];
         d.position = sphere.position;
@@ -99,8 +103,8 @@ struct Spheres {
     }
     SWIRL_INLINE static Body body_at(const EngineState& state, std::uint32_t i, double t) {
         const Disc d = moved_to(load(state, i), state.spheres[i].motion, t);
-        const DiscKind& kind = state.kinds[state.discs[i].kind];
-        return {{d.velocity, d.spin, d.radius, kind.inverse_mass, kind.inverse_inertia},
+        const Species& species = state.species[state.discs[i].species];
+        return {{d.velocity, d.spin, d.radius, species.inverse_mass, species.inverse_inertia},
                 d.rolling_spin};
     }
     SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_for_spheres(velocity); }
@@ -112,8 +116,8 @@ struct Spheres {
                                            const Vec2& relative_velocity) {
         return at_contact_on_floor(surface, since_last, state.floor, separation, relative_velocity);
     }
-    /// The floor takes another velocity.
-    SWIRL_INLINE static bool feel_every_segment(const EngineState& state) {
+    /// Whether a new segment changes the spheres' motion: the floor has another velocity.
+    SWIRL_INLINE static bool change_with_segment(const EngineState& state) {
         return state.floor.deceleration != 0.0;
     }
 
@@ -128,12 +132,12 @@ struct Spheres {
         sphere.time = sphere.last_collision = t;
         store(state, i, sphere);
     }
-    SWIRL_INLINE static void bring_up_to_date(EngineState& state, std::uint32_t i,
-                                              bool clocks_restart) {
+    SWIRL_INLINE static void synchronise(EngineState& state, std::uint32_t i, bool clocks_restart) {
         Disc sphere = moved_to(load(state, i), state.spheres[i].motion, state.clock);
         if (clocks_restart) sphere.time = sphere.last_collision = 0.0;
         store(state, i, sphere);
     }
+    /// Executes the event: sphere i stops sliding at time t.
     SWIRL_INLINE static Event begin_to_roll(EngineState& state, std::uint32_t i, double t) {
         store(state, i,
               set_rolling(load(state, i), state.spheres[i].motion, state.floor,
@@ -143,7 +147,7 @@ struct Spheres {
     }
 };
 
-/// Discs i < j meet at time t.
+/// Executes the collision of discs i < j at time t.
 template <class Bodies>
 SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint32_t j, double t) {
     using Body = typename Bodies::Body;
@@ -180,11 +184,13 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
             body_i.radius + body_j.radius - distance};
 }
 
+/// Executes the collision of disc i with the wall at time t. The wall is a body of infinite mass
+/// that moves with the container.
 template <class Bodies>
 SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double t) {
     using Body = typename Bodies::Body;
     const Flight<double> centre = state.segments[state.segment].flight_at(t);
-    if (state.on_turning_segment()) state.turning_centre = centre;
+    if (state.on_arc()) state.arc_centre = centre;
     const Vec2 at = Bodies::position_at(state, i, t);
     const Body before = Bodies::body_at(state, i, t);
     Body body = before, wall = Bodies::wall(centre.velocity);
@@ -216,18 +222,18 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
             distance - (state.container_radius - body.radius)};
 }
 
-/// The container takes its next leg. With the last leg of a swirl everybody is brought up to date
-/// and all clocks restart, so that times stay short and precise however long the run; state.clock
-/// is then 0. Who feels the floor is brought up to date with every leg.
+/// The container begins its next segment. At the end of a period all discs are synchronised and all
+/// clocks restart with state.clock = 0, so times stay short and precise in a run of any length. If
+/// friction against the floor acts, spheres are synchronised at every segment.
 template <class Bodies>
 SWIRL_INLINE Event start_next_segment(EngineState& state) {
     state.clock = state.segments[state.segment].end;
     ++state.path_vertex;
     const Event event{state.periods, state.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
     const bool is_last = ++state.segment == state.segment_count;
-    if (!is_last && !Bodies::feel_every_segment(state)) return event;
+    if (!is_last && !Bodies::change_with_segment(state)) return event;
     if (is_last) state.segment = 0;
-    for (std::uint32_t i = 0; i < state.size; ++i) Bodies::bring_up_to_date(state, i, is_last);
+    for (std::uint32_t i = 0; i < state.size; ++i) Bodies::synchronise(state, i, is_last);
     if (!is_last) return event;
     state.clock = 0.0;
     ++state.periods;

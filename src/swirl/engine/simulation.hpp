@@ -1,4 +1,4 @@
-// The engine as its users see it: which event comes next, and what it does.
+// The engine's interface: executes one event after the other, and lets you observe the discs.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@ namespace swirl {
 
 struct EventCounts {
     std::uint64_t disc_disc = 0, disc_wall = 0, path_vertex = 0;
-    std::uint64_t elastic_by_tc = 0;   // of the collisions, those made elastic by the TC model
-    std::uint64_t begins_to_roll = 0;  // of spheres on a floor; or comes to rest on it
+    std::uint64_t elastic_by_tc = 0;   // collisions that the TC model made elastic
+    std::uint64_t begins_to_roll = 0;  // a sphere begins to roll, or a coin comes to rest
     std::uint64_t total() const { return disc_disc + disc_wall + path_vertex + begins_to_roll; }
 };
 
-/// How far a trajectory has come. Together with the discs, each at its own time, this is all there
-/// is to save: a simulation resumed from it continues bit for bit.
+/// The state of a run besides its discs. Together with the discs, each at its own time, this is all
+/// that must be saved: a simulation resumed from it continues with bitwise identical results.
 struct Progress {
     std::int64_t periods = 0;
     double clock = 0.0;
@@ -31,53 +31,54 @@ struct Progress {
     EventCounts events;
 };
 
-/// How the discs are found that a disc may meet: all of them; those on its list; those in its cell
-/// and in the cells around. `best` is what is fastest for the scene. Spheres have no lists.
-enum class NeighbourSearch : std::uint8_t { best, all_pairs, lists, cells };
+/// How the discs are found that a disc can collide with: all pairs, neighbour lists (Verlet), or
+/// the cell of the disc and those around it (linked cells). `best` is what is fastest for the
+/// scene. Spheres have no lists.
+enum class SearchMethod : std::uint8_t { best, all_pairs, lists, cells };
 
-/// Changes the speed, never a bit.
+/// Settings that change the speed, never a result.
 struct Tuning {
-    /// Of the grid in which neighbours for the lists are found; 1 is no grid, 0 chooses by density.
+    /// The grid in which neighbours for the lists are found: 1 is no grid, 0 chooses by density.
     int cells_per_side = 0;
     Width width = Width::best;
-    /// A search that the scene does not allow (all pairs for many, cells on a path with several
-    /// turning legs) gives way to lists; of spheres, to cells.
-    NeighbourSearch neighbours = NeighbourSearch::best;
-    /// Asked now and then while a simulation is made, which takes seconds where there are millions
-    /// of discs. Once it has said yes it must go on saying so; the simulation is left without
-    /// discs, and no event may be asked of it.
+    /// A method that the scene does not allow is replaced: by lists, for spheres by cells. Not
+    /// allowed are all pairs for many discs, and cells on a path with several arcs.
+    SearchMethod search = SearchMethod::best;
+    /// Polled now and then while a simulation is constructed, which takes seconds for millions of
+    /// discs. Once it has returned true it must continue to do so. The simulation then has no
+    /// discs, and no event may be requested from it.
     std::function<bool()> is_stopped = {};
 };
 
-/// Work of the loop besides the events themselves.
+/// Work of the event loop besides the events themselves.
 struct LoopCounts {
-    std::uint64_t invalidated = 0;    // events whose partner had collided, predicted again
+    std::uint64_t invalidated = 0;    // events whose partner had collided; predicted again
     std::uint64_t list_rebuilds = 0;  // neighbour lists rebuilt, or cells entered
-    std::uint64_t overflows = 0;      // of these, with lists around rebuilt to make room
-    std::uint64_t full_rebuilds = 0;  // times all lists were rebuilt for lack of room, or all cells
-    std::uint64_t bytes = 0;          // memory of the loop
+    std::uint64_t overflows = 0;      // of these, rebuilds that had to rebuild other lists, too
+    std::uint64_t full_rebuilds = 0;  // times that all lists or all cells were rebuilt
+    std::uint64_t bytes = 0;          // memory of the arrays
     const char* width = "";
 };
 
 class Simulation {
   public:
-    /// Spheres on a polygon only.
+    /// Spheres require a path of straight segments.
     explicit Simulation(const InitialState& scene, const Progress& progress = {},
                         const Tuning& tuning = {});
     ~Simulation();
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
 
-    /// Executes the next event and says what it was.
+    /// Executes the next event and returns it.
     Event step();
 
     /// Executes `count` events.
     void run(std::uint64_t count);
 
-    /// Executes every event up to and including the given moment, and stands there. Discs are not
-    /// touched, so looking never changes a bit.
+    /// Executes all events up to and including the given time and sets the clock to it. Discs keep
+    /// their stored states, so the time of an observation never affects results.
     void advance_to(std::int64_t periods, double clock);
-    /// The same, but no more than `most` events; says whether it stands there.
+    /// The same, but executes at most `maximum` events. Returns whether the time was reached.
     bool advance_to(std::int64_t periods, double clock, std::uint64_t maximum);
 
     std::int64_t periods() const;
@@ -86,16 +87,16 @@ class Simulation {
     Progress progress() const;
     LoopCounts loop_counts() const;
     std::size_t size() const;
-    /// Disc i as it is kept: the state after its last collision, at its own time.
+    /// Disc i as stored: its state after its last collision, at its own time.
     Disc disc(std::size_t i) const;
 
     /// All discs, the container, and the time, now.
     Snapshot snapshot() const;
-    /// Brings a snapshot taken earlier from this simulation up to date after one step: touches only
-    /// the discs of that event (all of them when a new swirl began).
+    /// Updates an earlier snapshot of this simulation after one step. Touches only the discs of
+    /// that event; or all discs, if a new period has begun.
     void refresh(Snapshot& snapshot, const Event& event) const;
 
-    /// 64-bit hash of every disc's state, the leg and the time. Equal states, equal hash.
+    /// 64-bit hash of every disc's state, the segment and the time. Equal states have equal hashes.
     std::uint64_t state_hash() const;
 
   private:

@@ -1,6 +1,6 @@
-// Which vector instructions this processor has, asked in one place: the event loop, the averages by
-// event and the benchmark are compiled once for each width, and the widest is taken when the
-// program runs. Every width gives the same bits.
+// The vector instructions of this processor. The event loop, the averages over events and the
+// benchmark are compiled once for each width, and the widest is chosen at run time. Every width
+// gives bitwise identical results.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 
 namespace swirl {
 
-/// `best` is the widest that this processor has.
+/// `best` is the widest that this processor supports.
 enum class Width : std::uint8_t { best, baseline, avx2, avx512 };
 
-/// Every processor that the program is built for has the baseline; on x86-64 it is SSE2.
+/// Every processor that the program is built for supports the baseline; on x86-64 it is SSE2.
 #if defined(__x86_64__)
 inline constexpr const char* baseline_name = "sse2";
 #else
@@ -34,7 +34,7 @@ inline bool has_width(Width width) {
     return width == Width::baseline || width == Width::best;
 }
 
-/// The width itself; for `best`, the widest that this processor has.
+/// The width itself; for `best`, the widest that this processor supports.
 inline Width width_meant(Width width) {
     if (width != Width::best) return width;
     return has_width(Width::avx512) ? Width::avx512

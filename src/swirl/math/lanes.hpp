@@ -1,10 +1,11 @@
-// Doubles side by side: one text of the physics computes several contact times at once.
+// Vectors of doubles: physics that is written once computes several contact times at a time.
 //
-// `Lanes<W>` holds W doubles in as many registers of the target as that takes: one for W = 8 with
-// AVX-512, two with AVX2, four with SSE2, eight plain doubles elsewhere. Every operation is the
-// same operation on each lane, exactly rounded and never fused, so all targets give the same bits.
+// `Lanes<W>` holds W doubles in registers of the target. For W = 8 these are one with AVX-512, two
+// with AVX2, four with SSE2, and eight plain doubles elsewhere. Every operation is the same
+// operation on each lane, exactly rounded and never fused, so all targets give bitwise identical
+// results.
 //
-// Everything here lives in an inline namespace named after the target, because one program holds
+// Everything here is in an inline namespace named after the target, because one program contains
 // several (engine/event_loop.hpp is compiled once for each).
 #pragma once
 
@@ -29,13 +30,13 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-// The scalar ones beside those below.
+// The scalar overloads, next to those below.
 using ::swirl::select;
 using ::swirl::smaller;
 using ::swirl::square_root;
 
-// A vector of doubles may stand for doubles in memory and for nothing else (to GCC it has the alias
-// set of its element), so that a row written does not make the compiler read every pointer again.
+// A vector of doubles may alias doubles in memory and nothing else (GCC gives it the alias set of
+// its element). So after a row was written, the compiler need not read every pointer again.
 typedef double Double2 __attribute__((vector_size(16)));
 typedef double Double4 __attribute__((vector_size(32)));
 typedef double Double8 __attribute__((vector_size(64)));
@@ -80,7 +81,7 @@ struct Lanes {
     SWIRL_INLINE explicit Lanes(double x) {
         for (int p = 0; p < parts; ++p) part[p] = x - Part{};
     }
-    /// W doubles from memory aligned to 8W bytes.
+    /// Loads W doubles from memory aligned to 8W bytes.
     SWIRL_INLINE static Lanes load(const double* from) {
         Lanes r;
         for (int p = 0; p < parts; ++p)
@@ -98,13 +99,13 @@ SWIRL_INLINE Lanes<2> two_lanes(double a, double b) {
     return r;
 }
 
-/// One pair, or two beside each other.
-SWIRL_INLINE Lanes<2> beside(const Double2 (&pairs)[1]) {
+/// One pair, or two pairs joined to one vector.
+SWIRL_INLINE Lanes<2> joined(const Double2 (&pairs)[1]) {
     Lanes<2> r;
     r.part[0] = pairs[0];
     return r;
 }
-SWIRL_INLINE Lanes<4> beside(const Double2 (&pairs)[2]) {
+SWIRL_INLINE Lanes<4> joined(const Double2 (&pairs)[2]) {
     Lanes<4> r;
 #if SWIRL_REGISTER_BYTES >= 32
     r.part[0] = __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 2, 3);
@@ -205,8 +206,8 @@ SWIRL_INLINE Lanes<W> smaller(const Lanes<W>& a, const Lanes<W>& b) {
     return r;
 }
 
-/// The smallest lane (times: no NaN, no −0).
-/// By vectors to the end: of two numbers the compiler may make a branch.
+/// The smallest lane, for times (no NaN, no −0). It is a vector operation to the end, because for
+/// two numbers the compiler might use a branch.
 SWIRL_INLINE double smallest_of(Double2 a) {
     return smaller_of(a, __builtin_shufflevector(a, a, 1, 1))[0];
 }
@@ -261,7 +262,7 @@ SWIRL_INLINE unsigned lanes_equal(const Lanes<W>& a, double x) {
 template <int G>
 SWIRL_INLINE std::uint64_t lanes_equal(const Lanes<8> (&a)[G], double x) {
 #if SWIRL_REGISTER_BYTES >= 64
-    // The first four put together where they are made, in mask registers.
+    // The first four are combined in mask registers, where they are computed.
     const Double8 y = _mm512_set1_pd(x);
     const auto equal = [&](int g) {
         return g < G ? _mm512_cmp_pd_mask(a[g].part[0], y, _CMP_EQ_OQ) : __mmask8{0};
@@ -305,18 +306,19 @@ SWIRL_INLINE unsigned lanes_closer(const double* gap, const double* reach, doubl
     return lanes_below(need, x);
 }
 
-/// Where k stands in a list of disc numbers whose room is a multiple of 4; it must be there.
-SWIRL_INLINE std::uint32_t place_in_list(const std::uint32_t* list, std::uint32_t room,
+/// The index of k in a list of disc numbers, whose capacity is a multiple of 4. The list must
+/// contain k.
+SWIRL_INLINE std::uint32_t index_in_list(const std::uint32_t* list, std::uint32_t capacity,
                                          std::uint32_t k) {
 #if defined(__SSE2__)
-    const __m128i wanted = _mm_set1_epi32(static_cast<int>(k));
-    // All of a short list without asking where: that would be guessed wrong.
-    for (std::uint32_t begin = 0; begin < room; begin += 64) {
+    const __m128i target = _mm_set1_epi32(static_cast<int>(k));
+    // All of a short list, because a branch that stops at the index would be mispredicted.
+    for (std::uint32_t begin = 0; begin < capacity; begin += 64) {
         std::uint64_t bits = 0;
-        for (std::uint32_t slot = 0; slot < 64 && begin + slot < room; slot += 4) {
+        for (std::uint32_t slot = 0; slot < 64 && begin + slot < capacity; slot += 4) {
             const __m128i four =
                 _mm_loadu_si128(reinterpret_cast<const __m128i*>(list + begin + slot));
-            const int equal = _mm_movemask_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(four, wanted)));
+            const int equal = _mm_movemask_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(four, target)));
             bits |= static_cast<std::uint64_t>(static_cast<unsigned>(equal)) << slot;
         }
         if (bits != 0) return begin + static_cast<std::uint32_t>(__builtin_ctzll(bits));
@@ -324,7 +326,7 @@ SWIRL_INLINE std::uint32_t place_in_list(const std::uint32_t* list, std::uint32_
     return 0;
 #else
     std::uint32_t slot = 0;
-    while (list[slot] != k && slot + 1 < room) ++slot;
+    while (list[slot] != k && slot + 1 < capacity) ++slot;
     return slot;
 #endif
 }
@@ -342,8 +344,8 @@ SWIRL_INLINE Lanes<W> with_lane(const Lanes<W>& a, unsigned k, double x) {
     return r;
 }
 
-/// In a row of W doubles number k becomes x, or the smaller of both. Only the register that holds
-/// it is read and written.
+/// Sets number k in a row of W doubles to x, or to the smaller of both. Only the register that
+/// holds it is read and written.
 template <int W>
 SWIRL_INLINE void set_lane(double* row, unsigned k, double x) {
     constexpr unsigned width = Lanes<W>::per_part;
@@ -359,18 +361,18 @@ SWIRL_INLINE void lower_lane(double* row, unsigned k, double x) {
 }
 
 #if SWIRL_REGISTER_BYTES >= 32
-SWIRL_INLINE Double4 beside(const double* a, const double* b) {
+SWIRL_INLINE Double4 joined(const double* a, const double* b) {
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(a)), _mm_load_pd(b), 1);
 }
 #endif
 #if SWIRL_REGISTER_BYTES >= 64
-SWIRL_INLINE Double8 beside(const Double4& a, const Double4& b) {
+SWIRL_INLINE Double8 joined(const Double4& a, const Double4& b) {
     return _mm512_insertf64x4(_mm512_castpd256_pd512(a), b, 1);
 }
 #endif
 
-/// Two columns from W rows that start with a pair of doubles each: rows[k] → (first[k], second[k]).
-/// Pairs are loaded whole, so a pair that was stored whole a moment ago comes straight from the
+/// Two columns from W rows that each start with a pair of doubles: rows[k] → (first[k], second[k]).
+/// Pairs are loaded as a whole. A pair that was just stored as a whole is then forwarded from the
 /// store buffer.
 template <int W>
 SWIRL_INLINE void load_pairs(const double* const (&rows)[W], Lanes<W>& first, Lanes<W>& second) {
@@ -384,15 +386,15 @@ SWIRL_INLINE void load_pairs(const double* const (&rows)[W], Lanes<W>& first, La
         }
 #if SWIRL_REGISTER_BYTES >= 32
         if constexpr (Lanes<W>::bytes == 32) {
-            const Double4 a = beside(row[0], row[2]), b = beside(row[1], row[3]);
+            const Double4 a = joined(row[0], row[2]), b = joined(row[1], row[3]);
             first.part[p] = _mm256_unpacklo_pd(a, b);
             second.part[p] = _mm256_unpackhi_pd(a, b);
         }
 #endif
 #if SWIRL_REGISTER_BYTES >= 64
         if constexpr (Lanes<W>::bytes == 64) {
-            const Double8 a = beside(beside(row[0], row[2]), beside(row[4], row[6]));
-            const Double8 b = beside(beside(row[1], row[3]), beside(row[5], row[7]));
+            const Double8 a = joined(joined(row[0], row[2]), joined(row[4], row[6]));
+            const Double8 b = joined(joined(row[1], row[3]), joined(row[5], row[7]));
             first.part[p] = _mm512_unpacklo_pd(a, b);
             second.part[p] = _mm512_unpackhi_pd(a, b);
         }
@@ -400,7 +402,7 @@ SWIRL_INLINE void load_pairs(const double* const (&rows)[W], Lanes<W>& first, La
     }
 }
 
-/// Four columns from W rows that start with four doubles each, stored and loaded whole.
+/// Four columns from W rows that each start with four doubles, stored and loaded as a whole.
 SWIRL_INLINE void store_four(double* to, double a, double b, double c, double d) {
 #if SWIRL_REGISTER_BYTES >= 32
     *reinterpret_cast<Double4*>(to) = Double4{a, b, c, d};
@@ -434,8 +436,8 @@ SWIRL_INLINE void load_fours(const double* const (&rows)[W], Lanes<W> (&columns)
 #endif
 #if SWIRL_REGISTER_BYTES >= 64
     if constexpr (Lanes<W>::bytes == 64) {
-        const Double8 a = beside(four(0), four(2)), b = beside(four(1), four(3));
-        const Double8 c = beside(four(4), four(6)), d = beside(four(5), four(7));
+        const Double8 a = joined(four(0), four(2)), b = joined(four(1), four(3));
+        const Double8 c = joined(four(4), four(6)), d = joined(four(5), four(7));
         const Double8 ab0 = _mm512_unpacklo_pd(a, b), ab1 = _mm512_unpackhi_pd(a, b);
         const Double8 cd0 = _mm512_unpacklo_pd(c, d), cd1 = _mm512_unpackhi_pd(c, d);
         columns[0].part[0] = _mm512_shuffle_f64x2(ab0, cd0, 0x88);
@@ -446,8 +448,9 @@ SWIRL_INLINE void load_fours(const double* const (&rows)[W], Lanes<W> (&columns)
 #endif
 }
 
-/// Three columns from eight rows that start with four floats each. By registers: eight numbers
-/// written one by one and read as one vector would wait for all of them to leave the store buffer.
+/// Three columns from eight rows that each start with four floats. This is done in registers: eight
+/// numbers that are stored one by one and loaded as a vector would first have to leave the store
+/// buffer.
 SWIRL_INLINE void load_three(const float* const (&rows)[8], Lanes<8>& a, Lanes<8>& b, Lanes<8>& c) {
     typedef float Float4 __attribute__((vector_size(16), may_alias));
     const auto row = [&](int k) { return *reinterpret_cast<const Float4*>(rows[k]); };
@@ -487,7 +490,7 @@ SWIRL_INLINE double lane(const Lanes<W>& a, int k) {
     return a.part[k / Lanes<W>::per_part][k % Lanes<W>::per_part];
 }
 
-/// How many of the first `count` doubles are below x. `count` is a multiple of 8, `from` aligned.
+/// The number of doubles below x among the first `count`, a multiple of 8. `from` is aligned.
 SWIRL_INLINE unsigned count_below(const double* from, unsigned count, double x) {
     unsigned below = 0;
     for (unsigned k = 0; k < count; k += 8) below += __builtin_popcount(lanes_below(from + k, x));

@@ -1,4 +1,4 @@
-// The middle of many numbers, which few wild ones among them do not move.
+// The median of many numbers, which a few outliers do not change.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace swirl {
 
-/// The middle one, of two in the middle the larger; 0 of none.
+/// The median; of two middle numbers the larger one; 0 if there are no numbers.
 inline double median(std::vector<double> values) {
     if (values.empty()) return 0.0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -1,24 +1,24 @@
-// When a quartic first comes down to zero: the one question that two bodies on parabolas ask
-// (physics/contact_time.hpp). Only + − × ÷ √, in an order that is fixed, so every compiler and
-// processor gives the same bits; no tolerance.
+// When a quartic first falls to zero: the question that two bodies on parabolas ask
+// (physics/contact_time.hpp). It uses only + − × ÷ √ in a fixed order, so results are the same for
+// every compiler and processor. It has no tolerance.
 //
 //     f(τ) = c0 + c1 τ + c2 τ² + c3 τ³ + c4 τ⁴,     0 ≤ τ ≤ h
 //
-// f is the room that two bodies have. They touch at the first τ at which f is 0 or less and they
-// approach, f falling. The method is splitting by derivatives: f'' is a quadratic, between whose
-// roots f' is monotonic and has at most one root; between those f is monotonic and has at most
-// one. Each root lies in a bracket and is found by Newton's method, or by halving where that would
+// f measures the gap between two bodies. They touch at the first τ at which f ≤ 0 while f falls.
+// The method separates the roots by derivatives. f'' is a quadratic. Between its roots f' is
+// monotonic and has at most one root; between the roots of f', f is monotonic and has at most one.
+// Each root lies in a bracket and is found by Newton's method, or by bisection if a step would
 // leave the bracket.
 //
-// What has just touched has f = 0 up to a rounding error, of either sign, and must not touch again
-// before it has been apart:
+// Bodies that have just touched have f = 0 up to a rounding error of either sign. They must not
+// touch again before they have separated:
 //   f ≤ 0 and falling at 0        they touch now
 //   f rises first                 they touch when it falls through 0 after that
-//   f rises and turns below       they were never apart by more than a rounding error. There the
-//   `grain`, a rounding error     approach is exactly 0, or so little that the time until f is 0
-//                                 again is lost in the clock's rounding, and a contact would
-//                                 change nothing, for ever. So they touch when f has fallen by
-//                                 `grain` from there, which their approach can be told from
+//   f rises and turns below       they never separated by more than a rounding error. There the
+//   `grain`, a rounding error     speed of approach is 0, or so small that the time until f is 0
+//                                 again is lost in the clock's rounding. A contact would change
+//                                 nothing, for ever. So they touch when f has fallen by `grain`
+//                                 from there: then the speed of approach is well defined
 #pragma once
 
 #include "swirl/math/real.hpp"
@@ -41,14 +41,15 @@ struct Quartic {
 
 namespace quartic {
 
-/// A root of f − level, or of f', which is monotonic from `low` to `high` and changes its sign
-/// there. `first` is where to begin.
+/// The root of a function (f − level, or f') that is monotonic from `low` to `high` and changes its
+/// sign there. `first` is the initial estimate.
 template <class Value, class Slope>
 SWIRL_INLINE double root_between(const Value& value, const Slope& slope, double low, double high,
                                  bool rising, double first) {
     double t = first > low && first < high ? first : 0.5 * (low + high);
-    // Some five steps are usual, sixty where only halving helps.
-    for (int step = 0; step < 200; ++step) {
+    // Five steps are usual, and sixty if only bisection helps.
+    constexpr int max_steps = 200;
+    for (int step = 0; step < max_steps; ++step) {
         const double f = value(t);
         if (f == 0.0) return t;
         ((f > 0.0) == rising ? high : low) = t;
@@ -61,7 +62,7 @@ SWIRL_INLINE double root_between(const Value& value, const Slope& slope, double 
     return t;
 }
 
-/// Where f, falling all the way from `low` to `high`, comes down to 0; `never` if it does not.
+/// Where f, which falls from `low` to `high`, reaches 0; `never` if it does not.
 SWIRL_INLINE double fall_between(const Quartic& f, double low, double high, double grain) {
     const double top = f.value(low), bottom = f.value(high);
     if (!(bottom < top)) return never;
@@ -74,13 +75,13 @@ SWIRL_INLINE double fall_between(const Quartic& f, double low, double high, doub
 
 }  // namespace quartic
 
-/// The first time, up to `horizon`, at which f comes down to 0; `never` if there is none. Static:
-/// each width's event loop must have a copy of its own (engine/event_loop.hpp).
+/// The first time, up to `horizon`, at which f falls to 0; `never` if there is none. Static: the
+/// event loop of each vector width must have its own copy (engine/event_loop.hpp).
 [[maybe_unused]] static double first_fall(const Quartic& f, double horizon, double grain) {
     if (f.c0 <= 0.0 && f.c1 < 0.0) return 0.0;
 
-    // The roots of f''/2 = c2 + 3 c3 τ + 6 c4 τ², in the form in which nothing cancels; what is
-    // not within the horizon, or no number, is none.
+    // The roots of f''/2 = c2 + 3 c3 τ + 6 c4 τ², in the form in which nothing cancels. Roots
+    // beyond the horizon, and NaN, are dropped.
     double ends[3];
     int count = 0;
     const double half = 1.5 * f.c3, square = half * half - 6.0 * f.c4 * f.c2;
@@ -94,8 +95,8 @@ SWIRL_INLINE double fall_between(const Quartic& f, double low, double high, doub
     }
     ends[count++] = horizon;
 
-    double begin = 0.0;       // of the monotonic stretch of f
-    double low = 0.0;         // of the monotonic stretch of f'
+    double begin = 0.0;       // of the interval in which f is monotonic
+    double low = 0.0;         // of the interval in which f' is monotonic
     double direction = f.c1;  // the last slope that was not 0
     for (int k = 0; k < count; ++k) {
         const double slope = f.slope(ends[k]);

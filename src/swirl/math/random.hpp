@@ -1,5 +1,5 @@
-// Random numbers that are the same everywhere: SplitMix64 (Steele, Lea, Flood 2014,
-// doi:10.1145/2660193.2660195), and doubles made from its bits without the standard library's
+// Random numbers that are the same on every platform: SplitMix64 (Steele, Lea, Flood 2014,
+// doi:10.1145/2660193.2660195). Doubles are made from its bits without the standard library's
 // distributions, whose results differ between implementations.
 #pragma once
 
@@ -20,11 +20,11 @@ class Random {
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         return z ^ (z >> 31);
     }
-    /// In [0, 1), a multiple of 2⁻⁵³.
+    /// Uniform in [0, 1): a multiple of 2⁻⁵³.
     constexpr double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-    /// In {0, …, n − 1}; the bias is below n/2⁶⁴.
+    /// Uniform in {0, …, n − 1}; the bias is below n/2⁶⁴.
     constexpr std::uint64_t below(std::uint64_t n) { return bits() % n; }
-    /// Uniform in the disc of the given radius (by rejection, so no trigonometry).
+    /// Uniform in the disc of the given radius; by rejection, so without trigonometry.
     constexpr Vec2 in_disc(double radius) {
         for (;;) {
             const double x = 2.0 * uniform() - 1.0, y = 2.0 * uniform() - 1.0;

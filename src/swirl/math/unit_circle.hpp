@@ -1,5 +1,5 @@
-// Cosine and sine from + − × alone. The library's differ in the last bit between platforms, and a
-// trajectory that depends on the platform's libm cannot be reproduced.
+// Cosine and sine from + − × alone. Library functions differ in the last bit between platforms, and
+// a trajectory that depends on the platform's libm would not be reproducible.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace swirl {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// v, turned by k right angles.
+/// v, rotated by k right angles.
 SWIRL_INLINE constexpr Vec2 quarter_turns(std::int64_t k, const Vec2& v) {
     switch (k & 3) {
         case 0:
@@ -24,9 +24,9 @@ SWIRL_INLINE constexpr Vec2 quarter_turns(std::int64_t k, const Vec2& v) {
     }
 }
 
-/// (cos 2πu, sin 2πu), within 2⁻⁵² of the truth for |u| ≤ 1. `u` counts turns, so that quarter
-/// turns are exact: u = k/4 + f with |f| ≤ 1/8, then the Taylor series of the remaining angle
-/// φ = 2πf, |φ| ≤ π/4, where the first term left out is below φ¹⁸/18! = 2·10⁻¹⁸.
+/// (cos 2πu, sin 2πu), with an error below 2⁻⁵² for |u| ≤ 1. `u` counts turns, so quarter turns are
+/// exact: u = k/4 + f with |f| ≤ 1/8. The remaining angle φ = 2πf, |φ| ≤ π/4, is evaluated as a
+/// Taylor series, whose first omitted term is below φ¹⁸/18! = 2·10⁻¹⁸.
 SWIRL_INLINE constexpr Vec2 unit_circle(double u) {
     const double quarters = 4.0 * u;
     const auto k = static_cast<std::int64_t>(quarters >= 0.0 ? quarters + 0.5 : quarters - 0.5);
@@ -41,16 +41,16 @@ SWIRL_INLINE constexpr Vec2 unit_circle(double u) {
     return quarter_turns(k, {c, s});
 }
 
-/// sin φ, 1 − cos φ, and φ − sin φ, with all digits of small angles.
+/// sin φ, 1 − cos φ, and φ − sin φ, with full precision for small angles.
 struct Turn {
     double sine, versine, lag;
 };
 
-/// For |φ| ≤ π/4: Taylor's series, whose first terms left out are below φ¹⁷/17! = 5·10⁻¹⁷ and
-/// φ¹⁸/18! = 2·10⁻¹⁸. No division, and terms in pairs, as each waits for the last: on a circular
-/// path this is done for every event.
+/// For |φ| ≤ π/4: Taylor series, whose first omitted terms are below φ¹⁷/17! = 5·10⁻¹⁷ and
+/// φ¹⁸/18! = 2·10⁻¹⁸. On a circular path this is evaluated for every event, so it has no division,
+/// and terms are grouped in pairs that do not wait for each other.
 SWIRL_INLINE constexpr Turn small_turn(double phi) {
-    // One over n!, which up to 16! is exact.
+    // 1/n!; up to 16! the divisor is exact.
     constexpr double s1 = 1.0 / 6.0, s2 = 1.0 / 120.0, s3 = 1.0 / 5040.0, s4 = 1.0 / 362880.0;
     constexpr double s5 = 1.0 / 39916800.0, s6 = 1.0 / 6227020800.0, s7 = 1.0 / 1307674368000.0;
     constexpr double c1 = 1.0 / 24.0, c2 = 1.0 / 720.0, c3 = 1.0 / 40320.0, c4 = 1.0 / 3628800.0;
@@ -64,8 +64,8 @@ SWIRL_INLINE constexpr Turn small_turn(double phi) {
             lag};
 }
 
-/// (cos 2πu, sin 2πu) like unit_circle, within 2⁻⁵¹, in a third of the time. The last bit may be
-/// another.
+/// (cos 2πu, sin 2πu) in a third of the time, with an error below 2⁻⁵¹. The last bit may differ
+/// from unit_circle.
 SWIRL_INLINE constexpr Vec2 quick_unit_circle(double u) {
     const double quarters = 4.0 * u;
     const auto k = static_cast<std::int64_t>(quarters >= 0.0 ? quarters + 0.5 : quarters - 0.5);
@@ -74,10 +74,10 @@ SWIRL_INLINE constexpr Vec2 quick_unit_circle(double u) {
     return quarter_turns(k, {c, s});
 }
 
-/// For |φ| ≤ 2: Taylor's series, whose first terms left out are below 2²⁵/25! = 2·10⁻¹⁸ and
-/// 2²⁴/24! = 3·10⁻¹⁷. Neither division nor branch.
+/// For |φ| ≤ 2: Taylor series, whose first omitted terms are below 2²⁵/25! = 2·10⁻¹⁸ and
+/// 2²⁴/24! = 3·10⁻¹⁷. It has neither divisions nor branches.
 SWIRL_INLINE constexpr Turn wide_turn(double phi) {
-    // One over n!.
+    // 1/n!
     constexpr double s[] = {1.0 / 6.0,
                             1.0 / 120.0,
                             1.0 / 5040.0,
@@ -112,7 +112,7 @@ SWIRL_INLINE constexpr Turn wide_turn(double phi) {
     return {phi - lag, q * sum(c), lag};
 }
 
-/// For any angle.
+/// The same for any angle.
 SWIRL_INLINE constexpr Turn turn_by(double phi) {
     if (phi <= 2.0 && phi >= -2.0) return wide_turn(phi);
     const Vec2 u = quick_unit_circle(phi * (0.5 / pi));
@@ -120,9 +120,9 @@ SWIRL_INLINE constexpr Turn turn_by(double phi) {
 }
 
 /// The angle of a vector in turns, 0 ≤ u < 1, counter-clockwise from +x: the inverse of
-/// unit_circle, within 2⁻⁵² of the truth; 0 for the null vector, NaN if a component is. With t =
-/// tan of the angle from the nearest axis or diagonal, |t| ≤ √2 − 1, it is atan t = t P(t²); P
-/// interpolates in the Chebyshev points of 0 ≤ t² ≤ (√2 − 1)².
+/// unit_circle, with an error below 2⁻⁵². It is 0 for the null vector, and NaN if a component is
+/// NaN. Let t be the tangent of the angle from the nearest axis or diagonal, |t| ≤ √2 − 1. Then
+/// atan t = t P(t²), where P interpolates in the Chebyshev points of 0 ≤ t² ≤ (√2 − 1)².
 inline constexpr double turns_of(const Vec2& v) {
     const double a = v.x < 0.0 ? -v.x : v.x, b = v.y < 0.0 ? -v.y : v.y;
     const double large = a > b ? a : b, small = a > b ? b : a;

@@ -1,5 +1,5 @@
-// Vectors of the plane. `Real` is double, or eight doubles side by side (lanes.hpp), so that one
-// text of the physics serves one disc and eight.
+// Vectors in the plane. `Real` is a double, or a vector of doubles (Lanes, lanes.hpp): the physics
+// is written once, for one disc and for eight.
 #pragma once
 
 namespace swirl {
@@ -35,12 +35,12 @@ template <class Real>
 SWIRL_INLINE constexpr Real cross(const BasicVec2<Real>& a, const BasicVec2<Real>& b) {
     return a.x * b.y - a.y * b.x;
 }
-/// a turned by +90°: ẑ × a, the paper's (x, y)^⊥ = (−y, x).
+/// a rotated by +90°: ẑ × a, the paper's (x, y)^⊥ = (−y, x).
 template <class Real>
 SWIRL_INLINE constexpr BasicVec2<Real> perpendicular(const BasicVec2<Real>& a) {
     return {-a.y, a.x};
 }
-/// The product as complex numbers: b turned by the angle of a and stretched by its magnitude.
+/// The product as complex numbers: b rotated by the angle of a and stretched by its magnitude.
 template <class Real>
 SWIRL_INLINE constexpr BasicVec2<Real> complex_product(const BasicVec2<Real>& a,
                                                        const BasicVec2<Real>& b) {

@@ -1,7 +1,7 @@
-// SWIRL_WIDE before a function: compiled for AVX-512, for AVX2 and for whatever processor there is,
-// and chosen when the program starts. For loops over columns whose iterations do not depend on each
-// other: the same operations on each element, never fused, so all give the same bits. Where the
-// compiler or a sanitizer does not go along, it is compiled once.
+// SWIRL_WIDE before a function: it is compiled for AVX-512, for AVX2 and for the baseline, and one
+// version is chosen when the program starts. It is for loops over columns with independent
+// iterations. Every version does the same operations on each element, never fused, so results are
+// bitwise identical. If the compiler or a sanitizer does not support this, there is one version.
 #pragma once
 
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \

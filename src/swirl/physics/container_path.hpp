@@ -1,9 +1,9 @@
-// Where the centre C of the container is. It runs counter-clockwise round the swirl centre S, which
-// is the origin; the container never turns (paper, SI "Overview").
+// The path of the container's centre C. It moves counter-clockwise round the swirl centre S, which
+// is the origin. The container never rotates (paper, SI "Overview").
 //
-// A path is a closed sequence of legs of constant speed and constant turning. A side of the paper's
-// polygon is a leg with turning 0; the exact circle is one leg with turning Ω. "Path vertex", the
-// paper's third kind of event, is the end of a leg.
+// A path is a closed sequence of segments of constant speed and constant turn rate. A side of the
+// paper's polygon is a segment with turn rate 0; the exact circle is one arc with turn rate Ω. The
+// end of a segment is the paper's third kind of event, a path vertex.
 #pragma once
 
 #include <vector>
@@ -15,34 +15,34 @@
 
 namespace swirl {
 
-/// One stretch of the path. Times are counted from the start of the swirl.
+/// One segment of the path. Times count from the start of the period.
 struct Segment {
     double begin, end;
     Vec2 start, velocity;  // at `begin`
-    double turning;        // rad per unit time; 0 for a straight leg
+    double turn_rate;      // rad per unit time; 0 for a straight segment
 
     SWIRL_INLINE Vec2 position_at(double t) const {
-        if (turning == 0.0) return start + (t - begin) * velocity;
+        if (turn_rate == 0.0) return start + (t - begin) * velocity;
         return flight_at(t).position;
     }
     SWIRL_INLINE Vec2 velocity_at(double t) const {
-        if (turning == 0.0) return velocity;
+        if (turn_rate == 0.0) return velocity;
         return flight_at(t).velocity;
     }
-    /// Both, at time t. Position is the integral of the turning velocity:
-    /// (sin φ v + (1 − cos φ) v^⊥) / turning, φ = turning (t − begin).
+    /// Position and velocity at time t. On an arc the position is the integral of the turning
+    /// velocity, (sin φ v + (1 − cos φ) v^⊥) / turn_rate with φ = turn_rate (t − begin).
     SWIRL_INLINE Flight<double> flight_at(double t) const {
         const double elapsed = t - begin;
-        if (turning == 0.0) return {start + elapsed * velocity, velocity, t};
-        const Vec2 u = quick_unit_circle(elapsed * turning * (0.5 / pi));
+        if (turn_rate == 0.0) return {start + elapsed * velocity, velocity, t};
+        const Vec2 u = quick_unit_circle(elapsed * turn_rate * (0.5 / pi));
         const Vec2 across = perpendicular(velocity);
-        return {start + (1.0 / turning) * (u.y * velocity + (1.0 - u.x) * across),
+        return {start + (1.0 / turn_rate) * (u.y * velocity + (1.0 - u.x) * across),
                 u.x * velocity + u.y * across, t};
     }
 };
 
 struct ContainerPath {
-    double period;  // T; the swirl's angular velocity is Ω = 2π/T
+    double period;  // T; the angular velocity of the motion is Ω = 2π/T
     std::vector<Segment> segments;
 
     double omega() const { return 2.0 * pi / period; }
@@ -53,20 +53,20 @@ struct ContainerPath {
     }
 };
 
-/// The paper's numbers (SI "Simulation parameters"). The main text's A = 0.96 is in disc diameters;
-/// with these the container moves at speed 1 and A/R = 0.22 as in the experiment.
+/// The paper's parameters (SI "Simulation parameters"). With these the container moves at speed 1,
+/// and A/R = 0.22 as in the experiment. (The main text's A = 0.96 is in disc diameters.)
 inline constexpr double paper_period = 11.866071;
 inline constexpr double paper_amplitude = 1.892;
 inline constexpr double paper_container_radius = 8.6;
 inline constexpr int paper_sides = 30;
 
-/// A container that stands still; its clock still has a period.
+/// A container at rest. Its clock still has a period.
 inline ContainerPath still_path(double period) {
     return {period, {{0.0, period, {0.0, 0.0}, {0.0, 0.0}, 0.0}}};
 }
 
-/// Regular polygon with vertices A (cos 2πk/M, sin 2πk/M), run through at constant speed
-/// 2AM sin(π/M)/T. M ≥ 3.
+/// Regular polygon with vertices A (cos 2πk/M, sin 2πk/M), traversed at constant speed
+/// 2AM sin(π/M)/T, with M = `sides` ≥ 3.
 inline ContainerPath polygon_path(double amplitude, double period, int sides) {
     if (amplitude == 0.0) return still_path(period);
     ContainerPath path{period, {}};
@@ -79,7 +79,7 @@ inline ContainerPath polygon_path(double amplitude, double period, int sides) {
     return path;
 }
 
-/// The true circle of radius A, which the paper's polygon approximates.
+/// The exact circle of radius A, which the paper's polygon approximates.
 inline ContainerPath circular_path(double amplitude, double period) {
     if (amplitude == 0.0) return still_path(period);
     const double omega = 2.0 * pi / period;

@@ -1,6 +1,6 @@
-// A disc, and how it moves between collisions: in a straight line at constant speed, turning at
-// constant rate. There is no friction with the floor (paper, SI "Overview"). A sphere, seen from
-// above, is a disc with two spins more; what the floor does to it is in floor.hpp.
+// A disc and its motion between collisions: uniform translation and constant spin. There is no
+// friction against the floor (paper, SI "Overview"). A sphere, seen from above, is a disc with two
+// more spins; floor.hpp describes how the floor acts on it.
 #pragma once
 
 #include "swirl/math/real.hpp"
@@ -8,7 +8,7 @@
 
 namespace swirl {
 
-/// Uniform motion: `position` held at `time`. A contact time may depend on nothing but this.
+/// Uniform motion, with `position` at `time`. Contact times depend on nothing else.
 template <class Real>
 struct Flight {
     BasicVec2<Real> position, velocity;
@@ -20,19 +20,19 @@ struct Flight {
     }
 };
 
-/// Units: length = disc radius, mass = disc mass, speed of the container = 1. The state is that at
-/// `time`, which is counted from the start of the current swirl.
+/// Units: disc radius, disc mass, and the container's speed are 1. The state is that at `time`,
+/// which counts from the start of the current period.
 struct Disc {
     Vec2 position, velocity;
     double angle, spin, time;  // spin: the paper's ω_i, positive counter-clockwise
     double radius, mass, inertia;
-    // Of spheres alone; a disc has none of it.
+    // For spheres only.
     Vec2 rolling_spin{0.0, 0.0};  // (ω_x, ω_y)
-    double last_collision = 0.0;  // when; `time` is also that of other changes
+    double last_collision = 0.0;  // its time; `time` may be that of another change
 
     constexpr Flight<double> flight() const { return {position, velocity, time}; }
 
-    /// The same disc, brought up to date.
+    /// The same disc with its state at time t.
     constexpr Disc at(double t) const {
         Disc d = *this;
         d.position = flight().position_at(t);
@@ -42,8 +42,8 @@ struct Disc {
     }
 };
 
-/// The paper's table gives I = 10 for m = r = 1, which no rigid plane disc can have (a ring has 1,
-/// a solid disc ½). It matters: with ½ the cluster counterrotates only beyond N = 52.
+/// The paper's table gives I = 10 for m = r = 1. No rigid plane disc can have that: a ring has 1, a
+/// solid disc ½. The value matters: with ½ the cluster counterrotates only beyond N = 52.
 inline constexpr double paper_inertia = 10.0;
 inline constexpr double ring_inertia(double mass, double radius) { return mass * radius * radius; }
 inline constexpr double solid_inertia(double mass, double radius) {

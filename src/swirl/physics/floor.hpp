@@ -1,41 +1,45 @@
-// Spheres that roll and slide on the floor of the dish, and coins that slide on it. (The paper's
-// experiment has spheres; its simulation has discs that nothing rubs from below.) The floor moves
-// with the velocity u of the container and does not turn.
+// Friction against the floor: spheres that roll and slide on the container's floor, and coins that
+// slide on it. (The paper's experiment has spheres; its simulation has discs without friction
+// against the floor.) The floor moves with the velocity u of the container and does not rotate.
 //
-//        ___            The sphere touches the floor at −R ẑ, where it slips at the rate
+//        ___            The sphere touches the floor at −R ẑ, where it slips with the velocity
 //      /  ω  \              c = v − u + ω × (−R ẑ) = v − u − R ω × ẑ
 //     |   ·→ v|               = (v_x − u_x − R ω_y,  v_y − u_y + R ω_x).
 //   ___\_____/___ →u    It presses on the floor with m g.
 //
-// Sliding, |c| > 0: friction is −μ_f m g ĉ, with the torque (−R ẑ) × (−μ_f m g ĉ), so
+// Sliding, |c| > 0: the friction force is −μ_f m g ĉ, its torque (−R ẑ) × (−μ_f m g ĉ), so
 //     dv/dt = −μ_f g ĉ =: a,      dω/dt = (μ_f m g R / I) ẑ × ĉ = (m R / I) (a_y, −a_x),
 //     dc/dt = a − R (dω/dt) × ẑ = −μ_f g (1 + m R²/I) ĉ.
-// While the floor's velocity does not change, ĉ does not either: the centre flies a parabola until
-// c is 0, after t = |c| / (μ_f g (1 + m R²/I)); 2|c| / (7 μ_f g) for a solid sphere.
-// Rolling, c = 0: the friction that would be needed is 0, so it stays; straight and uniform.
-// End of a leg: u jumps by Δu, c by −Δu. Who rolled slides for a moment; rolling again it has
-// gained
-//     Δv = Δu / (1 + m R²/I), 2/7 Δu for a solid sphere.
-// ω_z is no business of the floor: a point has no lever.
+// While the floor's velocity is constant, ĉ is constant, too. The centre moves along a parabola
+// until c is 0, after t = |c| / (μ_f g (1 + m R²/I)); that is 2|c| / (7 μ_f g) for a solid sphere.
 //
-// Rolling resistance: a torque μ_r m g R against the rolling. Rolling with w = v − u, the floor's
-// friction f and this torque slow it down together: m dw/dt = −f and I dω/dt = f R − μ_r m g R with
-// w = ω R, so
+// Rolling, c = 0: no friction is needed, so the sphere continues to roll uniformly.
+//
+// End of a path segment: u jumps by Δu, and c by −Δu. A sphere that rolled slides for a moment.
+// When it rolls again it has gained
+//     Δv = Δu / (1 + m R²/I), that is 2/7 Δu for a solid sphere.
+// The floor does not act on ω_z: the contact is a point without a lever arm.
+//
+// Rolling resistance is a torque μ_r m g R against the rolling. Let w = v − u be the velocity of
+// rolling. The floor's friction f and this torque slow it down together: m dw/dt = −f and
+// I dω/dt = f R − μ_r m g R with w = ω R, so
 //     dw/dt = −μ_r g / (1 + I/(m R²)) ŵ,    5/7 μ_r g for a solid sphere,
-// up to its rest on the floor, after |w| over that; it then goes with the floor. The force that
-// this takes of the floor is below μ_f m g if μ_r ≤ μ_f, which is required, so it does not slide.
-// While a sphere slides the torque is left out: along ω and not along c, it would turn ĉ, and its
-// share of the torque of sliding is μ_r/μ_f.
+// until it rests on the floor, after |w| divided by that rate. Then it moves with the floor. The
+// force on the floor is below μ_f m g if μ_r ≤ μ_f, which is required, so the sphere does not
+// slide. While a sphere slides this torque is neglected. It is along ω, not along c, and would turn
+// ĉ; its ratio to the torque of sliding is μ_r/μ_f.
 //
-// A coin is a disc that lies flat on the floor, which has no lever to turn it over. It slips at
-// c = v − u, so all is as above without the turning: dc/dt = −μ_f g ĉ, and it comes to rest on the
-// floor, v = u, after |c| / (μ_f g); that is the event at which a sphere begins to roll. Then
-// the floor takes it along, up to the end of the leg. What the floor does to the spin of a coin
-// (its rim rubs too, and hinders sliding less while it turns) is left out.
+// A coin is a disc that lies flat on the floor, without a lever arm that could turn it over. It
+// slips with c = v − u, so everything is as above without rotation: dc/dt = −μ_f g ĉ. It comes to
+// rest on the floor, v = u, after |c| / (μ_f g). This is the same kind of event as for a sphere
+// that begins to roll. Then the coin moves with the floor until the segment ends. The floor's
+// effect on the spin of a coin is neglected. (Friction also acts at its rim, and hinders sliding
+// less while the coin spins.)
 //
-// Limits: one coefficient for sliding and sticking; resistance to rolling only while one rolls,
-// none to pivoting; a floor that does not turn its velocity while somebody slides: polygons, not
-// the exact circle. Without a floor (μ_f g = 0) a sphere flies as a disc does.
+// Limits: one coefficient for sliding and sticking; rolling resistance only while a sphere rolls;
+// no resistance to pivoting; the floor's velocity must not turn while a sphere slides, so the path
+// must be a polygon, not the exact circle. Without a floor (μ_f g = 0) a sphere moves as a disc
+// does.
 #pragma once
 
 #include "swirl/math/real.hpp"
@@ -44,7 +48,7 @@
 
 namespace swirl {
 
-/// What the engine's bodies are. A disc has one spin and no floor; a sphere has three spins; a coin
+/// The shape of the particles. A disc has one spin and no floor; a sphere has three spins; a coin
 /// is a disc on a floor.
 enum class Shape : unsigned char { disc, sphere, coin };
 
@@ -57,12 +61,12 @@ inline constexpr double shell_inertia(double mass, double radius) {
 }
 
 struct Floor {
-    double deceleration = 0.0;     // μ_f g, of a body that slides without turning; 0 is no floor
-    bool bodies_lie_flat = false;  // coins
+    double deceleration = 0.0;        // μ_f g, while sliding without rotation; 0: no floor
+    bool bodies_lie_flat = false;     // coins
     double rolling_resistance = 0.0;  // μ_r g, of spheres
 };
 
-/// Uniformly accelerated motion, as Flight is uniform: the state held at `time`.
+/// Uniformly accelerated motion, with the state at `time` (compare Flight).
 template <class Real>
 struct Parabola {
     BasicVec2<Real> position, velocity, acceleration;
@@ -78,28 +82,28 @@ struct Parabola {
     }
 };
 
-/// What the floor does to a sphere until something else happens to it.
+/// How the floor moves a sphere until its next event.
 struct FloorMotion {
     Vec2 acceleration{0.0, 0.0};
     Vec2 spin_rate{0.0, 0.0};  // (dω_x/dt, dω_y/dt)
-    /// When it no longer slides, and begins to roll or, a coin, rests on the floor; or when one
-    /// that slows down has come to rest on it. Never, if it does neither.
+    /// The time when sliding ends: a sphere begins to roll, a coin rests on the floor. Or the time
+    /// when a rolling sphere that slows down has come to rest. `never` if neither happens.
     double begins_to_roll = never;
-    bool slows_down = false;        // rolls, against a resistance
-    Vec2 floor_velocity{0.0, 0.0};  // over which it does
+    bool slows_down = false;        // it rolls, against a resistance
+    Vec2 floor_velocity{0.0, 0.0};  // over which it rolls
 };
 
-/// (ω_x, ω_y) of a sphere that rolls with this velocity over the floor.
+/// (ω_x, ω_y) of a sphere that rolls with this velocity relative to the floor.
 SWIRL_INLINE constexpr Vec2 spin_of_rolling(const Vec2& over_floor, double radius) {
     return {-(over_floor.y / radius), over_floor.x / radius};
 }
-/// c. A sphere that was set rolling has c = 0 up to rounding, so whether one rolls is asked of its
-/// spin (floor_motion).
+/// The slip velocity c. For a rolling sphere c = 0 only up to rounding, so floor_motion tests the
+/// spin instead.
 SWIRL_INLINE constexpr Vec2 slip_on_floor(const Disc& d, const Vec2& floor_velocity) {
     const Vec2 over_floor = d.velocity - floor_velocity;
     return {over_floor.x - d.radius * d.rolling_spin.y, over_floor.y + d.radius * d.rolling_spin.x};
 }
-/// 1 + m R²/I: so much faster does slip end than without turning.
+/// 1 + m R²/I: slip ends this much faster than without rotation.
 SWIRL_INLINE constexpr double slip_factor(double mass, double radius, double inertia) {
     return 1.0 + mass * radius * radius / inertia;
 }
@@ -111,7 +115,7 @@ SWIRL_INLINE constexpr Vec2 rolling_spin_rate(const Vec2& acceleration, double m
     return {rate * acceleration.y, -(rate * acceleration.x)};
 }
 
-/// Of a sphere that rolls.
+/// The motion of a sphere that rolls.
 SWIRL_INLINE FloorMotion rolling_motion(const Disc& d, const Floor& floor,
                                         const Vec2& floor_velocity) {
     if (floor.rolling_resistance == 0.0) return {};
@@ -124,11 +128,11 @@ SWIRL_INLINE FloorMotion rolling_motion(const Disc& d, const Floor& floor,
     return {a, spin_of_rolling(a, d.radius), d.time + speed / rate, true, floor_velocity};
 }
 
-/// From the stored state alone.
+/// The motion that follows from a stored state.
 SWIRL_INLINE FloorMotion floor_motion(const Disc& d, const Floor& floor,
                                       const Vec2& floor_velocity) {
     if (floor.deceleration == 0.0) return {};
-    // A coin at rest on the floor has the spin of a sphere that rolls with it: none.
+    // A coin at rest on the floor has the horizontal spin of a sphere at rest on it: none.
     const Vec2 rolls = spin_of_rolling(d.velocity - floor_velocity, d.radius);
     if (d.rolling_spin.x == rolls.x && d.rolling_spin.y == rolls.y)
         return rolling_motion(d, floor, floor_velocity);
@@ -141,12 +145,12 @@ SWIRL_INLINE FloorMotion floor_motion(const Disc& d, const Floor& floor,
             d.time + slip / (floor.deceleration * slip_factor(d.mass, d.radius, d.inertia))};
 }
 
-/// The sphere with its flight.
+/// The parabola of a sphere.
 SWIRL_INLINE constexpr Parabola<double> parabola(const Disc& d, const FloorMotion& motion) {
     return {d.position, d.velocity, motion.acceleration, d.time};
 }
 
-/// The same sphere, brought up to date.
+/// The same sphere with its state at time t.
 SWIRL_INLINE constexpr Disc moved_to(const Disc& d, const FloorMotion& motion, double t) {
     Disc after = d;
     const double elapsed = t - d.time;
@@ -160,8 +164,7 @@ SWIRL_INLINE constexpr Disc moved_to(const Disc& d, const FloorMotion& motion, d
     return after;
 }
 
-/// The end of sliding or of slowing down, at its time: from now on it rolls, or rests on the floor,
-/// exactly.
+/// The sphere at the end of sliding or slowing down: from then on it rolls or rests exactly.
 SWIRL_INLINE constexpr Disc set_rolling(const Disc& d, const FloorMotion& motion,
                                         const Floor& floor, const Vec2& floor_velocity) {
     Disc after = moved_to(d, motion, motion.begins_to_roll);

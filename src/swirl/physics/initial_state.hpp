@@ -1,5 +1,5 @@
-// Everything that determines a trajectory: the discs as they start, where the container goes, and
-// what happens at contacts.
+// Everything that determines a trajectory: the discs at the beginning, the path of the container,
+// and the surfaces.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@
 
 namespace swirl {
 
-/// Disc times count from the start of the first swirl.
+/// Disc times count from the start of the first period.
 struct InitialState {
     std::vector<Disc> discs;
     ContainerPath path;
     double container_radius;
     Surface disc_surface, wall_surface;
     Shape shape = Shape::disc;
-    Floor floor{};  // of spheres
+    Floor floor{};  // for spheres and coins
 };
 
 }  // namespace swirl

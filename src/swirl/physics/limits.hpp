@@ -1,23 +1,24 @@
-// How large and how small a dish may be: the ranges of the parameters of a run, and of everything
-// that is read from a file and measured, drawn or exported.
+// The smallest and largest allowed values: for the parameters of a run, and for everything that is
+// read from a file and measured, drawn or exported.
 #pragma once
 
 namespace swirl {
 
-// Beyond these the arithmetic is still right but a result means nothing any more; most often a
-// number outside is a slip of the keyboard.
+// Outside this range the arithmetic is still correct, but results are meaningless. Such a number is
+// usually a typing error.
 inline constexpr double smallest_value = 1e-6, largest_value = 1e6;
 inline constexpr double max_discs = 1e7, max_events = 1e15, max_periods = 1e12, max_sides = 1e6;
 
-/// Moments of inertia: in a mixture they follow from the mass and the square of the radius.
+/// Range of moments of inertia; in a mixture they follow from the mass and the square of the
+/// radius.
 inline constexpr double smallest_inertia = 1e-48, largest_inertia = 1e48;
 
-/// Of a coordinate: the container's centre and its radius, and as much again for a camera's tracks
-/// of discs that were not in it.
+/// Largest coordinate: the container's centre plus its radius, and twice that for a camera's tracks
+/// of discs outside the container.
 inline constexpr double largest_coordinate = 4.0 * largest_value;
 
-/// Of velocities, angles and spins, and of all that a saved state holds. What the parameters allow
-/// stays far below it, and squares and products of such numbers are numbers still.
+/// Largest velocity, angle, spin, or other number in a saved state. What the parameters allow is
+/// far below, and squares and products of such numbers are still finite.
 inline constexpr double largest_magnitude = 1e18;
 
 }  // namespace swirl

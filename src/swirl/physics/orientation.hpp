@@ -1,16 +1,16 @@
-// How a sphere is turned, which its motion does not depend on: a unit quaternion that takes the
-// sphere's own axes to those of the lab. At the beginning they are the same.
+// The orientation of a sphere, on which its motion does not depend. It is a unit quaternion that
+// takes the sphere's own axes to those of the lab. At the beginning they are the same.
 //
-// While nothing happens to a sphere its spin is ω(t) = ω₀ + α t: constant if it rolls, with a
-// constant rate α (horizontal) while it slides (floor.hpp). About a fixed axis the turn in a time h
-// is exp(h ω₀). Where the axis moves it is that of Magnus' series (Blanes, Casas, Oteo, Ros 2009,
+// Between events the spin of a sphere is ω(t) = ω₀ + α t: constant if it rolls, with a constant
+// rate α (horizontal) while it slides (floor.hpp). About a fixed axis the rotation in a time h is
+// exp(h ω₀). If the axis moves, it is given by Magnus' series (Blanes, Casas, Oteo, Ros 2009,
 // doi:10.1016/j.physrep.2008.11.001), here up to the fourth order:
 //
 //     exp(Φ),  Φ = h ω₀ + h²/2 α + h³/12 α × ω₀ + O(h⁵)
 //
-// Slides last some hundredths of the unit of time, so what is left out is below 10⁻⁸ of a turn;
-// longer ones are taken in steps. Cosine and sine are those of math/unit_circle.hpp: the same bits
-// everywhere.
+// Sliding lasts some hundredths of the unit of time, so the omitted terms are below 10⁻⁸ of a turn.
+// Longer sliding is divided into steps. Cosine and sine are those of math/unit_circle.hpp, so
+// results are the same on every platform.
 #pragma once
 
 #include "swirl/math/real.hpp"
@@ -30,7 +30,7 @@ constexpr Quaternion operator*(const Quaternion& a, const Quaternion& b) {
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-/// By the angle |Φ| about Φ = (x, y, z).
+/// Rotation by the angle |Φ| about Φ = (x, y, z).
 inline Quaternion turn_by(double x, double y, double z) {
     const double angle = square_root(x * x + y * y + z * z);
     if (angle == 0.0) return {};
@@ -39,25 +39,25 @@ inline Quaternion turn_by(double x, double y, double z) {
     return {half.x, s * x, s * y, s * z};
 }
 
-/// Of length 1 again, which products lose by rounding.
+/// Normalised to length 1, which products lose by rounding.
 inline Quaternion unit(const Quaternion& q) {
     const double n = square_root(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return {q.w / n, q.x / n, q.y / n, q.z / n};
 }
 
-/// So a sphere is turned after the time h, with the spin (ω_x, ω_y, ω_z) at its beginning and the
-/// rate (α_x, α_y) of the first two.
+/// The orientation after a time h. The spin at the beginning is (ω_x, ω_y) = `horizontal` and
+/// ω_z = `vertical`; `rate` is (α_x, α_y).
 inline Quaternion turned_for(const Quaternion& from, double h, const Vec2& horizontal,
                              double vertical, const Vec2& rate) {
-    // h⁵ α² ω and the like, with the α of plastic (some 5) and ω of 1: 10⁻⁸ of a turn.
-    constexpr double longest = 0.05;
+    // The error is of the order of h⁵ α² ω: 10⁻⁸ of a turn with α ≈ 5 (plastic) and ω ≈ 1.
+    constexpr double max_step = 0.05;
     Quaternion q = from;
     Vec2 spin = horizontal;
     const bool slides = rate.x != 0.0 || rate.y != 0.0;
     for (double left = h; left > 0.0;) {
-        const double step = slides && left > longest ? longest : left;
+        const double step = slides && left > max_step ? max_step : left;
         const double a = 0.5 * step * step, b = step * step * step / 12.0;
-        // α × ω, α_z = 0.
+        // α × ω with α_z = 0.
         const double x = rate.y * vertical, y = -(rate.x * vertical),
                      z = rate.x * spin.y - rate.y * spin.x;
         q = turn_by(step * spin.x + a * rate.x + b * x, step * spin.y + a * rate.y + b * y,
@@ -69,7 +69,7 @@ inline Quaternion turned_for(const Quaternion& from, double h, const Vec2& horiz
     return unit(q);
 }
 
-/// Where a point of the sphere, given in its own axes, is in the lab.
+/// A direction. `turned` converts it from the sphere's axes to those of the lab.
 struct Direction {
     double x, y, z;
 };

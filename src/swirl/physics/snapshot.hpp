@@ -1,12 +1,12 @@
-// The system at one instant, as an observer gets it: from the engine, from a file, or from a
-// camera's tracks. Everything in measure/ and draw/ takes this and nothing else.
+// The system at one instant, as an observer sees it: from the engine, from a file, or from a
+// camera's tracks. Everything in measure/ and render/ takes a Snapshot and nothing else.
 //
-// Columns, one entry per disc. Each disc's state is kept at its own time `held_at`, and moves
-// uniformly from there; a look at time `clock` brings it forward. So an observer who looks after
-// every event is handed two changed discs, not N. In recorded data held_at = clock.
+// Data is stored in columns, with one entry per disc. Each disc's state is that at its own time
+// `held_at`, and it moves uniformly from there; position(i) is evaluated at `clock`. So an observer
+// of every event receives two changed discs, not N. In recorded data held_at = clock.
 //
-// Spheres on a floor may be accelerated; who asks the columns alone is handed up_to_date(), where
-// everybody is held now.
+// Spheres on a floor may be accelerated. Code that reads the columns directly uses up_to_date(),
+// where all states are those at the current time.
 #pragma once
 
 #include <cstddef>
@@ -22,23 +22,23 @@ namespace swirl {
 
 struct Snapshot {
     std::int64_t periods = 0;  // whole periods since the beginning
-    double clock = 0.0;        // time since the start of the current swirl
+    double clock = 0.0;        // time since the start of the current period
     double period = 0.0;       // T; Ω = 2π/T
     Vec2 container_centre{0.0, 0.0}, container_velocity{0.0, 0.0};
     double container_radius = 0.0;
 
-    // spin and angle are NaN where they are not known (a camera's tracks).
+    // spin and angle are NaN if unknown (a camera's tracks).
     std::vector<double> x, y, vx, vy, angle, spin, held_at;
     std::vector<double> radius, mass, inertia;
-    // Of spheres, empty for discs: the other two spins, and what the floor does.
+    // For spheres (empty for discs): the other two spins, and the acceleration by the floor.
     std::vector<double> spin_x, spin_y, ax, ay;
-    // How each is turned, at the time at which its state is held. Whoever wants to follow that
-    // begins with one for each sphere; else it is empty, and costs nothing.
+    // The orientation of each sphere at its time `held_at`. An observer who wants to follow
+    // orientations starts with one quaternion per sphere; otherwise the column is empty.
     std::vector<Quaternion> turned;
-    bool on_floor = false;  // it pushes, so that the centre of mass does not move uniformly
-    bool lie_flat = false;  // coins, which have the columns of spheres and no spin but one
+    bool on_floor = false;  // friction against the floor acts on the centre of mass
+    bool lie_flat = false;  // coins: they have the columns of spheres, but only one spin
 
-    /// Or coins.
+    /// Spheres or coins.
     bool are_spheres() const { return !ax.empty(); }
     bool are_balls() const { return are_spheres() && !lie_flat; }
     std::size_t size() const { return x.size(); }
@@ -56,19 +56,19 @@ struct Snapshot {
         const double elapsed = clock - held_at[i];
         return {vx[i] + elapsed * ax[i], vy[i] + elapsed * ay[i]};
     }
-    /// If the spheres are followed: how this one is turned now, or at another time on the clock,
-    /// with nothing between.
+    /// Orientation of sphere i, if orientations are followed: now, or at another time of the clock
+    /// without an event of the sphere in between.
     Quaternion quaternion(std::size_t i) const { return quaternion(i, clock); }
     Quaternion quaternion(std::size_t i, double t) const {
         return turned_for(turned[i], t - held_at[i], {spin_x[i], spin_y[i]}, spin[i], spin_rate(i));
     }
-    /// Whether the sphere rolls, or rests, on the floor: it then has these very spins (floor.hpp).
+    /// Whether the sphere rolls or rests on the floor: then it has exactly these spins (floor.hpp).
     bool rolls(std::size_t i) const {
         const Vec2 over_floor = Vec2{vx[i], vy[i]} - container_velocity;
         const Vec2 rolling = spin_of_rolling(over_floor, radius[i]);
         return rolling.x == spin_x[i] && rolling.y == spin_y[i];
     }
-    /// (dω_x/dt, dω_y/dt) of a sphere. One that rolls is accelerated by rolling resistance alone.
+    /// (dω_x/dt, dω_y/dt) of a sphere. Only rolling resistance accelerates one that rolls.
     Vec2 spin_rate(std::size_t i) const {
         if (lie_flat) return {0.0, 0.0};
         if (rolls(i)) return spin_of_rolling({ax[i], ay[i]}, radius[i]);
@@ -82,7 +82,7 @@ struct Snapshot {
         if (are_spheres()) d.rolling_spin = {spin_x[i], spin_y[i]};
         return d;
     }
-    /// Everybody held now. `now` is any snapshot; its memory is used again.
+    /// Writes a snapshot with all states at the current time to `now`, whose memory is reused.
     void up_to_date(Snapshot& now) const {
         now = *this;
         for (std::size_t i = 0; i < size(); ++i) {
@@ -98,7 +98,7 @@ struct Snapshot {
         up_to_date(now);
         return now;
     }
-    /// What changes in the course of a simulation.
+    /// Sets what an event of a simulation changes.
     void set_motion(std::size_t i, const Flight<double>& flight, double new_angle,
                     double new_spin) {
         x[i] = flight.position.x;
@@ -122,7 +122,7 @@ struct Snapshot {
         mass[i] = d.mass;
         inertia[i] = d.inertia;
     }
-    /// Spheres stay spheres, unless none is left.
+    /// A snapshot of spheres remains one, unless n is 0.
     void resize(std::size_t n) {
         if (are_spheres())
             for (auto* column : {&spin_x, &spin_y, &ax, &ay}) column->resize(n);

@@ -40,7 +40,7 @@ std::vector<Vec2> outline(const ContainerPath& path) {
     std::vector<Vec2> points;
     for (const Segment& segment : path.segments) {
         constexpr int points_per_arc = 180;
-        const int parts = segment.turning == 0.0 ? 1 : points_per_arc;
+        const int parts = segment.turn_rate == 0.0 ? 1 : points_per_arc;
         for (int k = 0; k < parts; ++k)
             points.push_back(
                 segment.position_at(segment.begin + (segment.end - segment.begin) * k / parts));

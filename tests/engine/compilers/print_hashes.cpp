@@ -1,4 +1,4 @@
-// Prints the hashes of the golden runs, by the baseline's loop, for compilers_test.py, which builds
+// Prints the hashes of the golden runs, computed by the baseline loop. compilers_test.py builds
 // this with several compilers and levels of optimisation.
 #include <cstdio>
 

@@ -1,21 +1,22 @@
-// Speed only, changes no bit: the search for a few discs. No lists, no cells, everybody's contact
-// with everybody.
+// Speed only; results stay bitwise identical. The search for a few discs: it tests all pairs,
+// without lists or cells.
 //
-// Up to `SideBySide::most` discs stand side by side in columns, eight to a vector. When two have
-// collided, one pass over the columns finds whom each of them meets next; that costs less than
-// keeping a list up to date where the discs are few and wander far. The wall is kept apart from the
-// meetings, so a corner of the path renews one column and nothing else.
+// Up to DiscColumns::maximum discs are stored in columns, eight to a vector. When two discs have
+// collided, one pass over the columns finds the next contact of each. With few discs that travel
+// far, this costs less than keeping lists up to date. Wall contacts have their own column, so a
+// path vertex renews that column and nothing else.
 //
-// Included by one file per vector width, like event_loop.hpp, and under the same rule. Columns are
-// read and written by whole vectors only: a number written into a vector that is then read whole
-// would wait for the store to leave the processor's store buffer.
+// Columns are read and written as whole vectors only. A narrow store into a vector that is then
+// read as a whole would have to leave the processor's store buffer first.
 #pragma once
 
-#include "swirl/engine/neighbors/engine_state.hpp"
 #include "swirl/engine/neighbors/engine_state_checks.hpp"
+#include "swirl/engine/neighbors/neighbor_search.hpp"
 #include "swirl/engine/neighbors/prediction.hpp"
+#include "swirl/engine/neighbors/search_states.hpp"
 #include "swirl/engine/neighbors/wall_times.hpp"
 #include "swirl/engine/pending_event.hpp"
+#include "swirl/engine/resolve.hpp"
 #include "swirl/math/lanes.hpp"
 
 namespace swirl {
@@ -24,229 +25,236 @@ namespace all_pairs {
 
 using Eight = Lanes<8>;
 
-SWIRL_INLINE Others<8> load_eight(const Columns& all, int group) {
+SWIRL_INLINE Others<8> load_eight(const DiscColumns& columns, int group) {
     const int k = 8 * group;
-    return {{{Eight::load(all.x + k), Eight::load(all.y + k)},
-             {Eight::load(all.vx + k), Eight::load(all.vy + k)},
-             Eight::load(all.time + k)},
-            Eight::load(all.radius + k)};
+    return {{{Eight::load(columns.x + k), Eight::load(columns.y + k)},
+             {Eight::load(columns.vx + k), Eight::load(columns.vy + k)},
+             Eight::load(columns.time + k)},
+            Eight::load(columns.radius + k)};
 }
 
 SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
     set_lane<8>(column + (i & ~7u), i & 7u, x);
 }
 
-SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
+SWIRL_INLINE void copy(AllPairsState& state, std::uint32_t i) {
     const HotDisc& disc = state.discs[i];
-    Columns& all = *state.columns;
-    set(all.x, i, disc.position.x);
-    set(all.y, i, disc.position.y);
-    set(all.vx, i, disc.velocity.x);
-    set(all.vy, i, disc.velocity.y);
-    set(all.time, i, disc.time);
+    DiscColumns& columns = state.columns;
+    set(columns.x, i, disc.position.x);
+    set(columns.y, i, disc.position.y);
+    set(columns.vx, i, disc.velocity.x);
+    set(columns.vy, i, disc.velocity.y);
+    set(columns.time, i, disc.time);
 }
 
-/// Whom D discs meet first, asked at time t. Says when the first of them does.
-template <int G, Held held, int D>
-SWIRL_INLINE double predict_meetings(EngineState& state, const std::uint32_t (&who)[D], double t) {
+/// Predicts the first contact of D discs with another disc, at time t. Returns the earliest time.
+template <int G, StateAge age, int D>
+SWIRL_INLINE double predict_contacts(AllPairsState& state, const std::uint32_t (&ids)[D],
+                                     double t) {
     Eight contact[D][G];
     for (int g = 0; g < G; ++g) {
-        const Others<8> others = load_eight(*state.columns, g);
+        const Others<8> others = load_eight(state.columns, g);
         for (int d = 0; d < D; ++d)
-            contact[d][g] = contact_times<held>(state.discs[who[d]], others, t);
+            contact[d][g] = contact_times<age>(state.discs[ids[d]], others, t);
     }
     double first = never;
     for (int d = 0; d < D; ++d) {
         Eight minimum = contact[d][0];
         for (int g = 1; g < G; ++g) minimum = smaller(minimum, contact[d][g]);
         const double time = smallest(minimum);
-        // Where nobody is met all lanes are equal, and the first will do.
+        // Without a contact all lanes are equal; any partner will do.
         const std::uint64_t equal = lanes_equal(contact[d], time);
-        note_partner(state, {time, who[d], static_cast<std::uint32_t>(__builtin_ctzll(equal))});
-        set(state.columns->meeting, who[d], time);
+        store_partner(state, {time, ids[d], static_cast<std::uint32_t>(__builtin_ctzll(equal))});
+        set(state.columns.contact, ids[d], time);
         first = smaller(first, time);
     }
     return first;
 }
 
-/// On a turning leg: not before when the first of discs that have just collided meets the wall.
+/// On an arc: bounds the times when discs that have just collided, at time t, reach the wall.
+/// Returns the earlier bound.
 template <int G, int D>
-SWIRL_INLINE double predict_turning_wall(EngineState& state, const std::uint32_t (&who)[D],
-                                         double t) {
-    Columns& all = *state.columns;
-    const bool is_kept = D == 1 || G == 1;
-    const Flight<double> centre = is_kept ? turning_centre_at(state, t) : container_near(state, t);
-    const Lanes<2> time = earliest_wall_times<D>(state, centre, who);
+SWIRL_INLINE double predict_wall_on_arc(AllPairsState& state, const std::uint32_t (&ids)[D],
+                                        double t) {
+    DiscColumns& columns = state.columns;
+    const bool is_exact = D == 1 || G == 1;
+    const Flight<double> centre = is_exact ? arc_centre_at(state, t) : container_near(state, t);
+    const Lanes<2> time = earliest_wall_times<D>(state, centre, ids);
     for (int d = 0; d < D; ++d) {
-        if (is_kept) all.centre[who[d]] = centre;
-        set(all.wall, who[d], lane(time, d));
-        all.wall_is_earliest |= std::uint64_t{1} << who[d];
+        if (is_exact) columns.centre[ids[d]] = centre;
+        set(columns.wall, ids[d], lane(time, d));
+        columns.wall_is_bound |= std::uint64_t{1} << ids[d];
     }
     return smallest(time);
 }
-/// When a disc that has just collided, at time t, meets the wall.
+/// Predicts when a disc that has just collided, at time t, reaches the wall.
 template <int G>
-SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[1], double t) {
-    if (state.on_turning_segment()) [[unlikely]]
-        return predict_turning_wall<G>(state, who, t);
-    const double time = wall_time(state, who[0]);
-    set(state.columns->wall, who[0], time);
+SWIRL_INLINE double predict_wall(AllPairsState& state, const std::uint32_t (&ids)[1], double t) {
+    if (state.on_arc()) [[unlikely]]
+        return predict_wall_on_arc<G>(state, ids, t);
+    const double time = wall_time(state, ids[0]);
+    set(state.columns.wall, ids[0], time);
     return time;
 }
-/// When the first of two does.
+/// The same for two discs. Returns the earlier time.
 template <int G>
-SWIRL_INLINE double predict_wall(EngineState& state, const std::uint32_t (&who)[2], double t) {
-    if (state.on_turning_segment()) [[unlikely]]
-        return predict_turning_wall<G>(state, who, t);
-    const Lanes<2> time = wall_times_from_now(state, state.discs[who[0]], state.discs[who[1]], t);
-    set(state.columns->wall, who[0], lane(time, 0));
-    set(state.columns->wall, who[1], lane(time, 1));
+SWIRL_INLINE double predict_wall(AllPairsState& state, const std::uint32_t (&ids)[2], double t) {
+    if (state.on_arc()) [[unlikely]]
+        return predict_wall_on_arc<G>(state, ids, t);
+    const Lanes<2> time = wall_times_from_now(state, state.discs[ids[0]], state.discs[ids[1]], t);
+    set(state.columns.wall, ids[0], lane(time, 0));
+    set(state.columns.wall, ids[1], lane(time, 1));
     return smaller(lane(time, 0), lane(time, 1));
 }
 
 template <int G>
-SWIRL_INLINE void predict_all_walls(EngineState& state) {
-    Columns& all = *state.columns;
-    const bool turning = state.on_turning_segment();
-    all.wall_is_earliest = turning ? ~std::uint64_t{0} : 0;
-    all.walls_asked_at = state.clock;
-    if (turning) {
-        // Of those who collided before, who are on the leg from now on.
-        const Flight<double> centre = turning_centre_at(state, state.clock);
-        for (std::uint32_t i = 0; i < state.size; ++i) all.centre[i] = centre;
+SWIRL_INLINE void predict_all_walls(AllPairsState& state) {
+    DiscColumns& columns = state.columns;
+    const bool on_arc = state.on_arc();
+    columns.wall_is_bound = on_arc ? ~std::uint64_t{0} : 0;
+    columns.walls_bounded_at = state.clock;
+    if (on_arc) {
+        // Discs that collided on an earlier segment count as being on the arc from now on.
+        const Flight<double> centre = arc_centre_at(state, state.clock);
+        for (std::uint32_t i = 0; i < state.size; ++i) columns.centre[i] = centre;
     }
     for (int g = 0; g < G; ++g) {
-        const Others<8> discs = load_eight(all, g);
+        const Others<8> discs = load_eight(columns, g);
         const Eight time = soonest_wall_times<8>(state, discs.flight, discs.radius, state.clock);
-        larger(time, Eight::load(all.nobody + 8 * g)).store(all.wall + 8 * g);
+        larger(time, Eight::load(columns.padding + 8 * g)).store(columns.wall + 8 * g);
     }
 }
-/// Disc i is the first, and not before `time` at the wall of a turning leg. If everybody was asked
-/// some while ago, all are asked again from then on, as nothing happens before; most of those that
-/// come near the wall meet somebody else before they are there. Then when disc i is at the wall.
+/// Disc i has the earliest event, but `time` is only a lower bound for its contact with the wall of
+/// an arc. If the bounds are older than half their horizon, all of them are renewed from `time` on,
+/// since nothing happens before. Most discs that come near the wall collide with another disc
+/// first. Otherwise the contact of disc i itself is computed.
 template <int G>
-[[gnu::noinline]] static void ask_wall_again(EngineState& state, std::uint32_t i, double time) {
-    Columns& all = *state.columns;
+[[gnu::noinline]] static void refine_wall(AllPairsState& state, std::uint32_t i, double time) {
+    DiscColumns& columns = state.columns;
     const Eight then(time);
-    if (time - all.walls_asked_at > 0.5 * state.turning_bound.horizon) {
-        all.walls_asked_at = time;
+    if (time - columns.walls_bounded_at > 0.5 * state.arc_bound.horizon) {
+        columns.walls_bounded_at = time;
         const Flight<double> centre = container_near(state, time);
         for (int g = 0; g < G; ++g) {
-            const Others<8> discs = load_eight(all, g);
+            const Others<8> discs = load_eight(columns, g);
             const Eight no_sooner = earliest_wall_times<8>(
                 state, centre, discs.flight.position_at(then), discs.flight.velocity, discs.radius);
-            // What is known better stays.
-            larger(no_sooner, Eight::load(all.wall + 8 * g)).store(all.wall + 8 * g);
+            // A better bound stays.
+            larger(no_sooner, Eight::load(columns.wall + 8 * g)).store(columns.wall + 8 * g);
         }
         return;
     }
-    set(all.wall, i, never);
+    set(columns.wall, i, never);
     Eight minimum = Eight(state.segments[state.segment].end);
     for (int g = 0; g < G; ++g)
-        minimum = smaller(minimum,
-                          smaller(Eight::load(all.meeting + 8 * g), Eight::load(all.wall + 8 * g)));
+        minimum = smaller(minimum, smaller(Eight::load(columns.contact + 8 * g),
+                                           Eight::load(columns.wall + 8 * g)));
     const WallContact contact = seek_wall(
-        state, i, all.centre[i], smallest(minimum) + state.turning_bound.horizon * (1.0 / 16.0));
-    set(all.wall, i, contact.time);
-    if (!contact.is_later) all.wall_is_earliest &= ~(std::uint64_t{1} << i);
+        state, i, columns.centre[i], smallest(minimum) + state.arc_bound.horizon * (1.0 / 16.0));
+    set(columns.wall, i, contact.time);
+    if (!contact.is_later) columns.wall_is_bound &= ~(std::uint64_t{1} << i);
 }
 
-/// Of the events at one instant, that of the discs whose bits are set, the first.
+/// Returns the first in order of simultaneous events; the bits select the discs.
 SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
-                                         std::uint64_t meetings, std::uint64_t walls) {
+                                         std::uint64_t contacts, std::uint64_t walls) {
     PendingEvent first{time, state.size, state.size};
     if (walls != 0) first.disc = first.partner = static_cast<std::uint32_t>(__builtin_ctzll(walls));
-    for (; meetings != 0; meetings &= meetings - 1) {
-        const auto i = static_cast<std::uint32_t>(__builtin_ctzll(meetings));
-        const PendingEvent meeting{time, i, state.cold(i).partner};
-        if (is_first_in_order(meeting, first)) first = meeting;
+    for (; contacts != 0; contacts &= contacts - 1) {
+        const auto i = static_cast<std::uint32_t>(__builtin_ctzll(contacts));
+        const PendingEvent contact{time, i, state.cold(i).partner};
+        if (is_first_in_order(contact, first)) first = contact;
     }
     return first;
 }
 
-/// Looks at everybody's pending meeting and wall contact and writes down which comes first.
+/// Scans the pending contacts of all discs and stores which comes first.
 template <int G>
-SWIRL_INLINE void find_next(EngineState& state) {
-    Columns& all = *state.columns;
+SWIRL_INLINE void find_next(AllPairsState& state) {
+    DiscColumns& columns = state.columns;
     for (;;) {
-        Eight meeting[G], wall[G];
+        Eight contact[G], wall[G];
         for (int g = 0; g < G; ++g) {
-            meeting[g] = Eight::load(all.meeting + 8 * g);
-            wall[g] = Eight::load(all.wall + 8 * g);
+            contact[g] = Eight::load(columns.contact + 8 * g);
+            wall[g] = Eight::load(columns.wall + 8 * g);
         }
-        Eight minimum = smaller(meeting[0], wall[0]);
-        for (int g = 1; g < G; ++g) minimum = smaller(minimum, smaller(meeting[g], wall[g]));
+        Eight minimum = smaller(contact[0], wall[0]);
+        for (int g = 1; g < G; ++g) minimum = smaller(minimum, smaller(contact[g], wall[g]));
         const double time = smallest(minimum);
         const std::uint64_t walls = lanes_equal(wall, time);
-        // Who comes after the leg's end need not be known.
+        // Which event comes after the end of the segment does not matter.
         if (!(time < state.segments[state.segment].end)) {
-            all.next = {time, state.size, state.size};
+            columns.next = {time, state.size, state.size};
             return;
         }
-        if ((walls & all.wall_is_earliest) == 0) [[likely]] {
-            all.next = first_in_order(state, time, lanes_equal(meeting, time), walls);
+        if ((walls & columns.wall_is_bound) == 0) [[likely]] {
+            columns.next = first_in_order(state, time, lanes_equal(contact, time), walls);
             return;
         }
-        ask_wall_again<G>(state, __builtin_ctzll(walls & all.wall_is_earliest), time);
+        refine_wall<G>(state, __builtin_ctzll(walls & columns.wall_is_bound), time);
     }
 }
 
 template <int G>
-[[gnu::noinline]] static void predict_all(EngineState& state) {
+[[gnu::noinline]] static void predict_all(AllPairsState& state) {
     for (std::uint32_t i = 0; i < state.size; ++i) copy(state, i);
     for (std::uint32_t i = 0; i < state.size; ++i)
-        predict_meetings<G, Held::for_a_while, 1>(state, {i}, state.clock);
+        predict_contacts<G, StateAge::any, 1>(state, {i}, state.clock);
     predict_all_walls<G>(state);
     find_next<G>(state);
 }
 
 template <int G>
-SWIRL_INLINE void segment_ended(EngineState& state) {
+SWIRL_INLINE void segment_ended(AllPairsState& state) {
     if (state.segment == 0) return predict_all<G>(state);
     predict_all_walls<G>(state);
     find_next<G>(state);
 }
 
-SWIRL_INLINE void remove(Columns& all, std::uint32_t i) {
-    set(all.meeting, i, never);
-    set(all.wall, i, never);
+SWIRL_INLINE void remove(DiscColumns& columns, std::uint32_t i) {
+    set(columns.contact, i, never);
+    set(columns.wall, i, never);
 }
 
 }  // namespace all_pairs
 
-/// For up to 8 G discs.
+/// The search for up to 8 G discs.
 template <int G>
 struct AllPairs {
-    SWIRL_INLINE static void start(EngineState& state) { all_pairs::predict_all<G>(state); }
+    using State = AllPairsState;
+    using Bodies = Discs;
 
-    SWIRL_INLINE static PendingEvent next(const EngineState& state) { return state.columns->next; }
-    SWIRL_INLINE static void reschedule(EngineState& state, const PendingEvent& event) {
+    SWIRL_INLINE static void start(AllPairsState& state) { all_pairs::predict_all<G>(state); }
+
+    SWIRL_INLINE static PendingEvent next(const AllPairsState& state) { return state.columns.next; }
+    SWIRL_INLINE static void reschedule(AllPairsState& state, const PendingEvent& event) {
         ++state.invalidated;
-        all_pairs::predict_meetings<G, Held::for_a_while, 1>(state, {event.disc}, event.time);
+        all_pairs::predict_contacts<G, StateAge::any, 1>(state, {event.disc}, event.time);
         all_pairs::find_next<G>(state);
     }
-    /// What comes next is mostly known before the discs that now
-    /// collide have been predicted: the first of all others' events.
-    SWIRL_INLINE static PendingEvent remove(EngineState& state, const PendingEvent& event) {
-        all_pairs::remove(*state.columns, event.disc);
-        if (!event.is_with_wall()) all_pairs::remove(*state.columns, event.partner);
+    /// The earliest event of the remaining discs is found here, before the discs that now collide
+    /// have been predicted. It is mostly the next event.
+    SWIRL_INLINE static PendingEvent remove(AllPairsState& state, const PendingEvent& event) {
+        all_pairs::remove(state.columns, event.disc);
+        if (!event.is_with_wall()) all_pairs::remove(state.columns, event.partner);
         all_pairs::find_next<G>(state);
         return event;
     }
     template <int D>
-    SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
+    SWIRL_INLINE static void predict_changed(AllPairsState& state, const std::uint32_t (&ids)[D],
                                              double t) {
-        for (int d = 0; d < D; ++d) all_pairs::copy(state, who[d]);
-        const double wall = all_pairs::predict_wall<G>(state, who, t);
-        const double meeting = all_pairs::predict_meetings<G, Held::since_now, D>(state, who, t);
-        if (smaller(meeting, wall) <= state.columns->next.time) [[unlikely]]
+        for (int d = 0; d < D; ++d) all_pairs::copy(state, ids[d]);
+        const double wall = all_pairs::predict_wall<G>(state, ids, t);
+        const double contact = all_pairs::predict_contacts<G, StateAge::now, D>(state, ids, t);
+        if (smaller(contact, wall) <= state.columns.next.time) [[unlikely]]
             all_pairs::find_next<G>(state);
     }
-    SWIRL_INLINE static void check(const EngineState& state, double) { check_columns(state); }
-    SWIRL_INLINE static void segment_ended(EngineState& state, double) {
+    SWIRL_INLINE static void check(const AllPairsState& state, double) { check_columns(state); }
+    SWIRL_INLINE static void segment_ended(AllPairsState& state, double) {
         all_pairs::segment_ended<G>(state);
     }
 };
+static_assert(NeighborSearch<AllPairs<1>>);
 
 }  // namespace SWIRL_TARGET
 }  // namespace swirl

@@ -1,35 +1,35 @@
-// Speed only, changes no bit: the frame in which the skins rest (verlet_skin.hpp), and when it is
-// renewed.
-//
-// Included by one file per vector width, like event_loop.hpp, and under the same rule.
+// Speed only; results stay bitwise identical. The co-moving frame (search_states.hpp), in which
+// skins are at rest (verlet_skin.hpp): when it is renewed, and how it then moves.
 #pragma once
 
-#include "swirl/engine/neighbors/engine_state.hpp"
 #include "swirl/engine/neighbors/prediction.hpp"
+#include "swirl/engine/neighbors/search_states.hpp"
 #include "swirl/engine/neighbors/verlet_skin.hpp"
 #include "swirl/math/lanes.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// On a turning leg the frame is renewed this often per turn, as on the paper's polygon.
-inline constexpr double stretches_per_turn = 30.0;
+/// On an arc the frame is renewed so many times per turn, as often as on the paper's polygon.
+inline constexpr double intervals_per_turn = 30.0;
 
-static void begin_stretch(EngineState& state, double t) {
+/// Sets the time until which the current predictions hold: the end of the segment, or on an arc the
+/// next renewal of the frame.
+static void begin_interval(VerletListsState& state, double t) {
     const Segment& segment = state.segments[state.segment];
-    state.stretch_end = segment.end;
-    if (segment.turning != 0.0)
-        state.stretch_end =
-            smaller(segment.end, t + 2.0 * pi / (stretches_per_turn * magnitude(segment.turning)));
+    state.interval_end = segment.end;
+    if (segment.turn_rate != 0.0)
+        state.interval_end = smaller(
+            segment.end, t + 2.0 * pi / (intervals_per_turn * magnitude(segment.turn_rate)));
 }
 
-/// How the discs move against the frame, at one time: their mean velocity, and how fast they turn
-/// about their centre of mass.
+/// The motion of the discs relative to the frame at one time: their mean velocity and rotation
+/// about the centre of mass. Energies are for discs of mass 1.
 struct MotionInFrame {
     Vec2 velocity, centre;
-    double turning, inertia;
-    double lag;     // twice the energy of that, for discs of mass 1
-    double random;  // and of the rest, in which they all move as they like
+    double turn_rate, inertia;
+    double lag;     // twice the energy of this common motion
+    double random;  // twice the energy of all other motion
 };
 
 template <int W>
@@ -39,7 +39,7 @@ SWIRL_INLINE double sum_of_lanes(const Lanes<W>& a) {
     return sum;
 }
 
-static MotionInFrame motion_in_frame(const EngineState& state, double t) {
+static MotionInFrame motion_in_frame(const ListsOrCellsState& state, double t) {
     using Eight = Lanes<8>;
     const ComovingFrame& frame = state.comoving_frame;
     const Vec2 origin = frame.origin.position_at(t);
@@ -49,15 +49,15 @@ static MotionInFrame motion_in_frame(const EngineState& state, double t) {
     BasicVec2<Eight> momenta{zero, zero}, moments{zero, zero};
     Eight spins = zero, inertias = zero, squares = zero;
     for (std::uint32_t begin = 0; begin < state.size; begin += 8) {
-        std::uint32_t who[8];
+        std::uint32_t ids[8];
         alignas(64) double mass[8];
         for (std::uint32_t k = 0; k < 8; ++k) {
-            const bool somebody = begin + k < state.size;
-            who[k] = somebody ? begin + k : begin;
-            mass[k] = somebody ? 1.0 : 0.0;
+            const bool exists = begin + k < state.size;
+            ids[k] = exists ? begin + k : begin;
+            mass[k] = exists ? 1.0 : 0.0;
         }
         const Eight m = Eight::load(mass);
-        const Flight<Eight> discs = load_others<8>(state, who).flight;
+        const Flight<Eight> discs = load_others<8>(state, ids).flight;
         const BasicVec2<Eight> y = discs.position_at(Eight(t)) - in_lanes<8>(origin);
         const BasicVec2<Eight> v =
             discs.velocity - in_lanes<8>(at_origin) - complex_product(rate, y);
@@ -74,79 +74,80 @@ static MotionInFrame motion_in_frame(const EngineState& state, double t) {
     const Vec2 velocity = share * momentum, centre = share * moment;
     const double spin = sum_of_lanes(spins) - cross(centre, momentum);
     const double inertia = sum_of_lanes(inertias) - dot(centre, moment);
-    const double turning = inertia > 0.0 ? spin / inertia : 0.0;
-    const double together = dot(velocity, momentum) + turning * spin;
-    return {velocity, origin + centre, turning,
+    const double turn_rate = inertia > 0.0 ? spin / inertia : 0.0;
+    const double together = dot(velocity, momentum) + turn_rate * spin;
+    return {velocity, origin + centre, turn_rate,
             inertia,  together,        larger(sum_of_lanes(squares) - together, 0.0)};
 }
 
-/// A frame does not turn by more than this before it is renewed, so that what moves uniformly in it
-/// stays near what turns.
+/// The frame turns by at most this angle before it is renewed. A larger angle would separate what
+/// moves uniformly in the frame from what turns.
 inline constexpr double max_turn = 0.2;
-/// Nor does it stretch distances by more than so many times; where it has by less, it is begun
-/// again with the next swirl.
-inline constexpr double max_stretch = 1.4, bearable_stretch = 1.2;
-/// If the energy of the rotation is less than this, over that of the random motion, hardly any skin
-/// would last longer, and all that is asked of the frame is less work where it has never turned.
+/// The frame stretches distances by at most `max_stretch`. If they are stretched by more than
+/// `max_stretch_at_period_end` when a period ends, a new frame begins.
+inline constexpr double max_stretch = 1.4, max_stretch_at_period_end = 1.2;
+/// Below this ratio of the rotation's energy to that of the random motion, turning the frame would
+/// hardly make any skin last longer. A frame that has never turned needs less arithmetic.
 inline constexpr double min_rotation = 0.01;
 
-static bool pays_to_turn(const EngineState& state, const MotionInFrame& motion, double turning,
-                         double t) {
-    return turning * turning * motion.inertia > min_rotation * motion.random &&
-           magnitude(turning) * (state.stretch_end - t) < max_turn &&
+static bool pays_to_turn(const VerletListsState& state, const MotionInFrame& motion,
+                         double turn_rate, double t) {
+    return turn_rate * turn_rate * motion.inertia > min_rotation * motion.random &&
+           magnitude(turn_rate) * (state.interval_end - t) < max_turn &&
            state.comoving_frame.scale < max_stretch;
 }
 
-/// From time t on the co-moving frame has the discs' mean motion. The pack circles in the dish with
-/// the swirl, and a large one turns about its centre, so this is where most discs stay near; and in
-/// a large dish, where the wall is far, they do not follow the container at all. What was at rest
-/// in it goes on from where it is.
-static void renew_comoving_frame(EngineState& state, const MotionInFrame& motion, double t) {
+/// From time t on the frame has the discs' mean motion. A cluster circles in the container, and a
+/// large one turns about its own centre, so most discs stay near their place in this frame. In a
+/// large container, where the wall is far, discs do not follow the container at all. Points at rest
+/// in the old frame continue from where they are.
+static void renew_comoving_frame(VerletListsState& state, const MotionInFrame& motion, double t) {
     ComovingFrame& frame = state.comoving_frame;
     const Vec2 origin = frame.origin.position_at(t), rate = frame.rate_at(t);
     const Vec2 centre = motion.centre - origin;
     const Vec2 velocity = frame.origin.velocity + complex_product(rate, centre) + motion.velocity;
-    double turning = rate.y + motion.turning;
-    if (!pays_to_turn(state, motion, turning, t)) turning = 0.0;
+    double turn_rate = rate.y + motion.turn_rate;
+    if (!pays_to_turn(state, motion, turn_rate, t)) turn_rate = 0.0;
     const Vec2 turn = frame.turn_at(t);
-    frame = {{origin, velocity - turning * perpendicular(centre), t},
+    frame = {{origin, velocity - turn_rate * perpendicular(centre), t},
              turn,
-             turning,
+             turn_rate,
              square_root(dot(turn, turn)),
-             frame.has_turned || turning != 0.0};
+             frame.has_turned || turn_rate != 0.0};
     state.rebuilds_in_frame = 0;
-    state.events_when_asked = state.disc_disc + state.disc_wall;
+    state.collisions_at_frame_test = state.disc_disc + state.disc_wall;
 }
-/// The frame begins in the centre of the container, and nothing rests in it.
-static void begin_comoving_frame(EngineState& state, double t) {
+/// Begins a new frame at the centre of the container. No skin is at rest in it yet.
+static void begin_comoving_frame(VerletListsState& state, double t) {
     const Segment& segment = state.segments[state.segment];
-    begin_stretch(state, t);
+    begin_interval(state, t);
     state.comoving_frame = {.origin = {segment.position_at(t), segment.velocity_at(t), t}};
     renew_comoving_frame(state, motion_in_frame(state, t), t);
 }
 
-/// Then lists would be rebuilt for ever: in a fast dish all have followed the container long before
-/// the next leg.
-static bool frame_is_left_behind(const EngineState& state, double t) {
+/// Whether the discs have left the frame, so that lists would be rebuilt without end. With a fast
+/// container all discs follow it long before the next segment begins.
+static bool frame_is_left_behind(const VerletListsState& state, double t) {
     const MotionInFrame motion = motion_in_frame(state, t);
     return motion.lag > motion.random;
 }
 
-/// At a corner of the path the frame is renewed, and with it when each disc leaves its skin. Where
-/// discs hardly follow the container, as in a thin dish, that is most of the work and changes
-/// little; then it is left as it is. Nor is anybody asked whether they do while hardly anything has
-/// happened. At time t a stretch has begun; says whether the frame is another.
-inline constexpr double bearable_lag = 0.02;
-inline constexpr std::uint32_t discs_per_event_till_asked = 4;
-static bool renew_frame_if_left(EngineState& state, double t) {
+/// At a path vertex (or when an interval ends) at time t, renews the frame if the discs have left
+/// it. Returns whether it did; then each disc leaves its skin at another time. If discs hardly
+/// follow the container, as in a dilute one, a renewal would be most of the work and change little:
+/// the frame stays while lag/random is below `max_lag`. If hardly any events have happened, the
+/// motion is not even measured.
+inline constexpr double max_lag = 0.02;
+inline constexpr std::uint32_t discs_per_event_at_test = 4;
+static bool renew_frame_if_left(VerletListsState& state, double t) {
     const ComovingFrame& frame = state.comoving_frame;
     const bool may_stay =
-        magnitude(frame.turning) * (state.stretch_end - frame.origin.time) < max_turn;
-    const std::uint64_t since = state.disc_disc + state.disc_wall - state.events_when_asked;
-    if (may_stay && discs_per_event_till_asked * since < state.size) return false;
+        magnitude(frame.turn_rate) * (state.interval_end - frame.origin.time) < max_turn;
+    const std::uint64_t since = state.disc_disc + state.disc_wall - state.collisions_at_frame_test;
+    if (may_stay && discs_per_event_at_test * since < state.size) return false;
     const MotionInFrame motion = motion_in_frame(state, t);
-    state.events_when_asked += since;
-    if (may_stay && motion.lag < bearable_lag * motion.random) return false;
+    state.collisions_at_frame_test += since;
+    if (may_stay && motion.lag < max_lag * motion.random) return false;
     renew_comoving_frame(state, motion, t);
     return true;
 }

@@ -1,25 +1,23 @@
-// What all discs and every search must keep (invariant.hpp). Asking is as much work as the
-// paper's method, so it is done now and then.
-//
-// Included by one file per vector width, like event_loop.hpp, and under the same rule.
+// Invariants of the discs and of every search (invariant.hpp). A check is as much work as the
+// paper's method, so it is only done now and then.
 #pragma once
 
 #include "swirl/engine/collision_checks.hpp"
 #include "swirl/engine/invariant.hpp"
-#include "swirl/engine/neighbors/engine_state.hpp"
+#include "swirl/engine/neighbors/search_states.hpp"
 #include "swirl/engine/pending_event.hpp"
 #include "swirl/physics/contact_time.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// Every so many events all pairs are looked at.
+/// True at intervals of 64 + 4 N events, because the check is expensive with many discs.
 SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
     const std::uint64_t events = state.disc_disc + state.disc_wall + state.path_vertex;
     return events % (64 + 4 * static_cast<std::uint64_t>(state.size)) == 0;
 }
 
-/// The paper's method: all times, the first.
+/// The paper's method: compute the times of all events and take the earliest.
 [[maybe_unused]] static PendingEvent first_of_all(const EngineState& state) {
     const Segment& segment = state.segments[state.segment];
     PendingEvent first{never, state.size, state.size};
@@ -39,16 +37,16 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
 }
 
 [[maybe_unused]] static void check_order(const EngineState& state, const PendingEvent& next) {
-    promise::time_never_goes_back(next.time >= state.clock);
+    invariant::time_never_goes_back(next.time >= state.clock);
     if (!is_time_to_check(state)) return;
     const PendingEvent first = first_of_all(state);
-    promise::the_next_event_is_the_first_of_all(next.time == first.time &&
-                                                next.first() == first.first() &&
-                                                next.second() == first.second());
+    invariant::the_next_event_is_the_first_of_all(next.time == first.time &&
+                                                  next.first() == first.first() &&
+                                                  next.second() == first.second());
 }
 
-/// Whether at time t two discs overlap by more than rounding errors: those that an earlier contact
-/// left behind, and those of a contact that was said not to come.
+/// Whether two discs overlap at time t by more than rounding errors. These are the errors that an
+/// earlier contact left, and the errors of a contact that was predicted not to happen.
 [[maybe_unused]] static bool overlap(const EngineState& state, const HotDisc& i, const HotDisc& k,
                                      double t) {
     const Vec2 s = k.flight().position_at(t) - i.flight().position_at(t);
@@ -57,7 +55,7 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
         larger(state.largest_rounding, rounding_of_contact(i.flight(), k.flight(), contact, t));
     return square_root(dot(s, s)) < contact * (1.0 - allowed_rounding) - rounding;
 }
-/// Whether at time t a disc reaches beyond the wall by more than rounding errors.
+/// Whether a disc extends beyond the wall at time t by more than rounding errors.
 [[maybe_unused]] static bool is_outside(const EngineState& state, const HotDisc& disc, double t) {
     const Segment& segment = state.segments[state.segment];
     const Vec2 s = disc.flight().position_at(t) - segment.position_at(t);
@@ -80,33 +78,35 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
 [[maybe_unused]] static void check_discs(const EngineState& state, double t) {
     if (state.overlapped_at_start) return;
     for (std::uint32_t i = 0; i < state.size; ++i) {
-        promise::no_disc_is_outside_the_container(!is_outside(state, state.discs[i], t));
+        invariant::no_disc_is_outside_the_container(!is_outside(state, state.discs[i], t));
         for (std::uint32_t k = i + 1; k < state.size; ++k)
-            promise::no_two_discs_overlap(!overlap(state, state.discs[i], state.discs[k], t));
+            invariant::no_two_discs_overlap(!overlap(state, state.discs[i], state.discs[k], t));
     }
 }
 
-[[maybe_unused]] static void check_tournament(const EngineState& state) {
-    for (std::uint32_t level = 1; level < state.levels; ++level) {
+template <class State>
+SWIRL_INLINE void check_tournament(const State& state) {
+    const EventQueue& queue = state.queue;
+    for (std::uint32_t level = 1; level < queue.levels; ++level) {
         const std::uint32_t rows = ((state.size - 1) >> (3 * level)) + 1;
         for (std::uint32_t row = 0; row < rows; ++row) {
             double first = never;
             for (std::uint32_t k = 8 * row; k < 8 * row + 8; ++k)
-                first = smaller(first, state.level_times[level - 1][k]);
-            const std::uint32_t winner = state.level_winners[level][row];
-            promise::winners_are_the_first_of_their_rows(state.level_times[level][row] == first &&
-                                                         state.level_times[0][winner] == first);
+                first = smaller(first, queue.level_times[level - 1][k]);
+            const std::uint32_t winner = queue.level_winners[level][row];
+            invariant::winners_are_the_first_of_their_rows(queue.level_times[level][row] == first &&
+                                                           queue.level_times[0][winner] == first);
         }
     }
     double first = never;
-    for (std::uint32_t i = 0; i < state.size; ++i) first = smaller(first, state.level_times[0][i]);
-    promise::the_first_of_all_is_noted(state.first_time == first &&
-                                       state.level_times[0][state.first_disc] == first);
+    for (std::uint32_t i = 0; i < state.size; ++i) first = smaller(first, queue.level_times[0][i]);
+    invariant::the_first_event_is_stored(queue.first_time == first &&
+                                         queue.level_times[0][queue.first_disc] == first);
 }
 
-SWIRL_INLINE bool is_on_list(const EngineState& state, std::uint32_t i, std::uint32_t k) {
+SWIRL_INLINE bool is_on_list(const VerletListsState& state, std::uint32_t i, std::uint32_t k) {
     const std::uint32_t* const list = state.cold(i).neighbours();
-    for (std::uint32_t slot = 0; slot < state.discs[i].neighbours; ++slot)
+    for (std::uint32_t slot = 0; slot < state.discs[i].list_length; ++slot)
         if (list[slot] == k) return true;
     if (state.tails == nullptr) return false;
     const ListTail& tail = state.tail(i);
@@ -114,57 +114,60 @@ SWIRL_INLINE bool is_on_list(const EngineState& state, std::uint32_t i, std::uin
         if (tail.neighbours()[slot] == k) return true;
     return false;
 }
-/// How far the disc is at time t from the centre of its skin or its cell.
-SWIRL_INLINE Vec2 offset_in_skin(const EngineState& state, std::uint32_t i, double t) {
+/// Offset of the disc from `centre`, a point of the co-moving frame, at time t.
+SWIRL_INLINE Vec2 offset_in_frame(const ListsOrCellsState& state, std::uint32_t i,
+                                  const Vec2& centre, double t) {
     return state.discs[i].flight().position_at(t) -
-           state.comoving_frame.flight_of(state.skins[i]).position_at(t);
+           state.comoving_frame.flight_of(centre).position_at(t);
 }
 
-[[maybe_unused]] static void check_lists(const EngineState& state, double t) {
+[[maybe_unused]] static void check_lists(const VerletListsState& state, double t) {
     const Vec2 turn = state.comoving_frame.turn_at(t);
     const double scale = square_root(dot(turn, turn));
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const Skin& skin = state.skins[i];
-        const Vec2 offset = offset_in_skin(state, i, t);
-        promise::discs_are_within_their_skins(square_root(dot(offset, offset)) <= skin.skin_radius);
+        const Vec2 offset = offset_in_frame(state, i, skin.centre(), t);
+        invariant::discs_are_within_their_skins(square_root(dot(offset, offset)) <= skin.radius);
         for (std::uint32_t k = i + 1; k < state.size; ++k) {
             const Skin& other = state.skins[k];
             const double dx = scale * (double(other.X) - skin.X);
             const double dy = scale * (double(other.Y) - skin.Y);
-            const double reach = state.discs[i].radius + state.discs[k].radius +
-                                 double(skin.skin_radius) + other.skin_radius;
+            const double reach =
+                state.discs[i].radius + state.discs[k].radius + double(skin.radius) + other.radius;
             const bool listed = is_on_list(state, i, k);
-            promise::neighbour_lists_are_symmetric(listed == is_on_list(state, k, i));
-            promise::neighbour_lists_are_complete(listed || dx * dx + dy * dy >= reach * reach);
+            invariant::neighbour_lists_are_symmetric(listed == is_on_list(state, k, i));
+            invariant::neighbour_lists_are_complete(listed || dx * dx + dy * dy >= reach * reach);
         }
     }
 }
 
-/// A disc may stand on the edge of its cell, and beyond it by what linked_cells.hpp waits at least,
-/// and by the rounding of the cell's centre to single precision. Cells are wide enough for that.
-[[maybe_unused]] static void check_cells(const EngineState& state, double t) {
+/// A disc may be on the edge of its cell. It may be outside by the distance for the minimum wait in
+/// linked_cells.hpp, and by the rounding of the cell's centre to single precision. Cells are wide
+/// enough for that.
+[[maybe_unused]] static void check_cells(const LinkedCellsState& state, double t) {
     const double half =
-        0.5 / state.grids[0].cells_per_length * (1.0 + 1e-8) + 0x1p-22 * state.container_radius;
+        0.5 / state.grid.cells_per_length * (1.0 + 1e-8) + 0x1p-22 * state.container_radius;
     for (std::uint32_t i = 0; i < state.size; ++i) {
-        const Vec2 offset = offset_in_skin(state, i, t);
-        const Cell& cell = state.cells[state.skins[i].cell];
+        const CellPosition& position = state.positions[i];
+        const Vec2 offset = offset_in_frame(state, i, position.centre(), t);
+        const Cell& cell = state.cells[position.cell];
         bool found = false;
         for (std::uint32_t slot = 0; slot < cell.count; ++slot)
-            found |= state.disc_in_cell(state.skins[i].cell, slot) == i;
+            found |= state.disc_in_cell(position.cell, slot) == i;
         for (std::uint32_t k = 0; k < state.unassigned_count; ++k)
             found |= state.unassigned[k] == i;
         const HotDisc& disc = state.discs[i];
-        found &= disc.far_from_wall != 0 || state.near_wall[state.skins[i].near_wall] == i;
-        promise::discs_are_in_their_cells(found && magnitude(offset.x) <= half &&
-                                          magnitude(offset.y) <= half);
+        found &= disc.far_from_wall != 0 || state.near_wall[position.near_wall] == i;
+        invariant::discs_are_in_their_cells(found && magnitude(offset.x) <= half &&
+                                            magnitude(offset.y) <= half);
     }
 }
 
-[[maybe_unused]] static void check_columns(const EngineState& state) {
-    const Columns& all = *state.columns;
+[[maybe_unused]] static void check_columns(const AllPairsState& state) {
+    const DiscColumns& all = state.columns;
     for (std::uint32_t i = 0; i < state.size; ++i) {
         const HotDisc& disc = state.discs[i];
-        promise::columns_are_what_the_discs_are(
+        invariant::columns_are_copies_of_the_discs(
             all.x[i] == disc.position.x && all.y[i] == disc.position.y &&
             all.vx[i] == disc.velocity.x && all.vy[i] == disc.velocity.y &&
             all.time[i] == disc.time && all.radius[i] == disc.radius);

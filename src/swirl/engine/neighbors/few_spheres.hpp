@@ -1,25 +1,24 @@
-// Speed only, changes no bit: the search for a few spheres. As all_pairs.hpp does it for discs, no
-// lists, no cells, everybody's contact with everybody; but spheres fly parabolas, and each has a
-// third pending event, the one in which it begins to roll.
+// Speed only; results stay bitwise identical. The search for a few spheres. Like all_pairs.hpp for
+// discs, it tests all pairs. But spheres fly along parabolas, and each has a third pending event:
+// it begins to roll.
 //
-// On a floor everything is predicted anew with every leg, so nobody need be looked at who cannot be
-// met within it. Seen from the floor, whose velocity u is constant, a sphere is at
-// x + (t − t₀) v − t u = X + (t − t₀)(v − u) + ½ (t − t₀)² a with X = x − t₀ u, and until the end
-// of the leg, so long as nothing happens to it, no farther from X than
+// On a floor all spheres are predicted again with every segment, so only contacts within the
+// segment matter. Seen from the floor, whose velocity u is constant, a sphere is at x + (t − t₀) v
+// − t u = X + (t − t₀)(v − u) + ½ (t − t₀)² a with X = x − t₀ u. Until the end of the segment, and
+// while it has no event, its distance from X is at most its reach,
 //
 //     |v − u| (t_end − t₀) + ½ |a| (t_end − t₀)².
 //
-// Two whose X are farther apart than the sum of these ways and of their radii do not meet. In a
-// thirtieth of a swirl a sphere goes a fraction of its radius, so five or six are left. The ways
-// are taken longer than they are by far more than rounding, so that it does not matter how they
-// were computed.
-//
-// Included by one file per vector width, like event_loop.hpp, and under the same rule.
+// Two spheres whose X are farther apart than the sum of reaches and radii do not collide. In a
+// thirtieth of a period a sphere moves a fraction of its radius, so five or six candidates are
+// left. Reaches are enlarged by far more than rounding errors, so the way they are computed does
+// not matter.
 #pragma once
 
 #include "swirl/engine/neighbors/all_pairs.hpp"
-#include "swirl/engine/neighbors/engine_state.hpp"
+#include "swirl/engine/neighbors/neighbor_search.hpp"
 #include "swirl/engine/neighbors/prediction.hpp"
+#include "swirl/engine/neighbors/search_states.hpp"
 #include "swirl/engine/neighbors/sphere_contacts.hpp"
 #include "swirl/engine/pending_event.hpp"
 #include "swirl/engine/resolve.hpp"
@@ -31,195 +30,201 @@ inline namespace SWIRL_TARGET {
 namespace few_spheres {
 
 using all_pairs::set;
-using spheres::Eight, spheres::EightOthers, spheres::EightTimes, spheres::earlier_meeting;
+using spheres::Eight, spheres::EightOthers, spheres::EightTimes, spheres::earlier_contact;
 
-/// Columns that are loaded by eights are stored by eights too (set): a wide load right behind a
-/// narrow store waits for it. The others are not.
-SWIRL_INLINE void copy(EngineState& state, std::uint32_t i) {
+/// Columns that are loaded as vectors are also stored as vectors (`set`), because a wide load right
+/// behind a narrow store has to wait for it. The other columns are not.
+SWIRL_INLINE void copy(FewSpheresState& state, std::uint32_t i) {
     const Parabola<double> flight = Spheres::flight(state, i);
-    SphereColumns& all = *state.sphere_columns;
-    all.x[i] = flight.position.x;
-    all.y[i] = flight.position.y;
-    all.vx[i] = flight.velocity.x;
-    all.vy[i] = flight.velocity.y;
-    all.ax[i] = flight.acceleration.x;
-    all.ay[i] = flight.acceleration.y;
-    all.time[i] = flight.time;
-    all.rolls[i] = state.spheres[i].motion.begins_to_roll;
-    // Without a floor a leg's end predicts nobody anew: then all must be looked at.
-    if (!Spheres::feel_every_segment(state)) {
-        set(all.X, i, 0.0);
-        set(all.Y, i, 0.0);
+    SphereColumns& columns = state.columns;
+    columns.x[i] = flight.position.x;
+    columns.y[i] = flight.position.y;
+    columns.vx[i] = flight.velocity.x;
+    columns.vy[i] = flight.velocity.y;
+    columns.ax[i] = flight.acceleration.x;
+    columns.ay[i] = flight.acceleration.y;
+    columns.time[i] = flight.time;
+    columns.rolls[i] = state.spheres[i].motion.begins_to_roll;
+    // Without a floor the end of a segment predicts no contact again, so all spheres are
+    // candidates.
+    if (!Spheres::change_with_segment(state)) {
+        set(columns.X, i, 0.0);
+        set(columns.Y, i, 0.0);
         return;
     }
     const Segment& segment = state.segments[state.segment];
-    const double way = spheres::way_over_floor(flight.velocity, flight.acceleration,
-                                               segment.velocity, segment.end - flight.time);
-    set(all.X, i, flight.position.x - flight.time * segment.velocity.x);
-    set(all.Y, i, flight.position.y - flight.time * segment.velocity.y);
-    set(all.reach, i, way + 0x1p-30 * state.container_radius);
+    const double distance = spheres::max_distance_over_floor(
+        flight.velocity, flight.acceleration, segment.velocity, segment.end - flight.time);
+    set(columns.X, i, flight.position.x - flight.time * segment.velocity.x);
+    set(columns.Y, i, flight.position.y - flight.time * segment.velocity.y);
+    set(columns.reach, i, distance + 0x1p-30 * state.container_radius);
 }
 
-/// Bit k is set if sphere k may be met.
+/// Bit k is set if sphere i may collide with sphere k within this segment.
 template <int G>
-SWIRL_INLINE std::uint64_t within_reach(const EngineState& state, std::uint32_t i) {
-    const SphereColumns& all = *state.sphere_columns;
-    const Eight X(all.X[i]), Y(all.Y[i]), near(all.reach[i] + all.radius[i]);
+SWIRL_INLINE std::uint64_t within_reach(const FewSpheresState& state, std::uint32_t i) {
+    const SphereColumns& columns = state.columns;
+    const Eight X(columns.X[i]), Y(columns.Y[i]), near(columns.reach[i] + columns.radius[i]);
     Eight beyond[G];
     for (int g = 0; g < G; ++g) {
         const int k = 8 * g;
-        const Eight dx = Eight::load(all.X + k) - X, dy = Eight::load(all.Y + k) - Y;
-        const Eight maximum = near + (Eight::load(all.reach + k) + Eight::load(all.radius + k));
+        const Eight dx = Eight::load(columns.X + k) - X, dy = Eight::load(columns.Y + k) - Y;
+        const Eight maximum =
+            near + (Eight::load(columns.reach + k) + Eight::load(columns.radius + k));
         beyond[g] = larger(dx * dx + dy * dy - maximum * maximum, Eight(0.0));
     }
-    const std::uint64_t everybody = ~std::uint64_t{0} >> (64 - state.size);
-    return lanes_equal(beyond, 0.0) & everybody & ~(std::uint64_t{1} << i);
+    const std::uint64_t all_spheres = ~std::uint64_t{0} >> (64 - state.size);
+    return lanes_equal(beyond, 0.0) & all_spheres & ~(std::uint64_t{1} << i);
 }
 
-SWIRL_INLINE void put(EightOthers& others, int lane, const SphereColumns& all, std::uint32_t k) {
-    others.x[lane] = all.x[k];
-    others.y[lane] = all.y[k];
-    others.vx[lane] = all.vx[k];
-    others.vy[lane] = all.vy[k];
-    others.ax[lane] = all.ax[k];
-    others.ay[lane] = all.ay[k];
-    others.time[lane] = all.time[k];
-    others.radius[lane] = all.radius[k];
-    others.rolls[lane] = all.rolls[k];
-    others.who[lane] = k;
+SWIRL_INLINE void put(EightOthers& others, int lane, const SphereColumns& columns,
+                      std::uint32_t k) {
+    others.x[lane] = columns.x[k];
+    others.y[lane] = columns.y[k];
+    others.vx[lane] = columns.vx[k];
+    others.vy[lane] = columns.vy[k];
+    others.ax[lane] = columns.ax[k];
+    others.ay[lane] = columns.ay[k];
+    others.time[lane] = columns.time[k];
+    others.radius[lane] = columns.radius[k];
+    others.rolls[lane] = columns.rolls[k];
+    others.ids[lane] = k;
 }
 
-/// Whom sphere i meets first. Says when. (Not inlined, here and below: a call is nothing beside it,
-/// and the loops are compiled in a third of the time.)
+/// Predicts the first contact of sphere i with another sphere. Returns its time. (This function and
+/// those below are not inlined: the call costs little, and the loops compile in a third of the
+/// time.)
 template <int G>
-[[gnu::noinline]] static double predict_meeting(EngineState& state, std::uint32_t i) {
-    SphereColumns& all = *state.sphere_columns;
+[[gnu::noinline]] static double predict_contact(FewSpheresState& state, std::uint32_t i) {
+    SphereColumns& columns = state.columns;
     const EightTimes mine(state, i);
     PendingEvent first{never, i, 0};
     for (std::uint64_t left = within_reach<G>(state, i); left != 0;) {
         EightOthers others;
         int count = 0;
         for (; left != 0 && count < 8; left &= left - 1, ++count)
-            put(others, count, all, static_cast<std::uint32_t>(__builtin_ctzll(left)));
-        for (int lane = count; lane < 8; ++lane) put(others, lane, all, others.who[0]);
-        first = earlier_meeting(state, mine, others, count, first);
+            put(others, count, columns, static_cast<std::uint32_t>(__builtin_ctzll(left)));
+        for (int lane = count; lane < 8; ++lane) put(others, lane, columns, others.ids[0]);
+        first = earlier_contact(state, mine, others, count, first);
     }
-    note_partner(state, first);
-    all.meeting[i] = first.time;
+    store_partner(state, first);
+    columns.contact[i] = first.time;
     return first.time;
 }
 
-[[gnu::noinline]] static void predict_wall(EngineState& state, std::uint32_t i) {
-    state.sphere_columns->wall[i] = spheres::wall_time(state, i);
+[[gnu::noinline]] static void predict_wall(FewSpheresState& state, std::uint32_t i) {
+    state.columns.wall[i] = spheres::wall_time(state, i);
 }
 
-/// Of the meeting, the wall and the beginning to roll, what comes first.
-SWIRL_INLINE double note_first(EngineState& state, std::uint32_t i) {
-    SphereColumns& all = *state.sphere_columns;
-    const double first = smaller(smaller(all.meeting[i], all.wall[i]), all.rolls[i]);
-    set(all.first, i, first);
+/// Stores and returns the earliest of a sphere's three events: contact, wall, beginning to roll.
+SWIRL_INLINE double update_first(FewSpheresState& state, std::uint32_t i) {
+    SphereColumns& columns = state.columns;
+    const double first = smaller(smaller(columns.contact[i], columns.wall[i]), columns.rolls[i]);
+    set(columns.first, i, first);
     return first;
 }
 
-/// Of the events at one instant, that of the spheres whose bits are set, the first.
-SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
-                                         std::uint64_t meetings, std::uint64_t walls,
+/// Returns the first in order of simultaneous events; the bits select the spheres.
+SWIRL_INLINE PendingEvent first_in_order(const FewSpheresState& state, double time,
+                                         std::uint64_t contacts, std::uint64_t walls,
                                          std::uint64_t rolls) {
-    const PendingEvent first = all_pairs::first_in_order(state, time, meetings, walls);
+    const PendingEvent first = all_pairs::first_in_order(state, time, contacts, walls);
     if (rolls == 0) return first;
     const PendingEvent roll{time, static_cast<std::uint32_t>(__builtin_ctzll(rolls)), the_floor};
     return is_first_in_order(roll, first) ? roll : first;
 }
 
-/// Looks at everybody's pending events and writes down which comes first.
+/// Scans the pending events of all spheres and stores which comes first.
 template <int G>
-[[gnu::noinline]] static void find_next(EngineState& state) {
-    SphereColumns& all = *state.sphere_columns;
+[[gnu::noinline]] static void find_next(FewSpheresState& state) {
+    SphereColumns& columns = state.columns;
     Eight first[G];
-    for (int g = 0; g < G; ++g) first[g] = Eight::load(all.first + 8 * g);
+    for (int g = 0; g < G; ++g) first[g] = Eight::load(columns.first + 8 * g);
     Eight minimum = first[0];
     for (int g = 1; g < G; ++g) minimum = smaller(minimum, first[g]);
     const double time = smallest(minimum);
-    all.next = {time, state.size, state.size};
-    // Who comes after the leg's end need not be known.
+    columns.next = {time, state.size, state.size};
+    // Which event comes after the end of the segment does not matter.
     if (!(time < state.segments[state.segment].end)) return;
-    std::uint64_t meetings = 0, walls = 0, rolls = 0;
+    std::uint64_t contacts = 0, walls = 0, rolls = 0;
     for (std::uint64_t equal = lanes_equal(first, time); equal != 0; equal &= equal - 1) {
         const int i = __builtin_ctzll(equal);
-        meetings |= std::uint64_t{all.meeting[i] == time} << i;
-        walls |= std::uint64_t{all.wall[i] == time} << i;
-        rolls |= std::uint64_t{all.rolls[i] == time} << i;
+        contacts |= std::uint64_t{columns.contact[i] == time} << i;
+        walls |= std::uint64_t{columns.wall[i] == time} << i;
+        rolls |= std::uint64_t{columns.rolls[i] == time} << i;
     }
-    all.next = first_in_order(state, time, meetings, walls, rolls);
+    columns.next = first_in_order(state, time, contacts, walls, rolls);
 }
 
 template <int G>
-[[gnu::noinline]] static void predict_all(EngineState& state) {
+[[gnu::noinline]] static void predict_all(FewSpheresState& state) {
     for (std::uint32_t i = 0; i < state.size; ++i) copy(state, i);
     for (std::uint32_t i = 0; i < state.size; ++i) {
-        predict_meeting<G>(state, i);
+        predict_contact<G>(state, i);
         predict_wall(state, i);
-        note_first(state, i);
+        update_first(state, i);
     }
     find_next<G>(state);
 }
 
-SWIRL_INLINE void remove(SphereColumns& all, std::uint32_t i) {
-    all.meeting[i] = all.wall[i] = all.rolls[i] = never;
-    set(all.first, i, never);
+SWIRL_INLINE void remove(SphereColumns& columns, std::uint32_t i) {
+    columns.contact[i] = columns.wall[i] = columns.rolls[i] = never;
+    set(columns.first, i, never);
 }
 
 }  // namespace few_spheres
 
-/// For up to 8 G spheres.
+/// The search for up to 8 G spheres.
 template <int G>
 struct FewSpheres {
+    using State = FewSpheresState;
     using Bodies = Spheres;
 
-    SWIRL_INLINE static void start(EngineState& state) { few_spheres::predict_all<G>(state); }
+    SWIRL_INLINE static void start(FewSpheresState& state) { few_spheres::predict_all<G>(state); }
 
-    SWIRL_INLINE static PendingEvent next(const EngineState& state) {
-        return state.sphere_columns->next;
+    SWIRL_INLINE static PendingEvent next(const FewSpheresState& state) {
+        return state.columns.next;
     }
-    SWIRL_INLINE static void reschedule(EngineState& state, const PendingEvent& event) {
+    SWIRL_INLINE static void reschedule(FewSpheresState& state, const PendingEvent& event) {
         ++state.invalidated;
-        few_spheres::predict_meeting<G>(state, event.disc);
-        few_spheres::note_first(state, event.disc);
+        few_spheres::predict_contact<G>(state, event.disc);
+        few_spheres::update_first(state, event.disc);
         few_spheres::find_next<G>(state);
     }
-    /// What comes next is mostly known before the spheres that now collide have been predicted: the
-    /// first of all others' events.
-    SWIRL_INLINE static PendingEvent remove(EngineState& state, const PendingEvent& event) {
-        SphereColumns& all = *state.sphere_columns;
-        few_spheres::remove(all, event.disc);
+    /// The earliest event of the remaining spheres is found here, before the spheres that now
+    /// collide have been predicted. It is mostly the next event.
+    SWIRL_INLINE static PendingEvent remove(FewSpheresState& state, const PendingEvent& event) {
+        SphereColumns& columns = state.columns;
+        few_spheres::remove(columns, event.disc);
         if (event.partner < state.size && !event.is_with_wall())
-            few_spheres::remove(all, event.partner);
+            few_spheres::remove(columns, event.partner);
         few_spheres::find_next<G>(state);
         return event;
     }
     template <int D>
-    SWIRL_INLINE static void predict_changed(EngineState& state, const std::uint32_t (&who)[D],
+    SWIRL_INLINE static void predict_changed(FewSpheresState& state, const std::uint32_t (&ids)[D],
                                              double) {
         double first = never;
-        for (int d = 0; d < D; ++d) few_spheres::copy(state, who[d]);
+        for (int d = 0; d < D; ++d) few_spheres::copy(state, ids[d]);
         for (int d = 0; d < D; ++d) {
-            few_spheres::predict_wall(state, who[d]);
-            few_spheres::predict_meeting<G>(state, who[d]);
-            first = smaller(first, few_spheres::note_first(state, who[d]));
+            few_spheres::predict_wall(state, ids[d]);
+            few_spheres::predict_contact<G>(state, ids[d]);
+            first = smaller(first, few_spheres::update_first(state, ids[d]));
         }
-        if (first <= state.sphere_columns->next.time) few_spheres::find_next<G>(state);
+        if (first <= state.columns.next.time) few_spheres::find_next<G>(state);
     }
-    SWIRL_INLINE static void segment_ended(EngineState& state, double) {
-        if (state.segment == 0 || Spheres::feel_every_segment(state))
+    SWIRL_INLINE static void segment_ended(FewSpheresState& state, double) {
+        if (state.segment == 0 || Spheres::change_with_segment(state))
             return few_spheres::predict_all<G>(state);
         for (std::uint32_t i = 0; i < state.size; ++i) {
             few_spheres::predict_wall(state, i);
-            few_spheres::note_first(state, i);
+            few_spheres::update_first(state, i);
         }
         few_spheres::find_next<G>(state);
     }
-    static void check(const EngineState& state, double t) { spheres::check(state, t); }
+    static void check(const FewSpheresState& state, double t) { spheres::check(state, t); }
 };
+static_assert(NeighborSearch<FewSpheres<1>>);
 
 }  // namespace SWIRL_TARGET
 }  // namespace swirl

@@ -1,7 +1,6 @@
-// Speed only, changes no bit: what a disc does next. When it meets those it may meet, W of them
-// side by side, and which of that, the wall and the end of its skin comes first.
-//
-// Included by one file per vector width, like event_loop.hpp, and under the same rule.
+// Speed only; results stay bitwise identical. What a disc does next: when it collides with the
+// discs around it, W of them per vector; and which comes first of that, the wall and the end of its
+// skin.
 #pragma once
 
 #include "swirl/engine/neighbors/engine_state.hpp"
@@ -13,7 +12,7 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// W discs side by side.
+/// W discs as struct of arrays.
 template <int W>
 struct Others {
     Flight<Lanes<W>> flight;
@@ -36,12 +35,12 @@ SWIRL_INLINE Others<W> load_others(const EngineState& state, const std::uint32_t
     return others;
 }
 
-/// When `disc` meets W others, asked at time t.
-template <Held held, int W>
+/// The times when `disc` touches W others, predicted at time t.
+template <StateAge age, int W>
 SWIRL_INLINE Lanes<W> contact_times(const HotDisc& disc, const Others<W>& others, double t) {
     const Flight<Lanes<W>> mine = in_lanes<W>(disc.flight());
     const Lanes<W> sum_of_radii = Lanes<W>(disc.radius) + others.radius;
-    if constexpr (held == Held::for_a_while) {
+    if constexpr (age == StateAge::any) {
         return time_of_contact(mine, others.flight, sum_of_radii);
     } else {
         const Lanes<W> now(t);
@@ -50,11 +49,11 @@ SWIRL_INLINE Lanes<W> contact_times(const HotDisc& disc, const Others<W>& others
     }
 }
 
-/// Disc i has met nobody yet.
-SWIRL_INLINE PendingEvent no_meeting(std::uint32_t i) { return {never, i, no_event}; }
+/// No contact of disc i is known.
+SWIRL_INLINE PendingEvent no_contact(std::uint32_t i) { return {never, i, no_event}; }
 
-/// The first of W contacts, or `first` if that comes before them (pending_event.hpp: the smaller
-/// partner comes before).
+/// The earliest of W contacts, or `first` if that comes before them. Of simultaneous contacts the
+/// one with the smaller partner comes first (pending_event.hpp).
 template <int W>
 SWIRL_INLINE PendingEvent earlier(const std::uint32_t* neighbours, const Lanes<W>& contact,
                                   const PendingEvent& first) {
@@ -70,14 +69,15 @@ SWIRL_INLINE PendingEvent earlier(const std::uint32_t* neighbours, const Lanes<W
     return {time, first.disc, partner};
 }
 
-/// The first of W contacts of disc i; never with somebody, if there is none.
+/// The earliest of W contacts of disc i. If there is none its time is `never`, its partner
+/// arbitrary.
 template <int W>
-SWIRL_INLINE PendingEvent first_meeting(const std::uint32_t* neighbours, const Lanes<W>& contact,
+SWIRL_INLINE PendingEvent first_contact(const std::uint32_t* neighbours, const Lanes<W>& contact,
                                         std::uint32_t i) {
     const double time = smallest(contact);
     unsigned equal = lanes_equal(contact, time);
     std::uint32_t partner = neighbours[__builtin_ctz(equal)];
-    // Where nobody is met all are equal.
+    // Without a contact all lanes are equal.
     const bool several = (equal & (equal - 1)) != 0;
     if (several & (time < never)) [[unlikely]] {
         while (equal &= equal - 1) {
@@ -88,23 +88,23 @@ SWIRL_INLINE PendingEvent first_meeting(const std::uint32_t* neighbours, const L
     return {time, i, partner};
 }
 
-/// The first of a disc's first meeting and the wall.
-SWIRL_INLINE PendingEvent first_of(const PendingEvent& meeting, double wall_time) {
-    const PendingEvent wall{wall_time, meeting.disc, meeting.disc};
-    return precedes(wall, meeting) ? wall : meeting;
+/// The earlier of a disc's first contact and the wall.
+SWIRL_INLINE PendingEvent first_of(const PendingEvent& contact, double wall_time) {
+    const PendingEvent wall{wall_time, contact.disc, contact.disc};
+    return precedes(wall, contact) ? wall : contact;
 }
-/// The first of these and the end of its skin.
-SWIRL_INLINE PendingEvent first_of(const PendingEvent& meeting, const Leaving& leaving) {
-    const PendingEvent first = first_of(meeting, leaving.wall);
+/// The earliest of these and the end of its skin.
+SWIRL_INLINE PendingEvent first_of(const PendingEvent& contact, const Leaving& leaving) {
+    const PendingEvent first = first_of(contact, leaving.wall);
     return leaving.skin < first.time ? PendingEvent{leaving.skin, first.disc, leaving.mark} : first;
 }
 
-/// Writes down a disc's pending event, with its partner's collision counter. When it comes is
-/// written where the search looks for the first of all.
-SWIRL_INLINE void note_partner(EngineState& state, const PendingEvent& event) {
+/// Stores the partner of a disc's pending event, and the partner's collision counter. The time is
+/// stored by the search, where it looks for the earliest event.
+SWIRL_INLINE void store_partner(EngineState& state, const PendingEvent& event) {
     ColdDisc& cold = state.cold(event.disc);
     cold.partner = event.partner;
-    cold.partner_collisions = state.discs[state.disc_or_nobody(event.partner)].collisions;
+    cold.partner_collisions = state.discs[state.disc_or_sentinel(event.partner)].collisions;
 }
 
 }  // namespace SWIRL_TARGET

@@ -1,36 +1,34 @@
-// Speed only, changes no bit: what a corner of the path changes of a disc's pending event.
-//
-// Included by one file per vector width, like event_loop.hpp, and under the same rule.
+// Speed only; results stay bitwise identical. How a path vertex changes a disc's pending event.
 #pragma once
 
-#include "swirl/engine/neighbors/engine_state.hpp"
+#include "swirl/engine/neighbors/event_queue.hpp"
 #include "swirl/engine/neighbors/prediction.hpp"
-#include "swirl/engine/neighbors/tournament.hpp"
+#include "swirl/engine/neighbors/search_states.hpp"
 #include "swirl/engine/neighbors/wall_times.hpp"
 #include "swirl/engine/pending_event.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// The container has changed course, so the wall and the skin, whose frame is renewed, come at
-/// other times. An event of theirs that now comes later leaves its disc to be predicted again at
-/// the time it held, which is early enough for whatever comes next. In the middle of a turning leg
-/// only the skin does.
-SWIRL_INLINE void renew_leaving(EngineState& state, std::uint32_t i, double t, Leaving leaving,
-                                bool in_new_frame = true) {
+/// The container has changed its velocity, so disc i reaches the wall at another time. If the frame
+/// was renewed as well, it leaves its skin at another time. If the pending event was one of these
+/// and now comes later, it keeps its old time, marked as no event. The disc is then predicted again
+/// at that time, which is early enough. Within an arc only the skin is affected.
+SWIRL_INLINE void renew_leaving(ListsOrCellsState& state, std::uint32_t i, double t,
+                                Leaving leaving, bool in_new_frame = true) {
     ColdDisc& cold = state.cold(i);
-    const bool turning = state.on_turning_segment();
-    if ((cold.partner == i && !turning) || (cold.partner == leaves_skin && in_new_frame))
+    const bool on_arc = state.on_arc();
+    if ((cold.partner == i && !on_arc) || (cold.partner == leaves_skin && in_new_frame))
         cold.partner = no_event;
-    const PendingEvent held{pending_time(state, i), i, cold.partner};
-    if (turning) [[unlikely]] {
+    const PendingEvent stored{pending_time(state, i), i, cold.partner};
+    if (on_arc) [[unlikely]] {
         if (cold.partner == i || cold.partner == approaches_wall)
             leaving.wall = never;
         else
-            approach_wall(state, i, t, smaller(held.time, leaving.skin), leaving);
+            approach_wall(state, i, t, smaller(stored.time, leaving.skin), leaving);
     }
-    const PendingEvent first = first_of(held, leaving);
-    if (first.partner != held.partner) insert(state, first);
+    const PendingEvent first = first_of(stored, leaving);
+    if (first.partner != stored.partner) insert(state, first);
 }
 
 }  // namespace SWIRL_TARGET

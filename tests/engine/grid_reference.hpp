@@ -1,8 +1,8 @@
-// The textbook's event-driven method for many discs (Alder, Wainwright 1959,
-// doi:10.1063/1.1730376; Rapaport 1980, doi:10.1016/0021-9991(80)90104-7): fixed cells, every
-// contact found goes into one ordered queue, what has become void is dropped when its time comes,
-// and a disc that crosses into another cell looks at its new surroundings. Slow and simple; the
-// engine must agree with it bit for bit where all pairs would take too long.
+// The textbook event-driven method for many discs (Alder, Wainwright 1959, doi:10.1063/1.1730376;
+// Rapaport 1980, doi:10.1016/0021-9991(80)90104-7). Cells are fixed. Every predicted contact goes
+// into one ordered queue, and an invalidated one is dropped when its time comes. A disc that
+// crosses into another cell is predicted with its new neighbours. It is slow and simple. The engine
+// must agree with it bitwise where a test of all pairs would take too long.
 #pragma once
 
 #include <cmath>
@@ -17,16 +17,17 @@
 
 namespace swirl {
 
-class PlainGrid {
+class GridReference {
   public:
-    explicit PlainGrid(const InitialState& scene) : scene_(scene), changes_(scene.discs.size(), 0) {
+    explicit GridReference(const InitialState& scene)
+        : scene_(scene), changes_(scene.discs.size(), 0) {
         double largest = 0.0;
         for (const Disc& d : scene.discs) largest = larger(largest, d.radius);
         reach_ = scene.container_radius;
         for (const Segment& segment : scene.path.segments)
             reach_ = larger(reach_, scene.container_radius +
                                         1.1 * square_root(dot(segment.start, segment.start)));
-        // A tenth wider than two discs that touch, so that rounding cannot hide one from another.
+        // A tenth wider than two radii, so that rounding cannot hide a contact.
         side_ = static_cast<std::int64_t>(2.0 * reach_ / (2.2 * largest));
         width_ = 2.0 * reach_ / static_cast<double>(side_);
         cell_of_.resize(scene.discs.size());
@@ -45,7 +46,8 @@ class PlainGrid {
                 continue;
             }
             if (e.kind == wall && e.segment != segment_) continue;
-            return e.kind == wall ? hit_wall(e.i, e.time) : hit_disc(e.i, e.j, e.time);
+            return e.kind == wall ? collide_with_wall(e.i, e.time)
+                                  : collide_discs(e.i, e.j, e.time);
         }
     }
 
@@ -59,8 +61,8 @@ class PlainGrid {
         std::uint32_t changes_i, changes_j;
         std::uint32_t segment;
         Kind kind;
-        // A disc enters its new cell before anything else of that instant; then the smaller i, the
-        // smaller j.
+        // At one instant a disc enters its new cell first; then the smaller i and the smaller j
+        // decide.
         bool operator<(const Entry& o) const {
             if (time != o.time) return time > o.time;
             if ((kind == crossing) != (o.kind == crossing)) return o.kind == crossing;
@@ -83,7 +85,7 @@ class PlainGrid {
                                   scene_.container_radius),
              i, i);
     }
-    /// When disc i, in its cell since `t`, leaves it.
+    /// Predicts when disc i, which is in its cell at time t, leaves it.
     void push_crossing(std::uint32_t i, double t) {
         const Disc& d = scene_.discs[i];
         const Vec2 at = d.at(t).position;
@@ -122,7 +124,7 @@ class PlainGrid {
             push_crossing(i, scene_.discs[i].time);
         }
     }
-    /// Into the cell on the other side of the border it has come to.
+    /// Moves disc i into the cell beyond the border that it has reached.
     void cross(std::uint32_t i, double t) {
         const Disc& d = scene_.discs[i];
         const Vec2 at = d.at(t).position;
@@ -156,7 +158,7 @@ class PlainGrid {
         push_wall(i);
         push_crossing(i, t);
     }
-    Event hit_disc(std::uint32_t i, std::uint32_t j, double t) {
+    Event collide_discs(std::uint32_t i, std::uint32_t j, double t) {
         Disc &a = scene_.discs[i], &b = scene_.discs[j];
         a = a.at(t);
         b = b.at(t);
@@ -170,7 +172,7 @@ class PlainGrid {
         push_contacts(j);
         return {periods_, t, EventKind::disc_disc, i, j, {}, J, 0.0};
     }
-    Event hit_wall(std::uint32_t i, double t) {
+    Event collide_with_wall(std::uint32_t i, double t) {
         const Segment& segment = scene_.path.segments[segment_];
         Disc& a = scene_.discs[i];
         a = a.at(t);
