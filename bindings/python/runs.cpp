@@ -104,7 +104,7 @@ py::tuple run_once(const py::dict& given, const std::vector<std::string>& measur
     if (records) {
         const WithoutInterpreter without;
         result = run_recorded(config, files, control, provenance_of(config, recorded_as, ""));
-        if (result.complete) forget_checkpoint(files);
+        if (result.complete) remove_checkpoint(files);
     } else {
         // Placing many discs may take seconds.
         const auto run =
@@ -152,7 +152,7 @@ RunFiles run_files(const py::dict& given) {
     files.trajectory = path("trajectory");
     files.event_log = path("event_log");
     files.checkpoint = path("checkpoint");
-    if (given.contains("frames")) files.frames.per_swirl = py::cast<int>(given["frames"]);
+    if (given.contains("frames")) files.frames.per_period = py::cast<int>(given["frames"]);
     files.resume = given.contains("resume") && py::cast<bool>(given["resume"]);
     files.overwrite = given.contains("overwrite") && py::cast<bool>(given["overwrite"]);
     return files;

@@ -30,7 +30,7 @@ class Container {
           measured_(std::move(measured)),
           observation_(config.container_radius, config.period, measured_),
           run_(endless(config), begin, measured_.empty() ? nullptr : &observation_),
-          seen_(run_.kept_snapshot()),
+          seen_(run_.stored_snapshot()),
           pinned_times_(samples_per_period, config.period) {
         run_.follow_orientations();
     }
@@ -67,7 +67,7 @@ class Container {
     const ClusterRotation& rotation() { return run_.rotation_after_warmup(); }
     const Observation& observation() const { return observation_; }
     std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
-    bool is_warm() const { return run_.kept_snapshot().periods >= warmup(); }
+    bool is_warm() const { return run_.stored_snapshot().periods >= warmup(); }
 
     /// As a run of the command line that ended with the last event would have it, but for the time
     /// that it took. Nothing is said of a warm-up that has not ended. No event is found beyond the
@@ -108,7 +108,7 @@ class Container {
 
     /// The dish at a moment between the last event and the next.
     const Snapshot& seen_at(double time) {
-        seen_ = run_.kept_snapshot();
+        seen_ = run_.stored_snapshot();
         const double clock = time - static_cast<double>(seen_.periods) * config_.period;
         // The samples may have moved the snapshot on towards the next event.
         seen_.clock = std::fmin(std::fmax(passed_clock_, clock), config_.period);
@@ -119,7 +119,7 @@ class Container {
     }
     /// Of the last event that was passed.
     double time() const {
-        return static_cast<double>(run_.kept_snapshot().periods) * config_.period + passed_clock_;
+        return static_cast<double>(run_.stored_snapshot().periods) * config_.period + passed_clock_;
     }
 
     /// What another dish begins with whose discs are where they are at this moment, as seen from
@@ -155,9 +155,9 @@ class Container {
     bool find() {
         if (found_) return true;
         // By hand there is no swirl to go by.
-        if (!problem_ && run_.is_time_to_look() && !is_by_hand(path())) problem_ = run_.problem();
+        if (!problem_ && run_.is_check_due() && !is_by_hand(path())) problem_ = run_.problem();
         if (problem_) return false;
-        run_.find_event();
+        run_.execute_event();
         found_ = true;
         // Who is pinned is asked by who looks on, and costs more than the dish: 511 looks a swirl.
         if (!measured_.empty())
@@ -168,13 +168,13 @@ class Container {
         run_.pass_event();
         found_ = false;
         passed_ = run_.event();
-        passed_clock_ = run_.kept_snapshot().clock;
+        passed_clock_ = run_.stored_snapshot().clock;
     }
 
     const RunConfig config_;
     std::vector<std::string> measured_;
     Observation observation_;
-    BareRun run_;
+    CoreRun run_;
     Snapshot seen_;
     Event passed_{};
     SampleTimes pinned_times_;

@@ -37,10 +37,10 @@ extern "C" {
 
 namespace swirl {
 
-void throw_wrong_call(const std::string& sentence) {
+void throw_usage_error(const std::string& sentence) {
     page_reject(sentence.data(), sentence.size());
 }
-void throw_interrupted(const std::string& sentence) { throw_wrong_call(sentence); }
+void throw_interrupted(const std::string& sentence) { throw_usage_error(sentence); }
 
 namespace {
 

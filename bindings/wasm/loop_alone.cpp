@@ -13,7 +13,7 @@
 namespace swirl {
 
 // The dishes that are timed are right.
-void throw_wrong_call(const std::string&) { __builtin_trap(); }
+void throw_usage_error(const std::string&) { __builtin_trap(); }
 void throw_interrupted(const std::string&) { __builtin_trap(); }
 
 namespace {

@@ -1,6 +1,6 @@
-"""Files that someone forged: recordings of dishes that cannot be, datasets that are not as large as they
-say, crashes inside the HDF5 library, pipes without a reader and devices without an end. Each call ends
-with an error, and soon."""
+"""Malicious files: recordings with impossible values, datasets whose size is not what they declare,
+crashes inside the HDF5 library, pipes without a reader and endless devices. Each call ends with an
+error."""
 
 import json
 import os
@@ -27,7 +27,7 @@ class HostileFiles(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def edited(self, name, code):
-        """A copy of a recording, `f`, after some Python."""
+        """A copy of a recording, changed by Python code in which `f` is the open file."""
         copy = self.path("edited.h5")
         shutil.copyfile(self.path(name), copy)
         done = subprocess.run(["/usr/bin/python3", "-c", f"""
@@ -50,9 +50,9 @@ f.close()
         self.assertIn(saying, done.stderr, call)
         return done
 
-    # --- dishes that cannot be ------------------------------------------------------------------
+    # --- impossible values ----------------------------------------------------------------------
 
-    def test_a_dish_that_cannot_be_is_neither_measured_nor_exported_nor_drawn(self):
+    def test_impossible_values_in_a_recording_are_rejected(self):
         self.recorded(*DISCS)
         commands = (["measure"], ["export", "--to", "csv", "--out", self.path("o.csv")],
                     ["image", "--size", "64x64", "--out", self.path("o.svg")])
@@ -71,12 +71,12 @@ f.close()
                   ("f['observables/container_x/value'][7] = inf", "the container goes as far as inf")]
         for number, (edit, saying) in enumerate(edits):
             file = self.edited("t.h5", edit)
-            # Each edit is seen by the one check behind all commands; every command by some edit.
+            # All commands share one check, so each edit is tried with one command.
             verb, *more = commands[number % 3]
             self.expect_error(saying, verb, file, *(more if number % 9 != 2 else [*more, "--at", "1.4"]))
         self.assertEqual(swirl("measure", self.path("t.h5"), "--quiet").returncode, 0)
 
-    def test_nor_is_the_dish_of_a_dump(self):
+    def test_impossible_values_in_a_dump_are_rejected(self):
         for column, value in (("radius", "0"), ("mass", "-1"), ("x", "1e300")):
             row = {"id": "1", "x": "0", "y": "0", "radius": "1", "mass": "1", column: value}
             with open(self.path("d.dump"), "w") as dump:
@@ -86,7 +86,7 @@ f.close()
             done = swirl("measure", self.path("d.dump"), "--omega", 1, "--container-radius", 8, timeout=60)
             self.assertEqual(done.returncode, 1, (column, done.stdout, done.stderr))
 
-    def test_the_beginning_of_an_event_log_must_be_possible(self):
+    def test_an_impossible_initial_state_of_an_event_log_is_rejected(self):
         self.recorded(*DISCS)
         file = self.edited("e.h5", "f['initial/radius'][2] = nan")
         self.expect_error("radius of disc 2", "verify", file)
@@ -94,7 +94,7 @@ f.close()
     # --- the HDF5 library -----------------------------------------------------------------------
 
     def forged(self, name, before, after):
-        """The first of the bytes `before` are `after`."""
+        """A copy in which the first occurrence of `before` is replaced by `after`."""
         with open(self.path(name), "rb") as opened:
             content = opened.read()
         self.assertIn(before, content)
@@ -102,13 +102,13 @@ f.close()
             opened.write(content.replace(before, after, 1))
         return self.path("forged.h5")
 
-    def test_a_dataset_larger_than_the_file_is_refused_before_memory_is_asked_for(self):
+    def test_a_dataset_larger_than_the_file_is_rejected_before_allocation(self):
         self.recorded(*DISCS)
         # The shape 4 × 2 of /initial/position, and as many rows as make 4 GB.
         file = self.forged("e.h5", struct.pack("<QQ", 4, 2), struct.pack("<QQ", 1 << 28, 2))
-        self.expect_error("does not lie in the file as its shape says", "verify", file)
+        self.expect_error("does not match its shape", "verify", file)
 
-    def test_a_compact_dataset_smaller_than_its_shape_is_refused(self):
+    def test_a_compact_dataset_smaller_than_its_shape_is_rejected(self):
         self.recorded(*DISCS)
         copy = self.edited("t.h5", """
 del particles['mass']
@@ -120,10 +120,10 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
         os.rename(copy, self.path("compact.h5"))
         file = self.forged("compact.h5", struct.pack("<QQ", 57, 57), struct.pack("<QQ", 5000, 5000))
         for verb in (["verify"], ["measure"]):
-            self.expect_error("does not lie in the file as its shape says", *verb, file)
+            self.expect_error("does not match its shape", *verb, file)
 
     @unittest.skipUnless(shutil.which("cc"), "no C compiler")
-    def test_a_crash_inside_the_library_becomes_a_sentence(self):
+    def test_a_crash_inside_the_library_becomes_an_error(self):
         self.recorded(*DISCS)
         with open(self.path("crash.c"), "w") as source:
             source.write("#include <signal.h>\nint H5Dread(void) { raise(SIGSEGV); return -1; }\n")
@@ -140,14 +140,14 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
             self.assertIn("reading it crashes the HDF5 library (Segmentation fault)", done.stderr)
         self.assertFalse(os.path.exists(self.path("o.csv")))
 
-    # --- what never ends ------------------------------------------------------------------------
+    # --- endless files --------------------------------------------------------------------------
 
-    def test_a_result_into_a_pipe_without_a_reader_ends_at_a_signal(self):
+    def test_writing_to_a_pipe_without_a_reader_ends_at_a_signal(self):
         os.mkfifo(self.path("pipe"))
         call = [SWIRL, "run", "--discs", "4", "--events", "2000", "--quiet", "--json", self.path("pipe")]
         for signal_sent in (signal.SIGTERM, signal.SIGINT):
             started = subprocess.Popen(call, stderr=subprocess.PIPE, text=True)
-            time.sleep(1)  # far more than the run takes
+            time.sleep(1)  # longer than the run
             started.send_signal(signal_sent)
             _, errors = started.communicate(timeout=60)
             self.assertEqual(started.returncode, 130)
@@ -158,14 +158,14 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
         started.communicate(timeout=60)
         self.assertEqual(started.returncode, 0)
 
-    def test_a_configuration_without_an_end_is_refused(self):
+    def test_an_endless_configuration_is_rejected(self):
         done = swirl("run", "/dev/zero", timeout=60)
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("longer than 1048576 bytes", done.stderr)
 
     # --- verify ---------------------------------------------------------------------------------
 
-    def test_verify_rejects_what_only_others_read_of_each_series(self):
+    def test_verify_rejects_changed_step_and_time(self):
         self.recorded(*DISCS)
         for edit in ("del f['observables/clock/step']", "del f['observables/clock/time']",
                      "del f['observables/clock/time']; f['observables/clock/time'] = np.zeros(16)",
@@ -179,7 +179,7 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
             self.assertEqual(done.returncode, 1, (edit, done.stdout))
             self.assertRegex(done.stderr, "/(step|time)", edit)
 
-    def test_verify_rejects_a_floor_that_is_none_or_another(self):
+    def test_verify_rejects_a_missing_or_changed_floor(self):
         self.recorded(*DISCS)
         self.expect_error("/floor", "verify", self.edited(
             "e.h5", "f['floor/velocity'] = np.zeros((30, 2)); f['floor'].attrs['deceleration'] = 1.0"))
@@ -206,7 +206,7 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
                          "f['initial/radius'] = np.append(v, 1.0)")):
             self.expect_error("edited.h5", "verify", self.edited(name, edit))
 
-    def test_verify_says_whether_measurements_were_compared(self):
+    def test_verify_reports_which_measurements_were_compared(self):
         self.recorded(*DISCS, "--measure", "slip,profile")
         done = swirl("verify", self.path("r.json"))
         self.assertIn("measured slip, profile", done.stdout)

@@ -1,4 +1,4 @@
-"""Names that are there already, files of other runs under them, and what `swirl verify` believes."""
+"""Existing files: when a run may overwrite them, files of other runs, and what `swirl verify` accepts."""
 
 import json
 import os
@@ -22,7 +22,7 @@ class Overwriting(InFolder):
                 "--checkpoint-every", "0.01", "--quiet", *more]
 
     def killed(self, *more, seed=1):
-        """A run that would take long, killed when its first checkpoint is there."""
+        """Starts a long run and kills it at its first checkpoint."""
         process = subprocess.Popen([SWIRL, *map(str, self.run_call(*more, seed=seed, events="1e9"))],
                                    stderr=subprocess.DEVNULL)
         while not os.path.exists(self.path("r.json.checkpoint")):
@@ -31,80 +31,80 @@ class Overwriting(InFolder):
         process.kill()
         process.wait()
 
-    def refused(self, *call, says):
+    def assert_rejected(self, *call, says):
         done = swirl(*call)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn(says, done.stderr)
-        self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertRegex(done.stderr, r"\A[^\n]+\n(hint: [^\n]+\n)?\Z")
 
-    def test_a_finished_result_is_overwritten_only_when_asked(self):
+    def test_a_finished_result_is_overwritten_only_on_request(self):
         self.assertEqual(swirl(*self.run_call()).returncode, 0)
         before = without_time(self.path("r.json"))
-        self.refused(*self.run_call(seed=2), says="r.json' is there already")
-        self.refused(*self.run_call("--resume", seed=2), says="r.json' is there already")
+        self.assert_rejected(*self.run_call(seed=2), says="r.json' already exists")
+        self.assert_rejected(*self.run_call("--resume", seed=2), says="r.json' already exists")
         self.assertEqual(without_time(self.path("r.json")), before)
-        done = swirl(*self.run_call("--resume"))  # nothing left to do
+        done = swirl(*self.run_call("--resume"))  # it is complete
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(swirl(*self.run_call("--overwrite", seed=2)).returncode, 0)
         self.assertNotEqual(without_time(self.path("r.json")), before)
         self.assertEqual(self.left_behind(), ["e.h5", "r.json", "t.h5"])
 
-    def test_an_interrupted_run_is_overwritten_only_when_asked_and_its_checkpoint_is_kept(self):
+    def test_overwriting_an_interrupted_run_needs_a_request_and_backs_up_its_checkpoint(self):
         self.killed()
         with open(self.path("r.json.checkpoint"), "rb") as opened:
             checkpoint = opened.read()
-        self.refused(*self.run_call(seed=2), says="--resume goes on")
+        self.assert_rejected(*self.run_call(seed=2), says="continue it with --resume")
         done = swirl(*self.run_call("--overwrite", seed=2))
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.path("r.json.checkpoint.backup"), "rb") as opened:
             self.assertEqual(opened.read(), checkpoint)
 
-    def test_a_second_backup_of_a_checkpoint_replaces_no_other(self):
+    def test_a_second_backup_does_not_replace_the_first(self):
         kept = {}
         for seed, name in ((1, "backup"), (2, "backup-2")):
             self.killed("--overwrite", seed=seed)
             with open(self.path("r.json.checkpoint"), "rb") as opened:
                 kept[name] = opened.read()
-            self.refused(*self.run_call(), says=f"r.json.checkpoint.{name}'")
+            self.assert_rejected(*self.run_call(), says=f"r.json.checkpoint.{name}'")
             done = swirl(*self.run_call("--overwrite"))
             self.assertEqual(done.returncode, 0, done.stderr)
         for name, checkpoint in kept.items():
             with open(self.path(f"r.json.checkpoint.{name}"), "rb") as opened:
                 self.assertEqual(opened.read(), checkpoint)
 
-    def test_another_run_under_the_same_name_is_neither_begun_nor_taken_for_ones_own(self):
+    def test_recordings_of_another_run_are_neither_overwritten_nor_continued(self):
         self.killed()
         kept = self.path("kept.checkpoint")
         shutil.copy(self.path("r.json.checkpoint"), kept)
         os.remove(self.path("r.json.checkpoint"))
-        # B would begin anew over what A has recorded.
-        self.refused(*self.run_call(seed=2), says="unfinished recording of another run")
-        # B did so all the same and is complete; A comes back.
+        # Run B would overwrite the recording of run A.
+        self.assert_rejected(*self.run_call(seed=2), says="unfinished recording of another run")
+        # B overwrites it and is completed; then A is resumed.
         self.assertEqual(swirl(*self.run_call("--overwrite", seed=2)).returncode, 0)
         with open(self.path("t.h5"), "rb") as opened:
             of_b = opened.read()
-        self.refused("run", "--checkpoint", kept, "--resume", "--quiet",
+        self.assert_rejected("run", "--checkpoint", kept, "--resume", "--quiet",
                      says="recorded by another run")
         with open(self.path("t.h5"), "rb") as opened:
             self.assertEqual(opened.read(), of_b)
 
-    def test_a_result_without_what_is_to_be_measured_or_recorded_is_not_complete(self):
+    def test_a_result_without_requested_measurements_or_recordings_is_not_complete(self):
         call = ["run", "--discs", 8, "--events", 20000, "--json", self.path("r.json"), "--quiet"]
         slip = [*call, "--measure", "slip", "--tables", self.path("tables")]
         self.assertEqual(swirl(*call).returncode, 0)
-        self.refused(*slip, "--resume", says="r.json' is there already")
+        self.assert_rejected(*slip, "--resume", says="r.json' already exists")
         self.assertEqual(swirl(*slip, "--overwrite").returncode, 0)
         for also in (slip, call):
             done = swirl(*also, "--resume")
             self.assertEqual(done.returncode, 0, done.stderr)
         os.remove(self.path("tables/numbers.csv"))
-        self.refused(*slip, "--resume", says="r.json' is there already")
+        self.assert_rejected(*slip, "--resume", says="r.json' already exists")
         recorded = [*call, "--trajectory", self.path("t.h5")]
         self.assertEqual(swirl(*recorded, "--overwrite").returncode, 0)
         self.assertEqual(swirl(*recorded, "--resume").returncode, 0)
-        self.refused(*recorded, "--frames", 7, "--resume", says="r.json' is there already")
+        self.assert_rejected(*recorded, "--frames", 7, "--resume", says="r.json' already exists")
 
-    def test_a_resumed_run_replaces_no_result_or_recording_of_another(self):
+    def test_a_resumed_run_does_not_replace_files_of_another_run(self):
         self.killed()
         kept = self.path("kept.checkpoint")
         shutil.copy(self.path("r.json.checkpoint"), kept)
@@ -113,12 +113,12 @@ class Overwriting(InFolder):
             made = self.path("other-" + name)
             self.assertEqual(swirl(*other, option, made).returncode, 0)
             shutil.copy(made, self.path(name))
-            self.refused("run", "--checkpoint", kept, "--resume", "--quiet", says="is left as it is")
+            self.assert_rejected("run", "--checkpoint", kept, "--resume", "--quiet", says="it was left unchanged")
             with open(made, "rb") as wanted, open(self.path(name), "rb") as there:
                 self.assertEqual(wanted.read(), there.read())
             os.remove(self.path(name))
 
-    def test_of_two_runs_at_once_that_measure_different_things_neither_is_lost(self):
+    def test_concurrent_runs_with_different_measurements_keep_both_results(self):
         runs = [subprocess.Popen([SWIRL, "run", "--discs", "8", "--events", "300000", "--measure", name,
                                   "--json", self.path("r.json"), "--quiet"], stderr=subprocess.PIPE, text=True)
                 for name in ("slip", "order")]
@@ -128,14 +128,14 @@ class Overwriting(InFolder):
         self.assertEqual({*without_time(self.path("r.json"))["measured"],
                           *without_time(self.path("r.json.second"))["measured"]}, {"slip", "order"})
 
-    def test_an_interrupted_result_takes_the_place_of_no_complete_one(self):
+    def test_an_interrupted_result_does_not_replace_a_complete_one(self):
         call = ["run", "--discs", "8", "--events", "20000", "--json", self.path("r.json"), "--quiet"]
         long = [SWIRL, *call[:4], "1e9", *call[5:], "--checkpoint", self.path("c")]
         process = subprocess.Popen([*long, "--checkpoint-every", "0.01"], stderr=subprocess.PIPE, text=True)
         while not os.path.exists(self.path("c")):
             self.assertIsNone(process.poll(), "over without a checkpoint")
             time.sleep(0.001)
-        # What the same run would say in the end.
+        # The complete result of the same run, as if written by another process.
         with open(self.path("r.json"), "w", encoding="utf-8") as opened:
             plan = json.loads(swirl(*call[:-3], "--json", "-", "--quiet").stdout)
             plan["config"]["events"] = 1000000000
@@ -145,7 +145,7 @@ class Overwriting(InFolder):
         self.assertTrue(without_time(self.path("r.json"))["complete"])
         self.assertFalse(without_time(self.path("r.json.second"))["complete"])
 
-    def test_runs_that_measure_different_things_keep_their_states_apart(self):
+    def test_runs_with_different_measurements_have_different_checkpoints(self):
         for name in ("slip", "order"):
             process = subprocess.Popen([SWIRL, "run", "--events", "1e9", "--measure", name, "--quiet"],
                                        cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -155,7 +155,7 @@ class Overwriting(InFolder):
         self.assertEqual(len(self.left_behind()), 2, self.left_behind())
         self.assertFalse([name for name in self.left_behind() if "backup" in name])
 
-    def test_a_run_that_was_to_overwrite_still_does_when_it_is_resumed(self):
+    def test_overwrite_still_holds_when_the_run_is_resumed(self):
         self.assertEqual(swirl(*self.run_call()).returncode, 0)
         process = subprocess.Popen(
             [SWIRL, *map(str, self.run_call("--overwrite", seed=2, events="3000000"))])
@@ -168,7 +168,7 @@ class Overwriting(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(without_time(self.path("r.json"))["config"]["seed"], 2)
 
-    def test_of_two_runs_at_once_under_one_name_neither_result_is_lost(self):
+    def test_concurrent_runs_with_the_same_name_keep_both_results(self):
         runs = [subprocess.Popen([SWIRL, "run", "--discs", "8", "--events", "1000000", "--seed", str(seed),
                                   "--json", self.path("r.json"), "--quiet"], stderr=subprocess.PIPE, text=True)
                 for seed in (1, 2)]
@@ -179,20 +179,20 @@ class Overwriting(InFolder):
         self.assertEqual({without_time(self.path(name))["config"]["seed"] for name in self.left_behind()},
                          {1, 2})
 
-    def test_a_run_whose_standard_files_are_closed_writes_into_none_of_its_own(self):
+    def test_closed_standard_streams_do_not_corrupt_files(self):
         done = subprocess.run(["sh", "-c", 'exec "$0" "$@" 0<&- 1>&- 2>&-', SWIRL,
                                *map(str, self.run_call()[:-1])])
-        self.assertEqual(done.returncode, 1)  # its report had nowhere to go
+        self.assertEqual(done.returncode, 1)  # the report could not be written
         for name in ("r.json", "t.h5", "e.h5"):
             done = swirl("verify", self.path(name))
             self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_pipes_that_nobody_writes_to_are_refused_at_once(self):
+    def test_pipes_without_a_writer_are_rejected(self):
         os.mkfifo(self.path("pipe"))
-        self.refused("verify", self.path("pipe"), says="regular file")
-        self.refused("run", "--checkpoint", self.path("pipe"), "--resume", says="regular file")
+        self.assert_rejected("verify", self.path("pipe"), says="regular file")
+        self.assert_rejected("run", "--checkpoint", self.path("pipe"), "--resume", says="regular file")
 
-    def test_verify_believes_no_recording_that_lacks_something(self):
+    def test_verify_detects_every_change_of_a_recording(self):
         self.assertEqual(swirl(*self.run_call()).returncode, 0)
         change = """
 import h5py, sys, numpy
@@ -241,11 +241,11 @@ if what == 'quarter': cut('events', 0.25)
                     self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
                 self.assertEqual(changed.returncode, 0, changed.stderr)
                 says = {"velocities": "differ in length", "impulses": "differ in length",
-                        "table": "it has a table", "nothing": "it has a table",
+                        "table": "must have one value per frame", "nothing": "must have one value per frame",
                         "radius": "radius of disc 3 is nan", "first": "radius of disc 0 is nan",
                         "container": "container radius is 0", "period": "period is 0",
-                        "sticks": "Event 7 of the log is damaged"}.get(what, "differs from")
-                self.refused("verify", self.path("changed.h5"), says=says)
+                        "sticks": "event 7 is damaged"}.get(what, "differs from")
+                self.assert_rejected("verify", self.path("changed.h5"), says=says)
         floor = """
 import h5py, sys
 kept = h5py.File(sys.argv[1], 'r+')['parameters'].attrs
@@ -257,19 +257,19 @@ kept[sys.argv[2]] = int(sys.argv[3])
             shutil.copy(self.path("spheres.h5"), self.path("changed.h5"))
             subprocess.run(["/usr/bin/python3", "-c", floor, self.path("changed.h5"), attribute, str(value)],
                            check=True)
-            self.refused("verify", self.path("changed.h5"), says="differs from frame 0")
+            self.assert_rejected("verify", self.path("changed.h5"), says="differs from frame 0")
         for part, value in (("energy", 0.5), ("periods", None), ("max_overlap", "0")):
             with open(self.path("r.json")) as opened:
                 result = json.load(opened)
             result[part] = value
             with open(self.path("changed.json"), "w") as opened:
                 json.dump(result, opened)
-            self.refused("verify", self.path("changed.json"), says=part + " is")
+            self.assert_rejected("verify", self.path("changed.json"), says=part + " is")
 
 
 class Names(InFolder):
-    """What is to be written takes the place of nothing that is needed: not of another file of the same call,
-    however it is written, not of what is being read, and not of a device or a pipe."""
+    """An output file never replaces another file of the same call, whatever its spelling, nor an input file,
+    a device or a pipe."""
 
     in_memory = True
 
@@ -278,109 +278,109 @@ class Names(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.path("t.h5")
 
-    def refused(self, *call, code=2, says="is given for two different files"):
+    def assert_rejected(self, *call, code=2, says="is given for two different files"):
         done = swirl(*call, cwd=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertRegex(done.stderr, ONE_ERROR)
         self.assertIn(says, done.stderr)
 
-    def test_one_file_for_two_things_of_a_run(self):
+    def test_two_outputs_of_a_run_with_the_same_name(self):
         for other in ("x", "./x", "../" + os.path.basename(self.folder) + "/x", self.path("x")):
-            self.refused("run", "--events", 100, "--trajectory", "x", "--json", other)
-            self.refused("run", "--events", 100, "--log-events", "x", "--trajectory", other)
+            self.assert_rejected("run", "--events", 100, "--trajectory", "x", "--json", other)
+            self.assert_rejected("run", "--events", 100, "--log-events", "x", "--trajectory", other)
         self.assertEqual(self.left_behind(), [])
 
-    def test_one_file_for_a_table_and_something_else(self):
+    def test_a_table_and_another_output_with_the_same_name(self):
         os.mkdir(self.path("tables"))
         measured = ["run", "--events", 2000, "--measure", "density,slip", "--tables", "tables", "--quiet"]
         for other in (["--json", "tables/numbers.csv"], ["--trajectory", "./tables/density.csv"],
                       ["--tables", "x", "--json", "x"]):
-            self.refused(*(measured if len(other) == 2 else measured[:5]), *other)
+            self.assert_rejected(*(measured if len(other) == 2 else measured[:5]), *other)
         recording = self.recorded()
-        self.refused("measure", recording, "--measure", "slip", "--tables", "tables", "--json",
+        self.assert_rejected("measure", recording, "--measure", "slip", "--tables", "tables", "--json",
                      "tables/numbers.csv")
         self.assertEqual(os.listdir(self.path("tables")), [])
-        self.refused("run", "--measure", "slip", "--tables", "--quiet", says="looks like an option")
+        self.assert_rejected("run", "--measure", "slip", "--tables", "--quiet", says="looks like an option")
         self.assertEqual(self.left_behind(), ["t.h5", "tables"])
 
-    def test_one_file_for_two_things_of_other_commands(self):
-        self.refused("crossing", "--json", "x", "--csv", "./x")
+    def test_two_outputs_of_other_commands_with_the_same_name(self):
+        self.assert_rejected("crossing", "--json", "x", "--csv", "./x")
         self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", 1000, "--out", "study", "--quiet",
                                cwd=self.folder).returncode, 0)
-        self.refused("collect", "study", "--csv", "x", "--crossings", "./x")
-        self.refused("collect", "study", "--csv", "x", "--crossings", "study/plan.json",
+        self.assert_rejected("collect", "study", "--csv", "x", "--crossings", "./x")
+        self.assert_rejected("collect", "study", "--csv", "x", "--crossings", "study/plan.json",
                      says="belongs to the sweep itself")
         self.assertEqual(self.left_behind(), ["study"])
 
-    def test_a_result_over_what_it_is_made_of(self):
+    def test_an_output_with_the_name_of_its_input(self):
         recording = self.recorded()
         with open(recording, "rb") as opened:
             before = opened.read()
         for name in (recording, "t.h5", "./t.h5"):
-            self.refused("measure", recording, "--json", name)
-            self.refused("export", recording, "--to", "xyz", "--out", name)
+            self.assert_rejected("measure", recording, "--json", name)
+            self.assert_rejected("export", recording, "--to", "xyz", "--out", name)
         with open(recording, "rb") as opened:
             self.assertEqual(opened.read(), before)
-        # And over what stands beside a camera's tracks.
-        self.refused("measure", "tracks.csv", "--json", "tracks.camera.json")
+        # The same for the file next to a camera's tracks.
+        self.assert_rejected("measure", "tracks.csv", "--json", "tracks.camera.json")
 
-    def test_a_table_of_a_sweep_takes_the_place_of_nothing_that_the_sweep_keeps(self):
+    def test_a_table_of_a_sweep_does_not_replace_files_of_the_sweep(self):
         self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", 1000, "--out", "study", "--quiet",
                                cwd=self.folder).returncode, 0)
         os.symlink("study", self.path("link"))
         kept = {name: Path(self.path(name)).read_bytes()
                 for name in ("study/results/000000.json", "study/plan.json", "study/locks")}
         for name in (*kept, "link/results/000000.json", "study/results/new.csv", "./study/../study/locks"):
-            self.refused("collect", "study", "--csv", name, says="belongs to the sweep itself")
-            self.refused("collect", "study", "--crossings", name, says="belongs to the sweep itself")
-            self.refused("collect", "link", "--csv", name, says="belongs to the sweep itself")
+            self.assert_rejected("collect", "study", "--csv", name, says="belongs to the sweep itself")
+            self.assert_rejected("collect", "study", "--crossings", name, says="belongs to the sweep itself")
+            self.assert_rejected("collect", "link", "--csv", name, says="belongs to the sweep itself")
         for name, before in kept.items():
             self.assertEqual(Path(self.path(name)).read_bytes(), before)
-        self.refused("collect", "study", "--csv", "-", "--crossings", "-", says="standard output")
+        self.assert_rejected("collect", "study", "--csv", "-", "--crossings", "-", says="standard output")
         done = swirl("collect", "study", "--csv", "study/results.csv", "--crossings", "study/N_c.csv",
                      cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_a_run_never_takes_the_place_of_its_configuration(self):
+    def test_a_run_does_not_replace_its_configuration(self):
         plan = Path(self.path("plan.toml"))
         plan.write_text("discs = 5\nevents = 1000\n", encoding="utf-8")
         for option in ("--json", "--trajectory", "--log-events", "--checkpoint"):
             for more in ([], ["--overwrite"]):
-                self.refused("run", "plan.toml", option, "./plan.toml", *more)
+                self.assert_rejected("run", "plan.toml", option, "./plan.toml", *more)
         self.assertEqual(plan.read_text(encoding="utf-8"), "discs = 5\nevents = 1000\n")
         self.assertEqual(self.left_behind(), ["plan.toml"])
 
-    def test_what_is_shown_is_not_what_is_drawn(self):
+    def test_a_movie_or_picture_does_not_replace_its_input(self):
         recording = shutil.copy(self.recorded(), self.path("r.gif"))
         shutil.copy(recording, self.path("r.png"))
         before = Path(recording).read_bytes()
         small = ["--size", "160x90", "--quiet"]
-        self.refused("movie", "r.gif", "--out", "./r.gif", *small)
-        self.refused("image", "r.png", "--out", "./r.png", *small)
+        self.assert_rejected("movie", "r.gif", "--out", "./r.gif", *small)
+        self.assert_rejected("image", "r.png", "--out", "./r.png", *small)
         for name in ("r.gif", "r.png"):
             self.assertEqual(Path(self.path(name)).read_bytes(), before)
         says = "it also belongs to the camera images"
-        self.refused("movie", "tracks.csv", "--over", "film.mp4", "--out", "./film.mp4", says=says)
+        self.assert_rejected("movie", "tracks.csv", "--over", "film.mp4", "--out", "./film.mp4", says=says)
         numbered = ["tracks.csv", "--over", "seen/frame-%06d.png"]
-        self.refused("movie", *numbered, "--frames", "seen", says=says)
-        self.refused("image", *numbered, "--out", "./seen/frame-000007.png", says=says)
+        self.assert_rejected("movie", *numbered, "--frames", "seen", says=says)
+        self.assert_rejected("image", *numbered, "--out", "./seen/frame-000007.png", says=says)
         self.assertEqual(self.left_behind(), ["r.gif", "r.png", "t.h5"])
 
-    def test_the_report_of_a_film_is_not_its_tracks(self):
+    def test_a_report_does_not_replace_the_tracks(self):
         os.mkdir(self.path("report"))
         if "no camera support" in swirl("track", "film.mp4", "--out", "x.csv").stderr:
             self.skipTest("this build has no camera")
-        self.refused("track", "film.mp4", "--out", "report/discs.csv", "--report", "report")
-        self.refused("experiment", "film.mp4", "--out", "x", "--json", "film.mp4")
+        self.assert_rejected("track", "film.mp4", "--out", "report/discs.csv", "--report", "report")
+        self.assert_rejected("experiment", "film.mp4", "--out", "x", "--json", "film.mp4")
         self.assertEqual(self.left_behind(), ["report"])
 
-    def test_a_pipe_or_a_device_is_not_replaced(self):
+    def test_a_pipe_is_not_replaced(self):
         recording = self.recorded()
         os.mkfifo(self.path("pipe"))
         for call in (["export", recording, "--to", "xyz", "--out", "pipe"],
                      ["run", "--events", 100, "--trajectory", "pipe"],
                      ["run", "--events", 100, "--log-events", "pipe"]):
-            self.refused(*call, code=1, says="is a device, a pipe or a socket, and no file can take its place")
+            self.assert_rejected(*call, code=1, says="is a device, a pipe or a socket and cannot be replaced by a file")
             self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode), call)
         laboratory = [os.path.join(SOURCE, "web", "lab.sh"), "--out"]
         for place in (self.path("pipe"), self.folder):

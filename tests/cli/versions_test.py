@@ -1,5 +1,5 @@
-"""Files of earlier versions: each is read, and gives what it gave then, or is rejected by a sentence
-that names its version or format. tests/io/version_1/make.sh made them."""
+"""Files of earlier versions. Each is read and gives the same result as then, or is rejected with a
+message that names its version or format. tests/io/version_1/make.sh made them."""
 
 import json
 import os
@@ -25,7 +25,7 @@ def with_present_names(result):
     return {**result, "measured": measured}
 
 
-class FilesOfThen(InFolder):
+class OldFiles(InFolder):
     def setUp(self):
         super().setUp()
         with tarfile.open(os.path.join(SOURCE, "tests/io/version_1/files.tar.xz")) as archive:
@@ -46,11 +46,12 @@ class FilesOfThen(InFolder):
         return done.stdout
 
 
-class Version1(FilesOfThen):
+class Version1(OldFiles):
     """The files of version 1."""
 
     def assert_resumed(self, done, result, expected):
-        """The same end, bit for bit; or, where the law of these bodies has changed, a sentence."""
+        """The resumed run ends in the expected state; or it is rejected, if the law of motion of these
+        bodies has changed since."""
         if done.returncode == 0:
             self.assertEqual(self.json(result)["state_hash"], self.json(expected)["state_hash"])
             for average in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
@@ -58,7 +59,7 @@ class Version1(FilesOfThen):
                                  self.json(expected)["rotation"][average])
             return
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"of swirl 0\.1\.0 \(1ee281701d33\), .* another law \(1 there")
+        self.assertRegex(done.stderr, r"of swirl 0\.1\.0 \(1ee281701d33\), .* another law of motion \(1 there")
         self.assertFalse(os.path.exists(self.path(result)))
 
     def test_results_with_renamed_measurements_differ(self):
@@ -73,7 +74,7 @@ class Version1(FilesOfThen):
                 json.dump(result, file)
             done = self.run_here("verify", f"{body}.json")
             if done.returncode != 0:
-                self.assertRegex(done.stderr, "differs: .* was made by swirl 0.1.0")
+                self.assertRegex(done.stderr, "differs: .*\nhint: it was made by swirl 0.1.0")
                 self.assertNotEqual(body, "discs")
 
     def test_a_checkpoint_of_a_finished_run_is_extended_to_the_same_end(self):
@@ -108,13 +109,13 @@ class Version1(FilesOfThen):
                     self.assertIn("made by swirl 0.1.0", done.stderr)
                     self.assertNotEqual(body, "discs")
 
-    def test_tracks_are_read_with_what_is_known_of_the_camera(self):
+    def test_tracks_are_read_with_their_camera_data(self):
         then = self.json("tracks.json")
         for file in ("tracks.h5", "tracks.csv"):
             self.succeed("measure", file, "--json", "now.json", "--quiet")
             now = self.json("now.json")
             self.assertEqual((now["frames"], now["discs"]), (then["frames"], then["discs"]))
-            # A table has its numbers with fewer digits; measurements may become better.
+            # The CSV table has fewer digits than the HDF5 file, and measurements may be refined.
             self.assertAlmostEqual(now["rotation"]["by_time"]["mean"],
                                    then["rotation"]["by_time"]["mean"], 3)
 
@@ -129,13 +130,13 @@ class Version1(FilesOfThen):
                 tables.append(file.read())
         self.assertEqual(tables[0], tables[1])
 
-    def test_a_configuration_file_is_the_run_of_then(self):
+    def test_a_configuration_file_gives_the_same_run(self):
         self.succeed("run", "run.toml", "--json", "again.json", "--quiet")
         self.assertEqual(self.json("again.json")["state_hash"], self.json("discs.json")["state_hash"])
 
 
-class OtherFormats(FilesOfThen):
-    """The same files in a format that this program does not know."""
+class OtherFormats(OldFiles):
+    """The same files, changed to a format that this program does not know."""
 
     def rewrite(self, name, change):
         content = self.json(name)
@@ -188,7 +189,7 @@ class OtherFormats(FilesOfThen):
                                 self.path(file)], check=True)
                 self.rejected(*command)
 
-    def test_recordings_that_are_made_now_say_their_format(self):
+    def test_new_recordings_contain_their_format(self):
         made = self.run_here("run", "run.toml", "--periods", 6, "--trajectory", "t.h5", "--log-events",
                              "e.h5", "--json", "now.json", "--quiet")
         self.assertEqual(made.returncode, 0, made.stderr)

@@ -1,9 +1,8 @@
-"""What a run and a sweep leave behind when the system fails them: the k-th call of each kind fails
-once or for ever, the process is killed before its k-th change of a file, or the power goes. Each
-time the program says so in a sentence and does not end with 0, or what it left is right, to the bit.
-The same of what is made in one go: exports, pictures, measurements, films with their truth, tracks.
+"""Faults of the system during a run, a sweep and other commands: the k-th call of each kind fails once
+or always, the process is killed before its k-th change of a file, or the power is cut. In each case
+either the program reports an error, or its files are bitwise identical to those of an undisturbed run.
 
-    faults_test.py          a sample of all that, for the default suite
+    faults_test.py          a sample of these, for the default suite
     faults_test.py --all    every k, all errors, and 200 power cuts; prints a table
 """
 
@@ -30,7 +29,7 @@ RUN = ["run", "--discs", "8", "--events", "3000", "--seed", "3", "--warmup", "2"
        "0.001", "--quiet"]
 SWEEP = ["sweep", "--discs", "5:8", "--events", "300", "--threads", "1", "--frames", "4", "--out",
          "s", "--quiet"]
-# Of a recording in.h5, or of a film in.mp4, each in a folder that no fault touches.
+# Commands that read a recording in.h5 or a video in.mp4, which are in a folder without faults.
 OUTPUTS = [["export", "IN/in.h5", "--to", "gsd", "--out", "o.gsd", "--quiet"],
            ["export", "IN/in.h5", "--to", "vtp", "--range", "0:3", "--out", "o.pvd", "--quiet"],
            ["image", "IN/in.h5", "--size", "64x64", "--out", "o.svg", "--quiet"],
@@ -42,12 +41,12 @@ FILMS = [["synthetic-video", "--discs", "3", "--frames", "4", "--width", "64", "
          ["track", "IN/in.mp4", "--quiet", "--out", "o.h5"],
          ["track", "IN/in.mp4", "--quiet", "--out", "o.csv"]]
 CALLS = ("open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close")
-BEFORE_MAIN = 80  # so many of the first calls of new at most; nobody is there who could say anything
+BEFORE_MAIN = 80  # upper limit of the calls of new before main(), where no error can be reported
 PAGE = 4096
 
 
-def tell(line):
-    """A line of the table, at once: the whole of it may take an hour."""
+def report(line):
+    """Prints a line of the table at once, since the whole table may take an hour."""
     print(line, flush=True)
 
 
@@ -70,13 +69,13 @@ class Faults(unittest.TestCase):
                               timeout=120, stdin=subprocess.DEVNULL,
                               env={**os.environ, "NO_COLOR": "1", **environment})
 
-    def anew(self):
+    def empty_work_folder(self):
         shutil.rmtree(self.work, ignore_errors=True)
         os.mkdir(self.work)
 
     def count(self, call, arguments):
-        """How many calls of a kind there are when nothing fails."""
-        self.anew()
+        """The number of calls of a kind in an undisturbed run."""
+        self.empty_work_folder()
         count = os.path.join(self.folder, "count")
         done = self.swirl(*arguments, FAULT_UNDER=self.folder, FAULT_COUNT=count,
                           **setting(call, 0))
@@ -84,16 +83,16 @@ class Faults(unittest.TestCase):
         with open(count) as opened:
             return int(opened.read())
 
-    def some(self, numbers, most):
+    def sample(self, numbers, size):
         numbers = list(numbers)
-        if EVERY or len(numbers) <= most:
+        if EVERY or len(numbers) <= size:
             return numbers
-        return sorted(self.choose.sample(numbers, most))
+        return sorted(self.choose.sample(numbers, size))
 
-    # --- what is right -----------------------------------------------------------------------------
+    # --- expected results --------------------------------------------------------------------------
 
     def absolute(self, arguments):
-        """Names under the folder that the shim watches."""
+        """The arguments with absolute file names, in the folder that the shim watches."""
         return [os.path.join(self.work, a) if a in ("t.h5", "e.h5", "r.json", "s") or a.startswith("o.")
                 else a.replace("IN", self.folder) for a in arguments]
 
@@ -104,91 +103,91 @@ class Faults(unittest.TestCase):
             del found[of_the_call]
         return found
 
-    def assert_right(self, where):
-        """The three files of the run are those of a run that nothing happened to."""
-        self.assertEqual(self.result(), self.wanted, where)
+    def assert_correct(self, where):
+        """The three files of the run have the content of those of an undisturbed run."""
+        self.assertEqual(self.result(), self.expected, where)
         for name in ("t.h5", "e.h5"):
             with open(os.path.join(self.work, name), "rb") as opened:
                 if opened.read() == self.bytes.get(name):
-                    continue  # flushed at the same moments, so to the byte
+                    continue  # flushed at the same times, so even the bytes agree
             done = self.swirl("verify", name)
             self.assertEqual(done.returncode, 0, f"{where}: {name}: {done.stderr}")
-            self.assertNotIn("not finished", done.stdout)
+            self.assertNotIn("unfinished", done.stdout)
 
-    def assert_right_sweep(self, where):
+    def assert_correct_sweep(self, where):
         table = self.swirl("collect", "s", "--csv", "-")
-        self.assertEqual((table.returncode, table.stdout), (0, self.wanted_table), where)
+        self.assertEqual((table.returncode, table.stdout), (0, self.expected_table), where)
         for file in glob.glob(os.path.join(self.work, "s/trajectories/*.h5")):
             done = self.swirl("verify", file)
             self.assertEqual(done.returncode, 0, f"{where}: {file}: {done.stderr}")
 
     def undisturbed(self):
-        self.anew()
+        self.empty_work_folder()
         self.run_call = self.absolute(RUN)
         done = self.swirl(*self.run_call)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.wanted, self.bytes = self.result(), {}
+        self.expected, self.bytes = self.result(), {}
         for name in ("t.h5", "e.h5"):
             with open(os.path.join(self.work, name), "rb") as opened:
                 self.bytes[name] = opened.read()
 
     def undisturbed_sweep(self):
-        self.anew()
+        self.empty_work_folder()
         self.sweep_call = self.absolute(SWEEP)
         done = self.swirl(*self.sweep_call)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.wanted_table = self.swirl("collect", "s", "--csv", "-").stdout
+        self.expected_table = self.swirl("collect", "s", "--csv", "-").stdout
 
-    def assert_said(self, done, where):
-        """One sentence, after the warnings of a run that was done, and no crash."""
+    def assert_error_reported(self, done, where):
+        """The process did not crash and reported an error, perhaps after warnings."""
         self.assertIn(done.returncode, (1, 2), f"{where}: {done.stderr}")
-        said = [line for line in done.stderr.splitlines(keepends=True)
+        errors = [line for line in done.stderr.splitlines(keepends=True)
                 if not line.startswith(("warning: ", "hint: "))]
-        self.assertTrue("".join(said).startswith("error: "), f"{where}: {done.stderr}")
+        self.assertTrue("".join(errors).startswith("error: "), f"{where}: {done.stderr}")
 
-    def fail_each(self, arguments, assert_right, most, assert_harmless=lambda where: None):
+    def fail_each(self, arguments, assert_correct, most, assert_harmless=lambda where: None):
         for call in CALLS:
-            calls, said, right = self.count(call, arguments), 0, 0
+            calls, reported, right = self.count(call, arguments), 0, 0
             for error, ever in ((errno.ENOSPC, "0"), (errno.EIO, "1"), (errno.EIO, "0"))[
                     :3 if EVERY else 2]:
-                for k in self.some(range(1, calls + 1), most):
-                    where = f"{call} {k} of {calls}, {errno.errorcode[error]}, for ever: {ever}"
+                for k in self.sample(range(1, calls + 1), most):
+                    where = f"{call} {k} of {calls}, {errno.errorcode[error]}, always: {ever}"
                     with self.subTest(where):
-                        self.anew()
+                        self.empty_work_folder()
                         done = self.swirl(*arguments, FAULT_UNDER=self.folder, FAULT_EVER=ever,
                                           FAULT_LOSE="1", **setting(call, k, error))
                         if done.returncode == 0:
-                            assert_right(where)
+                            assert_correct(where)
                             right += 1
                             continue
-                        self.assert_said(done, where)
+                        self.assert_error_reported(done, where)
                         assert_harmless(where)
-                        said += 1
-            tell(f"{arguments[0]}, {call} fails: {calls} places, {said + right} tried, "
-                 f"{said} said so, {right} right all the same")
+                        reported += 1
+            report(f"{arguments[0]}, {call} fails: {calls} places, {reported + right} tried, "
+                   f"{reported} reported, {right} correct")
 
-    def fail_memory(self, call, only_reads_the_call, assert_right, most):
-        calls, said, right, silent = self.count("new", call), 0, 0, 0
-        while_the_call_is_read = self.count("new", only_reads_the_call)
-        for k in [*self.some(range(1, while_the_call_is_read), most // 3),
-                  *self.some(range(while_the_call_is_read, calls + 1), most)]:
+    def fail_memory(self, call, parse_only_call, assert_correct, most):
+        calls, reported, right, unreported = self.count("new", call), 0, 0, 0
+        while_parsing = self.count("new", parse_only_call)
+        for k in [*self.sample(range(1, while_parsing), most // 3),
+                  *self.sample(range(while_parsing, calls + 1), most)]:
             where = f"new {k} of {calls}"
             with self.subTest(where):
-                self.anew()
+                self.empty_work_folder()
                 done = self.swirl(*call, **setting("new", k, errno.ENOMEM))
                 if k <= BEFORE_MAIN and done.returncode == -signal.SIGABRT:
-                    silent += 1
+                    unreported += 1
                 elif done.returncode == 0:
-                    assert_right(where)
+                    assert_correct(where)
                     right += 1
                 else:
-                    self.assert_said(done, where)
-                    said += 1
-        tell(f"{call[0]}, new fails: {calls} places, {said + right + silent} tried, {said} said "
-             f"so, {right} right all the same, {silent} before main()")
+                    self.assert_error_reported(done, where)
+                    reported += 1
+        report(f"{call[0]}, new fails: {calls} places, {reported + right + unreported} tried, {reported} "
+               f"reported, {right} correct, {unreported} before main()")
 
     def files(self):
-        """What stands under a final name in the work folder."""
+        """The content of all published files in the work folder."""
         found = {}
         for folder, _, names in os.walk(self.work):
             for name in names:
@@ -198,7 +197,7 @@ class Faults(unittest.TestCase):
         return found
 
     def output(self, call):
-        self.anew()
+        self.empty_work_folder()
         call = self.absolute(call)
         done = self.swirl(*call)
         if "no camera support" in done.stderr:
@@ -207,7 +206,7 @@ class Faults(unittest.TestCase):
         return call, self.files()
 
     def fail_output(self, call, most):
-        """Calls fail one by one: told, and then nothing else than the right thing stands anywhere."""
+        """System calls fail one by one: an error is reported, and no published file has wrong content."""
         call, wanted = self.output(call)
 
         def assert_whole(where):
@@ -229,25 +228,25 @@ class Faults(unittest.TestCase):
                     if name.endswith((".partial", ".journal"))]
             self.assertEqual(left, [], where)
 
-        # What is complete already is not made again by who asks before he overwrites.
+        # Commands that refuse to overwrite are not repeated if the output is complete.
         self.kill_each(call, call, assert_clean, most, lambda: self.files() == wanted)
 
     # --- the tests ---------------------------------------------------------------------------------
 
-    def test_a_call_that_fails_in_a_run_is_told_or_does_no_harm(self):
+    def test_failing_calls_in_a_run_are_reported_or_harmless(self):
         self.undisturbed()
-        self.fail_each(self.run_call, self.assert_right, 5)
+        self.fail_each(self.run_call, self.assert_correct, 5)
 
-    def test_memory_that_is_not_given_in_a_run_is_told_or_does_no_harm(self):
+    def test_failing_allocations_in_a_run_are_reported_or_harmless(self):
         self.undisturbed()
-        self.fail_memory(self.run_call, [*self.run_call, "--dry-run"], self.assert_right, 15)
+        self.fail_memory(self.run_call, [*self.run_call, "--dry-run"], self.assert_correct, 15)
 
-    def test_memory_that_is_not_given_in_a_sweep_is_told_or_does_no_harm(self):
+    def test_failing_allocations_in_a_sweep_are_reported_or_harmless(self):
         self.undisturbed_sweep()
-        self.fail_memory(self.sweep_call, ["--version"], self.assert_right_sweep, 8)
+        self.fail_memory(self.sweep_call, ["--version"], self.assert_correct_sweep, 8)
 
     def record_one(self):
-        self.anew()
+        self.empty_work_folder()
         done = self.swirl("run", "--discs", "8", "--events", "300", "--frames", "4", "--quiet",
                           "--trajectory", os.path.join(self.folder, "in.h5"))
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -255,18 +254,18 @@ class Faults(unittest.TestCase):
     def film_one(self):
         if shutil.which("ffmpeg") is None:
             self.skipTest("this test needs ffmpeg")
-        self.anew()
+        self.empty_work_folder()
         done = self.swirl(*FILM, os.path.join(self.folder, "in.mp4"))
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def replace_output(self, old, new, most):
-        """Killed while it takes the place of another: no file stands beside one that belongs to another."""
+        """Killed while it replaces files that belong together: old and new files are never mixed."""
         _, before = self.output(old)
         call, after = self.output([*new, "--overwrite"])
         self.assertEqual(set(before), set(after))
         calls = self.count("change", call)
-        for k in self.some(range(1, calls + 1), most):
-            self.anew()
+        for k in self.sample(range(1, calls + 1), most):
+            self.empty_work_folder()
             for name, content in before.items():
                 with open(os.path.join(self.work, name), "wb") as opened:
                     opened.write(content)
@@ -277,106 +276,106 @@ class Faults(unittest.TestCase):
             self.assertIn([], mixed, f"{new[0]} killed before change {k} of {calls}")
             done = self.swirl(*call)
             self.assertEqual((done.returncode, self.files()), (0, after), done.stderr)
-        tell(f"{new[0]} --overwrite, killed before a change: {calls} places, nothing mixed")
+        report(f"{new[0]} --overwrite, killed before a change: {calls} places, nothing mixed")
 
-    def test_killed_while_files_that_belong_together_are_replaced_they_are_not_mixed(self):
+    def test_a_kill_does_not_mix_old_and_new_files(self):
         self.film_one()
         self.replace_output(FILMS[0], [*FILMS[0], "--seed", "2"], 4)
         self.replace_output(FILMS[2], [*FILMS[2], "--frames", "40"], 4)
 
-    def test_a_call_that_fails_while_something_is_made_of_a_recording(self):
+    def test_failing_calls_while_a_recording_is_processed(self):
         self.record_one()
         for call in OUTPUTS:
             self.fail_output(call, 1)
 
-    def test_killed_before_a_change_of_a_file_an_output_is_made_by_the_same_call(self):
+    def test_commands_on_a_recording_succeed_after_a_kill(self):
         self.record_one()
         for call in OUTPUTS:
             self.kill_output(call, 2)
 
-    def test_a_call_that_fails_while_a_film_is_made_or_tracked(self):
+    def test_failing_calls_while_a_video_is_made_or_tracked(self):
         self.film_one()
         for call in FILMS if EVERY else FILMS[:2]:
             self.fail_output(call, 1)
 
-    def test_killed_before_a_change_of_a_file_film_and_tracks_are_made_by_the_same_call(self):
+    def test_video_commands_succeed_after_a_kill(self):
         self.film_one()
         for call in FILMS if EVERY else FILMS[1:]:
             self.kill_output(call, 2)
 
-    def test_a_call_that_fails_in_a_sweep_is_told_or_does_no_harm(self):
+    def test_failing_calls_in_a_sweep_are_reported_or_harmless(self):
         self.undisturbed_sweep()
-        self.fail_each(self.sweep_call, self.assert_right_sweep, 3)
+        self.fail_each(self.sweep_call, self.assert_correct_sweep, 3)
 
     def kill_each(self, call, again, assert_clean, most, is_complete=lambda: False):
-        """Killed before each of its changes of a file, and called again."""
+        """Kills the command before each of its changes of a file, and calls it again."""
         calls = self.count("change", call)
-        tried = self.some(range(1, calls + 1), most)
+        tried = self.sample(range(1, calls + 1), most)
         for k in tried:
             where = f"{call[0]} killed before change {k} of {calls}"
-            self.anew()
+            self.empty_work_folder()
             self.swirl(*call, FAULT_UNDER=self.folder, **setting("change", k))
             if not is_complete():
                 done = self.swirl(*again)
                 self.assertEqual(done.returncode, 0, f"{where}: {done.stderr}")
             assert_clean(where)
-        tell(f"{call[0]}, killed before a change: {calls} places, {len(tried)} tried, all resumed")
+        report(f"{call[0]}, killed before a change: {calls} places, {len(tried)} tried, all resumed")
 
-    def test_killed_before_a_change_of_a_file_the_run_is_resumed_to_the_same_bits(self):
+    def test_a_killed_run_resumes_to_the_same_result(self):
         def assert_clean(where):
-            self.assert_right(where)
+            self.assert_correct(where)
             left = [name for name in os.listdir(self.work) if name not in self.bytes]
             self.assertEqual([n for n in left if n.endswith((".partial", ".journal"))], [], where)
 
         self.undisturbed()
         self.kill_each(self.run_call, [*self.run_call, "--resume"], assert_clean, 20)
 
-    def test_killed_before_a_change_of_a_file_the_sweep_goes_on_to_the_same_bits(self):
+    def test_a_killed_sweep_continues_to_the_same_result(self):
         def assert_clean(where):
-            self.assert_right_sweep(where)
+            self.assert_correct_sweep(where)
             self.assertEqual(glob.glob(os.path.join(self.work, "s/**/*.partial"), recursive=True)
                              + glob.glob(os.path.join(self.work, "s/checkpoints/*")), [], where)
 
         self.undisturbed_sweep()
         self.kill_each(self.sweep_call, self.sweep_call, assert_clean, 8)
 
-    def cut_power(self, call, again, assert_right, few, most_refused):
-        """The power goes at any moment, and it is called again. Resumes, or says why not."""
-        self.anew()
+    def cut_power(self, call, again, assert_correct, few, max_rejected):
+        """Cuts the power at random times and calls the command again: it resumes, or reports an error."""
+        self.empty_work_folder()
         record = os.path.join(self.folder, "record")
         done = self.swirl(*call, FAULT_UNDER=self.work, FAULT_RECORD=record, **setting("none", 0))
         self.assertEqual(done.returncode, 0, done.stderr)
         entries = read_record(record)
-        cuts, refused = 200 if EVERY else few, 0
+        cuts, rejected = 200 if EVERY else few, 0
         for cut in range(cuts):
             at = self.choose.randrange(len(entries))
             where = f"power cut {cut} of a {call[0]}, after {at} of {len(entries)} entries"
-            self.anew()
+            self.empty_work_folder()
             disk_after(entries[:at], self.choose).write(self.work)
             done = self.swirl(*again)
             if done.returncode != 0:
-                self.assert_said(done, where)
-                refused += 1
+                self.assert_error_reported(done, where)
+                rejected += 1
                 continue
-            assert_right(where)
-        tell(f"{call[0]}, power cut: {cuts} tried, {cuts - refused} resumed, {refused} refused")
-        self.assertLess(refused, most_refused(cuts))
+            assert_correct(where)
+        report(f"{call[0]}, power cut: {cuts} tried, {cuts - rejected} resumed, {rejected} rejected")
+        self.assertLess(rejected, max_rejected(cuts))
 
-    def test_after_a_power_cut_the_run_is_resumed_to_the_same_bits_or_refused(self):
+    def test_after_a_power_cut_the_run_resumes_to_the_same_result_or_is_rejected(self):
         self.undisturbed()
-        self.cut_power(self.run_call, [*self.run_call, "--resume"], self.assert_right, 20,
+        self.cut_power(self.run_call, [*self.run_call, "--resume"], self.assert_correct, 20,
                        lambda cuts: cuts / 10)
 
-    def test_after_a_power_cut_the_sweep_goes_on_to_the_same_bits_or_is_refused(self):
+    def test_after_a_power_cut_the_sweep_continues_to_the_same_result_or_is_rejected(self):
         self.undisturbed_sweep()
-        self.cut_power(self.sweep_call, self.sweep_call, self.assert_right_sweep, 8,
+        self.cut_power(self.sweep_call, self.sweep_call, self.assert_correct_sweep, 8,
                        lambda cuts: max(2, cuts / 10))
 
 
-# --- what a disk holds after a power cut -----------------------------------------------------------
+# --- the content of a disk after a power cut --------------------------------------------------------
 
 def read_record(path):
-    """What the shim wrote: (letter, offset or size, path, second path, bytes)."""
+    """The entries that the shim recorded: (letter, offset or size, path, second path, bytes)."""
     entries = []
     with open(path, "rb") as opened:
         while line := opened.readline():
@@ -412,7 +411,7 @@ class Inode:
 
 
 class Disk:
-    """Names and contents, each as far as they are on the disk, and what has changed since."""
+    """Names and contents: what is on the disk, and the changes since."""
 
     def __init__(self):
         self.names, self.durable_names, self.changes = {}, {}, []
@@ -458,7 +457,7 @@ class Disk:
         self.changes = []
 
     def cut(self, choose):
-        """Names change in order, so some of the last changes are missing; pages in any order."""
+        """Some of the last changes of names are lost, and any of the unsynced pages."""
         for change in self.changes[:choose.randint(0, len(self.changes))]:
             self.rename(self.durable_names, change)
         kept = choose.choice((0.0, 0.3, 0.7, 1.0))

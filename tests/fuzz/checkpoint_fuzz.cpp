@@ -1,6 +1,6 @@
-// A checkpoint from outside: first line, lengths, checksum, what run it is of, and the state. What
-// the fuzzer makes up gets the right checksum, so that what lies behind it is reached; whatever is
-// not refused is resumed and runs for some hundred events.
+// A checkpoint from outside: first line, lengths, checksum, identity of the run, and state. The
+// mutator corrects the checksum, so that the code behind the check is reached. Accepted checkpoints
+// are resumed and run for some hundred events.
 #include <cstring>
 
 #include "fuzzed_file.hpp"
@@ -17,7 +17,7 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
                                                std::size_t maximum, unsigned seed) {
     size = LLVMFuzzerMutate(data, size, maximum);
-    if (size < 8 || seed % 16 == 0) return size;  // now and then a wrong one
+    if (size < 8 || seed % 16 == 0) return size;  // sometimes keeps a wrong checksum
     const std::uint64_t sum =
         swirl::checksum({reinterpret_cast<const char*>(data), size - sizeof sum});
     std::memcpy(data + size - sizeof sum, &sum, sizeof sum);
@@ -28,10 +28,10 @@ namespace {
 
 using namespace swirl;
 
-/// As `swirl run --checkpoint FILE --resume --events …` does, if the run is a small one.
+/// Resumes like `swirl run --checkpoint FILE --resume --events …`, if the run is small.
 void resume(const std::filesystem::path& path) {
-    const KeptCall kept = call_in_checkpoint(path);
-    RunConfig config = resolve(parameters_in(kept.configuration));
+    const CheckpointedCall saved = call_in_checkpoint(path);
+    RunConfig config = resolve(parameters_in(saved.configuration));
     if (config.discs > 30 || config.periods || config.events > 5'000 || config.sides > 1'000)
         return;
     RunFiles files;

@@ -1,4 +1,4 @@
-// Frames of another program: LAMMPS' dump.
+// Frames of another program: a LAMMPS dump.
 #include "fuzzed_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/tracks.hpp"

@@ -1,4 +1,4 @@
-// What the fuzzer makes up, as a file that a reader can open: in memory, under a path of its own.
+// The fuzzer's input as a file in memory, with a path that a reader can open.
 #pragma once
 
 #include <sys/mman.h>
@@ -17,7 +17,7 @@ class FuzzedFile {
         : descriptor_(memfd_create("fuzzed", 0)) {
         for (std::size_t done = 0; done < size;) {
             const ssize_t written = write(descriptor_, data + done, size - done);
-            if (written <= 0) __builtin_trap();  // without memory there is nothing to try
+            if (written <= 0) __builtin_trap();  // out of memory
             done += static_cast<std::size_t>(written);
         }
     }
@@ -31,7 +31,7 @@ class FuzzedFile {
     int descriptor_;
 };
 
-/// Runs the reader. It may refuse with a sentence, and must not end in any other way.
+/// Runs the reader, which may throw only the given error types.
 template <class Refusal, class... Others, class Read>
 void read_or_reject(const Read& read) {
     if constexpr (sizeof...(Others) > 0) {

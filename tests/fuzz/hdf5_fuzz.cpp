@@ -1,10 +1,10 @@
-// Recordings with damaged bytes: those of good ones are replaced, and they are cut. The first byte
-// of the input chooses the file, every four after it are an offset and what to put there.
+// Recordings with damaged bytes: bytes of good ones are replaced, and files are truncated. The first
+// byte of the input selects the file. Every further four bytes are an offset and a new value.
 //
-// Most of it ends in the HDF5 library, which is not built for hostile files and not of this house:
-// a crash in there is said to be one and ends the process with code 0. So this is run with -fork=1,
-// which starts the next; a crash of ours ends it as any finding does. (An alternative that does not
-// get lost in the library is recording_fuzz.cpp.)
+// Most inputs end in the HDF5 library, which does not defend against malicious files. A crash inside
+// the library is not a finding: it is reported and ends the process with code 0. So run this with
+// -fork=1, which starts the next process. Crashes of this program end the process like any finding.
+// (recording_fuzz.cpp reaches the readers of this program more often.)
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <ucontext.h>
@@ -23,7 +23,7 @@ bool is_of_library(const void* code) {
     return dladdr(code, &about) != 0 && about.dli_fname != nullptr &&
            std::strstr(about.dli_fname, "libhdf5") != nullptr;
 }
-/// Also what the sanitizer puts before memcpy and the like, in this very program.
+/// The C library, and the sanitizer's replacements of memcpy and the like in this program.
 bool is_of_system(const void* code) {
     Dl_info about;
     return dladdr(code, &about) == 0 || about.dli_fname == nullptr ||
@@ -34,7 +34,7 @@ bool is_of_system(const void* code) {
              std::strstr(about.dli_sname, "interceptor_") != nullptr));
 }
 
-/// The innermost function that is not the C library's (memcpy and the like) is to blame.
+/// Whether the innermost function outside the C library belongs to the HDF5 library.
 bool library_is_to_blame(const void* crashed) {
     if (is_of_library(crashed)) return true;
     if (!is_of_system(crashed)) return false;
@@ -54,7 +54,7 @@ void on_crash(int signal, siginfo_t* about, void* context) {
     const auto* registers = static_cast<const ucontext_t*>(context);
     const auto* crashed = reinterpret_cast<const void*>(registers->uc_mcontext.gregs[REG_RIP]);
     if (library_is_to_blame(crashed)) {
-        constexpr char sentence[] = "The crash lies inside the HDF5 library.\n";
+        constexpr char sentence[] = "The crash is inside the HDF5 library.\n";
         (void)!write(STDERR_FILENO, sentence, sizeof sentence - 1);
         _exit(0);
     }
@@ -71,16 +71,14 @@ bool watch_library() {
 
 }  // namespace
 
-/// The library asks malloc for as much as a file says, clears gigabytes of it, keeps them for the
-/// next file, and loses memory when it cannot open one; so it gets no more than any good file here
-/// needs. What `new` is asked for in vain still ends the process.
+/// The library allocates as much as a file declares, up to gigabytes, and leaks memory if it cannot
+/// open a file. So malloc is limited to what good files need. A failing `new` still ends the process.
 extern "C" const char* __asan_default_options() {
     return "allocator_may_return_null=1:max_allocation_size_mb=256:"
            "detect_leaks=0:" SWIRL_CHEAPER_ALLOCATIONS;
 }
 
-/// What the library copies from where it should not (met once, of an attribute) is not a finding of
-/// ours.
+/// Invalid reads inside the library, as seen once for an attribute, are not findings.
 extern "C" const char* __asan_default_suppressions() { return "interceptor_via_lib:libhdf5"; }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

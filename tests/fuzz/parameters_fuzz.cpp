@@ -1,5 +1,5 @@
-// The parameters in a result (JSON), as `verify` and `--resume` read them, and what they become
-// when they are written again: the same.
+// The parameters in a result (JSON), as `verify` and `--resume` read them. Writing them again must
+// give the same text.
 #include <nlohmann/json.hpp>
 
 #include "fuzzed_file.hpp"

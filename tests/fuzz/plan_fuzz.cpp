@@ -1,4 +1,4 @@
-// The plan in the folder of a sweep.
+// The plan of a sweep.
 #include <fstream>
 
 #include "fuzzed_file.hpp"

@@ -1,4 +1,4 @@
-// Small recordings of each kind, and everything that is ever read of one.
+// Small recordings of each kind, and functions that read everything the program ever reads of one.
 #pragma once
 
 #include <hdf5.h>
@@ -38,7 +38,7 @@ inline Snapshot small_snapshot(bool spheres, std::uint64_t k) {
     return s;
 }
 
-/// Of discs and of spheres a trajectory and an event log; and tracks.
+/// A trajectory and an event log of discs, the same of spheres, and tracks.
 inline std::vector<std::vector<unsigned char>> good_recordings() {
     const auto path = std::filesystem::temp_directory_path() /
                       ("swirl_recording_fuzz_" + std::to_string(getpid()) + ".h5");
@@ -79,13 +79,12 @@ inline std::vector<std::vector<unsigned char>> good_recordings() {
     return all;
 }
 
-/// What the address sanitizer keeps for its reports, and holds back from being used again, is a
-/// quarter of an execution's time.
+/// Options that reduce the bookkeeping of the address sanitizer, which takes a quarter of the time.
 #define SWIRL_CHEAPER_ALLOCATIONS \
     "malloc_context_size=2:quarantine_size_mb=8:thread_local_quarantine_size_kb=64"
 
-/// The library asks the system for the half megabyte of its tables anew with each file that it
-/// opens, and a third of the time went into pages for that; now it keeps them.
+/// Makes the library keep its tables of half a megabyte. By default it allocates them again for each
+/// file, which takes a third of the time.
 inline bool keep_tables_of_library() {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     return H5set_free_list_limits(-1, -1, -1, -1, -1, -1) >= 0;
@@ -93,7 +92,7 @@ inline bool keep_tables_of_library() {
 
 enum class RecordingKind { trajectory, event_log, tracks };
 
-/// In the order of good_recordings().
+/// The kinds of good_recordings(), in order.
 inline constexpr RecordingKind kinds_of_good_recordings[] = {
     RecordingKind::trajectory, RecordingKind::event_log, RecordingKind::trajectory,
     RecordingKind::event_log, RecordingKind::tracks};
@@ -108,14 +107,14 @@ inline void read_recording(const std::filesystem::path& path, RecordingKind kind
                 reader.frame(k);
                 reader.events_before(k);
             }
-            reader.contradicted();
+            reader.inconsistent_dataset();
             reader.reach();
         });
     if (kind == RecordingKind::event_log)
         read_or_reject<FileError>([&] {
             EventLogReader log(path);
             log.provenance("parameters");
-            Replay replay(log.initial(), log.swirl_end(), log.floor());
+            Replay replay(log.initial(), log.period_end(), log.floor());
             for (const Event& event : log.read(0, std::min<std::uint64_t>(log.events(), 5000)))
                 replay.apply(event);
         });

@@ -1,11 +1,10 @@
-// Trajectories, event logs and a camera's tracks whose content is another than it says: datasets
-// and attributes of good files are left out, exchanged, shortened, and given other types, shapes
-// and values, through the HDF5 library. So the file is one that the library opens, and what is
-// asked is how our readers take it. (Bytes made up at random end in the library long before:
-// hdf5_fuzz.cpp.)
+// Trajectories, event logs and tracks with wrong content. Datasets and attributes of good files are
+// removed, exchanged, shortened, or given other types, shapes and values through the HDF5 library.
+// So the library opens the file, and the fuzzer reaches the readers of this program. (Random bytes
+// are mostly rejected by the library: hdf5_fuzz.cpp.)
 //
-// The first byte of the input chooses the file; each edit is a place in it, what is done there, and
-// the numbers that this takes.
+// The first byte of the input selects the file. Then follow the edits: a location, a kind of edit,
+// and the numbers that it needs.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -35,7 +34,7 @@ class Input {
         if (which < std::size(special)) return special[which];
         return double(which) + double(byte()) / 256.0;
     }
-    /// Mostly small, at times absurd.
+    /// Mostly small, sometimes huge.
     hsize_t length() {
         const unsigned which = byte();
         return which < 250 ? which % 41 : hsize_t(1) << (which - 250) * 9;
@@ -45,23 +44,24 @@ class Input {
     const std::uint8_t *at_, *end_;
 };
 
-struct Place {
-    std::string object, attribute;  // an object's own place has no attribute
+struct Location {
+    std::string object, attribute;  // attribute is empty for the object itself
 };
 
-/// A good file: its bytes, and the places that can be edited.
+/// A good file: its bytes, and the locations that can be edited.
 struct Good {
     std::vector<unsigned char> bytes;
-    std::vector<Place> places;
+    std::vector<Location> locations;
 };
 
-void add_attributes(hid_t file, const std::string& object, std::vector<Place>& places) {
+void add_attributes(hid_t file, const std::string& object, std::vector<Location>& locations) {
     const auto add = [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {
-        auto& [object_name, list] = *static_cast<std::pair<std::string, std::vector<Place>*>*>(to);
+        auto& [object_name, list] =
+            *static_cast<std::pair<std::string, std::vector<Location>*>*>(to);
         list->push_back({object_name, name});
         return 0;
     };
-    std::pair<std::string, std::vector<Place>*> to{object, &places};
+    std::pair<std::string, std::vector<Location>*> to{object, &locations};
     H5Aiterate_by_name(file, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &to,
                        H5P_DEFAULT);
 }
@@ -72,7 +72,7 @@ hid_t open_image(const std::vector<unsigned char>& bytes) {
     H5Pset_file_image(access, const_cast<unsigned char*>(bytes.data()), bytes.size());
     const hid_t file = H5Fopen("fuzzed", H5F_ACC_RDWR, access);
     H5Pclose(access);
-    if (file < 0) __builtin_trap();  // the good file is good
+    if (file < 0) __builtin_trap();  // it must be readable
     return file;
 }
 
@@ -95,8 +95,8 @@ Good good_file(std::vector<unsigned char> bytes) {
         },
         &names);
     for (const std::string& name : names) {
-        good.places.push_back({name, ""});
-        add_attributes(file, name, good.places);
+        good.locations.push_back({name, ""});
+        add_attributes(file, name, good.locations);
     }
     H5Fclose(file);
     return good;
@@ -129,26 +129,26 @@ hid_t chosen_space(Input& input, bool& large) {
                          : H5Screate_simple(int(shape.size()), shape.data(), nullptr);
 }
 
-/// Another dataset or attribute in the place of this.
-void replace(hid_t file, const Place& place, Input& input) {
+/// Replaces a dataset or attribute by another one.
+void replace(hid_t file, const Location& location, Input& input) {
     bool large = false;
     const hid_t type = chosen_type(input.byte()), space = chosen_space(input, large);
     const bool is_text = H5Tget_class(type) == H5T_STRING;
     std::vector<double> values(large || is_text ? 0
                                                 : std::size_t(H5Sget_simple_extent_npoints(space)));
     for (double& value : values) value = input.number();
-    if (place.attribute.empty()) {
-        H5Ldelete(file, place.object.c_str(), H5P_DEFAULT);
-        const hid_t set = H5Dcreate2(file, place.object.c_str(), type, space, H5P_DEFAULT,
+    if (location.attribute.empty()) {
+        H5Ldelete(file, location.object.c_str(), H5P_DEFAULT);
+        const hid_t set = H5Dcreate2(file, location.object.c_str(), type, space, H5P_DEFAULT,
                                      H5P_DEFAULT, H5P_DEFAULT);
         if (set >= 0 && !values.empty())
             H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
         if (set >= 0) H5Dclose(set);
     } else {
-        H5Adelete_by_name(file, place.object.c_str(), place.attribute.c_str(), H5P_DEFAULT);
+        H5Adelete_by_name(file, location.object.c_str(), location.attribute.c_str(), H5P_DEFAULT);
         const hid_t attribute =
-            H5Acreate_by_name(file, place.object.c_str(), place.attribute.c_str(), type, space,
-                              H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+            H5Acreate_by_name(file, location.object.c_str(), location.attribute.c_str(), type,
+                              space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
         if (attribute >= 0 && !values.empty())
             H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data());
         if (attribute >= 0) H5Aclose(attribute);
@@ -157,12 +157,12 @@ void replace(hid_t file, const Place& place, Input& input) {
     H5Tclose(type);
 }
 
-/// Other numbers in a dataset as it is, or in an attribute.
-void change(hid_t file, const Place& place, Input& input) {
-    const bool is_set = place.attribute.empty();
-    const hid_t id = is_set ? H5Dopen2(file, place.object.c_str(), H5P_DEFAULT)
-                            : H5Aopen_by_name(file, place.object.c_str(), place.attribute.c_str(),
-                                              H5P_DEFAULT, H5P_DEFAULT);
+/// Changes numbers in a dataset or an attribute.
+void change(hid_t file, const Location& location, Input& input) {
+    const bool is_set = location.attribute.empty();
+    const hid_t id = is_set ? H5Dopen2(file, location.object.c_str(), H5P_DEFAULT)
+                            : H5Aopen_by_name(file, location.object.c_str(),
+                                              location.attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT);
     if (id < 0) return;
     const hid_t space = is_set ? H5Dget_space(id) : H5Aget_space(id);
     const hid_t type = is_set ? H5Dget_type(id) : H5Aget_type(id);
@@ -185,7 +185,7 @@ void change(hid_t file, const Place& place, Input& input) {
     is_set ? H5Dclose(id) : H5Aclose(id);
 }
 
-/// Rows are cut off, or promised.
+/// Removes or adds rows.
 void resize(hid_t file, const std::string& name, hsize_t rows) {
     const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
     if (set < 0) return;
@@ -201,39 +201,39 @@ void resize(hid_t file, const std::string& name, hsize_t rows) {
     H5Dclose(set);
 }
 
-void edit(hid_t file, const std::vector<Place>& places, Input& input) {
-    const auto choose = [&] { return places[input.byte() % places.size()]; };
-    const Place place = choose();
-    const char* const name = place.object.c_str();
+void edit(hid_t file, const std::vector<Location>& locations, Input& input) {
+    const auto choose = [&] { return locations[input.byte() % locations.size()]; };
+    const Location location = choose();
+    const char* const name = location.object.c_str();
     switch (input.byte() % 8) {
         case 0:
-            if (place.attribute.empty())
+            if (location.attribute.empty())
                 H5Ldelete(file, name, H5P_DEFAULT);
             else
-                H5Adelete_by_name(file, name, place.attribute.c_str(), H5P_DEFAULT);
+                H5Adelete_by_name(file, name, location.attribute.c_str(), H5P_DEFAULT);
             return;
         case 1:
-            return replace(file, place, input);
+            return replace(file, location, input);
         case 2:
-            return resize(file, place.object, input.length() % 4096);
+            return resize(file, location.object, input.length() % 4096);
         case 3: {
             const std::string other = choose().object;
-            if (other == place.object) return;
+            if (other == location.object) return;
             H5Ldelete(file, name, H5P_DEFAULT);
             H5Lcreate_hard(file, other.c_str(), file, name, H5P_DEFAULT, H5P_DEFAULT);
             return;
         }
-        case 4:  // a link to somewhere, perhaps itself
+        case 4:  // a soft link, perhaps to itself
             H5Ldelete(file, name, H5P_DEFAULT);
             H5Lcreate_soft(choose().object.c_str(), file, name, H5P_DEFAULT, H5P_DEFAULT);
             return;
-        case 5:  // into another file, of the same name
+        case 5:  // a link into another file of this name
             H5Ldelete(file, name, H5P_DEFAULT);
             H5Lcreate_external("fuzzed", choose().object.c_str(), file, name, H5P_DEFAULT,
                                H5P_DEFAULT);
             return;
         default:
-            return change(file, place, input);
+            return change(file, location, input);
     }
 }
 
@@ -252,7 +252,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t which = input.byte() % good.size();
     const Good& chosen = good[which];
     const hid_t opened = open_image(chosen.bytes);
-    for (int edits = 0; edits < 8 && !input.empty(); ++edits) edit(opened, chosen.places, input);
+    for (int edits = 0; edits < 8 && !input.empty(); ++edits) edit(opened, chosen.locations, input);
     const std::vector<unsigned char> bytes = image_of(opened);
     H5Fclose(opened);
     const FuzzedFile file(bytes.data(), bytes.size());

@@ -1,4 +1,4 @@
-// The result of one run in the folder of a sweep, collected.
+// The result of one run in the folder of a sweep, read by `collect`.
 #include <fstream>
 
 #include "fuzzed_file.hpp"

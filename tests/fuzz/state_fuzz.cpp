@@ -1,7 +1,7 @@
-// The state of a run that is to be resumed, damaged behind its checksum's back: numbers of a good
-// one are replaced, and it is cut. Whatever is not refused runs for some hundred events, measures,
-// and is saved again. Each change takes eight bytes of input: two choose the field, two the number
-// in it, and four are its new value, in one of several ways.
+// The state of a run to be resumed, with damage that a checksum does not detect: numbers of a good
+// state are replaced, and it is truncated. Accepted states run for some hundred events, are measured
+// and saved again. Each change takes eight bytes of input: two select the field, two the number in
+// it, and four give its new value.
 #include <bit>
 #include <cstring>
 #include <limits>

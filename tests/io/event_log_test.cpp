@@ -1,7 +1,5 @@
 #include "swirl/io/event_log.hpp"
 
-#include <ctime>
-
 #include "io/scratch.hpp"
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checkpoint.hpp"
@@ -27,7 +25,7 @@ void expect_same_discs(const std::vector<Disc>& replayed, const Simulation& simu
     }
 }
 
-/// A mixture, so that no factor of 1 hides anything.
+/// A mixture: with radii, masses and inertias of 1 a missing factor would not show.
 InitialState mixed_container() {
     InitialState scene = paper_container(20, 7);
     scene.disc_surface.mu = 0.3;
@@ -40,7 +38,7 @@ InitialState mixed_container() {
     return scene;
 }
 
-TEST(EventLog, ReplaysTheRunBitForBit) {
+TEST(EventLog, ReplayIsBitwiseIdenticalToTheRun) {
     const Scratch scratch;
     const InitialState scene = mixed_container();
     Simulation simulation(scene);
@@ -55,7 +53,7 @@ TEST(EventLog, ReplaysTheRunBitForBit) {
     ASSERT_EQ(log.events(), 20'000u);
     EXPECT_TRUE(log.complete());
     Simulation again(scene);
-    Replay replay(log.initial(), log.swirl_end());
+    Replay replay(log.initial(), log.period_end());
     for (std::uint64_t first = 0; first < log.events(); first += 5'000)
         for (const Event& event : log.read(first, 5'000)) {
             const Event happened = again.step();
@@ -69,7 +67,7 @@ TEST(EventLog, ReplaysTheRunBitForBit) {
     expect_same_discs(replay.discs(), simulation);
 }
 
-TEST(EventLog, ReplaysSpheresAndCoinsOnAFloorAndWithoutOneBitForBit) {
+TEST(EventLog, ReplayOfSpheresAndCoinsIsBitwiseIdenticalToTheRun) {
     for (const Floor floor :
          {Floor{1.92}, Floor{0.0}, Floor{1.92, true}, Floor{1.92, false, 0.5}}) {
         const Scratch scratch;
@@ -88,14 +86,14 @@ TEST(EventLog, ReplaysSpheresAndCoinsOnAFloorAndWithoutOneBitForBit) {
         }
         ASSERT_GT(simulation.periods(), 3);
         EventLogReader log(scratch / "events.h5");
-        Replay replay(log.initial(), log.swirl_end(), log.floor());
+        Replay replay(log.initial(), log.period_end(), log.floor());
         for (const Event& event : log.read(0, 20'000)) replay.apply(event);
         EXPECT_EQ(simulation.events().begins_to_roll > 0, floor.deceleration > 0.0);
         expect_same_discs(replay.discs(), simulation);
     }
 }
 
-TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {
+TEST(EventLog, ResumedLogEqualsUninterruptedLog) {
     const Scratch scratch;
     const InitialState scene = mixed_container();
     const double end = scene.path.segments.back().end;
@@ -117,7 +115,7 @@ TEST(EventLog, ResumedHoldsTheSameAsUninterrupted) {
     EXPECT_THROW(EventLogWriter::resume(scratch / "absent.h5", 1), FileError);
 }
 
-TEST(StateArchive, GivesBackWhatItGot) {
+TEST(StateArchive, RoundTripIsExact) {
     ClusterRotation rotation;
     Simulation simulation(paper_container(9, 3));
     for (int k = 0; k < 3'000; ++k) {
@@ -144,7 +142,7 @@ TEST(StateArchive, GivesBackWhatItGot) {
     EXPECT_EQ(a.mean, b.mean);
     EXPECT_EQ(a.error, b.error);
     EXPECT_GT(a.blocks, 10u);
-    // Between two vertices of the path, and it goes on with the same bits.
+    // Both continue identically, also between two vertices of the path.
     for (int k = 0; k < 200; ++k) {
         const Event event = simulation.step();
         ASSERT_TRUE(k > 0 || event.kind != EventKind::path_vertex);
@@ -164,8 +162,8 @@ struct Plain {
     friend bool operator==(const Plain&, const Plain&) = default;
 };
 
-TEST(StateArchive, KeepsManyAsItKeepsThemOneByOne) {
-    // What has its own way of being kept, as a number that may be missing has, is kept in that way.
+TEST(StateArchive, VectorBytesEqualThoseOfSingleElements) {
+    // Elements with a format of their own, such as std::optional, keep it in a vector.
     std::vector<Plain> plain{{0.5, -3}, {-0.0, 7}};
     std::vector<std::optional<double>> gaps{1.5, {}, 2.5};
     std::vector<std::pair<double, bool>> pairs{{1.0, true}, {2.0, false}};
@@ -193,7 +191,7 @@ TEST(StateArchive, KeepsManyAsItKeepsThemOneByOne) {
     EXPECT_EQ(arrays2, arrays);
 }
 
-TEST(StateArchive, ReadsAsOneTextWhatWasWrittenInItsPlace) {
+TEST(StateArchive, AsTextReadsBackAsOneString) {
     double before = 1.0, inside = 2.0, after = 3.0;
     StateWriter writer;
     writer(before);
@@ -212,7 +210,7 @@ TEST(StateArchive, ReadsAsOneTextWhatWasWrittenInItsPlace) {
     EXPECT_EQ(inside2, inside);
 }
 
-std::string refusal(const std::filesystem::path& path) {
+std::string rejection(const std::filesystem::path& path) {
     try {
         read_checkpoint(path);
     } catch (const FileError& error) {
@@ -221,7 +219,7 @@ std::string refusal(const std::filesystem::path& path) {
     return "";
 }
 
-TEST(Checkpoint, GivesBackWhatItGot) {
+TEST(Checkpoint, RoundTripIsExact) {
     const Scratch scratch;
     const std::string state("a\0b", 3);
     write_checkpoint(scratch / "c", {"{\"discs\": 3}", state});
@@ -230,48 +228,44 @@ TEST(Checkpoint, GivesBackWhatItGot) {
     EXPECT_EQ(back.state, state);
 }
 
-TEST(Checkpoint, EveryDamageIsRecognised) {
+TEST(Checkpoint, EveryTruncationAndBitFlipIsRejected) {
     const Scratch scratch;
     write_checkpoint(scratch / "c", {"about", std::string(300, 'x')});
     const std::string whole = read_whole_file(scratch / "c");
     for (std::size_t cut = 0; cut < whole.size(); ++cut) {
         write_quickly(scratch / "d", whole.substr(0, cut));
-        EXPECT_NE(refusal(scratch / "d"), "") << "cut at " << cut;
+        EXPECT_NE(rejection(scratch / "d"), "") << "cut at " << cut;
     }
     for (std::size_t at = 0; at < whole.size(); ++at) {
         std::string flipped = whole;
         flipped[at] = char(flipped[at] ^ 4);
         write_quickly(scratch / "d", flipped);
-        EXPECT_NE(refusal(scratch / "d"), "") << "bit flipped at " << at;
+        EXPECT_NE(rejection(scratch / "d"), "") << "bit flipped at " << at;
     }
     write_quickly(scratch / "d", whole + "x");
-    EXPECT_NE(refusal(scratch / "d").find("is damaged"), std::string::npos);
+    EXPECT_NE(rejection(scratch / "d").find("is damaged"), std::string::npos);
 }
 
-TEST(Checkpoint, ForeignAndOlderFilesAreNamedAsSuch) {
+TEST(Checkpoint, ForeignAndOlderFilesAreRejected) {
     const Scratch scratch;
     write_file_atomically(scratch / "d", "{\"config\": 1}");
-    EXPECT_NE(refusal(scratch / "d").find("is not a checkpoint of swirl"), std::string::npos);
+    EXPECT_NE(rejection(scratch / "d").find("is not a checkpoint of swirl"), std::string::npos);
     write_file_atomically(scratch / "d", "swirl checkpoint 0\n0123456789012345678901234567890");
-    EXPECT_NE(refusal(scratch / "d").find("is a checkpoint in format 0"), std::string::npos);
-    EXPECT_NE(refusal(scratch / "absent").find("could not be opened"), std::string::npos);
+    EXPECT_NE(rejection(scratch / "d").find("is a checkpoint of format 0"), std::string::npos);
+    EXPECT_NE(rejection(scratch / "absent").find("could not be opened"), std::string::npos);
 }
 
-TEST(Checkpoint, OfAMillionDiscsTakesLessThanTwoSeconds) {
+TEST(Checkpoint, SizePerDiscIsThatOfItsState) {
     const Scratch scratch;
-    std::vector<Disc> discs(1'000'000, Disc{{1, 2}, {3, 4}, 5, 6, 7, 8, 9, 10});
-    // Processor time: other tests run beside this one and take their share of the cores.
-    const std::clock_t begin = std::clock();
+    std::vector<Disc> discs(100'000, Disc{{1, 2}, {3, 4}, 5, 6, 7, 8, 9, 10});
     StateWriter state;
     state(discs);
     write_checkpoint(scratch / "c", {"", state.bytes()});
-    const double taken = double(std::clock() - begin) / CLOCKS_PER_SEC;
-    EXPECT_EQ(std::filesystem::file_size(scratch / "c"), 1'000'000 * sizeof(Disc) + 8 + 19 + 24);
-    EXPECT_LT(taken, 2.0);
-    RecordProperty("seconds", std::to_string(taken));
+    // The number of discs, the first line of 19 bytes, two lengths, and the checksum.
+    EXPECT_EQ(std::filesystem::file_size(scratch / "c"), 100'000 * sizeof(Disc) + 8 + 19 + 24);
 }
 
-TEST(EventLog, WithMoreVerticesThanItsFloorHasLegsIsRefused) {
+TEST(EventLog, MoreVerticesThanPathSegmentsAreRejected) {
     Disc sphere{};
     sphere.radius = sphere.mass = sphere.inertia = 1.0;
     Replay replay({sphere}, 10.0, MovingFloor{{2.0, false}, {{1.0, 0.0}, {0.0, 1.0}}});

@@ -14,7 +14,7 @@
 namespace swirl {
 namespace {
 
-TEST(WholeFile, OfManyWhoWriteANewFileAtOnceOneDoesAndTheOthersAreTold) {
+TEST(AtomicFile, OneOfSeveralConcurrentWritersOfANewFileSucceeds) {
     const Scratch scratch;
     for (int round = 0; round < 20; ++round) {
         const auto path = scratch / ("new-" + std::to_string(round));
@@ -28,7 +28,7 @@ TEST(WholeFile, OfManyWhoWriteANewFileAtOnceOneDoesAndTheOthersAreTold) {
         EXPECT_EQ(read_whole_file(path), std::to_string(winner));
     }
     const auto count = std::distance(std::filesystem::directory_iterator(scratch.folder()), {});
-    EXPECT_EQ(count, 20) << "something was left aside";
+    EXPECT_EQ(count, 20) << "temporary files are left";
 }
 
 using Mode = JournaledFile::Mode;
@@ -40,18 +40,19 @@ std::string content(const std::filesystem::path& path) {
     return bytes;
 }
 
-/// A file whose commits overwrite old bytes and add new ones: generation g is all letters 'a' + g.
+/// Fills the file with the letter 'a' + g. The next generation overwrites old bytes and adds new
+/// ones.
 void write_generation(JournaledFile& file, int g, std::size_t size) {
     const std::string bytes(size, char('a' + g));
-    // In pieces, across page borders.
+    // In pieces that cross page borders.
     for (std::size_t at = 0; at < size; at += 1000)
         file.write(at, bytes.data() + at, std::min<std::size_t>(1000, size - at));
 }
 
-TEST(Checksum, IsThePublishedCrc64) {
+TEST(Checksum, EqualsPublishedCrc64) {
     EXPECT_EQ(checksum("123456789"), 0x995dc9bbdf1939fau);
     EXPECT_EQ(checksum(""), 0u);
-    // Pieces of any length give the checksum of the whole.
+    // The checksum does not depend on how the bytes are divided.
     const std::string text = "The container centre runs counter-clockwise round the swirl centre.";
     for (std::size_t cut = 0; cut <= text.size(); ++cut) {
         Checksum c;
@@ -61,7 +62,7 @@ TEST(Checksum, IsThePublishedCrc64) {
     }
 }
 
-TEST(StagedFile, ReadsBackWhatWasWrittenBeforeAndAfterTheCommit) {
+TEST(JournaledFile, ReadsCommittedAndUncommittedBytes) {
     const Scratch scratch;
     JournaledFile file(scratch / "f", Mode::create);
     write_generation(file, 0, 10'000);
@@ -71,13 +72,13 @@ TEST(StagedFile, ReadsBackWhatWasWrittenBeforeAndAfterTheCommit) {
     file.read(4088, bytes, 14);
     EXPECT_EQ(std::string_view(bytes, 14), "aa0123456789aa");
     file.commit();
-    std::string wanted(10'000, 'a');
-    wanted.replace(4090, 10, "0123456789");
-    EXPECT_EQ(content(scratch / "f"), wanted);
-    EXPECT_EQ(read_whole_file(scratch / "f"), wanted);
+    std::string expected(10'000, 'a');
+    expected.replace(4090, 10, "0123456789");
+    EXPECT_EQ(content(scratch / "f"), expected);
+    EXPECT_EQ(read_whole_file(scratch / "f"), expected);
 }
 
-TEST(StagedFile, NothingOfAnUncommittedChangeReachesTheOldBytes) {
+TEST(JournaledFile, UncommittedChangesLeaveCommittedBytesOnDisk) {
     const Scratch scratch;
     JournaledFile file(scratch / "f", Mode::create);
     write_generation(file, 0, 10'000);
@@ -90,9 +91,9 @@ TEST(StagedFile, NothingOfAnUncommittedChangeReachesTheOldBytes) {
     EXPECT_EQ(read_whole_file(scratch / "f"), std::string(10'000, 'a'));
 }
 
-// Every state the disk can be in when the kill comes during a commit: any part of the journal
-// written; all of the journal and any number of its pages copied.
-TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
+// The states of the disk after a kill during a commit: any part of the journal written, or all of
+// the journal written and any number of pages copied.
+TEST(JournaledFile, KillDuringCommitLeavesOldOrNewState) {
     const Scratch scratch;
     const std::size_t size = 3 * 4096;
     {
@@ -100,7 +101,7 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
         write_generation(file, 0, size);
         file.commit();
     }
-    // The journal of the step from 'a' to 'b', caught by a child that dies before it is emptied.
+    // The journal of a commit that replaces 'a' by 'b'.
     const std::string old_bytes = read_whole_file(scratch / "old");
     std::string journal(32, '\0');
     std::memcpy(journal.data(), "swirljn1", 8);
@@ -125,8 +126,8 @@ TEST(StagedFile, AKillAtAnyMomentOfACommitLeavesTheOldStateOrTheNew) {
         EXPECT_EQ(opened(journal.size(), copied), std::string(size, 'b')) << copied << " copied";
 }
 
-// Also where it is not the one who created it who writes first.
-TEST(StagedFile, IsEmptyUntilItsFirstCommitWhoeverOpensIt) {
+// Also if the first writer is not the creator.
+TEST(JournaledFile, IsEmptyUntilFirstCommit) {
     const Scratch scratch;
     const auto path = scratch / "f";
     { JournaledFile(path, Mode::create).commit(); }
@@ -144,7 +145,7 @@ TEST(StagedFile, IsEmptyUntilItsFirstCommitWhoeverOpensIt) {
     EXPECT_EQ(content(path), std::string(20'000, 'b'));
 }
 
-TEST(StagedFile, SurvivesKillsAtRandomMoments) {
+TEST(JournaledFile, SurvivesKillsAtRandomMoments) {
     const Scratch scratch;
     const auto path = scratch / "f";
     { JournaledFile(path, Mode::create).commit(); }
@@ -162,13 +163,13 @@ TEST(StagedFile, SurvivesKillsAtRandomMoments) {
         ::waitpid(child, nullptr, 0);
         const std::string bytes = content(path);
         if (bytes.empty()) continue;
-        // One generation, whole, except for the tail that a longer one before it left behind.
+        // One complete generation, perhaps followed by the tail of a longer earlier one.
         const auto g = std::size_t(bytes.front() - 'a');
         ASSERT_EQ(bytes.find_first_not_of(bytes.front()) >= 50'000 + 5'000 * g, true);
     }
 }
 
-TEST(StagedFile, RefusesASecondWriter) {
+TEST(JournaledFile, SecondWriterIsRejected) {
     const Scratch scratch;
     JournaledFile file(scratch / "f", Mode::create);
     EXPECT_THROW(JournaledFile(scratch / "f", Mode::create), FileError);
@@ -176,7 +177,7 @@ TEST(StagedFile, RefusesASecondWriter) {
     EXPECT_NO_THROW(JournaledFile(scratch / "f", Mode::read));
 }
 
-TEST(WholeFile, StandsUnderItsNameOnlyWhenItIsComplete) {
+TEST(AtomicFile, IsPublishedOnlyWhenComplete) {
     const Scratch scratch;
     write_file_atomically(scratch / "f", "old");
     {
@@ -196,8 +197,8 @@ TEST(WholeFile, StandsUnderItsNameOnlyWhenItIsComplete) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(scratch.folder()), {}), 1);
 }
 
-TEST(WholeFile, HoldsSmallAndLargePiecesInTheirOrder) {
-    // Pieces wait in a buffer of a mebibyte; who does not fit goes past it.
+TEST(AtomicFile, KeepsTheOrderOfSmallAndLargePieces) {
+    // Small pieces are buffered, up to a mebibyte; large ones bypass the buffer.
     const Scratch scratch;
     std::string all;
     AtomicFile file(scratch / "f");
@@ -213,7 +214,7 @@ TEST(WholeFile, HoldsSmallAndLargePiecesInTheirOrder) {
     EXPECT_TRUE(read_whole_file(scratch / "f") == all);
 }
 
-TEST(WholeFile, SaysWhereItCouldNotBeWritten) {
+TEST(AtomicFile, ErrorNamesTheFile) {
     const Scratch scratch;
     try {
         write_file_atomically(scratch / "absent/f", "x");

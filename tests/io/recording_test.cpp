@@ -18,7 +18,7 @@ void write_frames(TrajectoryWriter& writer, std::uint64_t from, std::uint64_t to
 }
 
 template <class Action>
-std::string refusal(Action&& action) {
+std::string rejection(Action&& action) {
     try {
         action();
     } catch (const FileError& error) {
@@ -27,8 +27,8 @@ std::string refusal(Action&& action) {
     return "";
 }
 
-// Run A is killed; run B completes under the same name; A wants to go on.
-TEST(Recording, AnothersFinishedFileIsNeitherContinuedNorTouched) {
+// Run A is killed, run B completes under the same name, and A is resumed.
+TEST(Recording, FinishedFileOfAnotherRunIsNeitherContinuedNorChanged) {
     const Scratch scratch;
     const auto path = scratch / "t.h5";
     {
@@ -37,14 +37,14 @@ TEST(Recording, AnothersFinishedFileIsNeitherContinuedNorTouched) {
         b.finish();
     }
     const std::string before = read_whole_file(path);
-    EXPECT_NE(refusal([&] { TrajectoryWriter::resume(path, 10, "a"); }).find("by another run"),
+    EXPECT_NE(rejection([&] { TrajectoryWriter::resume(path, 10, "a"); }).find("by another run"),
               std::string::npos);
     EXPECT_EQ(read_whole_file(path), before);
-    EXPECT_EQ(refusal([&] { TrajectoryWriter::resume(path, 10, "b").finish(); }), "");
+    EXPECT_EQ(rejection([&] { TrajectoryWriter::resume(path, 10, "b").finish(); }), "");
     EXPECT_EQ(TrajectoryReader(path).frames(), 10u);
 }
 
-TEST(Recording, AnothersUnfinishedFileIsNotBegunAnew) {
+TEST(Recording, UnfinishedFileOfAnotherRunIsNotOverwritten) {
     const Scratch scratch;
     const auto path = scratch / "t.h5";
     {
@@ -52,16 +52,16 @@ TEST(Recording, AnothersUnfinishedFileIsNotBegunAnew) {
         write_frames(a, 0, 20);
         a.flush();
     }
-    EXPECT_NE(refusal([&] { reject_foreign_recording(path, "b"); }).find("--overwrite"),
+    EXPECT_NE(rejection([&] { reject_foreign_recording(path, "b"); }).find("--overwrite"),
               std::string::npos);
-    EXPECT_EQ(refusal([&] { reject_foreign_recording(path, "a"); }), "");
-    EXPECT_EQ(refusal([&] { reject_foreign_recording(scratch / "absent.h5", "b"); }), "");
-    // Killed before anything was kept, it is nobody's.
+    EXPECT_EQ(rejection([&] { reject_foreign_recording(path, "a"); }), "");
+    EXPECT_EQ(rejection([&] { reject_foreign_recording(scratch / "absent.h5", "b"); }), "");
+    // An empty file was left by a run that was killed before its first commit.
     write_quickly(scratch / "new.h5.partial", "");
-    EXPECT_EQ(refusal([&] { reject_foreign_recording(scratch / "new.h5", "b"); }), "");
+    EXPECT_EQ(rejection([&] { reject_foreign_recording(scratch / "new.h5", "b"); }), "");
 }
 
-TEST(Recording, AnEventLogKnowsItsRunToo) {
+TEST(Recording, EventLogOfAnotherRunIsRejected) {
     const Scratch scratch;
     Simulation simulation(paper_container(9, 3));
     {
@@ -69,11 +69,11 @@ TEST(Recording, AnEventLogKnowsItsRunToo) {
         for (int k = 0; k < 100; ++k) log.write(simulation.step());
         log.flush();
     }
-    EXPECT_NE(refusal([&] { EventLogWriter::resume(scratch / "e.h5", 50, "b"); }), "");
-    EXPECT_EQ(refusal([&] { EventLogWriter::resume(scratch / "e.h5", 50, "a"); }), "");
+    EXPECT_NE(rejection([&] { EventLogWriter::resume(scratch / "e.h5", 50, "b"); }), "");
+    EXPECT_EQ(rejection([&] { EventLogWriter::resume(scratch / "e.h5", 50, "a"); }), "");
 }
 
-/// A trajectory of 5 discs with one dataset replaced by a list of `count` numbers.
+/// A trajectory of 5 discs, with dataset `name` replaced by a list of `count` numbers.
 std::filesystem::path with_column_of(const Scratch& scratch, const std::string& name,
                                      std::size_t count) {
     const auto path = scratch / "whole.h5", hostile = scratch / "hostile.h5";
@@ -87,41 +87,41 @@ std::filesystem::path with_column_of(const Scratch& scratch, const std::string& 
     return hostile;
 }
 
-TEST(Recording, ColumnsOfDifferentLengthAreRefused) {
+TEST(Recording, ColumnsOfDifferentLengthAreRejected) {
     for (const char* name : {"mass", "radius", "moment_of_inertia", "angle/value"})
         for (const std::size_t count : {0u, 2u, 6u}) {
             const Scratch scratch;
             const auto hostile =
                 with_column_of(scratch, std::string("particles/trajectory/") + name, count);
             if (!std::filesystem::exists(hostile)) GTEST_SKIP() << "h5py is not installed.";
-            EXPECT_NE(refusal([&] { TrajectoryReader reader(hostile); }).find("columns differ in"),
-                      std::string::npos)
+            EXPECT_NE(
+                rejection([&] { TrajectoryReader reader(hostile); }).find("columns differ in"),
+                std::string::npos)
                 << name << " " << count;
         }
 }
 
-TEST(Recording, ASmallFileThatPromisesALargeColumnIsRefusedBeforeMemoryIsAskedFor) {
+TEST(Recording, ColumnLargerThanTheFileIsRejectedBeforeAllocation) {
     const Scratch scratch;
     {
         Hdf5File file(scratch / "f.partial", JournaledFile::Mode::create);
-        file.create_column<double>("/long", {}, {1024}, Packing::none)
-            .resize(std::uint64_t(1) << 45);
+        file.create_column<double>("/long", {}, {1024}, 0).resize(std::uint64_t(1) << 45);
         file.finish(scratch / "f");
     }
     const Hdf5File file(scratch / "f", JournaledFile::Mode::read);
-    EXPECT_NE(refusal([&] { file.column("/long").read<double>(); }).find("is damaged"),
+    EXPECT_NE(rejection([&] { file.column("/long").read<double>(); }).find("is damaged"),
               std::string::npos);
 }
 
-TEST(Recording, LinksAndPipesUnderThePartialNameAreNotFollowed) {
+TEST(Recording, LinksAndPipesWithThePartialNameAreRejected) {
     const Scratch scratch;
     write_quickly(scratch / "precious", "precious");
     std::filesystem::create_symlink(scratch / "precious", scratch / "t.h5.partial");
     ASSERT_EQ(::mkfifo((scratch / "pipe.h5.partial").c_str(), 0600), 0);
     for (const char* name : {"t.h5", "pipe.h5"})
-        EXPECT_NE(refusal([&] { TrajectoryWriter(scratch / name, known_frame(5, 0), {}); }), "");
+        EXPECT_NE(rejection([&] { TrajectoryWriter(scratch / name, known_frame(5, 0), {}); }), "");
     EXPECT_EQ(read_whole_file(scratch / "precious"), "precious");
-    EXPECT_NE(refusal([&] { read_regular_file(scratch / "pipe.h5.partial"); }).find("regular"),
+    EXPECT_NE(rejection([&] { read_regular_file(scratch / "pipe.h5.partial"); }).find("regular"),
               std::string::npos);
 }
 

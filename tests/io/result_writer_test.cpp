@@ -17,7 +17,7 @@ std::size_t files_in(const std::filesystem::path& folder) {
     return std::size_t(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-TEST(ResultWriter, NeedsNoDescriptorForEachFileThatWaits) {
+TEST(ResultWriter, WritesMoreFilesThanDescriptorsAllow) {
     const Scratch scratch;
     rlimit before;
     ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
@@ -36,26 +36,26 @@ TEST(ResultWriter, NeedsNoDescriptorForEachFileThatWaits) {
     EXPECT_EQ(files_in(scratch.folder()), 2000u);
 }
 
-TEST(ResultWriter, PassesOnWhateverGoesWrongOnItsThread) {
+TEST(ResultWriter, FinishRethrowsExceptionsOfItsThread) {
     const Scratch scratch;
     ResultWriter writer(scratch.folder());
     writer.write("a", "a", [] { throw std::bad_alloc(); });
     EXPECT_THROW(writer.finish(), std::bad_alloc);
 }
 
-TEST(WholeFile, WhatAKillLeftBehindIsRemovedAndWhatIsBeingWrittenIsNot) {
+TEST(AtomicFile, LeftoversOfKilledWritersAreRemovedButNotFilesInUse) {
     const Scratch scratch;
     const pid_t child = ::fork();
     if (child == 0) {
         AtomicFile killed(scratch / "f");
         killed.append("half");
-        killed.empty_buffer();
+        killed.flush_buffer();
         ::_exit(1);
     }
     ::waitpid(child, nullptr, 0);
     ASSERT_EQ(files_in(scratch.folder()), 1u);
     AtomicFile alive(scratch / "f");
-    write_quickly(scratch / "f.my own.partial", "not ours");
+    write_quickly(scratch / "f.my own.partial", "foreign");
     remove_leftovers_of(scratch / "other");
     EXPECT_EQ(files_in(scratch.folder()), 3u);
     remove_leftovers_of(scratch / "f");
@@ -65,7 +65,7 @@ TEST(WholeFile, WhatAKillLeftBehindIsRemovedAndWhatIsBeingWrittenIsNot) {
     EXPECT_EQ(read_whole_file(scratch / "f"), "whole");
 }
 
-TEST(StagedFile, OnceSomethingFailedNothingMoreIsCommitted) {
+TEST(JournaledFile, NothingIsCommittedAfterAnError) {
     const Scratch scratch;
     rlimit before;
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -78,10 +78,10 @@ TEST(StagedFile, OnceSomethingFailedNothingMoreIsCommitted) {
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
     EXPECT_THROW(file.write(100'000, "far", 3), FileError);
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-    // Whoever overlooked that cannot go on as if nothing had happened.
+    // A caller that ignores the error cannot continue.
     EXPECT_THROW(file.write(0, "SECOND", 6), FileError);
     EXPECT_THROW(file.commit(), FileError);
-    EXPECT_THROW(file.rename_to(scratch / "final"), FileError);
+    EXPECT_THROW(file.publish(scratch / "final"), FileError);
     file.abandon();
     EXPECT_EQ(read_whole_file(scratch / "f"), "first");
     EXPECT_FALSE(std::filesystem::exists(scratch / "final"));

@@ -1,5 +1,5 @@
-// What the tests of the files need: a folder of their own, small scenes, and other people's
-// readers.
+// Helpers of the file tests: a temporary folder, small scenes, frames of known values, and readers
+// of other programs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@
 
 namespace swirl {
 
-/// A folder that goes away with the test.
+/// A folder that is removed after the test.
 class Scratch {
   public:
     Scratch() {
@@ -39,27 +39,27 @@ class Scratch {
     std::filesystem::path folder_;
 };
 
-/// Without waiting for the disk.
+/// Writes without a sync.
 inline void write_quickly(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// The paper's dish.
+/// The paper's container with discs at random positions and small random velocities.
 inline InitialState paper_container(int discs, std::uint64_t seed) {
     InitialState scene;
     const std::vector<double> radii(std::size_t(discs), 1.0);
-    const auto places = place_discs(radii, paper_container_radius, seed);
+    const auto positions = place_discs(radii, paper_container_radius, seed);
     Random random(seed + 1);
     scene.path = polygon_path(paper_amplitude, paper_period, paper_sides);
     scene.container_radius = paper_container_radius;
-    for (const Vec2& place : *places)
-        scene.discs.push_back({place + scene.path.segments[0].start,
+    for (const Vec2& position : *positions)
+        scene.discs.push_back({position + scene.path.segments[0].start,
                                random.in_disc(0.1) + scene.path.segments[0].velocity, 0.0, 0.0, 0.0,
                                1.0, 1.0, paper_inertia});
     return scene;
 }
 
-/// Frames whose every number is known: disc i at frame k.
+/// Frame k with a different, known value for each quantity and disc.
 inline Snapshot known_frame(std::size_t discs, std::uint64_t k) {
     Snapshot s;
     s.resize(discs);
@@ -83,7 +83,7 @@ inline Snapshot known_frame(std::size_t discs, std::uint64_t k) {
     return s;
 }
 
-/// The same of spheres: their other two spins, and a turn that is another one for each.
+/// known_frame() for spheres, with all spins and a different orientation for each.
 inline Snapshot known_frame_of_spheres(std::size_t discs, std::uint64_t k) {
     Snapshot s = known_frame(discs, k);
     s.resize_for_spheres(discs);
@@ -97,7 +97,7 @@ inline Snapshot known_frame_of_spheres(std::size_t discs, std::uint64_t k) {
     return s;
 }
 
-/// Runs a command; its output and its exit code (128 + n after signal n).
+/// Runs a command. Returns its output and its exit code (128 + n after signal n).
 struct Ran {
     int code;
     std::string output;
@@ -112,9 +112,9 @@ inline Ran run_command(const std::string& command) {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), output};
 }
 
-/// Reads a file with somebody else's program (independent_readers.py) and compares with
-/// known_frame(discs, 0 … frames − 1), or those of "spheres". Skips, and says so, where that
-/// program is not installed.
+/// Reads a file with another program (independent_readers.py) and compares it with
+/// known_frame(discs, 0 … frames − 1), or known_frame_of_spheres() for bodies "spheres". Skips the
+/// test if that program is not installed.
 #define EXPECT_READER_AGREES(reader, file, discs, frames, bodies)                               \
     do {                                                                                        \
         const auto ran = run_command(                                                           \

@@ -7,7 +7,7 @@
 namespace swirl {
 namespace {
 
-TEST(Table, IsCsvThatReadsBackExactly) {
+TEST(Table, CsvKeepsAllDigitsAndQuotesText) {
     Table table({"name", "count", "value"});
     table.add({std::string("plain"), std::int64_t{3}, 0.1});
     table.add({std::string("with \"quotes\", and a comma"), std::int64_t{-1},
@@ -20,7 +20,7 @@ TEST(Table, IsCsvThatReadsBackExactly) {
               ",0,0.3333333333333333\n");
 }
 
-TEST(Table, RefusesARowOfAnotherLength) {
+TEST(Table, RowOfAnotherLengthIsRejected) {
     Table table({"a", "b"});
     EXPECT_THROW(table.add({1.0}), std::logic_error);
 }

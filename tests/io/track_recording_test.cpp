@@ -119,7 +119,7 @@ TEST(TrackRecording, InvalidFilesAreRejected) {
         Hdf5File file(scratch / "twice.h5", JournaledFile::Mode::change);
         Column ids = file.column("/particles/tracks/id/value");
         const std::vector<std::int64_t> same{0, 0, 9};
-        ids.change<std::int64_t>(0, 1, same.data());
+        ids.write<std::int64_t>(0, 1, same.data());
         file.flush();
     }
     EXPECT_NE(error_message(scratch / "twice.h5").find("do not ascend"), std::string::npos);

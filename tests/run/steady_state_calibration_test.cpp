@@ -36,10 +36,10 @@ std::vector<Series> recorded(const Setting& setting, std::size_t seeds) {
         config.mu_disc = config.mu_wall = setting.mu;
         config.warmup = 50;
         config.seed = 1000 + k;
-        BareRun run(config, make_initial_state(config, nullptr));
+        CoreRun run(config, make_initial_state(config, nullptr));
         for (;;) {
-            if (run.is_time_to_look() && (run.complete() || run.problem())) break;
-            run.find_event();
+            if (run.is_check_due() && (run.complete() || run.problem())) break;
+            run.execute_event();
             run.pass_event();
         }
         all[k] = run.rotation_after_warmup().by_event().block_means();

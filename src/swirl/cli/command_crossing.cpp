@@ -221,7 +221,7 @@ void add_crossing_command(Subcommand& subcommand) {
                              "swirl crossing --mu-wall 0.5 --from 20 --json -"});
     subcommand.callback([call, &subcommand] {
         if (!call->config_file.empty())
-            take_config_file(subcommand, call->config_file, *call->parameters, Lists::taken,
+            take_config_file(subcommand, call->config_file, *call->parameters, Lists::accepted,
                              "crossing");
         if (!call->rate.empty()) call->settings.rate = rate_named(call->rate);
         run_searches(*call);

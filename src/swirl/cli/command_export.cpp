@@ -1,4 +1,4 @@
-// swirl export: a trajectory for other programs.
+// swirl export: converts a trajectory for other programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,28 +39,24 @@ void choose_frames(const ExportCall& call, ExportOptions& options) {
     }
     if (call.range.empty()) return;
     const std::size_t colon = call.range.find(':');
-    const auto take = [&](const std::string& text, std::uint64_t& frame) {
+    const auto parse = [&](const std::string& text, std::uint64_t& frame) {
         if (text.empty()) return;
         const auto number = read_whole_number(text);
         if (colon == std::string::npos || !number || *number < 0)
             throw UsageError(fmt::format(
                 "--range is '{}', but it must be FIRST:LAST, for example 100:199, or 100: for all "
-                "from frame 100 on; the first frame is 0.",
+                "frames from 100 on (the first frame is 0).",
                 call.range));
         frame = static_cast<std::uint64_t>(*number);
     };
-    take(call.range.substr(0, colon), options.first);
-    if (colon != std::string::npos) take(call.range.substr(colon + 1), options.last);
+    parse(call.range.substr(0, colon), options.first);
+    if (colon != std::string::npos) parse(call.range.substr(colon + 1), options.last);
     if (options.last < options.first)
         throw UsageError(
             fmt::format("--range is '{}', but the last frame is before the first.", call.range));
 }
 
-void export_file(const ExportCall& call) {
-    const ExportFormat* const format = export_format(call.format);
-    if (!format)
-        throw UsageError(
-            fmt::format("--to is '{}', but it must be one of {}.", call.format, formats_text()));
+ExportOptions options_of(const ExportCall& call) {
     ExportOptions options;
     if (!call.scale.empty()) {
         const auto scale = read_number(call.scale);
@@ -70,6 +66,30 @@ void export_file(const ExportCall& call) {
         options.pixels_per_radius = *scale;
     }
     choose_frames(call, options);
+    return options;
+}
+
+std::string report(const TrajectoryReader& reader, const ExportFormat& format,
+                   const ExportOptions& options, const std::filesystem::path& out) {
+    std::string text =
+        fmt::format("{} frames of {} discs in {}\n", exported_frames(reader.frames(), options),
+                    reader.discs(), out.string());
+    if (&format == export_format("csv")) {
+        const double centre = reader.reach() * options.pixels_per_radius;
+        text += fmt::format("{} pixels per unit of length, origin at pixel {}, {}\n",
+                            options.pixels_per_radius, centre, centre);
+    }
+    if (!reader.complete())
+        text += "the trajectory is not complete; all existing frames were used\n";
+    return text;
+}
+
+void export_file(const ExportCall& call) {
+    const ExportFormat* const format = export_format(call.format);
+    if (!format)
+        throw UsageError(
+            fmt::format("--to is '{}', but it must be one of {}.", call.format, formats_text()));
+    ExportOptions options = options_of(call);
     try_reading(call.file);
     const auto reader = std::make_shared<TrajectoryReader>(call.file);
     const std::filesystem::path out =
@@ -77,57 +97,56 @@ void export_file(const ExportCall& call) {
                          : std::filesystem::path(call.out);
     reject_same_files({call.file, out});
     reject_unwritable(out);
-    const SnapshotSeries series = series_of(reader);
-    if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
+    if (reader->frames() == 0) throw Failure(fmt::format("'{}' has no frames.", call.file));
     const bool is_last_given = options.last != ExportOptions{}.last;
-    if (std::max(options.first, is_last_given ? options.last : 0) >= series.frames)
+    if (std::max(options.first, is_last_given ? options.last : 0) >= reader->frames())
         throw UsageError(fmt::format("--range is '{}', but the last frame of '{}' is {}.",
-                                     call.range, call.file, series.frames - 1));
-    const std::uint64_t frames = exported_frames(series, options);
+                                     call.range, call.file, reader->frames() - 1));
+    const std::uint64_t frames = exported_frames(reader->frames(), options);
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
     const std::atomic<bool>& stop = stop_signal();
-    options.listen = [&stop] {
-        if (stop.load()) throw Interrupted("Stopped; nothing was written.");
+    options.check_stop = [&stop] {
+        if (stop.load()) throw Interrupted("stopped; nothing was written.");
     };
-    options.done = [&](std::uint64_t done) {
-        options.listen();
+    options.on_frame = [&](std::uint64_t done) {
+        options.check_stop();
         line.show(double(done) / double(frames), fmt::format("frame {}", done));
     };
-    export_series(series, *format, out, options);
+    export_series(series_of(reader), *format, out, options);
     line.clear();
-    if (call.quiet) return;
-    std::string text =
-        fmt::format("{} frames of {} discs in {}", frames, reader->discs(), out.string());
-    if (format == export_format("csv"))
-        text += fmt::format("; {} pixels per unit of length, the swirl centre at pixel {}, {}",
-                            options.pixels_per_radius, series.reach * options.pixels_per_radius,
-                            series.reach * options.pixels_per_radius);
-    if (!reader->complete()) text += "\nThe trajectory is not complete; this is what there is.";
-    print_all(text + "\n");
+    if (!call.quiet) print_all(report(*reader, *format, options, out));
 }
 
 void add_export_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExportCall>();
-    subcommand.add_option("file", call->file, "a trajectory")->type_name("FILE.h5")->required();
-    subcommand.add_option("--to", call->format, formats_text())->type_name("FORMAT")->required();
-    subcommand.add_option("--out", call->out, "where to [FILE with the format's ending]")
+    subcommand.add_option("file", call->file, "trajectory to convert")
+        ->type_name("FILE.h5")
+        ->required();
+    subcommand.add_option("--to", call->format, "output format, see below")
+        ->type_name("FORMAT")
+        ->required();
+    subcommand.add_option("--out", call->out, "output file [FILE with the ending of the format]")
         ->type_name("FILE");
-    subcommand.add_option("--scale", call->scale, "csv: pixels per unit of length [20]")
+    subcommand.add_option("--scale", call->scale, "pixels per unit of length in csv [20]")
         ->type_name("NUMBER");
     subcommand
-        .add_option("--range", call->range, "frames FIRST to LAST alone, counted from 0 [all]")
+        .add_option("--range", call->range, "range of frames, counted from 0, both included [all]")
         ->type_name("FIRST:LAST");
-    subcommand.add_option("--stride", call->stride, "only every N-th of the frames [1]")
+    subcommand.add_option("--stride", call->stride, "distance between exported frames [1]")
         ->type_name("N");
-    subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
+    subcommand.add_flag("--quiet", call->quiet, "print neither progress nor report");
     subcommand.set_examples({"swirl export frames.h5 --to vtp",
                              "swirl export frames.h5 --to csv --scale 25 --out tracks.csv",
                              "swirl export frames.h5 --to table --range 1000:1999 --stride 10"});
+    std::string formats = "Formats:\n";
+    for (const ExportFormat& format : export_formats())
+        formats += fmt::format("  {:<7} {}\n", format.name, format.description);
+    subcommand.explain(formats);
     subcommand.callback([call] { export_file(*call); });
 }
 
 const Command export_command(
-    40, "export", "A trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD, pandas.",
+    40, "export", "Convert a trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD or pandas.",
     add_export_command);
 
 }  // namespace

@@ -56,10 +56,10 @@ std::string apply_config_file(RunCall& call) {
     for (const auto& [name, text] : outputs) names.push_back(name);
     const ConfigFile from_file = read_config_file(file, names, Lists::rejected, "run");
     *call.parameters = overridden(from_file.parameters, *call.parameters);
-    take_others(from_file.others, outputs);
+    fill_empty(from_file.others, outputs);
     ParameterTexts recording = from_file.others;
     for (const auto& [name, text] : outputs) recording.erase(name);
-    take_recording_options(*call.recording, std::move(recording));
+    add_options_from_file(*call.recording, std::move(recording));
     return from_file.text;
 }
 
@@ -77,7 +77,7 @@ void apply_call_in_checkpoint(RunCall& call) {
         !gives_only_the_length(*call.parameters))
         return;
     const OptionTexts outputs = call.output_options();
-    const KeptCall stored = call_in_checkpoint(checkpoint->second);
+    const CheckpointedCall stored = call_in_checkpoint(checkpoint->second);
     *call.parameters = overridden(parameters_in(stored.configuration), *call.parameters);
     for (const auto& [name, text] : stored.options) {
         const auto output = outputs.find(name);
@@ -112,7 +112,7 @@ PreparedRun prepare(RunCall& call) {
         config_text, config, observation_of(config, measurements_of(call)), {}, {}};
     const std::vector<std::string>& names = prepared.observation.names();
     prepared.files = run_files(*call.recording, config, names, call.json);
-    prepared.files.complain = print_warning;
+    prepared.files.warn = print_warning;
     prepared.files.call = call.recording->texts;
     for (const auto& [name, text] : call.output_options())
         if (!text->empty()) prepared.files.call[name] = *text;
@@ -172,7 +172,7 @@ void write_outputs(const RunCall& call, const PreparedRun& prepared, const RunRe
     }
     for (const std::string& warning : warnings(result)) print_warning(warning);
     if (file == call.json) return;
-    forget_checkpoint(prepared.files);
+    remove_checkpoint(prepared.files);
     throw Failure(fmt::format(
         "'{}' now holds the result of another run, or more results of this run, written while this "
         "run was in progress.\nhint: the result of this run is in '{}'.",
@@ -191,7 +191,7 @@ void print_note_on_saved_state(const RunFiles& files) {
 }
 
 void finish_checkpoint(const RunCall& call, const RunFiles& files, bool complete) {
-    if (complete && !files.keep_checkpoint) return forget_checkpoint(files);
+    if (complete && !files.keep_checkpoint) return remove_checkpoint(files);
     if (complete) {
         if (!call.quiet) print_note_on_saved_state(files);
         return;
@@ -215,7 +215,7 @@ void run_and_report(RunCall& call) {
         if (!call.quiet) print_all(fmt::format("'{}' is already complete.\n", call.json));
         return;
     }
-    reject_to_overwrite(prepared.files, call.json);
+    reject_overwriting(prepared.files, call.json);
     if (!call.quiet) print_checkpoint_notes(prepared.files);
     const RunResult result = run_with_progress(prepared, call.quiet);
     write_outputs(call, prepared, result);

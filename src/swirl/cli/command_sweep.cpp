@@ -51,9 +51,9 @@ void apply_config_file(SweepCall& call) {
         {"seeds", &call.seeds}, {"measure", &call.measure}, {"frames", &call.frames}};
     std::vector<std::string> names = parameter_names();
     for (const auto& [name, target] : others) names.push_back(name);
-    const ConfigFile plan = read_config_file(call.config_file, names, Lists::taken, "sweep");
+    const ConfigFile plan = read_config_file(call.config_file, names, Lists::accepted, "sweep");
     *call.parameters = overridden(plan.parameters, *call.parameters);
-    take_others(plan.others, others);
+    fill_empty(plan.others, others);
 }
 
 std::vector<std::string> further_measurements(const SweepCall& call) {

@@ -1,4 +1,4 @@
-// swirl verify: runs again what a result says it is, and compares.
+// swirl verify: repeats the run of a result or a recording and compares all bits.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -33,35 +33,36 @@ RunConfig config_in(const std::string& file, const std::string& text) {
     try {
         return resolve(parameters_in(text));
     } catch (const UsageError& wrong) {
-        throw Failure(
-            fmt::format("'{}' cannot be run again with this version: {}", file, wrong.what()));
+        throw Failure(fmt::format("the run of '{}' cannot be repeated with this version: {}", file,
+                                  wrong.what()));
     }
 }
 
-std::string of_version(const std::string& other) {
+/// A second line for an error message, if another version made the file.
+std::string version_note(const std::string& other) {
     return other == version()
                ? std::string()
-               : fmt::format(" It was made by swirl {}, this is {}.", other, version());
+               : fmt::format("\nhint: it was made by swirl {}, but this is {}.", other, version());
 }
 
-std::string made_by(const Json& result) {
+std::string version_of(const Json& result) {
     const Json by = result.value("version", Json());
     return by.is_string() ? by.get<std::string>() : "?";
 }
 
-/// What says how, when and by whom a result was made, and not what it is.
-bool is_of_the_call(const std::string& name) {
+/// Whether an entry describes how, when and by which program a result was made, not what it is.
+bool is_metadata(const std::string& name) {
     for (const char* other :
          {"format", "seconds", "events_per_second", "simd", "warnings", "version", "build"})
         if (name == other) return true;
     return false;
 }
 
-/// Runs again to the end, or until `look`, which passes one event after the other, has seen enough.
-template <class Look>
-RunResult run_again(const RunConfig& config, bool quiet, const Look& look,
-                    Observation* observation = nullptr) {
-    ProgressLine line("again", quiet);
+/// Repeats a run. `pass_event` passes each event and returns false to end the run early.
+template <class PassEvent>
+RunResult repeat_run(const RunConfig& config, bool quiet, const PassEvent& pass_event,
+                     Observation* observation = nullptr) {
+    ProgressLine line("verifying", quiet);
     RunControl control;
     control.stop = &stop_signal();
     control.orientations = true;
@@ -70,18 +71,18 @@ RunResult run_again(const RunConfig& config, bool quiet, const Look& look,
         line.show(p.fraction, fmt::format("{} events", p.events));
     };
     Run run(config, control);
-    while (run.next_event() && look(run)) {
+    while (run.next_event() && pass_event(run)) {
     }
     line.clear();
-    if (stop_signal().load()) throw Interrupted("Stopped before the end of the run.");
+    if (stop_signal().load()) throw Interrupted("stopped before the end of the run.");
     return run.result();
 }
 
-/// What was measured beside the rotation.
+/// The names of the measurements in a result.
 std::vector<std::string> measurements_in(const std::string& file, const Json& result) {
     const Json measured = result.value("measured", Json::object());
     if (!measured.is_object())
-        throw Failure(fmt::format("'{}' does not say what was measured.", file));
+        throw Failure(fmt::format("'{}' has an entry 'measured' that is not an object.", file));
     std::vector<std::string> names;
     for (const auto& [name, values] : measured.items()) names.push_back(name);
     return names;
@@ -93,14 +94,14 @@ void verify_result(const std::string& file, bool quiet) {
         throw Failure(fmt::format("'{}' is not the result of a run.", file));
     if (const Json format = json.value("format", Json(result_format)); format != result_format)
         throw Failure(
-            fmt::format("'{}' is in format {} of swirl {}, but this program reads format {}.", file,
-                        format.dump(), made_by(json), result_format));
+            fmt::format("'{}' has format {} of swirl {}, but this program reads format {}.", file,
+                        format.dump(), version_of(json), result_format));
     if (json.value("complete", Json()) != Json(true))
-        throw Failure(fmt::format(
-            "'{}' is of a run that was stopped before its end, and cannot be compared.", file));
+        throw Failure(
+            fmt::format("'{}' cannot be verified: its run was stopped before its end.", file));
     const RunConfig config = config_in(file, json["config"].dump());
     Observation observation = observation_of(config, measurements_in(file, json));
-    Json result = result_json(run_again(
+    Json result = result_json(repeat_run(
         config, quiet,
         [](Run& run) {
             run.pass_event();
@@ -108,25 +109,26 @@ void verify_result(const std::string& file, bool quiet) {
         },
         &observation));
     if (json.contains("measured")) result["measured"] = measured_json(observation.report());
-    // The verdict on the steady state follows from the averages by a test that may be another in
-    // another version of the program.
-    const bool judged_alike = json.value("version", Json()) == Json(version());
+    // The verdict on the steady state follows from the averages, but by a test that may differ
+    // between versions.
+    const bool same_version = json.value("version", Json()) == Json(version());
     for (const auto& [part, now] : result.items())
-        if (!is_of_the_call(part) && (part != "steady_state" || judged_alike) &&
+        if (!is_metadata(part) && (part != "steady_state" || same_version) &&
             json.value(part, Json()) != Json::parse(now.dump()))
-            throw Failure(fmt::format("'{}' differs: {} is {} there and {} now.{}", file, part,
+            throw Failure(fmt::format("'{}' differs: {} is {} there, but {} now.{}", file, part,
                                       json.value(part, Json()).dump(), now.dump(),
-                                      of_version(made_by(json))));
+                                      version_note(version_of(json))));
     if (quiet) return;
     const auto& measured = observation.names();
-    print_all(fmt::format("The same, bit for bit: {} events, state {}, {}.{}\n",
-                          result["events"]["total"].dump(), result["state_hash"].get<std::string>(),
-                          measured.empty() ? "no measurements in the file"
-                                           : fmt::format("measured {}", fmt::join(measured, ", ")),
-                          judged_alike ? ""
-                                       : fmt::format(" Not compared: steady_state, as '{}' was "
-                                                     "made by swirl {}.",
-                                                     file, made_by(json))));
+    std::string text =
+        fmt::format("bitwise identical: {} events, state {}, {}\n",
+                    result["events"]["total"].dump(), result["state_hash"].get<std::string>(),
+                    measured.empty() ? "no measurements in the file"
+                                     : fmt::format("measured {}", fmt::join(measured, ", ")));
+    if (!same_version)
+        text += fmt::format("not compared: steady_state, since '{}' was made by swirl {}\n", file,
+                            version_of(json));
+    print_all(text);
 }
 
 bool same_bits(double a, double b) {
@@ -134,7 +136,7 @@ bool same_bits(double a, double b) {
 }
 bool same_bits(Vec2 a, Vec2 b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y); }
 
-/// A frame as it was recorded and a moment of the run: everything that a frame consists of.
+/// Compares all values of a recorded frame with the state of the run.
 bool same_frame(const Snapshot& frame, const Snapshot& now) {
     bool same = frame.size() == now.size() && frame.periods == now.periods &&
                 same_bits(frame.clock, now.clock) && same_bits(frame.period, now.period) &&
@@ -158,49 +160,48 @@ bool same_frame(const Snapshot& frame, const Snapshot& now) {
     return same;
 }
 
-/// How a recording is compared with the run that it says it is of.
+/// Compares the frames or events (`item`) of a recording with those of its run, and counts them.
 class Comparison {
   public:
-    Comparison(std::string file, const char* what, std::uint64_t there, bool complete,
-               std::string made_by)
+    Comparison(std::string file, const char* item, std::uint64_t recorded, bool complete,
+               std::string version)
         : file_(std::move(file)),
-          what_(what),
-          there_(there),
+          item_(item),
+          recorded_(recorded),
           complete_(complete),
-          made_by_(std::move(made_by)) {}
+          version_(std::move(version)) {}
 
     std::uint64_t next() const { return next_; }
-    /// Of an unfinished recording the run may have more.
-    bool expects_more() const { return next_ < there_ || complete_; }
+    /// An unfinished recording ends before its run.
+    bool expects_more() const { return next_ < recorded_ || complete_; }
 
-    void found(bool same, std::string_view how) {
-        if (next_ >= there_) reject(fmt::format("it ends there, but the run has more {}s", what_));
-        if (!same) reject(how);
+    /// Takes the next item of the run. Throws Failure if it differs from the recorded one.
+    void add(bool same, std::string_view difference) {
+        if (next_ >= recorded_) fail(fmt::format("it ends there, but the run has more {}s", item_));
+        if (!same) fail(difference);
         ++next_;
     }
-    [[noreturn]] void reject(std::string_view how) const {
-        throw Failure(fmt::format("'{}' differs from {} {} on: {}.{}", file_, what_, next_, how,
-                                  of_version(made_by_)));
+    [[noreturn]] void fail(std::string_view difference) const {
+        throw Failure(fmt::format("'{}' differs from {} {} on: {}.{}", file_, item_, next_,
+                                  difference, version_note(version_)));
     }
     void report(bool quiet) const {
-        if (next_ < there_) reject(fmt::format("the run has no more than {}", next_));
+        if (next_ < recorded_) fail(fmt::format("the run has only {} {}s", next_, item_));
         if (quiet) return;
-        print_all(complete_ ? fmt::format("The same, bit for bit: {} {}s.\n", next_, what_)
-                            : fmt::format(
-                                  "The same, bit for bit, as far as it goes: {} {}s of a run that "
-                                  "was not finished.\n",
-                                  next_, what_));
+        print_all(complete_ ? fmt::format("bitwise identical: {} {}s\n", next_, item_)
+                            : fmt::format("bitwise identical: all {} {}s of an unfinished run\n",
+                                          next_, item_));
     }
 
   private:
     std::string file_;
-    const char* what_;
-    std::uint64_t there_, next_ = 0;
+    const char* item_;
+    std::uint64_t recorded_, next_ = 0;
     bool complete_;
-    std::string made_by_;
+    std::string version_;
 };
 
-/// When its frames were taken, as the recording says.
+/// The frame times that the provenance entry `frames` of a recording gives.
 FrameTimes frame_times_in(const std::string& file, const std::string& text) {
     const Json json = Json::parse(text, nullptr, false);
     FrameTimes times;
@@ -210,19 +211,18 @@ FrameTimes frame_times_in(const std::string& file, const std::string& text) {
         else if (json.contains("interval"))
             times.interval = json.at("interval").get<double>();
         else
-            times.per_swirl = json.at("per_swirl").get<int>();
+            times.per_period = json.at("per_swirl").get<int>();
     } catch (const nlohmann::json::exception&) {
         throw Failure(fmt::format(
-            "'{}' does not say when its frames were taken, so nobody knows how many there must be.",
-            file));
+            "'{}' cannot be verified: it does not say when its frames were taken.", file));
     }
     if (times.events.value_or(1) < 1 || !(times.interval.value_or(1.0) > 0.0) ||
-        times.per_swirl < 1)
-        throw Failure(fmt::format("'{}' says that no time lies between its frames.", file));
+        times.per_period < 1)
+        throw Failure(fmt::format("'{}' gives a frame interval that is not positive.", file));
     return times;
 }
 
-/// Every frame against the engine's state at that moment.
+/// Compares every frame with the engine's state at its time.
 void verify_trajectory(const std::string& file, bool quiet) {
     TrajectoryReader reader(file);
     const RunConfig config = config_in(file, reader.provenance("parameters"));
@@ -233,12 +233,12 @@ void verify_trajectory(const std::string& file, bool quiet) {
     const auto compare = [&](const Snapshot& now) {
         if (!comparison.expects_more()) return;
         const std::uint64_t k = comparison.next();
-        comparison.found(k < reader.frames() && same_frame(reader.frame(k), now) &&
-                             reader.events_before(k) == events,
-                         "the run has another one");
+        comparison.add(k < reader.frames() && same_frame(reader.frame(k), now) &&
+                           reader.events_before(k) == events,
+                       "the run has another frame");
     };
-    SampleTimes frame_times(times.per_swirl, config.period, times.interval.value_or(0.0));
-    run_again(config, quiet, [&](Run& run) {
+    SampleTimes frame_times(times.per_period, config.period, times.interval.value_or(0.0));
+    repeat_run(config, quiet, [&](Run& run) {
         if (!times.events)
             while (run.next_sample(frame_times)) compare(run.snapshot());
         run.pass_event();
@@ -246,9 +246,9 @@ void verify_trajectory(const std::string& file, bool quiet) {
         if (times.events && events % std::uint64_t(*times.events) == 0) compare(run.snapshot());
         return comparison.expects_more();
     });
-    if (const std::string column = reader.contradicted(); !column.empty())
-        throw Failure(fmt::format("'{}' differs from its run: its column {} is another.{}", file,
-                                  column, of_version(reader.provenance("version"))));
+    if (const std::string column = reader.inconsistent_dataset(); !column.empty())
+        throw Failure(fmt::format("'{}' differs from its run in its dataset {}.{}", file, column,
+                                  version_note(reader.provenance("version"))));
     comparison.report(quiet);
 }
 
@@ -275,51 +275,51 @@ bool same_floors(const MovingFloor& a, const MovingFloor& b) {
                       [](const Vec2& u, const Vec2& v) { return same_bits(u, v); });
 }
 
-/// What the log says of the run before its first event.
-void verify_beginning(const EventLogReader& log, const InitialState& scene,
-                      const Simulation& simulation, const Comparison& comparison) {
-    if (log.initial().size() != simulation.size()) comparison.reject("another number of discs");
+/// Compares the initial state, the container and the floor.
+void verify_initial_state(const EventLogReader& log, const InitialState& scene,
+                          const Simulation& simulation, const Comparison& comparison) {
+    if (log.initial().size() != simulation.size()) comparison.fail("the number of discs differs");
     for (std::size_t i = 0; i < simulation.size(); ++i)
         if (!same_discs(log.initial()[i], simulation.disc(i)))
-            comparison.reject(fmt::format("disc {} begins otherwise", i));
+            comparison.fail(fmt::format("the initial state of disc {} differs", i));
     if (!same_bits(log.period(), scene.path.period) ||
-        !same_bits(log.swirl_end(), scene.path.segments.back().end) ||
+        !same_bits(log.period_end(), scene.path.segments.back().end) ||
         !same_bits(log.container_radius(), scene.container_radius))
-        comparison.reject("the container is another");
+        comparison.fail("the container differs");
     const bool has_floor = scene.shape != Shape::disc;
     if (log.floor().has_value() != has_floor ||
         (has_floor && !same_floors(*log.floor(), moving_floor(scene.floor, scene.path))))
-        comparison.reject("the floor, or its velocity on a leg of the path, is another");
+        comparison.fail("the floor, or its velocity on a path segment, differs");
 }
 
-/// Every event against the engine's, and the state that they lead to against its state.
+/// Compares every event with the engine's, and the replayed final state with the engine's state.
 void verify_event_log(const std::string& file, bool quiet) {
     EventLogReader log(file);
     const RunConfig config = config_in(file, log.provenance("parameters"));
     Comparison comparison(file, "event", log.events(), log.complete(), log.provenance("version"));
     const InitialState scene = make_initial_state(config, &stop_signal());
     Simulation simulation(scene, {}, selected_tuning(&stop_signal()));
-    if (stop_signal().load()) throw Interrupted("Stopped before the first event.");
-    verify_beginning(log, scene, simulation, comparison);
-    Replay replay(log.initial(), log.swirl_end(), log.floor());
-    constexpr std::uint64_t at_once = 1 << 16;
+    if (stop_signal().load()) throw Interrupted("stopped before the first event.");
+    verify_initial_state(log, scene, simulation, comparison);
+    Replay replay(log.initial(), log.period_end(), log.floor());
+    constexpr std::uint64_t events_per_read = 1 << 16;
     std::vector<Event> block;
-    run_again(config, quiet, [&](Run& run) {
+    repeat_run(config, quiet, [&](Run& run) {
         run.pass_event();
         const Event& now = run.event();
         if (!comparison.expects_more()) return false;
         const std::uint64_t k = comparison.next();
-        if (k < log.events() && k % at_once == 0)
-            block = log.read(k, std::min(at_once, log.events() - k));
-        const bool same = k < log.events() && same_events(block[k % at_once], now);
-        comparison.found(same, "another event happens now");
+        if (k < log.events() && k % events_per_read == 0)
+            block = log.read(k, std::min(events_per_read, log.events() - k));
+        const bool same = k < log.events() && same_events(block[k % events_per_read], now);
+        comparison.add(same, "the run has another event");
         simulation.step();
         replay.apply(now);
         return true;
     });
     for (std::size_t i = 0; i < simulation.size(); ++i)
         if (!same_discs(replay.discs()[i], simulation.disc(i)))
-            comparison.reject("the state that the events lead to is another");
+            comparison.fail("the replayed state differs");
     comparison.report(quiet);
 }
 
@@ -329,14 +329,13 @@ void add_verify_command(Subcommand& subcommand) {
         bool quiet = false;
     };
     const auto call = std::make_shared<Verify>();
-    subcommand
-        .add_option("file", call->file, "a result (JSON), a trajectory or an event log (HDF5)")
+    subcommand.add_option("file", call->file, "result (JSON), trajectory or event log (HDF5)")
         ->type_name("FILE")
         ->required();
-    subcommand.add_flag("--quiet", call->quiet, "no progress, no report");
+    subcommand.add_flag("--quiet", call->quiet, "print neither progress nor report");
     subcommand.set_examples({"swirl verify result.json", "swirl verify frames.h5"});
     subcommand.callback([call] {
-        if (!first_bytes(call->file).starts_with('\x89'))
+        if (!file_signature(call->file).starts_with('\x89'))
             return verify_result(call->file, call->quiet);
         try_reading(call->file);
         if (is_event_log(call->file)) return verify_event_log(call->file, call->quiet);
@@ -344,7 +343,8 @@ void add_verify_command(Subcommand& subcommand) {
     });
 }
 
-const Command verify_command(42, "verify", "Runs a result again and compares every bit.",
+const Command verify_command(42, "verify",
+                             "Repeat the run of a result or recording and compare all bits.",
                              add_verify_command);
 
 }  // namespace

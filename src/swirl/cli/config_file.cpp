@@ -16,13 +16,14 @@
 namespace swirl {
 namespace {
 
-/// What is wrong in a configuration is wrong in the call.
+/// Errors in a configuration file are usage errors.
 Config parsed(const std::string& file, Lists lists) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
-        throw UsageError(fmt::format(
-            "There is no configuration file '{}'; options begin with --, as in --discs {}.", file,
-            lists == Lists::taken ? "5:48" : "48"));
+        throw UsageError(
+            fmt::format("the configuration file '{}' does not exist.\nhint: options begin with --, "
+                        "as in --discs {}.",
+                        file, lists == Lists::accepted ? "5:48" : "48"));
     std::string text = read_whole_file(file, largest_config);
     try {
         return parse_config(std::move(text), file);
@@ -31,22 +32,22 @@ Config parsed(const std::string& file, Lists lists) {
     }
 }
 
-/// What --measure and --figure take is a list anyway.
-bool is_list_by_nature(const std::string& name) { return name == "measure" || name == "figure"; }
+/// --measure and --figure take lists in all commands.
+bool takes_list(const std::string& name) { return name == "measure" || name == "figure"; }
 
-/// Gives the target of an option a value from a file.
-struct Set {
+/// Sets the variable of an option to a value from a file.
+struct SetOption {
     const std::string& name;
     const std::string& text;
     const std::string& file;
 
-    [[noreturn]] void wrong(const char* what) const {
+    [[noreturn]] void fail(const char* constraint) const {
         throw UsageError(
-            fmt::format("'{}': {} is '{}', but it must be {}.", file, name, text, what));
+            fmt::format("'{}': {} is '{}', but it must be {}.", file, name, text, constraint));
     }
     double number() const {
         const auto value = read_number(text);
-        if (!value) wrong("a number");
+        if (!value) fail("a number");
         return *value;
     }
     template <class Whole>
@@ -54,12 +55,12 @@ struct Set {
         const auto value = read_whole_number(text);
         if (!value || *value < std::numeric_limits<Whole>::min() ||
             *value > std::numeric_limits<Whole>::max())
-            wrong("a whole number");
+            fail("a whole number");
         return static_cast<Whole>(*value);
     }
 
     void operator()(bool* flag) const {
-        if (text != "true" && text != "false") wrong("true or false");
+        if (text != "true" && text != "false") fail("true or false");
         *flag = text == "true";
     }
     void operator()(std::string* into) const { *into = text; }
@@ -81,7 +82,7 @@ struct Set {
     void operator()(const std::function<void(const std::string&)>& take) const { take(text); }
 };
 
-/// "trail_length" of "--trail-length"; an argument by its place has its own name in small letters.
+/// "trail_length" for "--trail-length"; the lower-case name for a positional argument.
 std::string name_in_file(const Option& option) {
     std::string name = option.name.starts_with("--") ? option.name.substr(2) : option.name;
     std::transform(name.begin(), name.end(), name.begin(),
@@ -99,13 +100,15 @@ ConfigFile read_config_file(const std::string& file, const std::vector<std::stri
         const std::string at = fmt::format("'{}', line {}", file, entry.line);
         if (std::find(names.begin(), names.end(), name) == names.end()) {
             const auto meant = nearest_name(name, names);
-            throw UsageError(fmt::format("{}: there is no option '{}'{}", at, name,
-                                         meant ? fmt::format("; did you mean '{}'?", *meant)
-                                               : "; `swirl " + command + " --help` lists them."));
+            throw UsageError(
+                fmt::format("{}: there is no option '{}'.\nhint: {}", at, name,
+                            meant ? fmt::format("did you mean '{}'?", *meant)
+                                  : "`swirl " + command + " --help` lists all options."));
         }
-        if (entry.is_list && lists == Lists::rejected && !is_list_by_nature(name))
+        if (entry.is_list && lists == Lists::rejected && !takes_list(name))
             throw UsageError(fmt::format(
-                "{}: {} is a list, but one value is needed; `swirl sweep` takes lists.", at, name));
+                "{}: {} is a list, but needs one value.\nhint: `swirl sweep` takes lists.", at,
+                name));
         if (entry.values.empty())
             throw UsageError(fmt::format("{}: the list of {} is empty.", at, name));
         auto& into = find_parameter(name) ? found.parameters : found.others;
@@ -115,8 +118,7 @@ ConfigFile read_config_file(const std::string& file, const std::vector<std::stri
     return found;
 }
 
-void take_others(const ParameterTexts& from_file,
-                 const std::map<std::string, std::string*>& texts) {
+void fill_empty(const ParameterTexts& from_file, const std::map<std::string, std::string*>& texts) {
     for (const auto& [name, text] : texts)
         if (const auto found = from_file.find(name); found != from_file.end() && text->empty())
             *text = found->second;
@@ -126,7 +128,7 @@ bool is_config_file(const std::string& argument) { return argument.ends_with(".t
 
 void take_config_file(const Subcommand& subcommand, const std::string& file,
                       ParameterTexts& parameters, Lists lists, const std::string& command,
-                      const std::vector<std::vector<std::string>>& instead) {
+                      const std::vector<std::vector<std::string>>& alternatives) {
     std::map<std::string, const Option*> options;
     std::vector<std::string> names;
     for (const Option& option : subcommand.options()) {
@@ -137,7 +139,7 @@ void take_config_file(const Subcommand& subcommand, const std::string& file,
     const ConfigFile found = read_config_file(file, names, lists, command);
     parameters = overridden(found.parameters, parameters);
     const auto replaced = [&](const std::string& name) {
-        return std::any_of(instead.begin(), instead.end(), [&](const auto& group) {
+        return std::any_of(alternatives.begin(), alternatives.end(), [&](const auto& group) {
             return std::find(group.begin(), group.end(), name) != group.end() &&
                    std::any_of(group.begin(), group.end(), [&](const std::string& other) {
                        return options.at(other)->is_given;
@@ -146,7 +148,8 @@ void take_config_file(const Subcommand& subcommand, const std::string& file,
     };
     for (const auto& [name, text] : found.others) {
         const Option& option = *options.at(name);
-        if (!option.is_given && !replaced(name)) std::visit(Set{name, text, file}, option.target);
+        if (!option.is_given && !replaced(name))
+            std::visit(SetOption{name, text, file}, option.target);
     }
 }
 

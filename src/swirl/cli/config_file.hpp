@@ -1,5 +1,5 @@
-// A configuration file in place of options: `swirl run study.toml`, `swirl sweep plan.toml`,
-// `swirl movie film.toml`. What is given by hand wins over it.
+// A configuration file instead of options: `swirl run study.toml`, `swirl sweep plan.toml`,
+// `swirl movie movie.toml`. Options of the command line override it.
 #pragma once
 
 #include <map>
@@ -11,32 +11,32 @@
 
 namespace swirl {
 
-/// What stands in the file; a list is its values with commas between.
+/// The content of the file. The values of a list are joined by commas.
 struct ConfigFile {
-    std::string text;           // as it was, for the record
-    ParameterTexts parameters;  // of the run
-    ParameterTexts others;      // the further options
+    std::string text;           // unchanged, for the record
+    ParameterTexts parameters;  // parameters of the run
+    ParameterTexts others;      // all other options
 };
 
-enum class Lists { rejected, taken };
+enum class Lists { rejected, accepted };
 
-/// `names` are those of the options it may hold; `command` is whose --help lists them. What to
-/// measure may always be a list. Throws WrongCall for names that do not exist, for what is no TOML,
-/// and if there is no such file.
+/// `names` are the allowed option names; `command` appears in error messages. --measure and
+/// --figure may always be lists. Throws UsageError if a name is unknown, the file is not valid
+/// TOML, or it does not exist.
 ConfigFile read_config_file(const std::string& file, const std::vector<std::string>& names,
                             Lists lists, const std::string& command);
 
-/// Fills the texts that the command line left empty.
-void take_others(const ParameterTexts& from_file, const std::map<std::string, std::string*>& texts);
+/// Sets the texts that the command line left empty.
+void fill_empty(const ParameterTexts& from_file, const std::map<std::string, std::string*>& texts);
 
-/// Whether the argument names a configuration file, and no recording.
+/// Whether the argument names a configuration file, not a recording.
 bool is_config_file(const std::string& argument);
 
-/// For a command all of whose options may stand in the file: gives those that the call left out
-/// what the file says, and `parameters` those of a run. Options of one group in `instead` replace
-/// each other: if one of them is given by hand, the file's others do not count. Throws WrongCall.
+/// For commands that accept all their options in the file: sets the options that the command line
+/// does not give, and `parameters`. Options of one group in `alternatives` exclude each other: if
+/// the command line gives one of them, the file's others are ignored. Throws UsageError.
 void take_config_file(const Subcommand& subcommand, const std::string& file,
                       ParameterTexts& parameters, Lists lists, const std::string& command,
-                      const std::vector<std::vector<std::string>>& instead = {});
+                      const std::vector<std::vector<std::string>>& alternatives = {});
 
 }  // namespace swirl

@@ -25,19 +25,17 @@ struct RecordingOption {
 constexpr const char* group = "Files";
 
 constexpr RecordingOption options[] = {
-    {"trajectory", "FILE.h5", "record frames (HDF5, H5MD)"},
-    {"frames", "N", "frames per swirl, at equal phases; 1 is stroboscopic [30]"},
-    {"frame_interval", "TIME", "a frame every TIME, instead of --frames"},
-    {"frame_events", "N", "a frame after every N events, instead of --frames"},
-    {"compression", "quick|0..9",
-     "of the recordings: quick leaves out what repeats from frame to frame; 0: none; 1…9: "
-     "deflate, smaller and slower [quick]"},
-    {"log_events", "FILE.h5", "record every event with its impulses"},
-    {"checkpoint", "FILE", "where to keep the state of the run [named after its other files]"},
-    {"checkpoint_every", "SECONDS", "how often to keep it; 0: never [60]"},
+    {"trajectory", "FILE.h5", "trajectory file to record (HDF5, H5MD)"},
+    {"frames", "N", "frames per period, at equal phases; 1 is stroboscopic [30]"},
+    {"frame_interval", "TIME", "time between frames, instead of --frames"},
+    {"frame_events", "N", "events between frames, instead of --frames"},
+    {"compression", "0..9", "deflate level of recordings; 0: none, 9: smallest [0]"},
+    {"log_events", "FILE.h5", "event log to record, with all impulses"},
+    {"checkpoint", "FILE", "checkpoint file [named after the other files of the run]"},
+    {"checkpoint_every", "SECONDS", "time between checkpoints; 0: none [60]"},
 };
 
-/// Each says when a frame is taken.
+/// Alternative ways to set the times of frames.
 constexpr const char* frame_times_options[] = {"frames", "frame_interval", "frame_events"};
 
 std::string text_of(const RecordingCall& call, std::string_view name) {
@@ -45,36 +43,26 @@ std::string text_of(const RecordingCall& call, std::string_view name) {
     return found == call.texts.end() ? "" : found->second;
 }
 
-double number(const RecordingCall& call, const char* name, double otherwise, double from,
-              const char* right) {
+double number(const RecordingCall& call, const char* name, double default_value, double minimum,
+              const char* constraint) {
     const std::string text = text_of(call, name);
-    if (text.empty()) return otherwise;
+    if (text.empty()) return default_value;
     const auto value = read_number(text);
-    if (!value || *value < from)
+    if (!value || *value < minimum)
         throw UsageError(
-            fmt::format("{} is '{}', but it must be {}.", option_name(name), text, right));
+            fmt::format("{} is '{}', but it must be {}.", option_name(name), text, constraint));
     return *value;
 }
 
-std::int64_t whole(const RecordingCall& call, const char* name, std::int64_t otherwise,
-                   std::int64_t from, std::int64_t to) {
+std::int64_t integer(const RecordingCall& call, const char* name, std::int64_t default_value,
+                     std::int64_t minimum, std::int64_t maximum) {
     const std::string text = text_of(call, name);
-    if (text.empty()) return otherwise;
+    if (text.empty()) return default_value;
     const auto value = read_whole_number(text);
-    if (!value || *value < from || *value > to)
+    if (!value || *value < minimum || *value > maximum)
         throw UsageError(fmt::format("{} is '{}', but it must be a whole number from {} to {}.",
-                                     option_name(name), text, from, to));
+                                     option_name(name), text, minimum, maximum));
     return *value;
-}
-
-int compression(const RecordingCall& call) {
-    const std::string text = text_of(call, "compression");
-    if (text.empty() || text == "quick") return quick_compression;
-    const auto value = read_whole_number(text);
-    if (!value || *value < 0 || *value > 9)
-        throw UsageError(fmt::format(
-            "--compression is '{}', but it must be quick or a whole number from 0 to 9.", text));
-    return static_cast<int>(*value);
 }
 
 FrameTimes frame_times(const RecordingCall& call) {
@@ -84,16 +72,17 @@ FrameTimes frame_times(const RecordingCall& call) {
     for (const char* name : frame_times_options) given += text_of(call, name).empty() ? 0 : 1;
     if (given > 1)
         throw UsageError(
-            "--frames, --frame-interval and --frame-events each say when a frame is taken; give "
-            "one of them.");
+            "--frames, --frame-interval and --frame-events exclude each other.\nhint: give one of "
+            "them.");
     if (given > 0 && text_of(call, "trajectory").empty())
-        throw UsageError("Frames are asked for without a file for them; add --trajectory FILE.h5.");
-    times.per_swirl = static_cast<int>(whole(call, "frames", times.per_swirl, 1, 1'000'000));
+        throw UsageError(
+            "the options for frames need a trajectory.\nhint: add --trajectory FILE.h5.");
+    times.per_period = static_cast<int>(integer(call, "frames", times.per_period, 1, 1'000'000));
     if (!text_of(call, "frame_interval").empty())
         times.interval =
             number(call, "frame_interval", 0.0, 1e-9, "a time of at least 1e-9, for example 0.1");
     if (!text_of(call, "frame_events").empty())
-        times.events = whole(call, "frame_events", 1, 1, maximum);
+        times.events = integer(call, "frame_events", 1, 1, maximum);
     return times;
 }
 
@@ -107,14 +96,15 @@ std::string default_checkpoint(const RunFiles& files, const RunConfig& config,
                            config_text(config) + fmt::format("{}", fmt::join(measured, ",")))));
 }
 
-/// A number that is read back as it is written: TOML takes no 007, and the file 1e5 is not 100000.
+/// Whether TOML reads the text as a number that is written the same way. 007 is not valid TOML, and
+/// a file named 1e5 must not become 100000.
 bool is_bare_number(const std::string& text) {
     if (const auto whole = read_whole_number(text)) return fmt::format("{}", *whole) == text;
     const auto number = read_number(text);
     return number && std::isfinite(*number) && fmt::format("{}", *number) == text;
 }
 
-/// A bare number as it is, anything else in quotes.
+/// Quotes everything but bare numbers.
 std::string toml_value(const std::string& text) {
     if (is_bare_number(text)) return text;
     std::string quoted = "\"";
@@ -135,7 +125,7 @@ std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand) {
     auto call = std::make_shared<RecordingCall>();
     subcommand
         .add_option("config", call->config_file,
-                    "a TOML file with the names of the options; options given here override it")
+                    "TOML file with option names and values; options override it")
         ->type_name("FILE.toml");
     for (const RecordingOption& option : options) {
         const std::string name = option.name;
@@ -152,18 +142,15 @@ std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand) {
             ->type_name(option.value)
             ->group(group);
     }
-    subcommand
-        .add_flag("--resume", call->resume,
-                  "go on from the checkpoint, if there is one, to the same result bit for bit")
+    subcommand.add_flag("--resume", call->resume, "continue from the checkpoint, if it exists")
         ->group(group);
     subcommand
         .add_flag("--overwrite", call->overwrite,
-                  "begin anew over files that are there; a checkpoint is kept as NAME.backup")
+                  "replace existing files; a checkpoint becomes NAME.backup")
         ->group(group);
     subcommand
         .add_flag("--keep-checkpoint", call->keep_checkpoint,
-                  "keep the state at the end of the run: --resume with more --events or --periods "
-                  "goes on from there")
+                  "keep the final checkpoint; --resume can then extend the run")
         ->group(group);
     return call;
 }
@@ -174,7 +161,7 @@ std::vector<std::string> recording_option_names() {
     return names;
 }
 
-void take_recording_options(RecordingCall& call, ParameterTexts from_file) {
+void add_options_from_file(RecordingCall& call, ParameterTexts from_file) {
     const auto given = [&](const char* name) { return call.texts.contains(name); };
     if (std::any_of(std::begin(frame_times_options), std::end(frame_times_options), given))
         for (const char* name : frame_times_options) from_file.erase(name);
@@ -187,36 +174,36 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
     files.trajectory = text_of(call, "trajectory");
     files.frames = frame_times(call);
     files.event_log = text_of(call, "log_events");
-    files.compression = compression(call);
+    files.compression = static_cast<int>(integer(call, "compression", files.compression, 0, 9));
     files.resume = call.resume;
     if (call.resume && call.overwrite)
-        throw UsageError("--resume goes on, --overwrite begins anew; give one of them.");
+        throw UsageError(
+            "--resume continues a run and --overwrite starts it again.\nhint: give one of them.");
     files.checkpoint_every = number(call, "checkpoint_every", files.checkpoint_every, 0.0,
                                     "a number of seconds, or 0 for no checkpoints");
     files.checkpoint = text_of(call, "checkpoint");
     files.keep_checkpoint = call.keep_checkpoint;
     files.checkpoint_needed = call.resume || call.keep_checkpoint || !files.checkpoint.empty() ||
                               !text_of(call, "checkpoint_every").empty();
-    const bool nothing_named = files.checkpoint.empty() && (json.empty() || json == "-") &&
-                               files.trajectory.empty() && files.event_log.empty();
-    // The checkpoint of a run that was to leave nothing behind is set aside without a question.
-    files.overwrite = call.overwrite || (nothing_named && !call.resume);
+    const bool has_no_named_file = files.checkpoint.empty() && (json.empty() || json == "-") &&
+                                   files.trajectory.empty() && files.event_log.empty();
+    // Without a named file, an old checkpoint is the only file of a run: it is backed up, not an
+    // error.
+    files.overwrite = call.overwrite || (has_no_named_file && !call.resume);
     if (files.checkpoint.empty())
         files.checkpoint = default_checkpoint(files, config, measured, json);
     reject_same_files({files.trajectory, files.event_log, files.checkpoint, json});
     if (files.checkpoint_every == 0.0) {
         if (call.resume)
-            throw UsageError(
-                "--resume needs a checkpoint, but --checkpoint-every 0 asks for none.");
+            throw UsageError("--resume needs a checkpoint, but --checkpoint-every is 0.");
         if (call.keep_checkpoint)
-            throw UsageError(
-                "--keep-checkpoint keeps a checkpoint, but --checkpoint-every 0 asks for none.");
+            throw UsageError("--keep-checkpoint needs a checkpoint, but --checkpoint-every is 0.");
         files.checkpoint.clear();
     }
     for (const auto& file : {files.trajectory, files.event_log})
         if (!file.empty()) {
             reject_unwritable(file);
-            reject_to_replace(file);
+            require_replaceable(file);
         }
     if (files.checkpoint_needed && !files.checkpoint.empty()) reject_unwritable(files.checkpoint);
     return files;

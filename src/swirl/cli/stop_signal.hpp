@@ -1,12 +1,12 @@
-// Ctrl-C, SIGTERM and SIGHUP end the work cleanly: they set a flag that the work looks at. A second
-// one ends the program at once, unless it comes so soon that it must be the same keystroke.
+// Ctrl-C, SIGTERM and SIGHUP end the work cleanly: they set a flag that the work tests regularly. A
+// second signal ends the program at once, unless it follows so soon that it has the same cause.
 #pragma once
 
 #include <atomic>
 
 namespace swirl {
 
-/// From the first call on, the signals set the flag instead of killing.
+/// The flag. The first call installs the signal handlers.
 const std::atomic<bool>& stop_signal();
 
 }  // namespace swirl

@@ -24,7 +24,7 @@ namespace {
 
 /// Also by name, so that the trajectory reader reports what is wrong with a damaged .h5 file.
 bool is_hdf5(const std::string& file) {
-    return first_bytes(file).starts_with("\x89HDF") || file.ends_with(".h5");
+    return file_signature(file).starts_with("\x89HDF") || file.ends_with(".h5");
 }
 
 /// A number of the calibration; `name` is the option and the key in a camera file.
@@ -170,7 +170,7 @@ bool is_named_as_tracks(const std::string& file) {
 bool is_trajectory(const std::string& file) { return is_hdf5(file) && !is_track_recording(file); }
 
 Tracks read_tracks(const std::string& file, const TrackScale& scale) {
-    const std::string begin = first_bytes(file);
+    const std::string begin = file_signature(file);
     const auto repaired = [&](Tracks tracks) {
         repair(tracks, scale.pixels_per_radius);
         return tracks;

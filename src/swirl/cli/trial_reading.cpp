@@ -25,14 +25,14 @@ namespace swirl {
 namespace {
 
 void read_all_of_log(const std::string& file) {
-    constexpr std::uint64_t at_once = 1 << 16;
+    constexpr std::uint64_t events_per_read = 1 << 16;
     const EventLogReader log(file);
     for (const char* name : {"parameters", "version"}) log.provenance(name);
-    for (std::uint64_t k = 0; k < log.events(); k += at_once)
-        log.read(k, std::min(at_once, log.events() - k));
+    for (std::uint64_t k = 0; k < log.events(); k += events_per_read)
+        log.read(k, std::min(events_per_read, log.events() - k));
 }
 
-/// In the child. Its exit status is 0 whether the file is rejected or not: only a crash matters.
+/// Runs in the child. Its exit status is 0 even if the file is rejected: only a crash matters.
 [[noreturn]] void read_and_exit(const std::string& file) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit no_core{0, 0};
@@ -50,9 +50,9 @@ void read_all_of_log(const std::string& file) {
     _exit(0);
 }
 
-/// Waits for the child; kills it when a stop signal arrives.
-int status_of(pid_t child, int its_end) {
-    pollfd wait{its_end, POLLIN, 0};
+/// Waits for the child, which holds the other end of the pipe. Kills it if a stop signal arrives.
+int status_of(pid_t child, int read_end) {
+    pollfd wait{read_end, POLLIN, 0};
     constexpr int milliseconds = 100;
     while (poll(&wait, 1, milliseconds) <= 0)
         if (stop_signal().load()) kill(child, SIGKILL);
@@ -64,13 +64,13 @@ int status_of(pid_t child, int its_end) {
 }  // namespace
 
 void try_reading(const std::string& file) {
-    if (!first_bytes(file).starts_with("\x89HDF")) return;
+    if (!file_signature(file).starts_with("\x89HDF")) return;
     stop_signal();
-    // The child alone has the end to write to, and never writes: it is closed when the child ends.
+    // Only the child holds the write end, and never writes: poll() reports when the child ends.
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Failure(fmt::format(
-            "No pipe could be created to read the file in a child process: {}.", system_reason()));
+            "no pipe could be created to read the file in a child process: {}.", system_reason()));
     const pid_t child = fork();
     if (child == 0) read_and_exit(file);
     const std::string reason = system_reason();
@@ -79,11 +79,11 @@ void try_reading(const std::string& file) {
     close(ends[0]);
     if (child < 0)
         throw Failure(
-            fmt::format("No child process could be started to read the file: {}.", reason));
-    if (stop_signal().load()) throw Interrupted("Stopped while the file was read.");
+            fmt::format("no child process could be started to read the file: {}.", reason));
+    if (stop_signal().load()) throw Interrupted("stopped while the file was read.");
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    // SIGKILL means that memory ran out or that a user ended the child. The parent reads the file
-    // itself.
+    // SIGKILL means that memory ran out or that a user killed the child, not that the file is
+    // damaged.
     if (status == 0 || signal == SIGKILL) return;
     throw Failure(fmt::format("'{}' is damaged: reading it crashes the HDF5 library ({}).", file,
                               signal != 0 ? strsignal(signal) : "its process ended"));

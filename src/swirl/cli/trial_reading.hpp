@@ -1,15 +1,15 @@
-// Recordings of people you do not trust. The HDF5 library is not built for hostile files: a damaged
-// one can crash it. So every command that works on a recording first lets a child process read all
-// of it, and if that crashes, ends with a sentence.
+// Protection against damaged or malicious recordings. Such a file can crash the HDF5 library, which
+// was not written for them. So every command that takes a recording first reads all of it in a
+// child process, and reports an error if that process crashes.
 #pragma once
 
 #include <string>
 
 namespace swirl {
 
-/// Throws Failure if reading the HDF5 file crashes a process, and Interrupted at a signal. Whatever
-/// else is wrong with the file is said by whoever reads it next. Does nothing for a file that is no
-/// HDF5 file. To be called before there are threads.
+/// Throws Failure if reading the HDF5 file crashes the child process, and Interrupted at a signal.
+/// Other errors of the file are left to the caller's own reading. Does nothing if the file is not
+/// an HDF5 file. Call it before any thread is started.
 void try_reading(const std::string& file);
 
 }  // namespace swirl

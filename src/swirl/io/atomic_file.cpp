@@ -20,28 +20,31 @@
 namespace swirl {
 namespace {
 
-/// Sixteen characters that nobody else has thought of, whatever the machine, the container and the
-/// number of the process are called.
+constexpr std::size_t random_digits = 16;
+/// What follows the name of the target in a temporary name: a dot, random digits and the suffix.
+constexpr std::size_t temporary_suffix_size = 1 + random_digits + partial_suffix.size();
+
+/// Hexadecimal digits that differ between all processes on all machines that share a folder.
 std::string random_name() {
     std::uint64_t bits = 0;
     if (::getrandom(&bits, sizeof bits, 0) != sizeof bits)
-        throw FileError(fmt::format("The system gave no random number: {}.", system_reason()));
+        throw FileError(fmt::format("the system gave no random number: {}.", system_reason()));
     return fmt::format("{:016x}", bits);
 }
 
-/// NAME.<sixteen hexadecimal digits>.partial
-bool is_aside_of(std::string_view name, std::string_view target) {
-    const std::size_t size = target.size() + 1 + 16 + partial_suffix.size();
-    if (name.size() != size || !name.starts_with(target) || !name.ends_with(partial_suffix) ||
-        name[target.size()] != '.')
-        return false;
-    const std::string_view digits = name.substr(target.size() + 1, 16);
-    return digits.find_first_not_of("0123456789abcdef") == digits.npos;
+/// The target that a temporary file belongs to, "" if the name is not that of a temporary file.
+std::string target_of(const std::string& name) {
+    if (name.size() <= temporary_suffix_size || !name.ends_with(partial_suffix)) return "";
+    const std::size_t end = name.size() - temporary_suffix_size;
+    const std::string digits = name.substr(end + 1, random_digits);
+    const bool is_temporary =
+        name[end] == '.' && digits.find_first_not_of("0123456789abcdef") == digits.npos;
+    return is_temporary ? name.substr(0, end) : "";
 }
 
-/// False, and errno says why, if it was not done: EEXIST where there is such a name. Some file
-/// systems rename over what is there only, some know no second name of a file; on those that can do
-/// neither nothing is left but to look and to hope.
+/// Renames without replacing. On failure returns false with errno set, EEXIST if the new name is
+/// taken. Not every file system supports RENAME_NOREPLACE, or hard links. With neither, a
+/// concurrent writer can slip in between the test and the rename.
 bool rename_to_new_name(const std::filesystem::path& from, const std::filesystem::path& to) {
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
         return true;
@@ -71,12 +74,12 @@ bool write_at(int file, std::uint64_t offset, std::string_view bytes) {
     return true;
 }
 
-void reject_irregular(const std::filesystem::path& path) {
+void throw_not_regular(const std::filesystem::path& path) {
     std::error_code ignored;
     throw FileError(fmt::format("'{}' is {}.", path.string(),
                                 std::filesystem::is_directory(path, ignored)
-                                    ? "a folder, but it must be the name of a file to read"
-                                    : "not a regular file, but it must be one"));
+                                    ? "a folder, but a file is needed"
+                                    : "not a regular file"));
 }
 
 std::string system_reason() { return std::generic_category().message(errno); }
@@ -84,7 +87,7 @@ std::string system_reason() { return std::generic_category().message(errno); }
 void sync_folder_of(const std::filesystem::path& path) {
     const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // Some file systems know no such wish, and say so.
+    // Some file systems do not support this, and report EINVAL or ENOTSUP.
     const bool done = handle >= 0 && (::fsync(handle) == 0 || errno == EINVAL || errno == ENOTSUP);
     const std::string reason = system_reason();
     if (handle >= 0) ::close(handle);
@@ -92,47 +95,50 @@ void sync_folder_of(const std::filesystem::path& path) {
         throw FileError(fmt::format("'{}' could not be written to: {}.", folder.string(), reason));
 }
 
-SyncTogether::SyncTogether(const std::filesystem::path& folder)
+FilesystemSync::FilesystemSync(const std::filesystem::path& folder)
     : folder_(folder), handle_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (handle_ < 0) fail();
 }
-SyncTogether::~SyncTogether() { ::close(handle_); }
+FilesystemSync::~FilesystemSync() { ::close(handle_); }
 
-void SyncTogether::fail() {
+void FilesystemSync::fail() {
     throw FileError(
         fmt::format("'{}' could not be written to: {}.", folder_.string(), system_reason()));
 }
 
-void SyncTogether::sync() {
+void FilesystemSync::sync() {
     if (::syncfs(handle_) != 0) fail();
 }
 
-void reject_to_replace(const std::filesystem::path& path) {
+void require_replaceable(const std::filesystem::path& path) {
     std::error_code unknown;
     const auto kind = std::filesystem::status(path, unknown).type();
     if (kind == std::filesystem::file_type::regular ||
         kind == std::filesystem::file_type::not_found || kind == std::filesystem::file_type::none)
         return;
-    throw FileError(fmt::format("'{}' is {}, and no file can take its place.", path.string(),
+    throw FileError(fmt::format("'{}' is {} and cannot be replaced by a file.", path.string(),
                                 kind == std::filesystem::file_type::directory
                                     ? "a folder"
                                     : "a device, a pipe or a socket"));
 }
 
-void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path) {
-    reject_to_replace(path);
-    if (::rename(partial.c_str(), path.c_str()) != 0)
-        throw FileError(fmt::format("'{}' could not be renamed to '{}': {}.", partial.string(),
-                                    path.string(), system_reason()));
-    sync_folder_of(path);
+void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to) {
+    require_replaceable(to);
+    if (::rename(from.c_str(), to.c_str()) != 0)
+        throw FileError(fmt::format("'{}' could not be renamed to '{}': {}.", from.string(),
+                                    to.string(), system_reason()));
+    sync_folder_of(to);
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
-    reject_to_replace(path);
-    // Again if the name is taken, or if somebody took the file for a leftover before it was locked.
-    for (int attempt = 0; attempt < 100 && file_ < 0; ++attempt) {
-        aside_ = path.string() + "." + random_name() + std::string(partial_suffix);
-        file_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    require_replaceable(path);
+    // Tries again if the name is taken, or if another process removed the file as a leftover before
+    // it was locked.
+    constexpr int max_attempts = 100;
+    for (int attempt = 0; attempt < max_attempts && file_ < 0; ++attempt) {
+        temporary_ = path.string() + "." + random_name() + std::string(partial_suffix);
+        file_ =
+            ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (file_ < 0 && errno != EEXIST) fail();
         struct stat about;
         if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0 && ::fstat(file_, &about) == 0 &&
@@ -144,7 +150,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
 
 AtomicFile::~AtomicFile() {
     if (file_ < 0) return;
-    ::unlink(aside_.c_str());
+    ::unlink(temporary_.c_str());
     ::close(file_);
 }
 
@@ -152,7 +158,7 @@ void AtomicFile::fail() {
     throw FileError(fmt::format("'{}' could not be written: {}.", path_.string(), system_reason()));
 }
 
-void AtomicFile::empty_buffer() {
+void AtomicFile::flush_buffer() {
     if (!write_at(file_, size_ - buffer_.size(), buffer_)) fail();
     buffer_.clear();
 }
@@ -163,32 +169,32 @@ void AtomicFile::append(std::string_view bytes) {
         size_ += bytes.size();
         return;
     }
-    empty_buffer();
+    flush_buffer();
     if (!write_at(file_, size_, bytes)) fail();
     size_ += bytes.size();
 }
 
 void AtomicFile::replace(std::uint64_t offset, std::string_view bytes) {
-    empty_buffer();
+    flush_buffer();
     if (!write_at(file_, offset, bytes)) fail();
 }
 
 void AtomicFile::finish() {
-    empty_buffer();
+    flush_buffer();
     if (::fsync(file_) != 0) fail();
-    give_name();
+    publish();
     sync_folder_of(path_);
 }
 
-void AtomicFile::give_name() {
-    if (::rename(aside_.c_str(), path_.c_str()) != 0) fail();
+void AtomicFile::publish() {
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
     if (::close(std::exchange(file_, -1)) != 0) fail();
 }
 
 bool AtomicFile::finish_as_new() {
-    empty_buffer();
+    flush_buffer();
     if (::fsync(file_) != 0) fail();
-    if (!rename_to_new_name(aside_, path_)) {
+    if (!rename_to_new_name(temporary_, path_)) {
         if (errno != EEXIST) fail();
         return false;
     }
@@ -209,7 +215,7 @@ bool write_new_file(const std::filesystem::path& path, std::string_view bytes) {
     return file.finish_as_new();
 }
 
-std::filesystem::path free_name(const std::string& first) {
+std::filesystem::path unused_name(const std::string& first) {
     std::filesystem::path name = first;
     std::error_code ignored;
     for (int k = 2; std::filesystem::exists(name, ignored); ++k)
@@ -217,7 +223,7 @@ std::filesystem::path free_name(const std::string& first) {
     return name;
 }
 
-void write_named_file(const std::filesystem::path& path, std::string_view bytes) {
+void write_file_and_clean_up(const std::filesystem::path& path, std::string_view bytes) {
     write_file_atomically(path, bytes);
     remove_leftovers_of(path);
 }
@@ -243,17 +249,17 @@ std::string read_to_the_end(int file, const std::filesystem::path& path, std::si
 
 std::string read_file(const std::filesystem::path& path, bool regular_only,
                       std::size_t maximum = std::string::npos - 1) {
-    // A pipe that nobody writes to would keep us waiting in open().
+    // Without O_NONBLOCK, open() waits for a writer if the file is a pipe.
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | (regular_only ? O_NONBLOCK : 0));
     if (file < 0)
         throw FileError(
             fmt::format("'{}' could not be opened: {}.", path.string(), system_reason()));
     const auto close = [](const int* open) { ::close(*open); };
-    const std::unique_ptr<const int, decltype(close)> closed_in_the_end(&file, close);
+    const std::unique_ptr<const int, decltype(close)> closed_on_return(&file, close);
     struct stat about;
     const bool known = ::fstat(file, &about) == 0;
     if (known && (S_ISDIR(about.st_mode) || (regular_only && !S_ISREG(about.st_mode))))
-        reject_irregular(path);
+        throw_not_regular(path);
     return read_to_the_end(file, path, maximum);
 }
 
@@ -264,33 +270,31 @@ std::string read_whole_file(const std::filesystem::path& path, std::size_t maxim
 }
 std::string read_regular_file(const std::filesystem::path& path) { return read_file(path, true); }
 
-std::string first_bytes(const std::filesystem::path& path) {
+std::string file_signature(const std::filesystem::path& path) {
     std::error_code unknown;
     if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
-        reject_irregular(path);
+        throw_not_regular(path);
+    constexpr std::size_t size = 8;
     std::ifstream stream(path, std::ios::binary);
-    if (!stream) throw FileError(fmt::format("'{}' cannot be opened.", path.string()));
-    std::string bytes(8, '\0');
-    stream.read(bytes.data(), 8);
+    if (!stream) throw FileError(fmt::format("'{}' could not be opened.", path.string()));
+    std::string bytes(size, '\0');
+    stream.read(bytes.data(), size);
     bytes.resize(static_cast<std::size_t>(stream.gcount()));
     return bytes;
 }
 
 namespace {
 
-/// `name`: only what was to become that file.
-void remove_leftovers_in(const std::filesystem::path& folder, std::string_view name) {
+/// Removes the leftovers of one target, or of all if `target` is empty.
+void remove_leftovers_in(const std::filesystem::path& folder, std::string_view target) {
     std::error_code error;
     for (std::filesystem::directory_iterator it(folder.empty() ? "." : folder, error), end;
          !error && it != end; it.increment(error)) {
-        const std::string found = it->path().filename().string();
-        const std::size_t tail = 1 + 16 + partial_suffix.size();
-        if (found.size() <= tail) continue;
-        const std::string target = found.substr(0, found.size() - tail);
-        if (!is_aside_of(found, target) || (!name.empty() && target != name)) continue;
+        const std::string found = target_of(it->path().filename().string());
+        if (found.empty() || (!target.empty() && found != target)) continue;
         const int file = ::open(it->path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (file < 0) continue;
-        // Whoever still writes it has it locked.
+        // A living writer holds the lock.
         if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(it->path().c_str());
         ::close(file);
     }

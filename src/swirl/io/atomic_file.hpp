@@ -1,8 +1,10 @@
-// Files that are there whole or not at all. The bytes go to a file beside the target, onto the
-// disk, and only then under the final name; so a reader, a second writer, a kill or a power cut
-// finds the old file or the new one, never a part. Two writers at once each use a name of their
-// own, NAME.<random>.partial, locked as long as they write, and the last rename wins. What a kill
-// left behind under such a name has no lock any more: remove_leftovers().
+// Atomic writes. The bytes go to a temporary file next to the target, then to the disk, and only
+// then under the final name. So a reader, a second writer, a kill or a power cut finds the old file
+// or the new one, never a part of it.
+//
+// Concurrent writers of one target use different temporary names, NAME.<random>.partial, and hold a
+// lock on them while they write; the last rename wins. A temporary file without a lock was left by
+// a writer that was killed: see remove_leftovers().
 #pragma once
 
 #include <cstdint>
@@ -12,83 +14,83 @@
 
 namespace swirl {
 
-/// A file written piece by piece. Throws FileError, leaving what was there.
+/// A file that is written piece by piece and then published. Its functions throw FileError, and
+/// then the target is as it was.
 class AtomicFile {
   public:
     explicit AtomicFile(const std::filesystem::path& path);
-    ~AtomicFile();  // unfinished: nothing is left
+    ~AtomicFile();  // removes the temporary file if it was not published
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
     void append(std::string_view bytes);
-    /// Changes bytes that have been appended.
+    /// Overwrites bytes that have been appended.
     void replace(std::uint64_t offset, std::string_view bytes);
     std::uint64_t size() const { return size_; }
-    /// Onto the disk, and under its name.
+    /// Brings the bytes onto the disk and publishes the file.
     void finish();
 
-    /// The two halves of finish(), for who brings many files onto the disk at once in between.
-    void empty_buffer();
-    void give_name();
+    /// The two parts of finish(), for callers that sync many files at once in between.
+    void flush_buffer();
+    void publish();
 
-    /// As finish(), but under a name that nobody has: false if somebody has it.
+    /// Like finish(), but never replaces a file: returns false if the target exists.
     bool finish_as_new();
 
   private:
     [[noreturn]] void fail();
 
-    std::filesystem::path path_, aside_;
+    std::filesystem::path path_, temporary_;
     std::string buffer_;
     std::uint64_t size_ = 0;
     int file_ = -1;
 };
 
-/// All at once.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
-/// The same for a file of which there are few in a folder, as somebody named it: what killed
-/// writers left of it goes, too.
-void write_named_file(const std::filesystem::path& path, std::string_view bytes);
+/// Like write_file_atomically(), and also removes temporary files of this target that killed
+/// writers left. It lists the folder, so it is meant for folders with few files.
+void write_file_and_clean_up(const std::filesystem::path& path, std::string_view bytes);
 
-/// The same under a name that nobody has: false, and nothing is done, if somebody has it, or came
-/// first at the same instant.
+/// Writes atomically, but only if no file has this name: otherwise returns false. Of several
+/// concurrent calls, one succeeds.
 bool write_new_file(const std::filesystem::path& path, std::string_view bytes);
-/// NAME, or NAME-2, -3, …: the first that is not there.
-std::filesystem::path free_name(const std::string& name);
+/// NAME, NAME-2, NAME-3, …: the first that does not exist.
+std::filesystem::path unused_name(const std::string& name);
 
-/// Throws FileError when it cannot be read. Of a file that is longer it reads one byte more than
-/// `most`, however long it is: a device may never end.
+/// Reads a file to its end. Of a file longer than `maximum` it reads maximum + 1 bytes, since a
+/// device may never end. Throws FileError.
 std::string read_whole_file(const std::filesystem::path& path,
                             std::size_t maximum = std::string::npos - 1);
-/// The same, but throws for pipes, devices and the like, which may never end.
+/// Like read_whole_file(), but also throws for pipes, devices and the like.
 std::string read_regular_file(const std::filesystem::path& path);
-/// What a file begins with, by which it is told what it is: eight bytes or as many as there are.
-/// Throws as read_regular_file() does.
-std::string first_bytes(const std::filesystem::path& path);
+/// The first eight bytes of a regular file (or fewer, if it is shorter), which identify its format.
+/// Throws like read_regular_file().
+std::string file_signature(const std::filesystem::path& path);
 
-/// Removes what writers that were killed left in a folder.
+/// Removes temporary files in a folder that killed writers left.
 void remove_leftovers(const std::filesystem::path& folder);
-/// Only what was to become that file.
+/// Removes only temporary files of this target.
 void remove_leftovers_of(const std::filesystem::path& path);
 
-/// The end of the name under which a file is written until it is complete.
+/// Suffix of the name of a file that is not complete yet.
 inline constexpr std::string_view partial_suffix = ".partial";
 
-/// Throws FileError if something stands there that no file may take the place of: who is allowed to
-/// would lose a device or a pipe for good. The writers here ask it; who computes for long before he
-/// writes asks it at once.
-void reject_to_replace(const std::filesystem::path& path);
+/// Throws FileError if something other than a regular file has this name: a rename would replace a
+/// device or a pipe for good. The writers here check it; check it before a long computation, too.
+void require_replaceable(const std::filesystem::path& path);
 
-/// Gives a finished file its final name, on the disk too. Throws FileError.
-void give_final_name(const std::filesystem::path& partial, const std::filesystem::path& path);
+/// Renames a file so that the new name survives a power cut. Throws FileError.
+void rename_durably(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Brings many files of a folder onto the disk at once. To be made before they are written: it is
-/// told of every failure from then on. Throws FileError.
-class SyncTogether {
+/// Brings all files of a file system onto the disk with one call. Create it before the files are
+/// written, because the system reports a write error only to those who had it open then. Throws
+/// FileError.
+class FilesystemSync {
   public:
-    explicit SyncTogether(const std::filesystem::path& folder);
-    ~SyncTogether();
-    SyncTogether(const SyncTogether&) = delete;
-    SyncTogether& operator=(const SyncTogether&) = delete;
+    explicit FilesystemSync(const std::filesystem::path& folder);
+    ~FilesystemSync();
+    FilesystemSync(const FilesystemSync&) = delete;
+    FilesystemSync& operator=(const FilesystemSync&) = delete;
     void sync();
 
   private:
@@ -100,13 +102,14 @@ class SyncTogether {
 /// Brings the names in the folder of `path` onto the disk. Throws FileError.
 void sync_folder_of(const std::filesystem::path& path);
 
-/// Throws FileError that says what stands there in place of a regular file.
-[[noreturn]] void reject_irregular(const std::filesystem::path& path);
+/// Throws FileError: `path` is a folder, a pipe or the like instead of a regular file.
+[[noreturn]] void throw_not_regular(const std::filesystem::path& path);
 
-/// Why the last system call failed, in words.
+/// The error message of the last system call.
 std::string system_reason();
 
-/// All of it, however often the system has to be asked; false if it refuses, errno says why.
+/// Writes all bytes, in as many system calls as it takes. Returns false on an error, with errno
+/// set.
 bool write_at(int file, std::uint64_t offset, std::string_view bytes);
 
 }  // namespace swirl

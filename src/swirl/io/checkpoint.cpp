@@ -13,7 +13,7 @@
 namespace swirl {
 namespace {
 
-constexpr std::string_view this_kind = "swirl checkpoint ";
+constexpr std::string_view signature = "swirl checkpoint ";
 constexpr std::string_view first_line = "swirl checkpoint 8\n";
 
 std::string number(std::uint64_t n) { return {reinterpret_cast<const char*>(&n), sizeof n}; }
@@ -46,20 +46,20 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
     const std::string bytes = read_regular_file(path);
     std::string_view rest = bytes;
-    const auto reject = [&](const std::string& why) {
-        throw FileError(fmt::format("'{}' {}.", path.string(), why));
+    const auto reject = [&](const std::string& problem) {
+        throw FileError(fmt::format("'{}' {}.", path.string(), problem));
     };
-    if (!rest.starts_with(this_kind)) reject("is not a checkpoint of swirl");
+    if (!rest.starts_with(signature)) reject("is not a checkpoint of swirl");
     const std::size_t line = rest.find('\n');
     if (rest.substr(0, line + 1) != first_line)
         reject(fmt::format(
-            "is a checkpoint in format {}, but this program reads format {}; resume it with the "
-            "program that wrote it",
-            rest.substr(this_kind.size(), std::min<std::size_t>(line, 40) - this_kind.size()),
-            first_line.substr(this_kind.size(), first_line.size() - this_kind.size() - 1)));
-    const std::string damaged =
-        "is damaged: its checksum does not fit its content; it was cut off or changed";
-    if (rest.size() < first_line.size() + 24) reject(damaged);
+            "is a checkpoint of format {}, but this program reads format {}.\nhint: resume it with "
+            "the program that wrote it",
+            rest.substr(signature.size(), std::min<std::size_t>(line, 40) - signature.size()),
+            first_line.substr(signature.size(), first_line.size() - signature.size() - 1)));
+    const std::string damaged = "is damaged: its checksum does not match its content";
+    constexpr std::size_t numbers_size = 3 * sizeof(std::uint64_t);  // two lengths, checksum
+    if (rest.size() < first_line.size() + numbers_size) reject(damaged);
     const std::uint64_t written = number_at(rest.substr(rest.size() - 8));
     rest.remove_suffix(8);
     if (checksum(rest) != written) reject(damaged);

@@ -1,12 +1,13 @@
-// A run interrupted between two events: enough to go on bit for bit. Not the queue of the events to
-// come, which is rebuilt: a prediction depends only on the states of the two partners.
+// The state of a run between two events. A run that is continued from it is bitwise identical to
+// one that was not interrupted. The event queue is not stored but rebuilt: a prediction depends
+// only on the states of its two partners.
 //
 //   swirl checkpoint 8 NEWLINE
-//   u64 length, JSON: what run it is ("about")
-//   u64 length, bytes: discs, clock, counters, and the sums behind the averages (state_archive.hpp)
+//   u64 length, JSON: identity of the run ("about")
+//   u64 length, bytes: discs, clock, counters, and the sums of the averages (state_archive.hpp)
 //   u64 CRC-64 of everything before
 //
-// Written aside, onto the disk, and renamed; so there is the last checkpoint or the new one.
+// A checkpoint is written atomically: there is always the old one or the new one.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +22,7 @@ struct Checkpoint {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// Throws FileError, with a sentence about what is wrong, if it is damaged, cut off, of another
-/// version, or no checkpoint at all.
+/// Throws FileError if the file is damaged, truncated, of another version, or not a checkpoint.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 }  // namespace swirl

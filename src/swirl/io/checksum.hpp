@@ -1,6 +1,5 @@
-// CRC-64 of a string of bytes (the ECMA-182 polynomial, reflected; as in xz: the checksum of
-// "123456789" is 995dc9bbdf1939fa). It tells a damaged file from a whole one; it is no defence
-// against malice.
+// CRC-64 with the reflected ECMA-182 polynomial, as in xz: the checksum of "123456789" is
+// 995dc9bbdf1939fa. It detects damaged files. It does not protect against deliberate changes.
 #pragma once
 
 #include <array>
@@ -20,7 +19,7 @@ constexpr CrcTables make_crc_tables() {
         for (int bit = 0; bit < 8; ++bit) c = (c >> 1) ^ ((c & 1) ? 0xC96C5795D7870F42ull : 0ull);
         t[0][byte] = c;
     }
-    // t[k] is the byte followed by k zero bytes: eight bytes in one step.
+    // t[k][b] is the checksum of byte b followed by k zero bytes. So eight bytes take one step.
     for (std::size_t k = 1; k < 8; ++k)
         for (std::size_t byte = 0; byte < 256; ++byte)
             t[k][byte] = t[0][t[k - 1][byte] & 255] ^ (t[k - 1][byte] >> 8);

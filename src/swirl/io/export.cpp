@@ -11,6 +11,7 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/h5md.hpp"
 #include "swirl/io/trajectory.hpp"
 
 namespace swirl {
@@ -18,40 +19,36 @@ namespace {
 
 using Text = fmt::memory_buffer;
 
-std::string_view view(const Text& text) { return {text.data(), text.size()}; }
-
 template <class... Parts>
 void add(Text& text, fmt::format_string<Parts...> format, Parts&&... parts) {
     fmt::format_to(std::back_inserter(text), format, std::forward<Parts>(parts)...);
 }
 
-double known(double value) { return std::isnan(value) ? 0.0 : value; }
-
-/// Discs of one radius and mass are one species, numbered in order of appearance.
-std::vector<int> species_of(const Snapshot& s, int& count) {
-    std::vector<std::pair<double, double>> kinds;
-    std::vector<int> species(s.size());
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        const std::pair kind(s.radius[i], s.mass[i]);
-        const auto found = std::find(kinds.begin(), kinds.end(), kind);
-        species[i] = int(found - kinds.begin());
-        if (found == kinds.end()) kinds.push_back(kind);
-    }
-    count = std::max(1, int(kinds.size()));
-    return species;
-}
+/// Unknown values are NaN in a snapshot; formats without a missing value get 0.
+double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
 
 template <class Write>
 void write_frames(const SnapshotSeries& series, const ExportOptions& options, Write&& write) {
-    const std::uint64_t count = exported_frames(series, options);
+    const std::uint64_t count = exported_frames(series.frames, options);
     for (std::uint64_t n = 0; n < count; ++n) {
         const std::uint64_t k = options.first + n * options.stride;
         write(k, series.frame(k));
-        if (options.done) options.done(n + 1);
+        if (options.on_frame) options.on_frame(n + 1);
     }
 }
 
-/// Of which everything is known: a recording of ours.
+/// Appends the text that format(text, k, snapshot) adds for each frame k.
+template <class Format>
+void write_text_frames(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options,
+                       Format&& format) {
+    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
+        Text text;
+        format(text, k, s);
+        file.append({text.data(), text.size()});
+    });
+}
+
+/// Whether the frames are of spheres or coins with known orientations, as in a recorded run.
 bool has_spheres(const SnapshotSeries& series) {
     if (series.frames == 0) return false;
     const Snapshot first = series.frame(0);
@@ -59,10 +56,8 @@ bool has_spheres(const SnapshotSeries& series) {
 }
 
 void write_lammps(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
-    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
-        int kinds;
-        const std::vector<int> species = species_of(s, kinds);
-        Text text;
+    write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& s) {
+        const auto species = h5md::species_of(s.radius, s.mass);
         add(text, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", k,
             s.size());
         add(text, "{} {}\n{} {}\n-1 1\n", -series.reach, series.reach, -series.reach, series.reach);
@@ -71,10 +66,10 @@ void write_lammps(const SnapshotSeries& series, AtomicFile& file, const ExportOp
             : s.turned.empty() ? "omegaz omegax omegay"
                                : "omegaz omegax omegay quatw quati quatj quatk");
         for (std::size_t i = 0; i < s.size(); ++i) {
-            options.listen_at(i);
+            options.check_stop_at(i);
             const Vec2 p = s.position(i);
             add(text, "{} {} {} {} 0 {} {} 0 {} {} {}", i + 1, species[i] + 1, p.x, p.y, s.vx[i],
-                s.vy[i], s.radius[i], s.mass[i], known(s.spin[i]));
+                s.vy[i], s.radius[i], s.mass[i], or_zero(s.spin[i]));
             if (s.are_spheres()) add(text, " {} {}", s.spin_x[i], s.spin_y[i]);
             if (!s.turned.empty()) {
                 const Quaternion q = s.quaternion(i);
@@ -82,52 +77,46 @@ void write_lammps(const SnapshotSeries& series, AtomicFile& file, const ExportOp
             }
             add(text, "\n");
         }
-        file.append(view(text));
     });
 }
 
 void write_xyz(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
-    write_frames(series, options, [&](std::uint64_t, const Snapshot& s) {
-        int kinds;
-        const std::vector<int> species = species_of(s, kinds);
-        Text text;
+    write_text_frames(series, file, options, [&](Text& text, std::uint64_t, const Snapshot& s) {
+        const auto species = h5md::species_of(s.radius, s.mass);
         add(text,
             "{}\nProperties=species:S:1:pos:R:3:velo:R:3:omega:R:{}:radius:R:1:id:I:1{} Time={} "
             "pbc=\"F F F\"\n",
             s.size(), s.are_spheres() ? 3 : 1, s.turned.empty() ? "" : ":orientation:R:4",
             s.time());
         for (std::size_t i = 0; i < s.size(); ++i) {
-            options.listen_at(i);
+            options.check_stop_at(i);
             const Vec2 p = s.position(i);
             add(text, "D{} {} {} 0 {} {} 0 ", species[i] + 1, p.x, p.y, s.vx[i], s.vy[i]);
             if (s.are_spheres()) add(text, "{} {} ", s.spin_x[i], s.spin_y[i]);
-            add(text, "{} {} {}", known(s.spin[i]), s.radius[i], i + 1);
+            add(text, "{} {} {}", or_zero(s.spin[i]), s.radius[i], i + 1);
             if (!s.turned.empty()) {
                 const Quaternion q = s.quaternion(i);
-                add(text, " {} {} {} {}", q.x, q.y, q.z, q.w);  // as OVITO has them
+                add(text, " {} {} {} {}", q.x, q.y, q.z, q.w);  // the order of OVITO
             }
             add(text, "\n");
         }
-        file.append(view(text));
     });
 }
 
 void write_csv(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     file.append("frame,particle,x,y\n");
-    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
-        Text text;
+    write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& s) {
         for (std::size_t i = 0; i < s.size(); ++i) {
-            options.listen_at(i);
+            options.check_stop_at(i);
             const Vec2 p = s.position(i);
             add(text, "{},{},{},{}\n", k, i, (series.reach + p.x) * options.pixels_per_radius,
                 (series.reach - p.y) * options.pixels_per_radius);
         }
-        file.append(view(text));
     });
 }
 
-/// What is not known is an empty cell.
-void add_known(Text& text, double value) {
+/// Unknown values become empty cells.
+void add_cell(Text& text, double value) {
     if (std::isnan(value))
         add(text, ",");
     else
@@ -137,28 +126,26 @@ void add_known(Text& text, double value) {
 void write_table(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     const bool spheres = has_spheres(series);
     file.append(
-        "frame,time (r/v),swirls,container x (r),container y (r),disc,x (r),y (r),v_x (v),v_y (v),"
+        "frame,time (r/v),periods,container x (r),container y (r),disc,x (r),y (r),v_x (v),v_y (v),"
         "angle (rad),spin (v/r),radius (r),mass (m),moment of inertia (m r²)");
     if (spheres) file.append(",spin x (v/r),spin y (v/r),turned w,turned x,turned y,turned z");
     file.append("\n");
-    write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
-        Text text;
+    write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& s) {
         for (std::size_t i = 0; i < s.size(); ++i) {
-            options.listen_at(i);
+            options.check_stop_at(i);
             const Vec2 p = s.position(i);
             add(text, "{},{},{},{},{},{},{},{}", k, s.time(),
                 double(s.periods) + s.clock / s.period, s.container_centre.x, s.container_centre.y,
                 i, p.x, p.y);
             for (const double value : {s.vx[i], s.vy[i], s.orientation(i), s.spin[i], s.radius[i],
                                        s.mass[i], s.inertia[i]})
-                add_known(text, value);
+                add_cell(text, value);
             if (spheres) {
                 const Quaternion q = s.quaternion(i);
                 add(text, ",{},{},{},{},{},{}", s.spin_x[i], s.spin_y[i], q.w, q.x, q.y, q.z);
             }
             add(text, "\n");
         }
-        file.append(view(text));
     });
 }
 
@@ -255,8 +242,8 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
-/// The frames, under their names; what the index says of them. Those of a call that fails are
-/// removed.
+/// Writes and publishes the frames, and returns the content of the index. If it fails, removes the
+/// frames that it wrote.
 std::string write_vtp_frames(const SnapshotSeries& series, const std::filesystem::path& folder,
                              const ExportOptions& options) {
     std::vector<std::filesystem::path> written;
@@ -265,13 +252,13 @@ std::string write_vtp_frames(const SnapshotSeries& series, const std::filesystem
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
         "byte_order=\"LittleEndian\">\n<Collection>\n");
     try {
-        SyncTogether frames(folder);
+        FilesystemSync frames(folder);  // one sync before the index, not one per frame
         write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
             const std::string name = fmt::format("{:06}.vtp", k);
-            AtomicFile frame(folder / name);  // the index waits for the disk, not each frame
+            AtomicFile frame(folder / name);
             frame.append(vtp_of(s));
-            frame.empty_buffer();
-            frame.give_name();
+            frame.flush_buffer();
+            frame.publish();
             written.push_back(folder / name);
             add(index, "<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", s.time(),
                 escaped(folder.filename().string()), name);
@@ -280,15 +267,15 @@ std::string write_vtp_frames(const SnapshotSeries& series, const std::filesystem
     } catch (...) {
         std::error_code ignored;
         for (const auto& frame : written) std::filesystem::remove(frame, ignored);
-        std::filesystem::remove(folder, ignored);  // unless something else is in it
+        std::filesystem::remove(folder, ignored);  // fails if other files are in it
         throw;
     }
     add(index, "</Collection>\n</VTKFile>\n");
     return fmt::to_string(index);
 }
 
-/// The index goes first, if there is one, and comes last: it never names a frame that is not there,
-/// or is of another recording.
+/// An existing index is removed first, and the new one is written last. So an index never refers to
+/// frames that are missing or belong to another recording.
 void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
                const ExportOptions& options) {
     std::filesystem::path folder = path;
@@ -297,12 +284,12 @@ void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error)
-        throw FileError(fmt::format("The folder '{}' could not be made: {}.", folder.string(),
+        throw FileError(fmt::format("the folder '{}' could not be created: {}.", folder.string(),
                                     error.message()));
     remove_leftovers(folder);
-    reject_to_replace(path);
+    require_replaceable(path);
     std::filesystem::remove(path, error);
-    write_named_file(path, write_vtp_frames(series, folder, options));
+    write_file_and_clean_up(path, write_vtp_frames(series, folder, options));
 }
 
 // --- GSD (gsd.readthedocs.io, "File layer", version 2.0) -----------------------------------------
@@ -342,7 +329,7 @@ class GsdWriter {
     GsdWriter(AtomicFile& file, bool of_spheres) : file_(file) {
         file_.append({reinterpret_cast<const char*>(&header_), sizeof header_});
         std::string list;
-        // A name that is there must have values.
+        // Readers expect values for every name in the list.
         for (const char* name : std::span(names).first(names.size() - (of_spheres ? 0 : 1)))
             list += name + std::string(1, '\0');
         header_.namelist_location = file_.size();
@@ -360,7 +347,7 @@ class GsdWriter {
     }
     void end_frame() { ++frame_; }
     void finish() {
-        // Readers look entries up by bisection; the spare one at the end marks the end.
+        // Readers find entries by bisection. A zero entry marks the end.
         std::stable_sort(entries_.begin(), entries_.end(), [](const auto& a, const auto& b) {
             return a.frame != b.frame ? a.frame < b.frame : a.id < b.id;
         });
@@ -395,70 +382,74 @@ class GsdWriter {
     std::uint64_t frame_ = 0;
 };
 
-/// As HOOMD has it: 2 q L, L = q̄ (I ω) q in the body's own axes, that is 2 (I ω) q. Zero where the
-/// spin or the moment of inertia is not known.
+/// HOOMD's angular momentum, the quaternion 2 q L with L = q̄ (I ω) q in the body's axes; this
+/// equals 2 (I ω) q. Zero if the spin or the moment of inertia is unknown.
 Quaternion angular_momentum(const Snapshot& s, std::size_t i, const Quaternion& q) {
-    const double twice = 2.0 * known(s.inertia[i]);
+    const double twice = 2.0 * or_zero(s.inertia[i]);
     const Vec2 rolling = s.are_spheres() ? Vec2{s.spin_x[i], s.spin_y[i]} : Vec2{0.0, 0.0};
-    return Quaternion{0.0, twice * rolling.x, twice * rolling.y, twice * known(s.spin[i])} * q;
+    return Quaternion{0.0, twice * rolling.x, twice * rolling.y, twice * or_zero(s.spin[i])} * q;
+}
+
+/// Species, masses, sizes and moments of inertia.
+void add_constants(GsdWriter& gsd, const Snapshot& s) {
+    constexpr std::uint32_t name_size = 15;
+    const auto species = h5md::species_of(s.radius, s.mass);
+    const auto last = species.empty() ? 0 : *std::max_element(species.begin(), species.end());
+    std::vector<char> types;
+    for (std::int64_t k = 0; k <= last; ++k)
+        for (const char c : fmt::format("D{:<14}", k + 1)) types.push_back(c == ' ' ? '\0' : c);
+    std::vector<float> mass(s.mass.begin(), s.mass.end()), diameter, inertia;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        diameter.push_back(float(2.0 * s.radius[i]));
+        const float about_z = float(or_zero(s.inertia[i]));
+        const float about_xy = s.are_balls() ? about_z : 0.0f;
+        inertia.insert(inertia.end(), {about_xy, about_xy, about_z});
+    }
+    gsd.add("particles/types", gsd_i8, types, name_size);
+    gsd.add("particles/typeid", gsd_u32, std::vector<std::uint32_t>(species.begin(), species.end()),
+            1);
+    gsd.add("particles/mass", gsd_f32, mass, 1);
+    gsd.add("particles/diameter", gsd_f32, diameter, 1);
+    gsd.add("particles/moment_inertia", gsd_f32, inertia, 3);
+}
+
+void add_motion(GsdWriter& gsd, const Snapshot& s) {
+    std::vector<float> position, orientation, velocity, momentum;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 p = s.position(i);
+        const double half = 0.5 * or_zero(s.orientation(i));
+        const Quaternion q = s.turned.empty() ? Quaternion{std::cos(half), 0.0, 0.0, std::sin(half)}
+                                              : s.quaternion(i);
+        position.insert(position.end(), {float(p.x), float(p.y), 0.0f});
+        orientation.insert(orientation.end(), {float(q.w), float(q.x), float(q.y), float(q.z)});
+        velocity.insert(velocity.end(), {float(s.vx[i]), float(s.vy[i]), 0.0f});
+        const Quaternion L = angular_momentum(s, i, q);
+        momentum.insert(momentum.end(), {float(L.w), float(L.x), float(L.y), float(L.z)});
+    }
+    gsd.add("particles/position", gsd_f32, position, 3);
+    gsd.add("particles/orientation", gsd_f32, orientation, 4);
+    gsd.add("particles/velocity", gsd_f32, velocity, 3);
+    gsd.add("particles/angmom", gsd_f32, momentum, 4);
+    gsd.add("log/particles/angular_velocity", gsd_f64, s.spin, 1);
+    if (!s.are_spheres()) return;
+    std::vector<double> rolling;
+    for (std::size_t i = 0; i < s.size(); ++i)
+        rolling.insert(rolling.end(), {s.spin_x[i], s.spin_y[i]});
+    gsd.add("log/particles/rolling_spin", gsd_f64, rolling, 2);
 }
 
 void write_gsd(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     GsdWriter gsd(file, has_spheres(series));
     const float width = float(2.0 * series.reach);
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
-        const std::size_t n = s.size();
         gsd.add("configuration/step", gsd_u64, std::vector<std::uint64_t>{k}, 1);
         if (k == options.first) {
             gsd.add("configuration/dimensions", gsd_u8, std::vector<std::uint8_t>{2}, 1);
             gsd.add("configuration/box", gsd_f32, std::vector<float>{width, width, 1, 0, 0, 0}, 1);
         }
-        gsd.add("particles/N", gsd_u32, std::vector<std::uint32_t>{std::uint32_t(n)}, 1);
-        if (k == options.first || !series.same_discs()) {
-            int kinds;
-            const std::vector<int> species = species_of(s, kinds);
-            std::vector<char> types;
-            for (int kind = 0; kind < kinds; ++kind)
-                for (const char c : fmt::format("D{:<14}", kind + 1))
-                    types.push_back(c == ' ' ? '\0' : c);
-            gsd.add("particles/types", gsd_i8, types, 15);
-            gsd.add("particles/typeid", gsd_u32,
-                    std::vector<std::uint32_t>(species.begin(), species.end()), 1);
-            std::vector<float> mass(s.mass.begin(), s.mass.end()), diameter, inertia;
-            for (std::size_t i = 0; i < n; ++i) {
-                diameter.push_back(float(2.0 * s.radius[i]));
-                const float about_z = float(known(s.inertia[i]));
-                const float about_xy = s.are_balls() ? about_z : 0.0f;
-                inertia.insert(inertia.end(), {about_xy, about_xy, about_z});
-            }
-            gsd.add("particles/mass", gsd_f32, mass, 1);
-            gsd.add("particles/diameter", gsd_f32, diameter, 1);
-            gsd.add("particles/moment_inertia", gsd_f32, inertia, 3);
-        }
-        std::vector<float> position, orientation, velocity, momentum;
-        for (std::size_t i = 0; i < n; ++i) {
-            const Vec2 p = s.position(i);
-            const double half = 0.5 * known(s.orientation(i));
-            const Quaternion q = s.turned.empty()
-                                     ? Quaternion{std::cos(half), 0.0, 0.0, std::sin(half)}
-                                     : s.quaternion(i);
-            position.insert(position.end(), {float(p.x), float(p.y), 0.0f});
-            orientation.insert(orientation.end(), {float(q.w), float(q.x), float(q.y), float(q.z)});
-            velocity.insert(velocity.end(), {float(s.vx[i]), float(s.vy[i]), 0.0f});
-            const Quaternion L = angular_momentum(s, i, q);
-            momentum.insert(momentum.end(), {float(L.w), float(L.x), float(L.y), float(L.z)});
-        }
-        gsd.add("particles/position", gsd_f32, position, 3);
-        gsd.add("particles/orientation", gsd_f32, orientation, 4);
-        gsd.add("particles/velocity", gsd_f32, velocity, 3);
-        gsd.add("particles/angmom", gsd_f32, momentum, 4);
-        gsd.add("log/particles/angular_velocity", gsd_f64, s.spin, 1);
-        if (s.are_spheres()) {
-            std::vector<double> rolling;
-            for (std::size_t i = 0; i < n; ++i)
-                rolling.insert(rolling.end(), {s.spin_x[i], s.spin_y[i]});
-            gsd.add("log/particles/rolling_spin", gsd_f64, rolling, 2);
-        }
+        gsd.add("particles/N", gsd_u32, std::vector<std::uint32_t>{std::uint32_t(s.size())}, 1);
+        if (k == options.first || !series.same_discs()) add_constants(gsd, s);
+        add_motion(gsd, s);
         gsd.add("log/time", gsd_f64, std::vector<double>{s.time()}, 1);
         gsd.end_frame();
     });
@@ -466,8 +457,8 @@ void write_gsd(const SnapshotSeries& series, AtomicFile& file, const ExportOptio
 }
 
 template <auto write>
-void whole_file(const SnapshotSeries& series, const std::filesystem::path& path,
-                const ExportOptions& options) {
+void write_single_file(const SnapshotSeries& series, const std::filesystem::path& path,
+                       const ExportOptions& options) {
     AtomicFile file(path);
     write(series, file, options);
     file.finish();
@@ -475,12 +466,12 @@ void whole_file(const SnapshotSeries& series, const std::filesystem::path& path,
 }
 
 constexpr std::array formats{
-    ExportFormat{"lammps", ".dump", "text dump, for OVITO, VMD", whole_file<write_lammps>},
-    ExportFormat{"xyz", ".xyz", "extended, for OVITO, ASE", whole_file<write_xyz>},
+    ExportFormat{"lammps", ".dump", "OVITO, VMD, MDAnalysis", write_single_file<write_lammps>},
+    ExportFormat{"xyz", ".xyz", "extended XYZ: OVITO, ASE", write_single_file<write_xyz>},
     ExportFormat{"vtp", ".pvd", "ParaView, VTK", write_vtp},
-    ExportFormat{"csv", ".csv", "trackpy, in pixels", whole_file<write_csv>},
-    ExportFormat{"table", ".csv", "CSV of everything, in units of a run", whole_file<write_table>},
-    ExportFormat{"gsd", ".gsd", "HOOMD", whole_file<write_gsd>},
+    ExportFormat{"csv", ".csv", "pixels, as in trackpy", write_single_file<write_csv>},
+    ExportFormat{"table", ".csv", "CSV with all quantities", write_single_file<write_table>},
+    ExportFormat{"gsd", ".gsd", "HOOMD", write_single_file<write_gsd>},
 };
 
 }  // namespace
@@ -493,8 +484,8 @@ const ExportFormat* export_format(std::string_view name) {
     return nullptr;
 }
 
-std::uint64_t exported_frames(const SnapshotSeries& series, const ExportOptions& options) {
-    const std::uint64_t end = options.last < series.frames ? options.last + 1 : series.frames;
+std::uint64_t exported_frames(std::uint64_t frames, const ExportOptions& options) {
+    const std::uint64_t end = options.last < frames ? options.last + 1 : frames;
     return options.first < end ? (end - options.first - 1) / options.stride + 1 : 0;
 }
 

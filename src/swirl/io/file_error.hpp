@@ -1,5 +1,5 @@
-// What goes wrong with files, as one sentence for the person at the keyboard: which file, what was
-// wrong with it, what would be right. The front door prints it and leaves with exit code 1.
+// An error about a file. The message names the file and the problem, with a hint if one helps. The
+// program prints it after "error: " and exits with code 1.
 #pragma once
 
 #include <stdexcept>

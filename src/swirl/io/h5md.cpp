@@ -21,8 +21,8 @@ void require_known_format(const Hdf5File& file, const std::filesystem::path& pat
     if (format == std::vector<std::int64_t>{recording_format}) return;
     const std::string by = parameters + "/version";
     throw FileError(fmt::format(
-        "'{}' is in format {} of swirl {}, but this program reads format {}. Use the program that "
-        "wrote it, or a newer one.",
+        "'{}' has format {} of swirl {}, but this program reads format {}.\nhint: use the program "
+        "that wrote it, or a newer one.",
         path.string(), fmt::join(format, ","), file.has(by) ? file.read_text(by) : "?",
         recording_format));
 }
@@ -56,11 +56,11 @@ void create_parameters(Hdf5File& file,
 
 std::vector<std::int64_t> species_of(const std::vector<double>& radius,
                                      const std::vector<double>& mass) {
-    std::map<std::pair<double, double>, std::int64_t> kinds;
+    std::map<std::pair<double, double>, std::int64_t> numbers;
     std::vector<std::int64_t> species;
     for (std::size_t i = 0; i < radius.size(); ++i)
         species.push_back(
-            kinds.try_emplace({radius[i], mass[i]}, std::int64_t(kinds.size())).first->second);
+            numbers.try_emplace({radius[i], mass[i]}, std::int64_t(numbers.size())).first->second);
     return species;
 }
 

@@ -1,11 +1,12 @@
-// HDF5, as much of it as we need: typed columns that grow, attributes, groups, links. The C library
-// with its handles closed by themselves and its failures as FileError. Files are written through
-// StagedFile, so what was flushed survives a kill and a power cut, and a full disk leaves the last
-// flushed state. After a failure, of the disk or of the library, also one that came while a handle
-// was closed, every further call throws: such a file is never completed.
+// The part of HDF5 that swirl needs: typed columns that grow, attributes, groups and links. This is
+// a thin layer over the C library. It closes handles automatically and reports errors as FileError.
 //
-// The library keeps global state and is not built for threads in every distribution; one lock
-// around each call makes files on different threads safe.
+// Files are written through JournaledFile: flushed data survives a kill and a power cut, and a full
+// disk leaves the last flushed state. After any error, also one while a handle was closed, every
+// further call throws. Such a file is never published.
+//
+// The library keeps global state, and some distributions build it without thread support. One lock
+// around each call makes it safe to use files on different threads.
 #pragma once
 
 #include <concepts>
@@ -23,50 +24,38 @@ namespace swirl {
 
 using Dimensions = std::vector<std::uint64_t>;
 
-/// The types a column may have: double, std::int64_t, std::uint32_t, std::uint8_t.
+/// The value types of a column: double, std::int64_t, std::uint32_t, std::uint8_t.
 template <class T>
 concept ColumnValue = std::same_as<T, double> || std::same_as<T, std::int64_t> ||
     std::same_as<T, std::uint32_t> || std::same_as<T, std::uint8_t>;
 
-/// What lies between the values of a column and its bytes in the file.
-enum class Packing {
-    none,
-    stream,   // a zlib stream that somebody else makes (put_chunk)
-    deflate,  // a byte shuffle and deflate, by the library
-};
-
 class Hdf5File;
 
-/// A dataset. `row` is the shape of one entry along the first dimension.
+/// A dataset. Its first dimension counts rows; `row_shape` is the shape of one row.
 class Column {
   public:
     Column() = default;
     std::uint64_t rows() const { return rows_; }
     const Dimensions& row_shape() const { return row_shape_; }
+    /// Shape of a chunk, rows first; empty if the dataset is not chunked.
+    const Dimensions& chunk_shape() const { return chunk_shape_; }
 
-    /// Adds rows at the end; `count` values of row_shape each.
+    /// Appends `count` rows.
     template <ColumnValue T>
     void append(const T* values, std::uint64_t count);
-    /// Changes rows that are there; with `component`, only that entry of the last dimension.
+    /// Overwrites `count` existing rows from row `first` on. With `component`, overwrites only this
+    /// entry of the last dimension of each row.
     template <ColumnValue T>
-    void change(std::uint64_t first, std::uint64_t count, const T* values,
-                std::optional<std::uint64_t> component = {});
-    /// Puts a whole chunk into its place as it is to lie in the file, past the library's filters:
-    /// the one that begins at row `first` (and at `component`). `raw`: not compressed, though the
-    /// others may be. Little-endian values, or what the column's deflate filter would make of them.
-    void put_chunk(std::uint64_t first, const void* bytes, std::size_t size, bool raw,
-                   std::optional<std::uint64_t> component = {});
-    /// Of a chunk, rows first.
-    const Dimensions& chunk_shape() const { return chunk_shape_; }
-    Packing packing() const { return packing_; }
-    /// Throws FileError, also when the file is too small to hold that much.
+    void write(std::uint64_t first, std::uint64_t count, const T* values,
+               std::optional<std::uint64_t> component = {});
+    /// Throws FileError, also if the file is too small to hold that many values.
     template <ColumnValue T>
     std::vector<T> read(std::uint64_t first, std::uint64_t count) const;
     template <ColumnValue T>
     std::vector<T> read() const {
         return read<T>(0, rows_);
     }
-    /// Cuts off what lies behind.
+    /// Drops the rows from `rows` on, or adds rows of zeros.
     void resize(std::uint64_t rows);
 
   private:
@@ -78,14 +67,13 @@ class Column {
     std::string name_;
     std::uint64_t rows_ = 0;
     Dimensions row_shape_, chunk_shape_;
-    Packing packing_ = Packing::none;
 };
 
 class Hdf5File {
   public:
-    /// Throws FileError, also when the file is no HDF5 file.
+    /// Throws FileError, also if the file is not an HDF5 file.
     Hdf5File(const std::filesystem::path& path, JournaledFile::Mode mode);
-    /// Closes. What was not flushed is lost; see close().
+    /// Closes the file without a flush: unflushed data is lost. See finish().
     ~Hdf5File();
     Hdf5File(Hdf5File&&) noexcept;
     Hdf5File& operator=(Hdf5File&&) noexcept;
@@ -94,18 +82,19 @@ class Hdf5File {
     bool has(const std::string& name) const;
     std::vector<std::string> names_in(const std::string& group) const;
 
-    /// A column that grows along its first dimension in chunks of `chunk_shape`: rows, and for the
-    /// dimensions of a row that it does not name all there is. `level`: of deflate, 1…9.
+    /// Creates a column that grows along its first dimension. `chunk_shape` gives the rows of a
+    /// chunk and then its extent along the dimensions of a row; dimensions that it omits are not
+    /// divided. `compression`: 0 for none, 1…9 for a byte shuffle and deflate of this level.
     template <ColumnValue T>
     Column create_column(const std::string& name, const Dimensions& row_shape,
-                         const Dimensions& chunk_shape, Packing packing, int level = 1);
-    /// A dataset that is written once.
+                         const Dimensions& chunk_shape, int compression);
+    /// Writes a dataset of fixed shape.
     template <ColumnValue T>
     void write(const std::string& name, const std::vector<T>& values, const Dimensions& shape);
     void write(const std::string& name, const std::string& text);
     Column column(const std::string& name) const;
     std::string read_text(const std::string& name) const;
-    /// A second name for the same object.
+    /// Gives an existing object a second name.
     void link(const std::string& existing, const std::string& name);
 
     void set_attribute(const std::string& object, const std::string& name, const std::string& text);
@@ -115,25 +104,25 @@ class Hdf5File {
     void set_attribute(const std::string& object, const std::string& name,
                        const std::vector<std::int64_t>& values);
     bool has_attribute(const std::string& object, const std::string& name) const;
-    std::string text_attribute(const std::string& object, const std::string& name) const;
     double number_attribute(const std::string& object, const std::string& name) const;
     std::vector<std::int64_t> integers_attribute(const std::string& object,
                                                  const std::string& name) const;
 
-    /// Makes a dataset a dimension scale (a netCDF coordinate), and names the dimensions of others.
+    /// Makes a dataset a dimension scale (a netCDF coordinate).
     void make_scale(const std::string& dataset, const std::string& name);
+    /// Names the dimensions of a dataset, in order, by dimension scales.
     void attach_scales(const std::string& dataset, const std::vector<std::string>& scales);
 
-    /// What has been written survives a kill and a power cut.
+    /// After this call everything written so far survives a kill and a power cut.
     void flush();
-    /// Flushes, closes, and gives the file its final name.
+    /// Flushes and closes the file, and publishes it under its final name.
     void finish(const std::filesystem::path& final_name);
 
   private:
     friend class Column;
     struct State;
     template <class Read>
-    void read_attribute(const std::string& object, const std::string& name, const char* wanted,
+    void read_attribute(const std::string& object, const std::string& name, const char* expected,
                         Read&& read) const;
     std::shared_ptr<State> state_;
 };

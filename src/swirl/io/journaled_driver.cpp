@@ -9,10 +9,10 @@ namespace swirl {
 namespace {
 
 struct JournaledDriver {
-    H5FD_t common;  // must come first: the library sees this
+    H5FD_t common;  // first member: the library handles pointers to it
     JournaledFile* file;
     haddr_t end_of_allocation;
-    std::string* failure;  // the sentence of the first failure
+    std::string* failure;  // message of the first error
 };
 
 JournaledDriver& driver_of(H5FD_t* file) { return *reinterpret_cast<JournaledDriver*>(file); }
@@ -20,6 +20,7 @@ const JournaledDriver& driver_of(const H5FD_t* file) {
     return *reinterpret_cast<const JournaledDriver*>(file);
 }
 
+/// Exceptions must not pass through C code, so they become an error code.
 template <class Action>
 herr_t guarded(JournaledDriver& driver, Action&& action) {
     try {
@@ -31,25 +32,23 @@ herr_t guarded(JournaledDriver& driver, Action&& action) {
     }
 }
 
-struct Opening {
-    JournaledFile* file;
-    std::string* failure;
-};
-Opening opening;
+/// The file that the driver opens next; see OpenedByDriver.
+JournaledFile* file_to_open = nullptr;
+std::string* failure_of_file = nullptr;
 
 const H5FD_class_t& driver_class() {
     static const H5FD_class_t driver = [] {
         H5FD_class_t c;
         std::memset(&c, 0, sizeof c);
-        c.name = "swirl_staged";
+        c.name = "swirl_journaled";
         c.maxaddr = haddr_t(1) << 62;
         c.fc_degree = H5F_CLOSE_STRONG;
         c.open = [](const char*, unsigned, hid_t, haddr_t) -> H5FD_t* {
-            if (opening.file == nullptr) return nullptr;
+            if (file_to_open == nullptr) return nullptr;
             auto* d = static_cast<JournaledDriver*>(std::calloc(1, sizeof(JournaledDriver)));
             if (d == nullptr) return nullptr;
-            d->file = opening.file;
-            d->failure = opening.failure;
+            d->file = file_to_open;
+            d->failure = failure_of_file;
             return &d->common;
         };
         c.close = [](H5FD_t* file) -> herr_t {
@@ -100,7 +99,13 @@ hid_t journaled_driver() {
     return id;
 }
 
-OpensOnly::OpensOnly(JournaledFile& file, std::string& failure) { opening = {&file, &failure}; }
-OpensOnly::~OpensOnly() { opening = {}; }
+OpenedByDriver::OpenedByDriver(JournaledFile& file, std::string& failure) {
+    file_to_open = &file;
+    failure_of_file = &failure;
+}
+OpenedByDriver::~OpenedByDriver() {
+    file_to_open = nullptr;
+    failure_of_file = nullptr;
+}
 
 }  // namespace swirl

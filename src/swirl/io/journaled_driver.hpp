@@ -1,4 +1,4 @@
-// HDF5's virtual file driver on top of StagedFile.
+// An HDF5 virtual file driver on top of JournaledFile.
 #pragma once
 
 #include <hdf5.h>
@@ -9,18 +9,18 @@
 
 namespace swirl {
 
-/// For H5Pset_driver.
+/// Driver id for H5Pset_driver().
 hid_t journaled_driver();
 
-/// What the library opens by this driver while it lives, under the lock: this file and no other, so
-/// a link or a virtual dataset that leads to another file leads nowhere. `failure` becomes the
-/// sentence of the first failure of the file.
-class OpensOnly {
+/// While this object lives, under the lock of the library, the driver opens this file and no other.
+/// So an external link or a virtual dataset in the file cannot open a second file. `failure`
+/// receives the message of the first error.
+class OpenedByDriver {
   public:
-    OpensOnly(JournaledFile& file, std::string& failure);
-    ~OpensOnly();
-    OpensOnly(const OpensOnly&) = delete;
-    OpensOnly& operator=(const OpensOnly&) = delete;
+    OpenedByDriver(JournaledFile& file, std::string& failure);
+    ~OpenedByDriver();
+    OpenedByDriver(const OpenedByDriver&) = delete;
+    OpenedByDriver& operator=(const OpenedByDriver&) = delete;
 };
 
 }  // namespace swirl

@@ -11,15 +11,15 @@
 namespace swirl {
 namespace {
 
-class PossibleContainer {
+class RangeCheck {
   public:
-    PossibleContainer(const Snapshot& snapshot, Spins spins, const std::string& file)
+    RangeCheck(const Snapshot& snapshot, Spins spins, const std::string& file)
         : s_(snapshot), spins_(spins), file_(file) {}
 
     void container() const {
-        between("number of swirls", double(s_.periods), -max_periods, max_periods);
+        between("number of periods", double(s_.periods), -max_periods, max_periods);
         between("period", s_.period, smallest_value, largest_value);
-        // Rounded: of a camera's tracks it is the time less the whole swirls before.
+        // In a camera's tracks the clock is a rounded difference of times.
         const double rounding = 1e-6 * s_.period;
         between("clock", s_.clock, -rounding, s_.period + rounding);
         between("container radius", s_.container_radius, smallest_value, largest_value);
@@ -29,7 +29,7 @@ class PossibleContainer {
     void disc(std::size_t i) {
         disc_ = i;
         const double R = s_.container_radius;
-        // A disc as large as its container is rounded up to it.
+        // The radius of a disc as large as its container may be rounded up.
         between("radius", s_.radius[i], smallest_value, R * (1.0 + 1e-9));
         between("mass", s_.mass[i], smallest_value, largest_value);
         within("velocity", s_.velocity(i), largest_magnitude);
@@ -42,7 +42,7 @@ class PossibleContainer {
         within("rolling spin", Vec2{s_.spin_x[i], s_.spin_y[i]}, largest_magnitude);
         if (s_.turned.empty()) return;
         const Quaternion& q = s_.turned[i];
-        // Of length 1; the products of many rotations are rounded.
+        // Unit length, up to the rounding of many products.
         between("orientation's length", q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 0.99, 1.01);
     }
 
@@ -50,8 +50,8 @@ class PossibleContainer {
     bool is_available(double value) const { return spins_ == Spins::known || !std::isnan(value); }
     void between(const char* name, double value, double from, double to) const {
         if (value >= from && value <= to) return;
-        throw FileError(fmt::format("{} {}{} is {} in swirl {}, but must be from {} to {}.",
-                                    file_.empty() ? "The" : fmt::format("'{}': the", file_), name,
+        throw FileError(fmt::format("{}the {}{} is {} in period {}, but must be from {} to {}.",
+                                    file_.empty() ? "" : fmt::format("'{}': ", file_), name,
                                     disc_ ? fmt::format(" of disc {}", *disc_) : "", value,
                                     s_.periods, from, to));
     }
@@ -72,7 +72,7 @@ class PossibleContainer {
 }  // namespace
 
 void require_possible(const Snapshot& snapshot, Spins spins, const std::string& file) {
-    PossibleContainer check(snapshot, spins, file);
+    RangeCheck check(snapshot, spins, file);
     check.container();
     for (std::size_t i = 0; i < snapshot.size(); ++i) check.disc(i);
 }

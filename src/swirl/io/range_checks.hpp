@@ -1,6 +1,6 @@
-// What was read from a file, a recording of ours or not, must be a dish: sizes and masses in the
-// ranges of a run's parameters (physics/limits.hpp), numbers where numbers must be. Everything that
-// becomes a Snapshot outside a simulation is asked here, once.
+// Values read from a file must be possible in a run: sizes and masses in the ranges of its
+// parameters (physics/limits.hpp), and no NaN where a number is needed. Every Snapshot that does
+// not come from a simulation is checked here.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 namespace swirl {
 
 enum class Spins {
-    known,          // in recordings of a simulation
-    maybe_unknown,  // NaN, and the moments of inertia too, in a camera's tracks
+    known,          // recordings of a simulation
+    maybe_unknown,  // a camera's tracks: spins, angles and moments of inertia may be NaN
 };
 
-/// Throws FileError, which names `file` if there is one and says which value of which disc cannot
-/// be.
+/// Throws FileError if a value is out of range. The message gives the value, the disc, and `file`
+/// if it is not empty.
 void require_possible(const Snapshot& snapshot, Spins spins, const std::string& file = "");
 
 }  // namespace swirl

@@ -9,6 +9,7 @@
 #include "swirl/io/h5md.hpp"
 
 namespace swirl {
+
 std::filesystem::path partial_name(const std::filesystem::path& path) {
     return path.string() + std::string(partial_suffix);
 }
@@ -16,52 +17,62 @@ std::filesystem::path partial_name(const std::filesystem::path& path) {
 std::string recorded_entry(const std::filesystem::path& file, const std::string& name) {
     const Hdf5File recording(file, JournaledFile::Mode::read);
     h5md::require_known_format(recording, file);
-    const std::string at = "/parameters/" + name;
-    return recording.has(at) ? recording.read_text(at) : "";
+    const std::string path = h5md::parameters + "/" + name;
+    return recording.has(path) ? recording.read_text(path) : "";
 }
 
-void reject_recording_of_another(const std::filesystem::path& file, const std::string& run) {
+void require_recording_of(const std::filesystem::path& file, const std::string& run) {
     if (recorded_entry(file, run_entry) != run)
-        throw FileError(fmt::format(
-            "'{}' was recorded by another run than the checkpoint, and is left as it is; the run "
-            "cannot go on without its own recording.",
-            file.string()));
+        throw FileError(
+            fmt::format("'{}' was recorded by another run than the checkpoint; it was left "
+                        "unchanged.\nhint: a run can only be continued with its own recording.",
+                        file.string()));
 }
 
 void reject_foreign_recording(const std::filesystem::path& path, const std::string& run) {
     const auto partial = partial_name(path);
     std::error_code ignored;
     if (!std::filesystem::exists(partial, ignored)) return;
-    // Killed before its first commit: nothing was ever in there.
+    // A run that is killed before its first commit leaves an empty file.
     if (JournaledFile(partial, JournaledFile::Mode::read).size() == 0) return;
     if (recorded_entry(partial, run_entry) != run)
         throw FileError(
-            fmt::format("'{}' is the unfinished recording of another run; finish that one with "
-                        "--resume, choose "
-                        "another name, or give --overwrite to lose it.",
+            fmt::format("'{}' is the unfinished recording of another run.\nhint: complete that run "
+                        "with --resume, choose another name, or use --overwrite to replace it.",
                         partial.string()));
 }
 
 Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run) {
     const auto partial = partial_name(path);
     std::error_code ignored;
-    const bool finished =
+    const bool is_finished =
         !std::filesystem::exists(partial, ignored) && std::filesystem::exists(path, ignored);
-    const auto& there = finished ? path : partial;
-    reject_recording_of_another(there, run);
-    if (finished) give_final_name(path, partial);
+    require_recording_of(is_finished ? path : partial, run);
+    if (is_finished) rename_durably(path, partial);
     return {partial, JournaledFile::Mode::change};
+}
+
+void require_recorded(const std::filesystem::path& path, const char* items, std::uint64_t recorded,
+                      std::uint64_t in_checkpoint) {
+    if (recorded < in_checkpoint)
+        throw FileError(fmt::format(
+            "'{}' has {} {}, but the checkpoint was made when it had {}; it does not belong to the "
+            "checkpoint, or was changed since.",
+            path.string(), recorded, items, in_checkpoint));
 }
 
 std::uint64_t common_length(const std::filesystem::path& path, bool complete,
                             const std::vector<std::uint64_t>& lengths) {
     const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
     if (complete && *shortest != *longest)
-        throw FileError(fmt::format(
-            "'{}' contradicts itself: it says that it is complete, but its columns differ in "
-            "length, from {} to {}.",
-            path.string(), *shortest, *longest));
+        throw_inconsistent(path, fmt::format("it is marked as complete, but its columns differ in "
+                                             "length, from {} to {}",
+                                             *shortest, *longest));
     return *shortest;
+}
+
+void throw_inconsistent(const std::filesystem::path& path, const std::string& what) {
+    throw FileError(fmt::format("'{}' is inconsistent: {}.", path.string(), what));
 }
 
 }  // namespace swirl

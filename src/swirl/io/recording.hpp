@@ -1,6 +1,6 @@
-// What trajectories and event logs have in common while they are recorded: the name NAME.partial
-// until they are complete, and the run that they belong to. The provenance entry `run` names it;
-// recordings with the same entry hold the same frames and events, whoever wrote them.
+// Functions for trajectories and event logs while they are recorded. Until a recording is complete
+// its name is NAME.partial. The provenance entry `run` identifies the run it belongs to:
+// recordings with the same entry contain the same frames and events.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +17,32 @@ inline constexpr const char* run_entry = "run";
 /// The name of a recording until it is complete.
 std::filesystem::path partial_name(const std::filesystem::path& path);
 
-/// Throws FileError if NAME.partial holds something of another run, or of nobody knows which.
+/// Throws FileError if NAME.partial is a recording of another or an unknown run.
 void reject_foreign_recording(const std::filesystem::path& path, const std::string& run);
 
-/// What a recording says of itself under this name (parameters/NAME), "" if nothing.
+/// The provenance entry `name` of a recording, "" if there is none.
 std::string recorded_entry(const std::filesystem::path& file, const std::string& name);
 
 /// Throws FileError if this recording belongs to another run.
-void reject_recording_of_another(const std::filesystem::path& file, const std::string& run);
+void require_recording_of(const std::filesystem::path& file, const std::string& run);
 
-/// Opens a recording to go on with it. Throws FileError if it belongs to another run. A kill can
-/// come after a recording got its name and before the result that belongs to it was written: it
-/// then gets its partial name back.
+/// Opens a recording to continue it. Throws FileError if it belongs to another run. A kill can come
+/// after the recording was published and before the result was written; the recording then gets its
+/// partial name back.
 Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run);
 
-/// How far all columns of a recording go, of which these are the lengths. One that was cut off
-/// between two columns counts as far as that; throws FileError if it is complete and they differ.
+/// Throws FileError if a recording has fewer `items` ("frames" or "events") than the checkpoint
+/// that continues it.
+void require_recorded(const std::filesystem::path& path, const char* items, std::uint64_t recorded,
+                      std::uint64_t in_checkpoint);
+
+/// The number of rows that all columns of a recording have. If writing was interrupted between two
+/// columns, this is the shortest length. Throws FileError if the recording is complete and the
+/// lengths differ.
 std::uint64_t common_length(const std::filesystem::path& path, bool complete,
                             const std::vector<std::uint64_t>& lengths);
+
+/// Throws FileError: the content of the file contradicts itself, as `what` says.
+[[noreturn]] void throw_inconsistent(const std::filesystem::path& path, const std::string& what);
 
 }  // namespace swirl

@@ -10,9 +10,10 @@
 namespace swirl {
 namespace {
 
-constexpr std::chrono::milliseconds gathering(200);
-/// Each has a descriptor until it has its name, and a process may have a thousand or so.
-constexpr std::size_t max_at_once = 128;
+/// How long the thread waits for more files before it writes a batch.
+constexpr std::chrono::milliseconds collection_time(200);
+/// Each file of a batch has an open descriptor; a process may have about a thousand.
+constexpr std::size_t max_batch = 128;
 
 }  // namespace
 
@@ -23,14 +24,14 @@ ResultWriter::~ResultWriter() {
     try {
         finish();
     } catch (...) {
-        // Who wants to know has called finish().
+        // finish() reports errors.
     }
 }
 
 void ResultWriter::write(std::string name, std::string bytes, std::function<void()> written) {
     const std::lock_guard lock(mutex_);
     if (failure_) std::rethrow_exception(failure_);
-    waiting_.push_back({std::move(name), std::move(bytes), std::move(written)});
+    queue_.push_back({std::move(name), std::move(bytes), std::move(written)});
     wake_.notify_all();
 }
 
@@ -47,15 +48,15 @@ void ResultWriter::finish() {
 void ResultWriter::work() {
     std::unique_lock lock(mutex_);
     for (;;) {
-        wake_.wait(lock, [this] { return closing_ || !waiting_.empty(); });
-        if (!closing_) wake_.wait_for(lock, gathering, [this] { return closing_; });
-        if (waiting_.empty() && closing_) return;
-        std::vector<Item> items = std::exchange(waiting_, {});
+        wake_.wait(lock, [this] { return closing_ || !queue_.empty(); });
+        if (!closing_) wake_.wait_for(lock, collection_time, [this] { return closing_; });
+        if (queue_.empty() && closing_) return;
+        std::vector<Item> items = std::exchange(queue_, {});
         lock.unlock();
         std::exception_ptr failure;
         try {
-            for (std::size_t k = 0; k < items.size(); k += max_at_once)
-                write_together({items.data() + k, std::min(max_at_once, items.size() - k)});
+            for (std::size_t k = 0; k < items.size(); k += max_batch)
+                write_batch({items.data() + k, std::min(max_batch, items.size() - k)});
         } catch (...) {
             failure = std::current_exception();
         }
@@ -64,17 +65,17 @@ void ResultWriter::work() {
     }
 }
 
-void ResultWriter::write_together(std::span<Item> items) {
-    SyncTogether together(folder_);
-    // Unfinished ones remove themselves.
+void ResultWriter::write_batch(std::span<Item> items) {
+    FilesystemSync filesystem(folder_);
+    // After an exception, their destructors remove the temporary files.
     std::vector<std::unique_ptr<AtomicFile>> files;
     for (const Item& item : items) {
         files.push_back(std::make_unique<AtomicFile>(folder_ / item.name));
         files.back()->append(item.bytes);
-        files.back()->empty_buffer();
+        files.back()->flush_buffer();
     }
-    together.sync();
-    for (const auto& file : files) file->give_name();
+    filesystem.sync();
+    for (const auto& file : files) file->publish();
     sync_folder_of(folder_ / items.front().name);
     for (const Item& item : items)
         if (item.written) item.written();

@@ -1,6 +1,6 @@
-// Many small files, each there whole or not at all, without waiting for the disk each time: what
-// came in within a fraction of a second is written aside, brought onto the disk in one go, and then
-// renamed. A thread of its own does that, so those who compute do not wait.
+// Writes many small files atomically without one disk sync for each. Files that arrive within a
+// fraction of a second are written to temporary files, synced together and then renamed. This
+// happens on a separate thread, so the computing threads do not wait.
 #pragma once
 
 #include <condition_variable>
@@ -17,16 +17,16 @@ namespace swirl {
 
 class ResultWriter {
   public:
-    /// All files go into this folder.
+    /// All files are written to this folder.
     explicit ResultWriter(const std::filesystem::path& folder);
-    ~ResultWriter();  // writes what is left; see finish()
+    ~ResultWriter();  // writes the queued files but does not report errors; see finish()
     ResultWriter(const ResultWriter&) = delete;
     ResultWriter& operator=(const ResultWriter&) = delete;
 
-    /// `written` is called, on the writer's thread, when the file stands under its name. Throws
+    /// Queues a file. Calls `written` on the writer's thread after the file was published. Throws
     /// FileError if an earlier file could not be written.
     void write(std::string name, std::string bytes, std::function<void()> written);
-    /// Waits until all is written. Throws FileError.
+    /// Waits until all files are written. Throws FileError.
     void finish();
 
   private:
@@ -35,10 +35,10 @@ class ResultWriter {
         std::function<void()> written;
     };
     void work();
-    void write_together(std::span<Item> items);
+    void write_batch(std::span<Item> items);
 
     std::filesystem::path folder_;
-    std::vector<Item> waiting_;
+    std::vector<Item> queue_;
     std::exception_ptr failure_;
     bool closing_ = false;
     std::mutex mutex_;

@@ -1,5 +1,5 @@
-// Snapshots in order of time, asked for one by one: from a trajectory of ours, from a camera's
-// tracks, from another program's dump. What exports and measurements take.
+// Snapshots in order of time with random access: from a trajectory, from a camera's tracks, or from
+// another program's dump. Input of exports and measurements.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,22 @@ namespace swirl {
 
 struct SnapshotSeries {
     std::uint64_t frames = 0;
-    /// Half the width of a square about the swirl centre that holds the container at all times.
+    /// Half the width of a square about the origin that contains the container at all times.
     double reach = 0.0;
     std::function<Snapshot(std::uint64_t)> frame;
-    /// Frames whose discs are not those of the frame before, ascending.
+    /// Frames whose discs differ from those of the frame before, ascending.
     std::vector<std::uint64_t> breaks = {};
-    /// ½⟨u²⟩ of a disc, u relative to the container, is so much more than that of the velocities,
-    /// where they are smoothed (track_smoothing.hpp).
+    /// Smoothing reduces velocities (track_smoothing.hpp). The mean of ½u² per disc, with u
+    /// relative to the container, is larger by this value than that of the smoothed velocities.
     double missing_energy = 0.0;
 
-    /// Every frame holds the same discs in the same order.
+    /// Whether every frame has the same discs in the same order.
     bool same_discs() const { return breaks.empty(); }
 };
 
 class TrajectoryReader;
 
-/// The frames of a trajectory; keeps the reader.
+/// The frames of a trajectory. The series shares ownership of the reader.
 SnapshotSeries series_of(std::shared_ptr<TrajectoryReader> reader);
 
 }  // namespace swirl

@@ -1,20 +1,19 @@
-// Everything that a computation has gathered, as bytes, and back. A type that is to be kept says
-// what it consists of:
+// Serialises the state of a computation to bytes and back. A type to be saved lists its members:
 //
 //     template <class Visitor> void fields(Visitor&& visit) { visit(sum_); visit(weight_); }
 //
-// and the same line serves for writing and for reading. Numbers keep every bit. The bytes are those
-// of a little-endian machine; a checkpoint is not meant to travel further.
+// The same function serves for writing and for reading. All bits of a number are stored. The bytes
+// are those of a little-endian machine: checkpoints are not portable to big-endian ones.
 //
-// A file can hold anything, so nothing that is read is believed. The reader rejects
-//   - an integer that is no count and no index: below 0, or above `largest_count`;
-//   - a bool that is neither 0 nor 1;
-//   - a column of another length, where fields() visits it as a std::span: the object that is read
-//     into has fixed its length already, as a map has fixed its number of cells;
-//   - an object whose fields contradict each other: after reading them it asks for
-//     `bool is_consistent() const` of each type that has one.
-// So a nested object is visited by visit(object), never by object.fields(visit), which would leave
-// out the last check.
+// Bytes from a file are not trusted. The reader rejects
+//   - an integer that cannot be a count or an index: below 0, or above `largest_count`;
+//   - a bool other than 0 and 1;
+//   - a column of another length, if fields() visits it as a std::span: the length of such a column
+//     is fixed by the object, like the number of cells of a map;
+//   - an object with inconsistent members: after reading an object whose type has
+//     `bool is_consistent() const`, the reader calls it.
+// So visit a nested object by visit(object), never by object.fields(visit), which would skip the
+// last check.
 #pragma once
 
 #include <array>
@@ -39,31 +38,31 @@ concept HasFields = requires(T& value, Visitor& visitor) {
     value.fields(visitor);
 };
 
-/// A type that says what must hold of its fields.
+/// A type with an invariant of its members.
 template <class T>
 concept HasInvariant = requires(const T& value) {
     { value.is_consistent() } -> std::same_as<bool>;
 };
 
-/// Of integers in a saved state, so that counting on never overflows.
+/// Upper limit of integers in a saved state, so that a counter never overflows afterwards.
 inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 62;
 
-/// Many of them are kept as they lie in memory, which is what they are one by one: numbers, and
-/// plain structures of them.
+/// Numbers and plain structures of numbers. An array of them is stored with one copy, which gives
+/// the same bytes as storing them one by one.
 template <class T, class Visitor>
-concept KeptAsBytes =
+concept StoredAsBytes =
     std::is_trivially_copyable_v<T> && !HasFields<T, Visitor> && !std::same_as<T, bool> &&
     (std::is_arithmetic_v<T> ||
      (std::is_aggregate_v<T> && !requires { std::tuple_size<T>::value; }));
 
-/// Where the numbers of a field lie: `count` of them, each `width` bytes long.
+/// The position of the numbers of a field: `count` numbers of `width` bytes each.
 struct SavedField {
     std::size_t begin, width, count;
 };
 
 class StateWriter {
   public:
-    /// `layout`, if there is one, is told of each field that is written.
+    /// If `layout` is not null, the position of each written field is appended to it.
     explicit StateWriter(std::vector<SavedField>* layout = nullptr) : layout_(layout) {}
 
     template <class T>
@@ -86,7 +85,7 @@ class StateWriter {
     template <class T>
     void operator()(std::vector<T>& values) {
         size(values.size());
-        if constexpr (KeptAsBytes<T, StateWriter>) {
+        if constexpr (StoredAsBytes<T, StateWriter>) {
             numbers(values.data(), values.size());
         } else if constexpr (std::same_as<T, bool>) {
             for (const bool value : values) bytes_ += value ? '\1' : '\0';
@@ -94,9 +93,9 @@ class StateWriter {
             for (T& value : values) (*this)(value);
         }
     }
-    /// As a vector.
+    /// The same bytes as for a vector.
     template <class T>
-    requires KeptAsBytes<T, StateWriter>
+    requires StoredAsBytes<T, StateWriter>
     void operator()(std::span<T> values) {
         size(values.size());
         numbers(values.data(), values.size());
@@ -126,7 +125,7 @@ class StateWriter {
     template <class... Parts>
     requires(sizeof...(Parts) > 1) void operator()(Parts&... parts) { ((*this)(parts), ...); }
 
-    /// What `write` adds, readable as one std::string.
+    /// Calls write(*this) and stores what it writes so that it reads back as one std::string.
     template <class Write>
     void as_text(Write&& write) {
         size(0);
@@ -140,7 +139,7 @@ class StateWriter {
     std::string bytes() && { return std::move(bytes_); }
 
   private:
-    /// Plain structures hold words of eight bytes.
+    /// A plain structure is a sequence of words of eight bytes.
     template <class T>
     void numbers(const T* values, std::size_t count) {
         constexpr std::size_t width = sizeof(T) % 8 == 0 ? 8 : sizeof(T);
@@ -152,8 +151,7 @@ class StateWriter {
     std::string bytes_;
 };
 
-/// Throws FileError when the bytes end too soon, which something else has written then, and for
-/// what is listed above.
+/// Throws FileError if the bytes end too soon, and in the cases listed at the top.
 class StateReader {
   public:
     explicit StateReader(std::string_view bytes) : rest_(bytes) {}
@@ -166,42 +164,43 @@ class StateReader {
                 HasInvariant<T> || !requires { &T::is_consistent; },
                 "it must be bool is_consistent() const");
             if constexpr (HasInvariant<T>)
-                if (!value.is_consistent()) contradiction();
+                if (!value.is_consistent()) fail_inconsistent();
         } else if constexpr (std::same_as<T, bool>) {
             value = flag();
         } else {
             static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>,
                           "give this type a fields() member");
             std::memcpy(static_cast<void*>(&value), take(sizeof(T)).data(), sizeof(T));
-            // A negative one is above it as well.
+            // A negative integer is above the limit, too, once it is converted to unsigned.
             if constexpr (std::integral<T>)
-                if (static_cast<std::make_unsigned_t<T>>(value) > largest_count) contradiction();
+                if (static_cast<std::make_unsigned_t<T>>(value) > largest_count)
+                    fail_inconsistent();
         }
     }
     void operator()(std::string& text) { text = take(size()); }
     template <class T>
     void operator()(std::vector<T>& values) {
         const std::uint64_t n = size();
-        if constexpr (KeptAsBytes<T, StateReader>) {
-            if (n > rest_.size() / sizeof(T)) too_short();
+        if constexpr (StoredAsBytes<T, StateReader>) {
+            if (n > rest_.size() / sizeof(T)) fail_too_short();
             values.resize(n);
             const std::string_view bytes = take(n * sizeof(T));
             if (n > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
         } else if constexpr (std::same_as<T, bool>) {
-            if (n > rest_.size()) too_short();
+            if (n > rest_.size()) fail_too_short();
             values.resize(n);
             for (std::uint64_t k = 0; k < n; ++k) values[k] = flag();
         } else {
-            if (n > rest_.size()) too_short();  // every element takes a byte at least
+            if (n > rest_.size()) fail_too_short();  // each element takes at least one byte
             values.clear();
             values.resize(n);
             for (T& value : values) (*this)(value);
         }
     }
     template <class T>
-    requires KeptAsBytes<T, StateReader>
+    requires StoredAsBytes<T, StateReader>
     void operator()(std::span<T> values) {
-        if (size() != values.size()) contradiction();
+        if (size() != values.size()) fail_inconsistent();
         const std::string_view bytes = take(values.size_bytes());
         if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
     }
@@ -231,27 +230,27 @@ class StateReader {
     template <class... Parts>
     requires(sizeof...(Parts) > 1) void operator()(Parts&... parts) { ((*this)(parts), ...); }
 
-    /// Everything has been read.
+    /// Throws FileError if bytes are left.
     void expect_end() const {
-        if (!rest_.empty()) throw FileError("The saved state holds more than this run keeps.");
+        if (!rest_.empty()) throw FileError("the saved state is longer than that of this run.");
     }
 
   private:
-    [[noreturn]] static void too_short() {
-        throw FileError("The saved state ends too soon: it is that of another kind of run.");
+    [[noreturn]] static void fail_too_short() {
+        throw FileError("the saved state ends too soon; it belongs to another kind of run.");
     }
-    [[noreturn]] static void contradiction() {
+    [[noreturn]] static void fail_inconsistent() {
         throw FileError(
-            "The saved state contradicts itself: the program that wrote it was another one, or the "
-            "file was changed.");
+            "the saved state is inconsistent; it was changed, or written by another version of the "
+            "program.");
     }
     bool flag() {
         const char byte = take(1)[0];
-        if (byte != '\0' && byte != '\1') contradiction();
+        if (byte != '\0' && byte != '\1') fail_inconsistent();
         return byte == '\1';
     }
     std::string_view take(std::uint64_t n) {
-        if (n > rest_.size()) too_short();
+        if (n > rest_.size()) fail_too_short();
         const std::string_view taken = rest_.substr(0, n);
         rest_.remove_prefix(n);
         return taken;

@@ -1,5 +1,5 @@
-// A table as people open it in pandas, R or a spreadsheet: CSV with one line of names, numbers that
-// read back as the same double, nothing for what is not known.
+// A table for pandas, R or a spreadsheet: CSV with one header line. Numbers read back as the same
+// double; unknown values are empty cells.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ class Table {
 
     explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
 
-    /// One cell for each column.
+    /// `row` has one cell for each column.
     void add(std::vector<Cell> row);
 
     std::string csv() const;
-    /// Written aside and renamed; throws FileError.
+    /// Writes atomically. Throws FileError.
     void write(const std::filesystem::path& file) const;
 
   private:

@@ -13,8 +13,9 @@
 namespace swirl {
 namespace {
 
-/// The parser must not see what is no text: where the first such byte is.
-std::optional<std::size_t> first_bad_byte(std::string_view text) {
+/// Position of the first byte that is a control character or not UTF-8. The parser must not get
+/// such text.
+std::optional<std::size_t> first_invalid_byte(std::string_view text) {
     const auto is_control = [](char c) {
         return (c >= 0 && c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f;
     };
@@ -28,31 +29,33 @@ int line_of(std::string_view text, std::size_t at) {
     return 1 + static_cast<int>(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
 }
 
-/// The line with a number, as far as a sentence can quote it; "" if it is longer.
+/// Line `number` of the text, or "" if it is too long to be quoted in a message.
 std::string_view quotable_line(std::string_view text, std::size_t number) {
     for (; number > 1; --number) {
         const std::size_t end = text.find('\n');
         if (end == text.npos) return "";
         text.remove_prefix(end + 1);
     }
+    constexpr std::size_t max_quoted = 60;
     text = text.substr(0, text.find_first_of("\r\n"));
-    return text.size() > 60 ? "" : text;
+    return text.size() > max_quoted ? "" : text;
 }
 
 class Reader {
   public:
     explicit Reader(std::string_view name) : name_(name) {}
 
-    [[noreturn]] void wrong(int line, std::string_view what) const {
-        throw FileError(fmt::format("'{}', line {}: {}.", name_, line, what));
+    [[noreturn]] void fail(int line, std::string_view problem) const {
+        throw FileError(fmt::format("'{}', line {}: {}.", name_, line, problem));
     }
 
-    /// What the parser says of it is written for programmers.
-    [[noreturn]] void not_toml(std::string_view text, const toml::source_position& at) const {
+    /// The parser's own messages are for programmers, so this replaces them.
+    [[noreturn]] void fail_with_syntax(std::string_view text,
+                                       const toml::source_position& at) const {
         const std::string_view line = quotable_line(text, at.line);
         throw FileError(fmt::format(
-            "'{}', line {}, column {}: {} is not TOML, where a line is NAME = VALUE, each name "
-            "once, texts in quotation marks and lists in square brackets.",
+            "'{}', line {}, column {}: {} is not valid TOML.\nhint: write NAME = VALUE, each name "
+            "once, with texts in quotation marks and lists in square brackets.",
             name_, at.line, at.column, line.empty() ? "this" : fmt::format("'{}'", line)));
     }
 
@@ -61,17 +64,16 @@ class Reader {
         if (const auto* number = node.as_integer()) return std::to_string(number->get());
         if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
         if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-        wrong(int(node.source().begin.line),
-              fmt::format("{} must be a number, a text or a list of them", key));
+        fail(int(node.source().begin.line),
+             fmt::format("{} must be a number, a text or a list of them", key));
     }
 
     ConfigEntry entry(const toml::node& node, std::string_view key) const {
         ConfigEntry entry;
         entry.line = int(node.source().begin.line);
         if (node.is_table())
-            wrong(
-                entry.line,
-                fmt::format("[{}] is a table; write the names of the options without tables", key));
+            fail(entry.line,
+                 fmt::format("[{}] is a table.\nhint: write the options without tables", key));
         const toml::array* list = node.as_array();
         entry.is_list = list != nullptr;
         if (list == nullptr) {
@@ -91,13 +93,11 @@ class Reader {
 Config parse_config(std::string text, std::string_view name) {
     const Reader reader(name);
     if (text.size() > largest_config)
-        throw FileError(
-            fmt::format("'{}' is longer than {} bytes; a configuration has at most as many.", name,
-                        largest_config));
-    if (const auto bad = first_bad_byte(text))
-        reader.wrong(line_of(text, *bad),
-                     fmt::format("byte 0x{:02x} is not UTF-8 text; a configuration is a text file",
-                                 static_cast<unsigned char>(text[*bad])));
+        throw FileError(fmt::format("'{}' is longer than {} bytes, the limit for a configuration.",
+                                    name, largest_config));
+    if (const auto bad = first_invalid_byte(text))
+        reader.fail(line_of(text, *bad), fmt::format("byte 0x{:02x} is not UTF-8 text",
+                                                     static_cast<unsigned char>(text[*bad])));
     Config config;
     try {
         const toml::table table = toml::parse(text, name);
@@ -105,11 +105,11 @@ Config parse_config(std::string text, std::string_view name) {
             std::string option(key.str());
             std::replace(option.begin(), option.end(), '-', '_');
             if (!config.entries.emplace(option, reader.entry(node, key.str())).second)
-                reader.wrong(int(node.source().begin.line),
-                             fmt::format("{} is given twice", option));
+                reader.fail(int(node.source().begin.line),
+                            fmt::format("{} is given twice", option));
         }
     } catch (const toml::parse_error& error) {
-        reader.not_toml(text, error.source().begin);
+        reader.fail_with_syntax(text, error.source().begin);
     }
     config.text = std::move(text);
     return config;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::int64_t no_disc = -1;
 constexpr std::uint64_t frames_in_a_chunk = 256;
+constexpr int compression = 1;  // level of deflate
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 std::string path_of(const std::string& name) { return h5md::tracks + "/" + name; }
@@ -88,7 +89,7 @@ class TrackWriter {
     void write_rows(const std::string& name, const Dimensions& row, const std::vector<T>& rows) {
         Dimensions chunk{frames_in_a_chunk, row[0]};
         if (row.size() > 1) chunk.push_back(1);
-        file_.create_column<T>(path_of(name + "/value"), row, chunk, Packing::deflate)
+        file_.create_column<T>(path_of(name + "/value"), row, chunk, compression)
             .append(rows.data(), tracks_.frames.size());
     }
 

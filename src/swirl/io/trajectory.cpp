@@ -11,6 +11,7 @@
 #include "swirl/io/range_checks.hpp"
 #include "swirl/io/recording.hpp"
 #include "swirl/io/series.hpp"
+#include "swirl/io/trajectory_layout.hpp"
 #include "swirl/physics/limits.hpp"
 
 namespace swirl {
@@ -19,6 +20,7 @@ namespace {
 using h5md::observables;
 using h5md::parameters;
 using h5md::particles;
+using namespace trajectory_layout;
 
 bool lie_in_plane(const std::vector<double>& vectors) {
     for (std::size_t z = 2; z < vectors.size(); z += 3)
@@ -30,131 +32,110 @@ bool lie_in_plane(const std::vector<double>& vectors) {
 
 TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     : path_(path.string()), file_(std::make_unique<Hdf5File>(path, JournaledFile::Mode::read)) {
-    if (!file_->has_attribute("/h5md", "version") || !file_->has(particles + "/position/value"))
-        throw FileError(
-            fmt::format("'{}' is an HDF5 file, but not a trajectory: it has no {}/position.",
-                        path.string(), particles));
-    if (!file_->has(parameters) || !file_->has(observables + "/swirls/value"))
+    if (!file_->has_attribute("/h5md", "version") || !file_->has(group_of(position) + "/value"))
+        throw FileError(fmt::format("'{}' is an HDF5 file, but not a trajectory: it has no {}.",
+                                    path_, group_of(position)));
+    if (!file_->has(parameters) || !file_->has(counter_paths[periods]))
         throw FileError(fmt::format(
-            "'{}' is an H5MD file of another program: it has no record of the container.",
-            path.string()));
+            "'{}' is an H5MD file of another program: it does not describe the container.", path_));
     h5md::require_known_format(*file_, path);
-    position_ = file_->column(particles + "/position/value");
-    velocity_ = file_->column(particles + "/velocity/value");
-    angle_ = file_->column(particles + "/angle/value");
-    angular_velocity_ = file_->column(particles + "/angular_velocity/value");
-    are_spheres_ = file_->has(particles + "/orientation/value");
-    if (are_spheres_) {
-        rolling_spin_ = file_->column(particles + "/rolling_spin/value");
-        orientation_ = file_->column(particles + "/orientation/value");
-    }
-    const auto of_frames = [&](const std::string& name) {
-        Column column = file_->column(name);
-        if (column.row_shape().empty()) return column;
-        throw FileError(
-            fmt::format("'{}' contradicts itself: a frame has one value in {}, and it has a table.",
-                        path.string(), name));
-    };
-    const auto observed = [&](const char* name) {
-        return of_frames(observables + "/" + name + "/value");
-    };
-    const auto numbers = [&](const char* name) { return observed(name).read<double>(); };
-    periods_ = observed("swirls").read<std::int64_t>();
-    events_ = observed("events").read<std::int64_t>();
-    clock_ = numbers("clock");
-    container_x_ = numbers("container_x");
-    container_y_ = numbers("container_y");
-    container_vx_ = numbers("container_vx");
-    container_vy_ = numbers("container_vy");
-    step_ = of_frames(particles + "/position/step");
-    time_ = of_frames(particles + "/position/time");
+    are_spheres_ = file_->has(group_of(orientation) + "/value");
     complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
-    std::vector<std::uint64_t> lengths{
-        position_.rows(),    velocity_.rows(),    angle_.rows(),       angular_velocity_.rows(),
-        step_.rows(),        time_.rows(),        periods_.size(),     events_.size(),
-        clock_.size(),       container_x_.size(), container_y_.size(), container_vx_.size(),
-        container_vy_.size()};
-    if (are_spheres_) {
-        lengths.push_back(rolling_spin_.rows());
-        lengths.push_back(orientation_.rows());
-    }
-    frames_ = common_length(path, complete_, lengths);
-    const auto of_discs = [&](const char* name) {
-        return file_->column(particles + "/" + name).read<double>();
-    };
-    const auto radius = of_discs("radius"), mass = of_discs("mass"),
-               inertia = of_discs("moment_of_inertia");
-    const Dimensions row{radius.size()}, row_of_vectors{radius.size(), 3};
-    if (position_.row_shape() != row_of_vectors || velocity_.row_shape() != row_of_vectors ||
-        angle_.row_shape() != row || angular_velocity_.row_shape() != row ||
-        mass.size() != radius.size() || inertia.size() != radius.size())
-        throw FileError(
-            fmt::format("'{}' contradicts itself: its columns differ in shape.", path.string()));
-    const Dimensions row_of_spins{radius.size(), 2}, row_of_turns{radius.size(), 4};
-    if (are_spheres_ &&
-        (rolling_spin_.row_shape() != row_of_spins || orientation_.row_shape() != row_of_turns))
-        throw FileError(
-            fmt::format("'{}' contradicts itself: its columns differ in shape.", path.string()));
-    if (are_spheres_) {
-        fixed_.resize_for_spheres(radius.size());
-        fixed_.turned.resize(radius.size());
-        fixed_.on_floor = file_->integers_attribute(parameters, "floor").at(0) == 1;
-        fixed_.lie_flat = file_->has_attribute(parameters, "lie_flat");
-    }
-    fixed_.resize(radius.size());
-    fixed_.radius = radius;
-    fixed_.mass = mass;
-    fixed_.inertia = inertia;
-    fixed_.period = file_->number_attribute(parameters, "period");
-    fixed_.container_radius = file_->number_attribute(parameters, "container_radius");
-    require_possible(fixed_, Spins::known, path_);
+    open_columns();
+    read_constants();
     if (!(reach() <= largest_coordinate))
         throw FileError(
-            fmt::format("'{}': the container goes as far as {}, but must stay within {}.", path_,
+            fmt::format("'{}': the container reaches as far as {}, but must stay within {}.", path_,
                         reach(), largest_coordinate));
-    block_ = angle_.chunk_shape().empty() ? 1 : std::max<std::uint64_t>(1, angle_.chunk_shape()[0]);
+}
+
+/// Opens the series, and reads the columns with one value per frame.
+void TrajectoryReader::open_columns() {
+    std::vector<std::uint64_t> lengths;
+    for (int k = 0; k < series_count(are_spheres_); ++k) {
+        series_.push_back(file_->column(group_of(k) + "/value"));
+        lengths.push_back(series_.back().rows());
+    }
+    const auto frame_column = [&](const std::string& path) {
+        Column column = file_->column(path);
+        if (!column.row_shape().empty())
+            throw_inconsistent(path_, fmt::format("{} must have one value per frame", path));
+        lengths.push_back(column.rows());
+        return column;
+    };
+    for (const std::string& path : counter_paths)
+        counters_.push_back(frame_column(path).read<std::int64_t>());
+    for (const std::string& path : scalar_paths)
+        scalars_.push_back(frame_column(path).read<double>());
+    frames_ = common_length(path_, complete_, lengths);
+    const Dimensions& chunk = series_[angle].chunk_shape();
+    frames_per_block_ = chunk.empty() ? 1 : std::max<std::uint64_t>(1, chunk[0]);
+}
+
+/// Reads what is the same in all frames, and checks the shapes of the series against it.
+void TrajectoryReader::read_constants() {
+    const auto read = [&](const char* name) {
+        return file_->column(particles + "/" + name).read<double>();
+    };
+    auto radius = read("radius"), mass = read("mass"), inertia = read("moment_of_inertia");
+    const std::size_t n = radius.size();
+    bool same_shape = mass.size() == n && inertia.size() == n;
+    for (std::size_t k = 0; k < series_.size(); ++k) {
+        Dimensions row{n};
+        if (layouts[k].components > 1) row.push_back(layouts[k].components);
+        same_shape = same_shape && series_[k].row_shape() == row;
+    }
+    if (!same_shape) throw_inconsistent(path_, "its columns differ in shape");
+    if (are_spheres_) {
+        constants_.resize_for_spheres(n);
+        constants_.turned.resize(n);
+        constants_.on_floor = file_->integers_attribute(parameters, "floor").at(0) == 1;
+        constants_.lie_flat = file_->has_attribute(parameters, "lie_flat");
+    }
+    constants_.resize(n);
+    constants_.radius = std::move(radius);
+    constants_.mass = std::move(mass);
+    constants_.inertia = std::move(inertia);
+    constants_.period = file_->number_attribute(parameters, "period");
+    constants_.container_radius = file_->number_attribute(parameters, "container_radius");
+    require_possible(constants_, Spins::known, path_);
 }
 
 void TrajectoryReader::load_block_of(std::uint64_t k) {
     if (k >= block_begin_ && k < block_end_) return;
-    block_begin_ = k / block_ * block_;
-    block_end_ = std::min(block_begin_ + block_, frames_);
-    const std::uint64_t n = block_end_ - block_begin_;
-    loaded_ = {position_.read<double>(block_begin_, n),
-               velocity_.read<double>(block_begin_, n),
-               angle_.read<double>(block_begin_, n),
-               angular_velocity_.read<double>(block_begin_, n),
-               {},
-               {}};
-    if (!are_spheres_) return;
-    loaded_.rolling_spin = rolling_spin_.read<double>(block_begin_, n);
-    loaded_.orientation = orientation_.read<double>(block_begin_, n);
+    block_begin_ = k / frames_per_block_ * frames_per_block_;
+    block_end_ = std::min(block_begin_ + frames_per_block_, frames_);
+    block_.clear();
+    for (const Column& column : series_)
+        block_.push_back(column.read<double>(block_begin_, block_end_ - block_begin_));
 }
 
 Snapshot TrajectoryReader::frame(std::uint64_t k) {
     if (k >= frames_)
-        throw FileError(fmt::format("Frame {} was asked for, but there are {}.", k, frames_));
+        throw FileError(fmt::format("frame {} was requested, but there are {}.", k, frames_));
     load_block_of(k);
-    Snapshot s = fixed_;
-    s.periods = periods_[k];
-    s.clock = clock_[k];
-    s.container_centre = {container_x_[k], container_y_[k]};
-    s.container_velocity = {container_vx_[k], container_vy_[k]};
+    Snapshot s = constants_;
+    s.periods = counters_[periods][k];
+    s.clock = scalars_[clock][k];
+    s.container_centre = {scalars_[centre_x][k], scalars_[centre_y][k]};
+    s.container_velocity = {scalars_[centre_vx][k], scalars_[centre_vy][k]};
     const std::size_t first = (k - block_begin_) * discs();
     for (std::size_t i = 0; i < discs(); ++i) {
-        const std::size_t at = first + i;
-        s.set(i, {{loaded_.position[3 * at], loaded_.position[3 * at + 1]},
-                  {loaded_.velocity[3 * at], loaded_.velocity[3 * at + 1]},
-                  loaded_.angle[at],
-                  loaded_.angular_velocity[at],
+        const auto values = [&](Series series) {
+            return block_[series].data() + (first + i) * layouts[series].components;
+        };
+        const double *const p = values(position), *const v = values(velocity);
+        s.set(i, {{p[0], p[1]},
+                  {v[0], v[1]},
+                  *values(angle),
+                  *values(angular_velocity),
                   s.clock,
-                  fixed_.radius[i],
-                  fixed_.mass[i],
-                  fixed_.inertia[i]});
+                  constants_.radius[i],
+                  constants_.mass[i],
+                  constants_.inertia[i]});
         if (!are_spheres_) continue;
-        s.set_floor_motion(i, {loaded_.rolling_spin[2 * at], loaded_.rolling_spin[2 * at + 1]},
-                           {0.0, 0.0});
-        const double* const q = loaded_.orientation.data() + 4 * at;
+        const double *const spin = values(rolling_spin), *const q = values(orientation);
+        s.set_floor_motion(i, {spin[0], spin[1]}, {0.0, 0.0});
         s.turned[i] = {q[0], q[1], q[2], q[3]};
     }
     require_possible(s, Spins::known, path_);
@@ -163,9 +144,9 @@ Snapshot TrajectoryReader::frame(std::uint64_t k) {
 
 double TrajectoryReader::reach() const {
     double furthest = 0.0;
-    for (const auto* along : {&container_x_, &container_y_})
-        for (const double c : *along) furthest = std::max(furthest, std::abs(c));
-    return furthest + fixed_.container_radius;
+    for (const Scalar along : {centre_x, centre_y})
+        for (const double c : scalars_[along]) furthest = std::max(furthest, std::abs(c));
+    return furthest + constants_.container_radius;
 }
 
 SnapshotSeries series_of(std::shared_ptr<TrajectoryReader> reader) {
@@ -174,73 +155,71 @@ SnapshotSeries series_of(std::shared_ptr<TrajectoryReader> reader) {
 }
 
 std::uint64_t TrajectoryReader::events_before(std::uint64_t k) const {
-    return std::uint64_t(events_.at(k));
-}
-
-std::vector<std::string> TrajectoryReader::series_names() const {
-    std::vector<std::string> names;
-    for (const char* name : {"position", "velocity", "angle", "angular_velocity"})
-        names.push_back(particles + "/" + name);
-    if (are_spheres_)
-        for (const char* name : {"rolling_spin", "orientation"})
-            names.push_back(particles + "/" + name);
-    for (const char* name : {"swirls", "events", "clock", "container_x", "container_y",
-                             "container_vx", "container_vy"})
-        names.push_back(observables + "/" + name);
-    return names;
+    return std::uint64_t(counters_[events].at(k));
 }
 
 void TrajectoryReader::read_all() {
     for (const std::string& name : provenance_names()) provenance(name);
-    contradicted_by_names_or_times();
-    for (std::uint64_t k = 0; k < frames_; k += block_) frame(k);
+    inconsistent_index_or_time();
+    for (std::uint64_t k = 0; k < frames_; k += frames_per_block_) frame(k);
 }
 
-std::string TrajectoryReader::contradicted_by_names_or_times() const {
-    const auto whole = [&](const std::string& name) {
+std::string TrajectoryReader::inconsistent_index_or_time() const {
+    const auto integers = [&](const std::string& name) {
         return file_->column(particles + "/" + name).read<std::int64_t>();
     };
-    const auto counts = [&](const char* name, std::size_t entries) {
+    const auto is_index = [&](const char* name, std::size_t entries) {
         std::vector<std::int64_t> numbers(entries);
         std::iota(numbers.begin(), numbers.end(), 0);
-        return whole(name) == numbers;
+        return integers(name) == numbers;
     };
     for (const char* name : {"id", "particle"})
-        if (!counts(name, discs())) return name;
-    if (!counts("xyz", 3)) return "xyz";
-    if (are_spheres_ && !counts("xy", 2)) return "xy";
-    if (are_spheres_ && !counts("wxyz", 4)) return "wxyz";
-    if (whole("species") != h5md::species_of(fixed_.radius, fixed_.mass)) return "species";
-    for (const std::string& series : series_names()) {
-        const Column step = file_->column(series + "/step"), time = file_->column(series + "/time");
-        for (const Column* each : {&step, &time})
-            if (!each->row_shape().empty() || each->rows() < frames_ ||
-                (complete_ && each->rows() != frames_))
-                return series + (each == &step ? "/step" : "/time");
-        const auto steps = step.read<std::int64_t>(0, frames_);
-        const auto times = time.read<double>(0, frames_);
-        for (std::uint64_t k = 0; k < frames_; ++k) {
-            if (steps[k] != std::int64_t(k)) return series + "/step";
-            if (times[k] != double(periods_[k]) * fixed_.period + clock_[k])
-                return series + "/time";
-        }
+        if (!is_index(name, discs())) return name;
+    if (!is_index("xyz", 3)) return "xyz";
+    if (are_spheres_ && !is_index("xy", 2)) return "xy";
+    if (are_spheres_ && !is_index("wxyz", 4)) return "wxyz";
+    if (integers("species") != h5md::species_of(constants_.radius, constants_.mass))
+        return "species";
+    std::vector<std::string> groups;
+    for (int k = 0; k < series_count(are_spheres_); ++k) groups.push_back(group_of(k));
+    for (const std::string& path : counter_paths)
+        if (path.ends_with("/value")) groups.push_back(path.substr(0, path.rfind('/')));
+    for (const std::string& path : scalar_paths)
+        if (path.ends_with("/value")) groups.push_back(path.substr(0, path.rfind('/')));
+    for (const std::string& group : groups)
+        if (std::string name = inconsistent_time_of(group); !name.empty()) return name;
+    return "";
+}
+
+std::string TrajectoryReader::inconsistent_time_of(const std::string& group) const {
+    const Column step = file_->column(group + "/step"), time = file_->column(group + "/time");
+    for (const Column* each : {&step, &time})
+        if (!each->row_shape().empty() || each->rows() < frames_ ||
+            (complete_ && each->rows() != frames_))
+            return group + (each == &step ? "/step" : "/time");
+    const auto steps = step.read<std::int64_t>(0, frames_);
+    const auto times = time.read<double>(0, frames_);
+    for (std::uint64_t k = 0; k < frames_; ++k) {
+        if (steps[k] != std::int64_t(k)) return group + "/step";
+        if (times[k] != double(counters_[periods][k]) * constants_.period + scalars_[clock][k])
+            return group + "/time";
     }
     return "";
 }
 
-std::string TrajectoryReader::contradicted() {
-    if (std::string name = contradicted_by_names_or_times(); !name.empty()) return name;
-    for (std::uint64_t k = 0; k < frames_; k += block_) {
+std::string TrajectoryReader::inconsistent_dataset() {
+    if (std::string name = inconsistent_index_or_time(); !name.empty()) return name;
+    for (std::uint64_t k = 0; k < frames_; k += frames_per_block_) {
         load_block_of(k);
-        if (!lie_in_plane(loaded_.position)) return "position";
-        if (!lie_in_plane(loaded_.velocity)) return "velocity";
+        for (const Series series : {position, velocity})
+            if (!lie_in_plane(block_[series])) return layouts[series].name;
     }
     return "";
 }
 
 std::string TrajectoryReader::provenance(const std::string& name) const {
-    const std::string at = parameters + "/" + name;
-    return file_->has(at) ? file_->read_text(at) : "";
+    const std::string path = parameters + "/" + name;
+    return file_->has(path) ? file_->read_text(path) : "";
 }
 std::vector<std::string> TrajectoryReader::provenance_names() const {
     return file_->names_in(parameters);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
-#include <cstring>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -14,24 +14,24 @@
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/h5md.hpp"
 #include "swirl/io/recording.hpp"
-#include "swirl/io/repeat_stream.hpp"
 #include "swirl/io/trajectory.hpp"
+#include "swirl/io/trajectory_layout.hpp"
 #include "swirl/math/wide.hpp"
 
 namespace swirl {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using Words = std::vector<std::uint64_t>;
 
 using h5md::observables;
 using h5md::parameters;
 using h5md::particles;
+using namespace trajectory_layout;
 
 constexpr std::chrono::milliseconds flush_interval(500);
 
-// A chunk is what is compressed, written and read in one piece. Small enough for six of them to
-// stay near the processor, large enough for their number not to matter.
+// HDF5 compresses, writes and reads whole chunks. This size fits into its cache several times, and
+// is large enough for the cost per chunk not to matter.
 constexpr std::uint64_t chunk_bytes = 128 * 1024;
 constexpr std::uint64_t max_frames_per_chunk = 1024;
 
@@ -39,157 +39,137 @@ std::uint64_t frames_per_chunk(std::uint64_t discs) {
     const std::uint64_t frame = std::max<std::uint64_t>(1, discs) * sizeof(double);
     return std::clamp<std::uint64_t>(chunk_bytes / frame, 1, max_frames_per_chunk);
 }
-/// Of the columns with one value for each frame; whole chunks of the others.
-std::uint64_t moments_per_chunk(std::uint64_t discs) {
-    const std::uint64_t frames = frames_per_chunk(discs);
-    return max_frames_per_chunk / frames * frames;
-}
 
-/// The columns with one value for each disc and frame, and where they are in the file. Those from
-/// spin_x on are of spheres.
-enum Quantity {
-    x,
-    y,
-    vx,
-    vy,
-    angle,
-    spin,
-    spin_x,
-    spin_y,
-    turned_w,
-    turned_x,
-    turned_y,
-    turned_z,
-    quantities
+/// The columns of doubles that the series consist of. z is never written: HDF5 reads zeros.
+enum Quantity { x, y, vx, vy, phi, omega_z, omega_x, omega_y, q_w, q_x, q_y, q_z, quantities };
+struct Location {
+    Series series;
+    std::uint64_t component;
 };
-struct Place {
-    const char* name;
-    std::optional<std::uint64_t> component;
-};
-constexpr Place places[quantities] = {
-    {"position", 0},    {"position", 1},          {"velocity", 0},     {"velocity", 1},
-    {"angle", {}},      {"angular_velocity", {}}, {"rolling_spin", 0}, {"rolling_spin", 1},
-    {"orientation", 0}, {"orientation", 1},       {"orientation", 2},  {"orientation", 3}};
-/// In the dataset of the quantity before it.
-constexpr bool shares_dataset(int quantity) { return places[quantity].component.value_or(0) > 0; }
+constexpr Location locations[quantities] = {
+    {position, 0},    {position, 1},         {velocity, 0},     {velocity, 1},
+    {angle, 0},       {angular_velocity, 0}, {rolling_spin, 0}, {rolling_spin, 1},
+    {orientation, 0}, {orientation, 1},      {orientation, 2},  {orientation, 3}};
+constexpr int quantity_count(bool are_spheres) { return are_spheres ? quantities : omega_x; }
 
-/// The columns with one value for each frame.
-enum Moment {
-    step,
-    time,
-    periods,
-    clock,
-    events,
-    centre_x,
-    centre_y,
-    centre_vx,
-    centre_vy,
-    moments
-};
-constexpr const char* moment_names[moments] = {"step",        "time",         "swirls",
-                                               "clock",       "events",       "container_x",
-                                               "container_y", "container_vx", "container_vy"};
-constexpr bool is_whole(int moment) {
-    return moment == step || moment == periods || moment == events;
-}
-std::string moment_place(int moment) {
-    if (moment == step || moment == time) return particles + "/position/" + moment_names[moment];
-    return observables + "/" + moment_names[moment] + "/value";
-}
-
-/// Frames on their way to the file, column by column. One thread fills it while the other may
-/// already look at what it has been filled with.
+/// Frames on their way to the file, column by column. One thread appends frames while the other may
+/// already read the first `filled` ones.
 struct FrameBlock {
-    FrameBlock(std::uint64_t frames, std::uint64_t discs, int quantities_kept) {
-        for (int q = 0; q < quantities_kept; ++q) of_discs[q].resize(frames * discs);
-        for (Words& column : of_frames) column.resize(frames);
+    FrameBlock(std::uint64_t frames, std::uint64_t discs, bool are_spheres) {
+        for (int q = 0; q < quantity_count(are_spheres); ++q) of_discs[q].resize(frames * discs);
+        for (auto& column : of_counters) column.resize(frames);
+        for (auto& column : of_scalars) column.resize(frames);
     }
     std::array<std::vector<double>, quantities> of_discs;
-    std::array<Words, moments> of_frames;
+    std::array<std::vector<std::int64_t>, counters> of_counters;
+    std::array<std::vector<double>, scalars> of_scalars;
     std::uint64_t first = 0;  // number of its first frame
     std::atomic<std::uint64_t> filled = 0;
 };
 
-std::uint64_t bits_of(double value) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-/// Where the discs are at the snapshot's clock: Snapshot::position() and orientation().
-SWIRL_WIDE void bring_forward(std::size_t n, double now, const double* __restrict held_at,
-                              const double* __restrict from, const double* __restrict rate,
-                              double* __restrict to) {
+/// The positions (or angles) at time `now` of discs that move uniformly from their stored states:
+/// Snapshot::position() and orientation(), vectorised.
+SWIRL_WIDE void extrapolate(std::size_t n, double now, const double* __restrict held_at,
+                            const double* __restrict from, const double* __restrict rate,
+                            double* __restrict to) {
     for (std::size_t i = 0; i < n; ++i) to[i] = from[i] + (now - held_at[i]) * rate[i];
 }
 
-// --- the layout ----------------------------------------------------------------------------------
+/// Copies the state of a snapshot into frame `k` of a block. Spheres must be held at the snapshot's
+/// clock (Snapshot::up_to_date), because extrapolate() ignores accelerations.
+void copy_frame(const Snapshot& s, std::uint64_t k, FrameBlock& block) {
+    const std::size_t n = s.size();
+    const auto row = [&](Quantity q) { return block.of_discs[q].data() + k * n; };
+    extrapolate(n, s.clock, s.held_at.data(), s.x.data(), s.vx.data(), row(x));
+    extrapolate(n, s.clock, s.held_at.data(), s.y.data(), s.vy.data(), row(y));
+    extrapolate(n, s.clock, s.held_at.data(), s.angle.data(), s.spin.data(), row(phi));
+    std::copy_n(s.vx.data(), n, row(vx));
+    std::copy_n(s.vy.data(), n, row(vy));
+    std::copy_n(s.spin.data(), n, row(omega_z));
+    block.of_counters[periods][k] = s.periods;
+    block.of_scalars[time][k] = s.time();
+    block.of_scalars[clock][k] = s.clock;
+    block.of_scalars[centre_x][k] = s.container_centre.x;
+    block.of_scalars[centre_y][k] = s.container_centre.y;
+    block.of_scalars[centre_vx][k] = s.container_velocity.x;
+    block.of_scalars[centre_vy][k] = s.container_velocity.y;
+    if (!s.are_spheres()) return;
+    std::copy_n(s.spin_x.data(), n, row(omega_x));
+    std::copy_n(s.spin_y.data(), n, row(omega_y));
+    for (std::size_t i = 0; i < n; ++i) {
+        const Quaternion q = s.turned.empty() ? Quaternion{} : s.turned[i];
+        row(q_w)[i] = q.w;
+        row(q_x)[i] = q.x;
+        row(q_y)[i] = q.y;
+        row(q_z)[i] = q.z;
+    }
+}
 
-struct Compression {
-    Packing packing;
-    int level;
-    explicit Compression(int c)
-        : packing(c == 0  ? Packing::none
-                  : c > 0 ? Packing::deflate
-                          : Packing::stream),
-          level(std::max(c, 1)) {}
-};
+// --- the layout of the file ----------------------------------------------------------------------
 
-// Every time series has its own step and time in H5MD; here they are all the same two.
-void link_times(Hdf5File& file, const std::string& group) {
+// H5MD demands a step and a time for each series; here all series share those of the position.
+void create_group_with_times(Hdf5File& file, const std::string& group) {
+    file.create_group(group);
     h5md::link_times(file, particles + "/position", group);
 }
 
-void create_series(Hdf5File& file, const std::string& name, const Dimensions& row,
-                   const Compression& c) {
-    const std::string group = particles + "/" + name;
-    const bool owns_times = name == "position";
-    if (!owns_times) {
-        file.create_group(group);
-        link_times(file, group);
-    }
-    Dimensions chunk{frames_per_chunk(row[0]), row[0]};
-    if (row.size() > 1) chunk.push_back(1);
-    file.create_column<double>(group + "/value", row, chunk, c.packing, c.level);
+void create_series(Hdf5File& file, int series, std::uint64_t discs, int compression) {
+    const SeriesLayout& layout = layouts[series];
+    const std::string group = group_of(series);
+    if (series != position) create_group_with_times(file, group);
+    Dimensions row{discs}, chunk{frames_per_chunk(discs), discs};
     std::vector<std::string> scales{group + "/time", particles + "/particle"};
-    if (row.size() > 1)
-        scales.push_back(particles + (row[1] == 3 ? "/xyz" : row[1] == 2 ? "/xy" : "/wxyz"));
+    if (layout.scale) {
+        row.push_back(layout.components);
+        chunk.push_back(1);
+        scales.push_back(particles + layout.scale);
+    }
+    file.create_column<double>(group + "/value", row, chunk, compression);
     file.attach_scales(group + "/value", scales);
 }
 
-void create_moments(Hdf5File& file, std::uint64_t discs, const Compression& c) {
-    for (int m = 0; m < moments; ++m) {
-        const std::string place = moment_place(m), group = place.substr(0, place.rfind('/'));
-        if (m == step) file.create_group(group);
-        if (m > time) {
-            file.create_group(group);
-            link_times(file, group);
-        }
-        const Dimensions chunk{moments_per_chunk(discs)};
-        if (is_whole(m))
-            file.create_column<std::int64_t>(place, {}, chunk, c.packing, c.level);
-        else
-            file.create_column<double>(place, {}, chunk, c.packing, c.level);
-        if (m == time) file.make_scale(place, "time");
-        if (m != time && m != step) file.attach_scales(place, {group + "/time"});
-    }
-    file.attach_scales(moment_place(step), {moment_place(time)});
+void create_observable(Hdf5File& file, const std::string& path, bool is_counter, int compression) {
+    const std::string group = path.substr(0, path.rfind('/'));
+    create_group_with_times(file, group);
+    const Dimensions chunk{max_frames_per_chunk};
+    if (is_counter)
+        file.create_column<std::int64_t>(path, {}, chunk, compression);
+    else
+        file.create_column<double>(path, {}, chunk, compression);
+    file.attach_scales(path, {group + "/time"});
 }
 
-void create_fixed(Hdf5File& file, const Snapshot& first) {
+void create_frame_columns(Hdf5File& file, int compression) {
+    const Dimensions chunk{max_frames_per_chunk};
+    file.create_group(particles + "/position");
+    file.create_column<std::int64_t>(counter_paths[step], {}, chunk, compression);
+    file.create_column<double>(scalar_paths[time], {}, chunk, compression);
+    file.make_scale(scalar_paths[time], "time");
+    file.attach_scales(counter_paths[step], {scalar_paths[time]});
+    for (int c = step + 1; c < counters; ++c)
+        create_observable(file, counter_paths[c], true, compression);
+    for (int s = time + 1; s < scalars; ++s)
+        create_observable(file, scalar_paths[s], false, compression);
+}
+
+/// Writes 0, 1, … n − 1 as a dimension scale.
+void write_scale(Hdf5File& file, const std::string& name, std::uint64_t n) {
+    std::vector<std::int64_t> numbers(n);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    file.write(particles + "/" + name, numbers, {n});
+    file.make_scale(particles + "/" + name, name);
+}
+
+void write_constants(Hdf5File& file, const Snapshot& first) {
     const std::uint64_t n = first.size();
+    write_scale(file, "particle", n);
+    write_scale(file, "xyz", 3);
+    if (first.are_spheres()) {
+        write_scale(file, "xy", 2);
+        write_scale(file, "wxyz", 4);
+    }
     std::vector<std::int64_t> id(n);
     std::iota(id.begin(), id.end(), 0);
-    file.write(particles + "/particle", id, {n});
-    file.make_scale(particles + "/particle", "particle");
-    file.write(particles + "/xyz", std::vector<std::int64_t>{0, 1, 2}, {3});
-    file.make_scale(particles + "/xyz", "xyz");
-    if (first.are_spheres()) {
-        file.write(particles + "/xy", std::vector<std::int64_t>{0, 1}, {2});
-        file.make_scale(particles + "/xy", "xy");
-        file.write(particles + "/wxyz", std::vector<std::int64_t>{0, 1, 2, 3}, {4});
-        file.make_scale(particles + "/wxyz", "wxyz");
-    }
     file.write(particles + "/id", id, {n});
     file.write(particles + "/species", h5md::species_of(first.radius, first.mass), {n});
     file.write(particles + "/mass", first.mass, {n});
@@ -199,22 +179,7 @@ void create_fixed(Hdf5File& file, const Snapshot& first) {
         file.attach_scales(particles + name, {particles + "/particle"});
 }
 
-void create_layout(Hdf5File& file, const Snapshot& first, const Compression& compression) {
-    h5md::create_head(file, particles);
-    create_fixed(file, first);
-    file.create_group(observables);
-    const std::uint64_t n = first.size();
-    create_moments(file, n, compression);
-    create_series(file, "position", {n, 3}, compression);
-    create_series(file, "velocity", {n, 3}, compression);
-    create_series(file, "angle", {n}, compression);
-    create_series(file, "angular_velocity", {n}, compression);
-    if (!first.are_spheres()) return;
-    create_series(file, "rolling_spin", {n, 2}, compression);
-    create_series(file, "orientation", {n, 4}, compression);
-}
-
-void create_parameters(Hdf5File& file, const Snapshot& first, const Provenance& provenance) {
+void write_parameters(Hdf5File& file, const Snapshot& first, const Provenance& provenance) {
     h5md::create_parameters(file, provenance);
     file.set_attribute(parameters, "period", first.period);
     file.set_attribute(parameters, "container_radius", first.container_radius);
@@ -223,236 +188,136 @@ void create_parameters(Hdf5File& file, const Snapshot& first, const Provenance& 
     if (first.lie_flat) file.set_attribute(parameters, "lie_flat", std::vector<std::int64_t>{1});
 }
 
-// --- the file's side -----------------------------------------------------------------------------
+Hdf5File create_file(const std::filesystem::path& path, const Snapshot& first,
+                     const Provenance& provenance, int compression) {
+    Hdf5File file(partial_name(path), JournaledFile::Mode::create);
+    h5md::create_head(file, particles);
+    write_constants(file, first);
+    file.create_group(observables);
+    create_frame_columns(file, compression);
+    for (int k = 0; k < series_count(first.are_spheres()); ++k)
+        create_series(file, k, first.size(), compression);
+    write_parameters(file, first, provenance);
+    return file;
+}
 
-/// Puts blocks into the file. A chunk that is not full yet is put there with zeros behind, and put
-/// again when there is more.
+/// Appends frames to an unfinished recording.
 class FrameFile {
   public:
     FrameFile(const std::filesystem::path& path, Hdf5File file)
-        : path_(path), file_(std::move(file)) {
-        kept_ = file_.has(particles + "/orientation/value") ? quantities : spin_x;
-        for (int q = 0; q < kept_; ++q)
-            of_discs_[q] = shares_dataset(q) ? of_discs_[q - 1]
-                                             : std::make_shared<Column>(file_.column(
-                                                   particles + "/" + places[q].name + "/value"));
-        for (int m = 0; m < moments; ++m) of_frames_[m] = file_.column(moment_place(m));
-        discs_ = of_discs_[angle]->row_shape().at(0);
-        frames_per_chunk_ = frames_per_chunk(discs_);
-        moments_per_chunk_ = moments_per_chunk(discs_);
-        chunk_.resize(frames_per_chunk_ * discs_);
-        for (Words& column : latest_) column.resize(moments_per_chunk_);
-        const Dimensions chunk{frames_per_chunk_, discs_};
-        if (of_discs_[angle]->chunk_shape() != chunk ||
-            of_frames_[step].chunk_shape() != Dimensions{moments_per_chunk_})
-            throw FileError(fmt::format(
-                "'{}' was begun by another version of swirl; only that one can carry on with it.",
-                path_.string()));
+        : path_(path),
+          file_(std::move(file)),
+          are_spheres_(file_.has(group_of(orientation) + "/value")) {
+        for (int k = 0; k < series_count(are_spheres_); ++k)
+            series_columns_[k] = file_.column(group_of(k) + "/value");
+        for (int c = 0; c < counters; ++c) counter_columns_[c] = file_.column(counter_paths[c]);
+        for (int s = 0; s < scalars; ++s) scalar_columns_[s] = file_.column(scalar_paths[s]);
+        discs_ = series_columns_[angle].row_shape().at(0);
         file_.set_attribute(parameters, "complete", std::vector<std::int64_t>{0});
     }
 
     std::uint64_t discs() const { return discs_; }
-    bool are_spheres() const { return kept_ == quantities; }
-    int quantities_kept() const { return kept_; }
-    std::uint64_t frames_per_block() const { return frames_per_chunk_; }
+    bool are_spheres() const { return are_spheres_; }
 
-    /// Forgets all frames but the first `frames`; gives back those of the chunk that is begun.
-    void cut(std::uint64_t frames, FrameBlock& block) {
-        const auto cut_column = [&](Column& column) {
-            if (column.rows() < frames)
-                throw FileError(fmt::format(
-                    "'{}' holds {} frames, but the checkpoint was made when it held {}; it does "
-                    "not belong to the checkpoint, or has been changed since.",
-                    path_.string(), column.rows(), frames));
+    /// Drops all frames but the first `frames`. Throws FileError if there are fewer.
+    void truncate(std::uint64_t frames) {
+        const auto truncate_column = [&](Column& column) {
+            require_recorded(path_, "frames", column.rows(), frames);
             if (column.rows() > frames) column.resize(frames);
         };
-        for (int q = 0; q < kept_; ++q)
-            if (!shares_dataset(q)) cut_column(*of_discs_[q]);
-        for (Column& column : of_frames_) cut_column(column);
-
-        block.first = frames / frames_per_chunk_ * frames_per_chunk_;
-        const std::uint64_t rest = frames - block.first;
-        block.filled = rest;
-        if (rest > 0)
-            for (int q = 0; q < kept_; ++q) {
-                const auto rows = of_discs_[q]->read<double>(block.first, rest);
-                const std::size_t stride = rows.size() / (rest * discs_);
-                for (std::size_t k = 0; k < rest * discs_; ++k)
-                    block.of_discs[q][k] = rows[k * stride + places[q].component.value_or(0)];
-            }
-        latest_first_ = frames / moments_per_chunk_ * moments_per_chunk_;
-        latest_end_ = frames;
-        for (int m = 0; m < moments; ++m) {
-            const auto words = words_of(m, latest_first_, frames - latest_first_);
-            std::copy(words.begin(), words.end(), latest_[m].begin());
-            std::copy(words.end() - std::ptrdiff_t(rest), words.end(), block.of_frames[m].begin());
-        }
-        put_ = frames;
+        for (int k = 0; k < series_count(are_spheres_); ++k) truncate_column(series_columns_[k]);
+        for (Column& column : counter_columns_) truncate_column(column);
+        for (Column& column : scalar_columns_) truncate_column(column);
+        frames_ = frames;
     }
 
-    /// The first `frames` frames of a block, those that were put before among them.
-    void put(const FrameBlock& block, std::uint64_t frames) {
-        if (block.first + frames <= put_) return;
-        changed_ = true;
-        put_ = block.first + frames;
-        for (int q = 0; q < kept_; ++q) {
-            if (of_discs_[q]->rows() < put_) of_discs_[q]->resize(put_);
-            put_column(*of_discs_[q], block.of_discs[q].data(), block.first, frames, discs_,
-                       places[q].component);
+    /// Appends those of the first `filled` frames of a block that are not in the file yet.
+    void append(const FrameBlock& block, std::uint64_t filled) {
+        const std::uint64_t end = block.first + filled;
+        if (end <= frames_) return;
+        const std::uint64_t skipped = frames_ - block.first, count = end - frames_;
+        for (int q = 0; q < quantity_count(are_spheres_); ++q) {
+            const auto [series, component] = locations[q];
+            Column& column = series_columns_[series];
+            if (column.rows() < end) column.resize(end);
+            const bool is_vector = layouts[series].components > 1;
+            column.write(frames_, count, block.of_discs[q].data() + skipped * discs_,
+                         is_vector ? std::optional(component) : std::nullopt);
         }
-        for (std::uint64_t k = std::max(latest_end_, block.first); k < put_; ++k) {
-            if (k - latest_first_ == moments_per_chunk_) put_moments();
-            for (int m = 0; m < moments; ++m)
-                latest_[m][k - latest_first_] = block.of_frames[m][k - block.first];
-            latest_end_ = k + 1;
-        }
+        for (int c = 0; c < counters; ++c)
+            counter_columns_[c].append(block.of_counters[c].data() + skipped, count);
+        for (int s = 0; s < scalars; ++s)
+            scalar_columns_[s].append(block.of_scalars[s].data() + skipped, count);
+        frames_ = end;
+        is_changed_ = true;
     }
 
     void commit() {
-        if (!changed_) return;
-        put_moments();
-        file_.flush();
-        changed_ = false;
+        if (is_changed_) file_.flush();
+        is_changed_ = false;
     }
 
     void finish() {
-        put_moments();
         file_.set_attribute(parameters, "complete", std::vector<std::int64_t>{1});
-        of_discs_ = {};
-        of_frames_ = {};
+        series_columns_ = {};
+        counter_columns_ = {};
+        scalar_columns_ = {};
         file_.finish(path_);
     }
 
   private:
-    Words words_of(int m, std::uint64_t first, std::uint64_t count) {
-        Words words(count);
-        if (is_whole(m)) {
-            const auto values = of_frames_[m].read<std::int64_t>(first, count);
-            if (count > 0) std::memcpy(words.data(), values.data(), count * sizeof words[0]);
-        } else {
-            const auto values = of_frames_[m].read<double>(first, count);
-            if (count > 0) std::memcpy(words.data(), values.data(), count * sizeof words[0]);
-        }
-        return words;
-    }
-
-    /// What has come since the last chunk of the columns that have one value for each frame.
-    void put_moments() {
-        const std::uint64_t count = latest_end_ - latest_first_;
-        for (int m = 0; m < moments; ++m) {
-            if (of_frames_[m].rows() < latest_end_) of_frames_[m].resize(latest_end_);
-            if (count == 0) continue;
-            if (is_whole(m))
-                put_column(of_frames_[m], reinterpret_cast<const std::int64_t*>(latest_[m].data()),
-                           latest_first_, count, 1, {});
-            else
-                put_column(of_frames_[m], reinterpret_cast<const double*>(latest_[m].data()),
-                           latest_first_, count, 1, {});
-        }
-        if (count == moments_per_chunk_) latest_first_ = latest_end_;
-    }
-
-    template <class T>
-    void put_column(Column& column, const T* values, std::uint64_t first, std::uint64_t rows,
-                    std::uint64_t row, std::optional<std::uint64_t> component) {
-        if (column.packing() == Packing::deflate)
-            return column.change(first, rows, values, component);
-        const std::uint64_t whole = column.chunk_shape()[0] * row, there = rows * row;
-        const void* bytes = values;
-        if (there < whole) {
-            chunk_.resize(std::max<std::size_t>(chunk_.size(), whole));
-            std::memcpy(chunk_.data(), values, there * sizeof(T));
-            std::fill(chunk_.begin() + std::ptrdiff_t(there),
-                      chunk_.begin() + std::ptrdiff_t(whole), 0);
-            bytes = chunk_.data();
-        }
-        std::size_t size = 0;
-        if (column.packing() == Packing::stream)
-            size =
-                make_repeat_stream({static_cast<const std::uint64_t*>(bytes), whole}, row, stream_);
-        if (size > 0) return column.put_chunk(first, stream_.data(), size, false, component);
-        column.put_chunk(first, bytes, whole * sizeof(T), true, component);
-    }
-
     std::filesystem::path path_;
-    Hdf5File file_;  // before the columns, which refer to it
-    std::array<std::shared_ptr<Column>, quantities> of_discs_;
-    int kept_ = spin_x;  // of the quantities: those of discs, or all
-    std::array<Column, moments> of_frames_;
-    std::uint64_t discs_ = 0, frames_per_chunk_ = 1, moments_per_chunk_ = 1;
-    std::uint64_t put_ = 0;                            // frames that are in the file
-    bool changed_ = true;                              // since the last commit
-    std::array<Words, moments> latest_;                // a chunk of each
-    std::uint64_t latest_first_ = 0, latest_end_ = 0;  // numbers of the frames in there
-    Words chunk_;
-    std::vector<unsigned char> stream_;
+    Hdf5File file_;  // declared before the columns, which refer to it
+    bool are_spheres_;
+    std::array<Column, all_series> series_columns_;
+    std::array<Column, counters> counter_columns_;
+    std::array<Column, scalars> scalar_columns_;
+    std::uint64_t discs_ = 0;
+    std::uint64_t frames_ = 0;  // in the file
+    bool is_changed_ = true;    // since the last commit
 };
 
 }  // namespace
 
 // --- two threads ---------------------------------------------------------------------------------
 
-class TrajectoryWriter::Work {
+/// The caller's thread fills blocks with frames; a second thread writes them to the file.
+class TrajectoryWriter::Pipeline {
   public:
-    Work(FrameFile file, std::optional<std::uint64_t> frames_there) : file_(std::move(file)) {
-        for (int k = 0; k < blocks_on_their_way + 1; ++k)
-            idle_.push_back(std::make_unique<FrameBlock>(file_.frames_per_block(), file_.discs(),
-                                                         file_.quantities_kept()));
-        take_idle_block();
-        if (frames_there) {
-            frames_ = *frames_there;
-            file_.cut(frames_, *filling_);
+    Pipeline(FrameFile file, std::optional<std::uint64_t> frames_to_keep) : file_(std::move(file)) {
+        if (frames_to_keep) {
+            frames_ = *frames_to_keep;
+            file_.truncate(frames_);
         }
+        for (int k = 0; k < max_queued_blocks + 1; ++k)
+            idle_.push_back(std::make_unique<FrameBlock>(frames_per_block(), file_.discs(),
+                                                         file_.are_spheres()));
+        take_idle_block();
         thread_ = std::thread([this] { work(); });
     }
-    ~Work() { end_thread(); }
-    Work(const Work&) = delete;
-    Work& operator=(const Work&) = delete;
+    ~Pipeline() { end_thread(); }
+    Pipeline(const Pipeline&) = delete;
+    Pipeline& operator=(const Pipeline&) = delete;
 
     void write(const Snapshot& s, std::uint64_t events_before) {
         if (failed_.load(std::memory_order_relaxed)) flush();  // throws
-        FrameBlock& b = *filling_;
-        const std::uint64_t k = b.filled.load(std::memory_order_relaxed), n = file_.discs();
-        const auto at = [&](Quantity q) { return b.of_discs[q].data() + k * n; };
-        bring_forward(n, s.clock, s.held_at.data(), s.x.data(), s.vx.data(), at(x));
-        bring_forward(n, s.clock, s.held_at.data(), s.y.data(), s.vy.data(), at(y));
-        bring_forward(n, s.clock, s.held_at.data(), s.angle.data(), s.spin.data(), at(angle));
-        std::copy_n(s.vx.data(), n, at(vx));
-        std::copy_n(s.vy.data(), n, at(vy));
-        std::copy_n(s.spin.data(), n, at(spin));
-        if (file_.are_spheres()) {
-            // Of a snapshot whose spheres are held now: nobody is accelerated.
-            std::copy_n(s.spin_x.data(), n, at(spin_x));
-            std::copy_n(s.spin_y.data(), n, at(spin_y));
-            for (std::size_t i = 0; i < n; ++i) {
-                const Quaternion q = s.turned.empty() ? Quaternion{} : s.turned[i];
-                at(turned_w)[i] = q.w;
-                at(turned_x)[i] = q.x;
-                at(turned_y)[i] = q.y;
-                at(turned_z)[i] = q.z;
-            }
-        }
-        b.of_frames[step][k] = frames_;
-        b.of_frames[time][k] = bits_of(s.time());
-        b.of_frames[periods][k] = static_cast<std::uint64_t>(s.periods);
-        b.of_frames[clock][k] = bits_of(s.clock);
-        b.of_frames[events][k] = events_before;
-        b.of_frames[centre_x][k] = bits_of(s.container_centre.x);
-        b.of_frames[centre_y][k] = bits_of(s.container_centre.y);
-        b.of_frames[centre_vx][k] = bits_of(s.container_velocity.x);
-        b.of_frames[centre_vy][k] = bits_of(s.container_velocity.y);
-        b.filled.store(k + 1, std::memory_order_release);
+        FrameBlock& block = *filling_;
+        const std::uint64_t k = block.filled.load(std::memory_order_relaxed);
+        copy_frame(s, k, block);
+        block.of_counters[step][k] = std::int64_t(frames_);
+        block.of_counters[events][k] = std::int64_t(events_before);
+        block.filled.store(k + 1, std::memory_order_release);
         ++frames_;
-        if (k + 1 == file_.frames_per_block()) hand_over();
+        if (k + 1 == frames_per_block()) submit_block();
     }
 
     std::uint64_t frames() const { return frames_; }
 
     void flush() {
         std::unique_lock lock(mutex_);
-        flush_wanted_ = true;
+        flush_requested_ = true;
         to_thread_.notify_one();
-        from_thread_.wait(lock, [&] { return !flush_wanted_ || failure_; });
+        from_thread_.wait(lock, [&] { return !flush_requested_ || failure_; });
         if (failure_) std::rethrow_exception(failure_);
     }
 
@@ -463,11 +328,13 @@ class TrajectoryWriter::Work {
     }
 
   private:
-    static constexpr int blocks_on_their_way = 3;
+    static constexpr int max_queued_blocks = 3;
 
-    void hand_over() {
+    std::uint64_t frames_per_block() const { return frames_per_chunk(file_.discs()); }
+
+    void submit_block() {
         std::unique_lock lock(mutex_);
-        waiting_.push_back(std::move(filling_));
+        queue_.push_back(std::move(filling_));
         to_thread_.notify_one();
         from_thread_.wait(lock, [&] { return !idle_.empty() || failure_; });
         if (failure_) std::rethrow_exception(failure_);
@@ -506,72 +373,70 @@ class TrajectoryWriter::Work {
         std::unique_lock lock(mutex_);
         while (true) {
             to_thread_.wait_until(lock, last_flush + flush_interval,
-                                  [&] { return stop_ || !waiting_.empty() || flush_wanted_; });
+                                  [&] { return stop_ || !queue_.empty() || flush_requested_; });
             if (stop_) return;
-            if (!waiting_.empty()) {
-                const FrameBlock& block = *waiting_.front();
-                lock.unlock();
-                file_.put(block, file_.frames_per_block());
-                lock.lock();
-                idle_.push_back(std::move(waiting_.front()));
-                waiting_.pop_front();
-                from_thread_.notify_one();
-            }
-            const bool in_time = Clock::now() - last_flush < flush_interval;
-            if (!waiting_.empty() ? in_time : in_time && !flush_wanted_) continue;
-            // The block being filled stays where it is, or goes to the end of those that wait.
-            const FrameBlock* const block = waiting_.empty() ? filling_.get() : nullptr;
-            const std::uint64_t filled = block ? block->filled.load(std::memory_order_acquire) : 0;
-            const bool wanted = waiting_.empty() && flush_wanted_;
-            lock.unlock();
-            if (block) file_.put(*block, filled);
-            file_.commit();
+            if (!queue_.empty()) write_queued_block(lock);
+            const bool is_early = Clock::now() - last_flush < flush_interval;
+            // An explicit flush includes the queue, so the queue is written first.
+            const bool is_requested = flush_requested_ && queue_.empty();
+            if (is_early && !is_requested) continue;
+            flush_file(lock);
             last_flush = Clock::now();
-            lock.lock();
-            if (!wanted) continue;
-            flush_wanted_ = false;
+            if (!is_requested) continue;
+            flush_requested_ = false;
             from_thread_.notify_one();
         }
+    }
+
+    void write_queued_block(std::unique_lock<std::mutex>& lock) {
+        const FrameBlock& block = *queue_.front();
+        lock.unlock();
+        file_.append(block, frames_per_block());
+        lock.lock();
+        idle_.push_back(std::move(queue_.front()));
+        queue_.pop_front();
+        from_thread_.notify_one();
+    }
+
+    /// Commits the file, with the frames of the block that is being filled if no block precedes it
+    /// in the queue. Meanwhile that block stays alive: the caller's thread can only queue it.
+    void flush_file(std::unique_lock<std::mutex>& lock) {
+        const FrameBlock* const block = queue_.empty() ? filling_.get() : nullptr;
+        const std::uint64_t filled = block ? block->filled.load(std::memory_order_acquire) : 0;
+        lock.unlock();
+        if (block) file_.append(*block, filled);
+        file_.commit();
+        lock.lock();
     }
 
     FrameFile file_;
     std::uint64_t frames_ = 0;
     std::unique_ptr<FrameBlock> filling_;
 
-    std::mutex mutex_;  // for all that follows
+    std::mutex mutex_;  // guards everything below
     std::condition_variable to_thread_, from_thread_;
-    std::deque<std::unique_ptr<FrameBlock>> waiting_, idle_;
-    bool flush_wanted_ = false;
+    std::deque<std::unique_ptr<FrameBlock>> queue_, idle_;
+    bool flush_requested_ = false;
     bool stop_ = false;
     std::exception_ptr failure_;
     std::atomic<bool> failed_ = false;
     std::thread thread_;
 };
 
-namespace {
-
-FrameFile new_file(const std::filesystem::path& path, const Snapshot& first,
-                   const Provenance& provenance, int compression) {
-    Hdf5File file(partial_name(path), JournaledFile::Mode::create);
-    create_layout(file, first, Compression(compression));
-    create_parameters(file, first, provenance);
-    return {path, std::move(file)};
-}
-
-}  // namespace
-
-TrajectoryWriter::TrajectoryWriter(std::unique_ptr<Work> work) : work_(std::move(work)) {}
+TrajectoryWriter::TrajectoryWriter(std::unique_ptr<Pipeline> pipeline)
+    : pipeline_(std::move(pipeline)) {}
 
 TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const Snapshot& first,
                                    const Provenance& provenance, int compression)
-    : work_(std::make_unique<Work>(new_file(path, first, provenance, compression), std::nullopt)) {
+    : pipeline_(std::make_unique<Pipeline>(
+          FrameFile(path, create_file(path, first, provenance, compression)), std::nullopt)) {
     flush();
 }
 
 TrajectoryWriter TrajectoryWriter::resume(const std::filesystem::path& path, std::uint64_t frames,
                                           const std::string& run) {
     return TrajectoryWriter(
-        std::make_unique<Work>(FrameFile(path, reopen_recording(path, run)), frames));
+        std::make_unique<Pipeline>(FrameFile(path, reopen_recording(path, run)), frames));
 }
 
 TrajectoryWriter::~TrajectoryWriter() = default;
@@ -579,10 +444,10 @@ TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
 TrajectoryWriter& TrajectoryWriter::operator=(TrajectoryWriter&&) noexcept = default;
 
 void TrajectoryWriter::write(const Snapshot& snapshot, std::uint64_t events_before) {
-    work_->write(snapshot, events_before);
+    pipeline_->write(snapshot, events_before);
 }
-std::uint64_t TrajectoryWriter::frames() const { return work_->frames(); }
-void TrajectoryWriter::flush() { work_->flush(); }
-void TrajectoryWriter::finish() { work_->finish(); }
+std::uint64_t TrajectoryWriter::frames() const { return pipeline_->frames(); }
+void TrajectoryWriter::flush() { pipeline_->flush(); }
+void TrajectoryWriter::finish() { pipeline_->finish(); }
 
 }  // namespace swirl

@@ -55,7 +55,7 @@ void write_frame(const std::string& name, Canvas& canvas) {
     AtomicFile file(name);
     file.append(canvas.png());
     file.empty_buffer();
-    file.give_name();
+    file.publish();
 }
 
 std::optional<std::string> problem_with_times(const MovieConfig& config) {

@@ -240,7 +240,7 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
         place_discs(radii, c.container_radius, c.seed, stopped_by(stop).is_stopped);
     if (!centres && stop && stop->load())
         throw_interrupted(fmt::format("stopped during the placement of the {}s.", body_word(c)));
-    if (!centres) throw_wrong_call(no_placement_message(c));
+    if (!centres) throw_usage_error(no_placement_message(c));
 
     InitialState state = without_discs(c, make_path(c));
     // A tenth of the container's speed for the paper's parameters. It does not depend on that speed,

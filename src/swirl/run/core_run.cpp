@@ -12,16 +12,18 @@
 namespace swirl {
 namespace {
 
-/// An observation by event looks at all discs after each of them.
-int events_between_looks(std::size_t discs) {
-    constexpr std::size_t discs_looked_at = 1 << 22;
-    return static_cast<int>(
-        std::clamp<std::size_t>(discs_looked_at / std::max<std::size_t>(discs, 1), 1, 256));
+/// Measurements by event visit all discs after each event, so with many discs there are fewer
+/// events between two checks.
+int events_between_checks(std::size_t discs) {
+    constexpr std::size_t visits_between_checks = 1 << 22;
+    constexpr std::size_t max_events = 256;
+    const std::size_t events = visits_between_checks / std::max<std::size_t>(discs, 1);
+    return static_cast<int>(std::clamp<std::size_t>(events, 1, max_events));
 }
 
 }  // namespace
 
-BareRun::BareRun(const RunConfig& config, const InitialState& begin, Observation* observation,
+CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, Observation* observation,
                  const Progress& progress, const Tuning& tuning)
     : config_(config),
       path_(begin.path),
@@ -31,11 +33,11 @@ BareRun::BareRun(const RunConfig& config, const InitialState& begin, Observation
       event_(),
       rotation_times_(rotation_samples, config.period),
       observation_times_(samples_per_period, config.period),
-      events_to_look_(events_until_look()),
+      events_to_check_(events_until_check()),
       watch_(simulation_.size(), mark()),
       in_warmup_(tuning.width),
       after_warmup_(tuning.width),
-      next_question_(min_blocks_of_a_steady_state),
+      next_warmup_test_(min_blocks_of_a_steady_state),
       warm_(config.warmup == 0),
       events_per_sample_(events_per_rotation_sample(simulation_.size())),
       events_to_sample_(events_per_sample_ - simulation_.events().total() % events_per_sample_) {
@@ -45,22 +47,22 @@ BareRun::BareRun(const RunConfig& config, const InitialState& begin, Observation
     result_.invariant_at_start = start.invariant;
 }
 
-bool BareRun::complete() const {
+bool CoreRun::complete() const {
     if (config_.periods) return simulation_.periods() >= *config_.periods;
     return simulation_.events().total() >= static_cast<std::uint64_t>(config_.events);
 }
 
-double BareRun::periods() const {
+double CoreRun::periods() const {
     return static_cast<double>(simulation_.periods()) + simulation_.clock() / config_.period;
 }
-double BareRun::fraction() const {
+double CoreRun::fraction() const {
     if (config_.periods) return periods() / static_cast<double>(*config_.periods);
     return static_cast<double>(simulation_.events().total()) / static_cast<double>(config_.events);
 }
 
-/// The snapshot is sampled at all times that are due until the event.
-void BareRun::find_event() {
-    // Written where it is kept: what is copied waits until it has been written.
+/// Also samples the snapshot at all sample times before the event.
+void CoreRun::execute_event() {
+    // Constructed in place: a copy would first have to wait for the stores of the event.
     new (&event_) Event(simulation_.step());
     sample_by_event();
     while (next_sample(rotation_times_)) {
@@ -71,7 +73,7 @@ void BareRun::find_event() {
         while (next_sample(observation_times_)) observation_->sample(snapshot());
 }
 
-void BareRun::pass_event() {
+void CoreRun::pass_event() {
     simulation_.refresh(snapshot_, event_);
     rotation().follow(snapshot_, event_);
     if (--events_to_sample_ == 0) {
@@ -84,98 +86,96 @@ void BareRun::pass_event() {
         begin_period();
 }
 
-/// The end of the run comes with an event or with a swirl.
-int BareRun::events_until_look() const {
-    const int at_most = complete() ? 0 : events_between_looks(simulation_.size());
+/// A run with a given number of events is also checked at its end; one with a number of periods is
+/// checked at the end of each period (begin_period).
+int CoreRun::events_until_check() const {
+    const int at_most = complete() ? 0 : events_between_checks(simulation_.size());
     if (config_.periods) return at_most;
     const std::int64_t left =
         config_.events - static_cast<std::int64_t>(simulation_.events().total());
     return static_cast<int>(std::clamp<std::int64_t>(left, 0, at_most));
 }
 
-std::optional<std::string> BareRun::problem() {
+std::optional<std::string> CoreRun::problem() {
     if (auto sentence = overlap_problem()) return sentence;
     if (const auto found = watch_.check(mark())) return collapse_sentence(*found);
     return {};
 }
-std::optional<std::string> BareRun::problem_at_the_end() const {
+std::optional<std::string> CoreRun::problem_at_the_end() const {
     if (auto sentence = overlap_problem()) return sentence;
     if (const auto found = watch_.check_at_end(mark())) return collapse_sentence(*found);
     return {};
 }
 
-/// Rounding errors of places (docs/physics.md) must stay what they are called.
-std::optional<std::string> BareRun::overlap_problem() const {
-    constexpr double still_rounding = 1e-6;
+/// Overlaps are rounding errors of positions (docs/physics.md) and must stay small.
+std::optional<std::string> CoreRun::overlap_problem() const {
+    constexpr double max_relative_overlap = 1e-6;
     const double smallest =
         config_.mixture ? std::min(config_.radius, config_.mixture->radius) : config_.radius;
-    if (result_.max_overlap <= still_rounding * smallest) return {};
+    if (result_.max_overlap <= max_relative_overlap * smallest) return {};
     return fmt::format(
-        "After {:.3f} swirls a disc is {:.2g} of the smallest radius deep in another or in the "
-        "wall: "
-        "rounding errors have grown too large for discs so small in a dish so wide or on a path so "
-        "long. A smaller --container-radius or --amplitude, or fewer --events, would be right.",
+        "after {:.3f} periods a disc overlaps another disc or the wall by {:.2g} of the smallest "
+        "radius: rounding errors are too large for such small discs in such a wide container or "
+        "on such a long path.\nhint: reduce --container-radius, --amplitude or --events.",
         periods(), result_.max_overlap / smallest);
 }
 
-std::string BareRun::collapse_sentence(const Collapse& collapse) const {
+std::string CoreRun::collapse_sentence(const Collapse& collapse) const {
     return fmt::format(
-        "The last {} events took {:.2g} swirls, so time all but stands still after {:.3f} swirls: "
-        "{}",
+        "the last {} events took only {:.2g} periods (collapse after {:.3f} periods): {}",
         collapse.events, collapse.periods, periods(), reason_for_collapse());
 }
 
-std::string BareRun::reason_for_collapse() const {
+std::string CoreRun::reason_for_collapse() const {
     if (config_.restitution < 1.0)
         return fmt::format(
-            "with restitution {} the {}s collide ever faster (inelastic collapse). A longer "
-            "--contact-duration than {} would keep them apart.",
+            "with restitution {} the {}s collide ever faster (inelastic collapse).\nhint: use a "
+            "--contact-duration longer than {}.",
             config_.restitution, body_word(config_), config_.contact_duration);
     return fmt::format(
-        "friction has taken the energy out of the relative motion of {}s that lie pressed "
-        "together, and they collide ever faster (a collapse; docs/physics.md). The model has "
-        "no state after it. Another --seed than {} may "
-        "not meet it.",
+        "friction has dissipated the relative motion of {}s that are pressed together, and they "
+        "collide ever faster (frictional collapse; docs/physics.md). The model has no state "
+        "after it.\nhint: another --seed than {} may avoid it.",
         body_word(config_), config_.seed);
 }
 
-/// The sample by event of the snapshot as it stands, unless it is taken: at the last moment,
-/// when nobody has to wait for it to be written (cluster_rotation.hpp).
-void BareRun::sample_by_event() {
+/// Takes the sample by event of the current state, if it is due. It is taken as late as possible,
+/// so that the processor need not wait for the snapshot to be written (cluster_rotation.hpp).
+void CoreRun::sample_by_event() {
     if (!rotation_is_sampled_) rotation().sample(snapshot_);
     rotation_is_sampled_ = true;
 }
 
-/// Closes the blocks of the period that has ended; then, perhaps, ends the warm-up, or the run.
-void BareRun::begin_period() {
+/// Closes the blocks of the period that has ended, and ends the warm-up or the run if it is time.
+void CoreRun::begin_period() {
     sample_by_event();
     rotation().close_block();
     spin().close_block();
     if (observes()) observation_->close_block();
-    if (!warm_ && warm_now()) {
+    if (!warm_ && is_warmup_over()) {
         warm_ = true;
         result_.warmup = simulation_.periods();
         result_.warmup_events = simulation_.events();
     }
-    if (complete()) events_to_look_ = 0;
+    if (complete()) events_to_check_ = 0;
 }
 
-/// At the end of a swirl: is the warm-up over?
-bool BareRun::warm_now() {
-    if (config_.warmup_found) return found_warm() || fraction() >= 0.5;
+/// Called at the end of each period of the warm-up.
+bool CoreRun::is_warmup_over() {
+    if (config_.warmup_found) return is_warmup_detected() || fraction() >= 0.5;
     if (config_.warmup) return simulation_.periods() >= *config_.warmup;
     return simulation_.periods() >= default_warmup || fraction() >= 0.2;
 }
 
-/// Asked ever more seldom: the answer takes time that grows with the number of swirls.
-bool BareRun::found_warm() {
-    if (simulation_.periods() < next_question_) return false;
-    next_question_ += std::max<std::int64_t>(10, next_question_ / 10);
+/// The test takes time proportional to the number of periods, so the intervals between tests grow.
+bool CoreRun::is_warmup_detected() {
+    if (simulation_.periods() < next_warmup_test_) return false;
+    next_warmup_test_ += std::max<std::int64_t>(10, next_warmup_test_ / 10);
     return beginning_is_forgotten(in_warmup_.by_event().block_means()) &&
            beginning_is_forgotten(spin_in_warmup_.series().block_means());
 }
 
-SteadyState BareRun::steady_state_of(const BlockSeries& series) const {
+SteadyState CoreRun::steady_state_of(const BlockSeries& series) const {
     SteadyState state = find_steady_state(series.block_means());
     if (state.verdict != SteadyState::Verdict::too_short)
         state.period = static_cast<double>(result_.warmup) +
@@ -183,7 +183,7 @@ SteadyState BareRun::steady_state_of(const BlockSeries& series) const {
     return state;
 }
 
-RunResult BareRun::result() {
+RunResult CoreRun::result() {
     sample_by_event();
     result_.complete = complete();
     result_.rotation = rotation().estimates();

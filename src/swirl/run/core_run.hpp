@@ -1,6 +1,6 @@
-// One simulation under observation, from its first event to its result, and nothing around it: no
-// file, no clock, no exception, no end of its own. `Run` adds those for a program; a page in a
-// browser, which has none of them, builds its dish on this (bindings/wasm).
+// One simulation with its measurements, from the first event to the result. It does no I/O, has no
+// clock and throws no exceptions, and it does not decide when to stop. `Run` adds these for a
+// program. The browser page, which has none of them, uses this class directly (bindings/wasm).
 #pragma once
 
 #include <algorithm>
@@ -28,67 +28,68 @@ class Observation;
 /// Event by event:
 ///
 ///     for (;;) {
-///         if (run.is_time_to_look() && (run.complete() || run.trouble())) break;
-///         run.find_event();
+///         if (run.is_check_due() && (run.complete() || run.problem())) break;
+///         run.execute_event();
 ///         run.pass_event();
 ///     }
-class BareRun {
+class CoreRun {
   public:
-    /// What is observed besides the rotation, from the end of the warm-up on, must outlive the run.
-    BareRun(const RunConfig& config, const InitialState& begin, Observation* observation = nullptr,
+    /// `observation` measures from the end of the warm-up on, and must outlive the run. Null: only
+    /// the rotation is measured.
+    CoreRun(const RunConfig& config, const InitialState& begin, Observation* observation = nullptr,
             const Progress& progress = {}, const Tuning& tuning = {});
 
-    /// Executes the event that comes next. The snapshot still holds the state before it.
-    void find_event();
-    /// Puts the snapshot to the next of these moments, if one is left up to the event.
+    /// Executes the next event. The snapshot keeps the state before it until pass_event().
+    void execute_event();
+    /// Moves the snapshot to the next of these sample times, if there is one before the event.
     bool next_sample(SampleTimes& times) { return times.next(snapshot_, path_, event_.clock); }
-    /// Puts the snapshot behind the event; once for each.
+    /// Moves the snapshot to the state after the event. Call it once for each event.
     void pass_event();
 
     const Event& event() const { return event_; }
-    /// Spheres brought up to date: an observer may take it that nobody is accelerated.
+    /// For spheres, all states are moved to the snapshot's clock, so that observers need no
+    /// accelerations.
     const Snapshot& snapshot() {
         if (!snapshot_.are_spheres()) return snapshot_;
-        snapshot_.up_to_date(dated_);
-        return dated_;
+        snapshot_.up_to_date(synchronised_);
+        return synchronised_;
     }
-    /// As the simulation keeps it.
-    const Snapshot& kept_snapshot() const { return snapshot_; }
+    /// The snapshot as the simulation stores it: each disc at its own time.
+    const Snapshot& stored_snapshot() const { return snapshot_; }
     const Simulation& simulation() const { return simulation_; }
     const ContainerPath& path() const { return path_; }
-    /// Follow how each sphere is turned (Snapshot::turned); from the beginning.
+    /// Tracks the orientation of each sphere (Snapshot::turned). Call it before the first event.
     void follow_orientations() {
         if (snapshot_.are_spheres()) snapshot_.turned.assign(snapshot_.size(), {});
     }
 
     bool complete() const;
-    /// Of the run.
+    /// Completed fraction of the run, 0 … 1.
     double fraction() const;
     double periods() const;
-    /// Whether the warm-up is over, and what is seen counts.
+    /// Whether the warm-up is over, so that samples count.
     bool is_warm() const { return warm_; }
-    /// Whole swirls and events that are left out; none before the warm-up is over.
+    /// Whole periods and events of the warm-up; 0 before it is over.
     std::int64_t warmup() const { return result_.warmup; }
     const EventCounts& warmup_events() const { return result_.warmup_events; }
 
-    /// Between two events, once for each: whether it is time to ask whether the run is complete,
-    /// for trouble, and for whatever else is asked now and then. It always is when the run is
-    /// complete.
-    bool is_time_to_look() {
-        if (events_to_look_ > 0) {
-            --events_to_look_;
+    /// Call it once before each event: whether it is time for the checks between events, such as
+    /// complete() and problem(). It is always true when the run is complete.
+    bool is_check_due() {
+        if (events_to_check_ > 0) {
+            --events_to_check_;
             return false;
         }
-        events_to_look_ = std::max(events_until_look() - 1, 0);
+        events_to_check_ = std::max(events_until_check() - 1, 0);
         return true;
     }
-    /// Why it cannot go on, as a full sentence: rounding errors have grown too large, or time all
-    /// but stands still.
+    /// Why the run cannot continue, as a sentence: rounding errors have become too large, or a
+    /// collapse has occurred. Empty if there is no problem.
     std::optional<std::string> problem();
-    /// The same, of the last events alone.
+    /// Like problem(), but only for the last events of the run.
     std::optional<std::string> problem_at_the_end() const;
 
-    /// What is seen in the warm-up is kept apart: a run too short to have a warm-up needs it.
+    /// Separate from the rotation after the warm-up. A run too short for a warm-up reports it.
     const ClusterRotation& rotation_in_warmup() {
         sample_by_event();
         return in_warmup_;
@@ -97,18 +98,18 @@ class BareRun {
         sample_by_event();
         return after_warmup_;
     }
-    /// As far as the run has come, but for the time that it took; between two events.
+    /// The result up to now, without the elapsed time. Call it between two events.
     RunResult result();
 
-    /// What the run has gathered beside the moment it has reached (checkpoints). What it is
-    /// observed by is kept by whom it belongs to.
+    /// The sums and counters of the run, for checkpoints. Progress and disc states are saved by
+    /// Run, and the observation's state by its owner.
     template <class Visitor>
     void fields(Visitor&& visit) {
         sample_by_event();
         visit(warm_, rotation_times_, in_warmup_, after_warmup_);
         visit(result_.warmup, result_.warmup_events, result_.max_overlap);
         visit(result_.energy_at_start, result_.invariant_at_start);
-        visit(spin_in_warmup_, spin_after_, next_question_);
+        visit(spin_in_warmup_, spin_after_, next_warmup_test_);
         if (!snapshot_.turned.empty()) visit(std::span(snapshot_.turned));
         if (observation_) visit(observation_times_);
     }
@@ -116,14 +117,14 @@ class BareRun {
   private:
     bool observes() const { return warm_ && observation_; }
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
-    int events_until_look() const;
+    int events_until_check() const;
     std::optional<std::string> overlap_problem() const;
     std::string collapse_sentence(const Collapse& collapse) const;
     std::string reason_for_collapse() const;
     void sample_by_event();
     void begin_period();
-    bool warm_now();
-    bool found_warm();
+    bool is_warmup_over();
+    bool is_warmup_detected();
     SteadyState steady_state_of(const BlockSeries& series) const;
     ClusterRotation& rotation() { return warm_ ? after_warmup_ : in_warmup_; }
     BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
@@ -132,18 +133,18 @@ class BareRun {
     ContainerPath path_;
     Observation* observation_;
     Simulation simulation_;
-    Snapshot snapshot_, dated_;
+    Snapshot snapshot_, synchronised_;
     Event event_;
     SampleTimes rotation_times_, observation_times_;
-    int events_to_look_;  // until somebody looks again
+    int events_to_check_;  // until the next check
     CollapseWatch watch_;
     ClusterRotation in_warmup_, after_warmup_;
     BlockMean spin_in_warmup_, spin_after_;
-    std::int64_t next_question_;  // at this swirl: warm?
+    std::int64_t next_warmup_test_;  // in this period
     bool warm_;
     const std::uint64_t events_per_sample_;
     std::uint64_t events_to_sample_;   // until the next sample of the rotation by event
-    bool rotation_is_sampled_ = true;  // as it stands, if it is to be
+    bool rotation_is_sampled_ = true;  // in the current state, if a sample is due
     RunResult result_;
 };
 

@@ -2,7 +2,7 @@
 
 namespace swirl {
 
-void throw_wrong_call(const std::string& sentence) { throw UsageError(sentence); }
+void throw_usage_error(const std::string& sentence) { throw UsageError(sentence); }
 void throw_interrupted(const std::string& sentence) { throw Interrupted(sentence); }
 
 }  // namespace swirl

@@ -1,5 +1,5 @@
-// What went wrong, as one full sentence for the person at the keyboard: what, which value, what
-// would be right. The front end prints it and ends the program with the code.
+// Errors of a command. The message says what is wrong and quotes the value; a hint may follow on a
+// second line. The program prints it after "error: " and exits with the code of the class.
 #pragma once
 
 #include <stdexcept>
@@ -7,28 +7,27 @@
 
 namespace swirl {
 
-/// The call itself was wrong: exit code 2.
+/// The call is not valid: exit code 2.
 class UsageError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The call was right, but it could not be done: exit code 1.
+/// The call is valid, but it failed: exit code 1.
 class Failure : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The work was stopped by a signal before its end: exit code 130.
+/// A signal stopped the work before its end: exit code 130.
 class Interrupted : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-// What reads parameters and places discs throws by these, so that it can be compiled for a page in
-// a browser, where there are no exceptions and the sentence goes to the page instead
-// (bindings/wasm).
-[[noreturn]] void throw_wrong_call(const std::string& sentence);
+// Code that is also compiled for the browser, where there are no exceptions, throws by these
+// functions. There they pass the message to the page instead (bindings/wasm).
+[[noreturn]] void throw_usage_error(const std::string& sentence);
 [[noreturn]] void throw_interrupted(const std::string& sentence);
 
 }  // namespace swirl

@@ -24,7 +24,7 @@ Json counts_json(const EventCounts& counts) {
     return json;
 }
 
-/// COUNT:RADIUS:MASS, whatever stands in their places.
+/// COUNT:RADIUS:MASS. The values are not checked here.
 std::string mixture_text(const Json& mixture) {
     const auto part = [&](const char* name) { return mixture.value(name, Json()).dump(); };
     return fmt::format("{}:{}:{}", part("count"), part("radius"), part("mass"));
@@ -55,7 +55,7 @@ std::string config_text(const RunConfig& config) { return config_json(config).du
 
 ParameterTexts parameters_in(const std::string& config) {
     const Json json = Json::parse(config, nullptr, false);
-    if (!json.is_object()) throw UsageError("It does not say which run it is of.");
+    if (!json.is_object()) throw UsageError("it does not contain the configuration of a run.");
     return parameters_in(json);
 }
 

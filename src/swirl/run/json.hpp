@@ -1,6 +1,6 @@
-// A run's configuration and result as JSON: the names are those of the options, the numbers those
-// of docs/physics.md, each written so that reading it back gives the same double. What is not known
-// (an error from too few blocks) is null.
+// Configuration and result of a run as JSON. Names are those of the options, and numbers read back
+// as the same double (docs/physics.md explains them). Unknown values, such as an error from too few
+// blocks, are null.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,21 +12,21 @@
 
 namespace swirl {
 
-/// Every parameter, resolved, in the order of `swirl run --help`.
+/// All parameters, resolved, in the order of `swirl run --help`.
 nlohmann::ordered_json config_json(const RunConfig& config);
 
-/// The same as one line of text.
+/// config_json() as one line of text.
 std::string config_text(const RunConfig& config);
 
-/// The parameters that resolve() to that configuration again. The text is what somebody else may
-/// have written: throws WrongCall if it is no configuration.
+/// The parameters from which resolve() makes this configuration. The text may come from a file:
+/// throws UsageError if it is not a configuration.
 ParameterTexts parameters_in(const nlohmann::ordered_json& config);
 ParameterTexts parameters_in(const std::string& config);
 
 /// {"mean", "error", "effective_samples", "blocks"}
 nlohmann::ordered_json estimate_json(const Estimate& estimate);
 
-/// That of its estimate and its details; a number alone where it has no error.
+/// estimate_json() with the details of the row, or a number if the row has no error.
 nlohmann::ordered_json row_json(const ReportRow& row);
 
 nlohmann::ordered_json result_json(const RunResult& result);

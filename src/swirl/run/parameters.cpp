@@ -18,7 +18,7 @@ struct Overloaded : Cases... {
 };
 
 [[noreturn]] void reject_text(std::string_view name, std::string_view text, const char* allowed) {
-    throw_wrong_call(
+    throw_usage_error(
         fmt::format("{} is '{}', but it must be {}.", option_name(name), text, allowed));
 }
 
@@ -103,12 +103,12 @@ ParameterTexts normalized(const ParameterTexts& given) {
         const Parameter* const row = find_parameter(name);
         if (row == nullptr || !row->is_settable()) {
             const auto meant = nearest_name(plain_name(name), parameter_names());
-            throw_wrong_call(fmt::format(
+            throw_usage_error(fmt::format(
                 "there is no parameter '{}'.\nhint: {}", name,
                 meant ? fmt::format("did you mean '{}'?", *meant) : "see `swirl run --help`."));
         }
         if (!texts.emplace(row->name, text).second)
-            throw_wrong_call(fmt::format("{} is given twice.", option_name(row->name)));
+            throw_usage_error(fmt::format("{} is given twice.", option_name(row->name)));
     }
     return texts;
 }
@@ -273,13 +273,13 @@ void read_speed(std::string_view text, const ParameterTexts& given, RunConfig& c
     if (period_given && given.contains("amplitude")) {
         const double actual = container_speed(config);
         if (std::fabs(actual - speed) <= 1e-6 * std::fmax(actual, speed)) return;
-        throw_wrong_call(fmt::format(
+        throw_usage_error(fmt::format(
             "--speed is {}, but --amplitude {} and --period {} give a speed of {:.6g}.\nhint: omit "
             "one of the three.",
             speed, config.amplitude, config.period, actual));
     }
     if ((speed == 0.0) != (config.amplitude == 0.0) && !period_given)
-        throw_wrong_call(fmt::format(
+        throw_usage_error(fmt::format(
             "--speed is {}, but with --amplitude {} the container {}.\nhint: set both to 0, or "
             "neither.",
             speed, config.amplitude, speed == 0.0 ? "moves" : "is at rest"));
@@ -308,7 +308,7 @@ ParameterValue write_path(const RunConfig& config) {
 void read_sides(std::string_view text, const ParameterTexts&, RunConfig& config) {
     const std::int64_t sides = whole_number_from("sides", text);
     if (config.path == PathShape::circle)
-        throw_wrong_call(fmt::format(
+        throw_usage_error(fmt::format(
             "--sides is {}, but --path circle has no sides.\nhint: omit one of the two.", sides));
     config.sides = clamped(sides);
 }
@@ -324,7 +324,7 @@ ParameterValue write_events(const RunConfig& config) {
 
 void read_periods(std::string_view text, const ParameterTexts& given, RunConfig& config) {
     if (const auto events = given.find("events"); events != given.end())
-        throw_wrong_call(fmt::format(
+        throw_usage_error(fmt::format(
             "--events {} and --periods {} both set the length of the run.\nhint: omit one of them.",
             events->second, text));
     config.periods = whole_number_from("periods", text);
@@ -387,9 +387,9 @@ RunConfig resolve(const ParameterTexts& given) {
     read_all(ReadingOrder::first);
     read_all(ReadingOrder::second);
     // The last pass computes with these values, so they must be valid.
-    if (const auto message = problem(config)) throw_wrong_call(*message);
+    if (const auto message = problem(config)) throw_usage_error(*message);
     read_all(ReadingOrder::last);
-    if (const auto message = problem(config)) throw_wrong_call(*message);
+    if (const auto message = problem(config)) throw_usage_error(*message);
     return config;
 }
 

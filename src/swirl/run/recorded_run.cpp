@@ -31,10 +31,11 @@ Json frames_json(const RunFiles& files) {
     if (files.trajectory.empty()) return nullptr;
     if (files.frames.events) return Json{{"events", *files.frames.events}};
     if (files.frames.interval) return Json{{"interval", *files.frames.interval}};
-    return Json{{"per_swirl", files.frames.per_swirl}};
+    // The key is part of the file format.
+    return Json{{"per_swirl", files.frames.per_period}};
 }
 
-/// What must agree for a run to be resumed.
+/// The properties that must agree with a checkpoint for a run to be resumed from it.
 Json identity(const RunConfig& config, const RunFiles& files, const Observation* observation) {
     Json measured = Json::array();
     if (observation && !observation->empty())
@@ -45,10 +46,10 @@ Json identity(const RunConfig& config, const RunFiles& files, const Observation*
             {"measured", measured}};
 }
 
-/// What a checkpoint says about its run.
-Json about_in(const std::filesystem::path& file, const Checkpoint& kept) {
-    Json about = Json::parse(kept.about, nullptr, false);
-    const auto says_which = [&] {
+/// The JSON part of a checkpoint, with the entries that every checkpoint has.
+Json read_about(const std::filesystem::path& file, const Checkpoint& checkpoint) {
+    Json about = Json::parse(checkpoint.about, nullptr, false);
+    const auto is_valid = [&] {
         if (!about.is_object()) return false;
         const Json identity = about.value("identity", Json()),
                    call = about.value("call", Json::object());
@@ -57,9 +58,10 @@ Json about_in(const std::filesystem::path& file, const Checkpoint& kept) {
                about.value("overwrites", Json(false)).is_boolean() && call.is_object() &&
                std::all_of(call.begin(), call.end(), [](const Json& v) { return v.is_string(); });
     };
-    if (!says_which())
+    if (!is_valid())
         throw FileError(fmt::format(
-            "The checkpoint '{}' does not say which run it is of; remove it.", file.string()));
+            "the checkpoint '{}' does not say which run it belongs to.\nhint: remove it.",
+            file.string()));
     return about;
 }
 
@@ -69,14 +71,14 @@ Shape shape_in(const Json& parameters) {
     return parameters.value("floor", Json()).is_string() ? Shape::coin : Shape::disc;
 }
 
-/// A state is continued by the law that led to it, or the run would be that of neither program.
-void require_own_law(const std::filesystem::path& file, const Json& about) {
+/// A state must be continued with the law of motion that led to it.
+void require_same_law(const std::filesystem::path& file, const Json& about) {
     const Shape shape = shape_in(about.at("identity").at("parameters"));
-    const Json law = about.value("law", Json(1));  // what was written before laws had numbers
+    const Json law = about.value("law", Json(1));  // older files have no number
     if (law == law_of(shape)) return;
     throw FileError(fmt::format(
-        "The checkpoint '{}' is of swirl {}, in which such bodies moved by another law ({} there, "
-        "{} here). Resume it with the program that wrote it, or start again.",
+        "the checkpoint '{}' is of swirl {}, in which such bodies follow another law of motion "
+        "({} there, {} here).\nhint: resume it with the program that wrote it, or start again.",
         file.string(), about.value("version", std::string("?")), law.dump(), law_of(shape)));
 }
 
@@ -89,7 +91,7 @@ std::string difference(const Json& there, const Json& here) {
         return fmt::format("the frames of its trajectory are {} there and {} here",
                            there["frames"].dump(), here["frames"].dump());
     if (there.value("event_log", Json(false)) != here.at("event_log"))
-        return "one of the two writes an event log and the other does not";
+        return "only one of them writes an event log";
     return fmt::format("it measures {} there and {} here",
                        there.value("measured", Json::array()).dump(), here.at("measured").dump());
 }
@@ -103,8 +105,8 @@ Json take_length(Json& identity) {
     return length;
 }
 
-/// The same run, but that it is to go on for longer; what was recorded of it may be left behind.
-bool is_of_another_length(Json there, Json here) {
+/// Whether the runs differ in length only. A recording in the checkpoint's run may be dropped here.
+bool differs_only_in_length(Json there, Json here) {
     if (take_length(there) == take_length(here)) return false;
     for (const char* recording : {"frames", "event_log"})
         if (here[recording] == Json() || here[recording] == Json(false))
@@ -112,16 +114,16 @@ bool is_of_another_length(Json there, Json here) {
     return there == here;
 }
 
-/// What names the run in its recordings: the same name, the same frames and events.
+/// The run's name in its recordings. Equal names mean equal frames and events.
 std::string run_name(const Json& identity) {
     return fmt::format("{:016x}", checksum(identity.dump() + version()));
 }
 
-/// An earlier state stays at hand when a run begins anew over it.
-void set_aside(const std::filesystem::path& checkpoint) {
+/// Renames the checkpoint of an earlier run, so that it is not lost.
+void back_up(const std::filesystem::path& checkpoint) {
     std::error_code ignored;
     if (!checkpoint.empty() && std::filesystem::exists(checkpoint, ignored))
-        give_final_name(checkpoint, backup_name(checkpoint));
+        rename_durably(checkpoint, backup_name(checkpoint));
 }
 
 class Recorder {
@@ -133,8 +135,8 @@ class Recorder {
           observation_(observation),
           run_name_(run_name(identity(config, files, observation))),
           overwrites_(files.overwrite),
-          frame_times_(files.frames.per_swirl, config.period, files.frames.interval.value_or(0.0)),
-          last_kept_(Clock::now()) {
+          frame_times_(files.frames.per_period, config.period, files.frames.interval.value_or(0.0)),
+          last_checkpoint_(Clock::now()) {
         if (files.resume && std::filesystem::exists(files.checkpoint))
             resume();
         else
@@ -145,17 +147,17 @@ class Recorder {
         control.resume = std::move(resumed_);
         control.orientations = !files_.trajectory.empty() && config_.shape() != Shape::disc;
         Run run(config_, std::move(control));
-        if (shorter_)
-            if (const auto problem = run.problem_with_length(*shorter_))
+        if (extended_)
+            if (const auto problem = run.problem_with_length(*extended_))
                 throw UsageError(
-                    fmt::format("The run of the checkpoint '{}' cannot be continued to another "
+                    fmt::format("the run of the checkpoint '{}' cannot be continued to another "
                                 "length: {}.",
                                 files_.checkpoint.string(), *problem));
         while (run.next_event()) {
             record(run);
-            if (is_due() && !run.complete()) keep(run);
+            if (is_checkpoint_due() && !run.complete()) save(run);
         }
-        if (!run.complete() || files_.keep_checkpoint) keep(run);
+        if (!run.complete() || files_.keep_checkpoint) save(run);
         const RunResult result = run.result();
         if (!result.complete) {
             if (trajectory_) trajectory_->flush();
@@ -169,7 +171,7 @@ class Recorder {
 
   private:
     void start(Provenance provenance, const std::atomic<bool>* stop) {
-        if (files_.overwrite) set_aside(files_.checkpoint);
+        if (files_.overwrite) back_up(files_.checkpoint);
         provenance.emplace_back(run_entry, run_name_);
         provenance.emplace_back("frames", frames_entry(files_));
         for (const auto& file : {files_.trajectory, files_.event_log})
@@ -177,7 +179,7 @@ class Recorder {
         if (files_.trajectory.empty() && files_.event_log.empty()) return;
         const InitialState scene = make_initial_state(config_, stop);
         const Snapshot first = Simulation(scene, {}, selected_tuning(stop)).snapshot();
-        if (stop && stop->load()) throw Interrupted("Stopped before the first event.");
+        if (stop && stop->load()) throw Interrupted("stopped before the first event.");
         if (!files_.trajectory.empty())
             trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);
         if (!files_.event_log.empty())
@@ -186,31 +188,32 @@ class Recorder {
     }
 
     void resume() {
-        const Checkpoint kept = read_checkpoint(files_.checkpoint);
-        const Json about = about_in(files_.checkpoint, kept),
+        const Checkpoint checkpoint = read_checkpoint(files_.checkpoint);
+        const Json about = read_about(files_.checkpoint, checkpoint),
                    here = identity(config_, files_, observation_);
-        require_own_law(files_.checkpoint, about);
-        if (is_of_another_length(about.at("identity"), here)) {
+        require_same_law(files_.checkpoint, about);
+        if (differs_only_in_length(about.at("identity"), here)) {
             if (!files_.trajectory.empty() || !files_.event_log.empty())
                 throw UsageError(fmt::format(
-                    "The checkpoint '{}' is of a run of another length, and a recording knows how "
-                    "long its run is; begin anew with --overwrite, or give the whole call again "
-                    "without --trajectory and --log-events.",
+                    "the checkpoint '{}' belongs to a run of another length, and the length of a "
+                    "recorded run cannot be changed.\nhint: start again with --overwrite, or "
+                    "repeat "
+                    "the call without --trajectory and --log-events.",
                     files_.checkpoint.string()));
-            shorter_ = resolve(parameters_in(about.at("identity").at("parameters").dump()));
+            extended_ = resolve(parameters_in(about.at("identity").at("parameters").dump()));
         } else if (about.at("identity") != here)
             throw UsageError(fmt::format(
-                "The checkpoint '{}' belongs to another run: {}. Resume with the same parameters, "
-                "or choose another checkpoint with --checkpoint.",
+                "the checkpoint '{}' belongs to another run: {}.\nhint: resume with the same "
+                "parameters, or choose another checkpoint with --checkpoint.",
                 files_.checkpoint.string(), difference(about.at("identity"), here)));
-        StateReader state(kept.state);
+        StateReader state(checkpoint.state);
         std::uint64_t frames = 0, logged = 0;
         resumed_.emplace();
         state(frames, logged, events_, frame_times_, *resumed_);
         state.expect_end();
         if (!files_.event_log.empty() && logged != events_)
             throw FileError(fmt::format(
-                "The checkpoint '{}' contradicts itself: it counts {} events and {} in its log.",
+                "the checkpoint '{}' is inconsistent: it counts {} events, but {} in its log.",
                 files_.checkpoint.string(), events_, logged));
         run_name_ = about.value("run", std::string());
         overwrites_ = about.value("overwrites", false);
@@ -220,7 +223,7 @@ class Recorder {
             event_log_ = EventLogWriter::resume(files_.event_log, logged, run_name_);
     }
 
-    /// Passes the event that comes next: the frames before it, its own line, the frame after it.
+    /// Passes the next event and records the frames before it, the event, and the frame after it.
     void record(Run& run) {
         if (trajectory_ && !files_.frames.events)
             while (run.next_sample(frame_times_)) trajectory_->write(run.snapshot(), events_);
@@ -232,35 +235,34 @@ class Recorder {
             trajectory_->write(run.snapshot(), events_);
     }
 
-    /// Is it time to keep the state? The clock is looked at every few hundred events.
-    bool is_due() const {
-        return events_ % 256 == 0 && !files_.checkpoint.empty() &&
-               std::chrono::duration<double>(Clock::now() - last_kept_).count() >=
+    bool is_checkpoint_due() const {
+        constexpr std::uint64_t events_per_clock_read = 256;
+        return events_ % events_per_clock_read == 0 && !files_.checkpoint.empty() &&
+               std::chrono::duration<double>(Clock::now() - last_checkpoint_).count() >=
                    files_.checkpoint_every;
     }
 
-    void keep(Run& run) {
-        if (files_.checkpoint.empty() || given_up_) return;
+    void save(Run& run) {
+        if (files_.checkpoint.empty() || is_disabled_) return;
         try {
-            write(run);
+            write_checkpoint_of(run);
         } catch (const FileError& error) {
             if (files_.checkpoint_needed) throw;
-            given_up_ = true;
-            if (files_.complain)
-                files_.complain(
-                    fmt::format("{} The run goes on without checkpoints.", error.what()));
+            is_disabled_ = true;
+            if (files_.warn)
+                files_.warn(fmt::format("{} The run continues without checkpoints.", error.what()));
         }
     }
 
-    /// What the checkpoint counts on must be on the disk before it.
-    void write(Run& run) {
+    /// The recordings are flushed first: the checkpoint counts their frames and events.
+    void write_checkpoint_of(Run& run) {
         if (trajectory_) trajectory_->flush();
         if (event_log_) event_log_->flush();
         StateWriter state;
         std::uint64_t frames = trajectory_ ? trajectory_->frames() : 0;
         std::uint64_t logged = event_log_ ? event_log_->events() : 0;
         state(frames, logged, events_, frame_times_);
-        state.as_text([&](StateWriter& kept) { run.write(kept); });
+        state.as_text([&](StateWriter& text) { run.write(text); });
         const Json about{{"version", version()},
                          {"law", law_of(config_.shape())},
                          {"identity", identity(config_, files_, observation_)},
@@ -268,22 +270,22 @@ class Recorder {
                          {"call", files_.call},
                          {"overwrites", overwrites_}};
         write_checkpoint(files_.checkpoint, {about.dump(), std::move(state).bytes()});
-        last_kept_ = Clock::now();
+        last_checkpoint_ = Clock::now();
     }
 
     const RunConfig& config_;
     const RunFiles& files_;
     const Observation* observation_;
     std::string run_name_;
-    bool overwrites_;  // asked for when the run began, and still so when it is resumed
+    bool overwrites_;  // stays true when a run that was started with --overwrite is resumed
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<EventLogWriter> event_log_;
     std::optional<std::string> resumed_;
-    std::optional<RunConfig> shorter_;  // the run that was resumed, if it was to end sooner
+    std::optional<RunConfig> extended_;  // the run of the checkpoint, if it has another length
     SampleTimes frame_times_;
-    std::uint64_t events_ = 0;  // since the beginning of the run
-    bool given_up_ = false;
-    Clock::time_point last_kept_;
+    std::uint64_t events_ = 0;  // since the start of the run
+    bool is_disabled_ = false;  // a checkpoint could not be written
+    Clock::time_point last_checkpoint_;
 };
 
 }  // namespace
@@ -293,7 +295,7 @@ RunResult run_recorded(const RunConfig& config, const RunFiles& files, const Run
     return Recorder(config, files, provenance, control.observation, control.stop)(control);
 }
 
-void forget_checkpoint(const RunFiles& files) {
+void remove_checkpoint(const RunFiles& files) {
     std::error_code ignored;
     if (!files.checkpoint.empty()) std::filesystem::remove(files.checkpoint, ignored);
 }
@@ -301,11 +303,11 @@ void forget_checkpoint(const RunFiles& files) {
 std::string frames_entry(const RunFiles& files) { return frames_json(files).dump(); }
 
 std::filesystem::path backup_name(const std::filesystem::path& checkpoint) {
-    return free_name(checkpoint.string() + ".backup");
+    return unused_name(checkpoint.string() + ".backup");
 }
 
-KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
-    const Json about = about_in(checkpoint, read_checkpoint(checkpoint));
+CheckpointedCall call_in_checkpoint(const std::filesystem::path& checkpoint) {
+    const Json about = read_about(checkpoint, read_checkpoint(checkpoint));
     return {.configuration = about.at("identity").at("parameters").dump(),
             .options = about.value("call", ParameterTexts()),
             .overwrites = about.value("overwrites", false),

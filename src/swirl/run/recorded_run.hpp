@@ -1,5 +1,5 @@
-// A run that leaves files behind while it goes on: frames, events, and checkpoints from which it
-// can be resumed. Nothing of it changes a bit of the trajectory or of the result.
+// A run that also writes files: frames, events, and checkpoints from which it can be resumed. None
+// of this changes the trajectory or the result.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@
 
 namespace swirl {
 
-/// When frames are taken. Each frame is the exact state at the exact time.
+/// When frames are taken: at equal phases, unless one of the other two is given. Each frame is the
+/// exact state at the exact time.
 struct FrameTimes {
-    int per_swirl = 30;                  // by phase: k T / per_swirl; 1 is stroboscopic
-    std::optional<double> interval;      // or by time
-    std::optional<std::int64_t> events;  // or the state after every so many events
+    int per_period = 30;                 // at times k T / per_period; 1 is stroboscopic
+    std::optional<double> interval;      // time between frames
+    std::optional<std::int64_t> events;  // number of events between frames
 };
 
 struct RunFiles {
@@ -30,45 +31,46 @@ struct RunFiles {
 
     std::filesystem::path checkpoint;  // empty: none
     double checkpoint_every = 60.0;    // seconds
-    /// Not asked for: if it cannot be written, the run goes on without, and `complain` says so.
+    /// If false and a checkpoint cannot be written, the run continues without checkpoints and calls
+    /// `warn`.
     bool checkpoint_needed = true;
-    std::function<void(const std::string&)> complain;
-    bool resume = false;  // from the checkpoint, if it is there
-    /// The state at the end is kept too, for who wants more of the run.
+    std::function<void(const std::string&)> warn;
+    bool resume = false;  // from the checkpoint, if it exists
+    /// Also write a checkpoint at the end, from which the run can be extended.
     bool keep_checkpoint = false;
-    /// Begin anew over the unfinished recording of another run; a checkpoint that is there is kept
-    /// under backup_name().
+    /// Start again and replace the unfinished recording of another run. An existing checkpoint is
+    /// renamed to backup_name().
     bool overwrite = false;
-    /// Options and what was given, kept in the checkpoint for who resumes with nothing else.
+    /// The options of the call, stored in the checkpoint so that --resume needs no other option.
     ParameterTexts call;
 };
 
-/// What a checkpoint says about the run it belongs to.
-struct KeptCall {
+/// The part of a checkpoint that identifies its run.
+struct CheckpointedCall {
     std::string configuration;  // the text of config_json()
     ParameterTexts options;     // RunFiles::call
-    bool overwrites = false;    // it began anew over what was there under these names
-    std::string run;            // what its recordings name it
+    bool overwrites = false;    // the run was started with RunFiles::overwrite
+    std::string run;            // the run's name in its recordings
 };
-KeptCall call_in_checkpoint(const std::filesystem::path& checkpoint);
+CheckpointedCall call_in_checkpoint(const std::filesystem::path& checkpoint);
 
-/// Throws FileError, or WrongCall if the checkpoint belongs to another run. The files get their
-/// names when the run is complete; the checkpoint stays until forget_checkpoint(), so that nothing
-/// is lost before the result is on the disk too.
+/// Throws FileError, or UsageError if the checkpoint belongs to another run. Recordings are
+/// published when the run is complete. The checkpoint stays until remove_checkpoint(), so that
+/// nothing is lost before the result is on the disk, too.
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
                        const Provenance& provenance);
 
-/// What a trajectory with these frames says of them.
+/// The provenance entry `frames` of a trajectory with these frame times.
 std::string frames_entry(const RunFiles& files);
 
-void forget_checkpoint(const RunFiles& files);
+void remove_checkpoint(const RunFiles& files);
 
-/// Where a checkpoint is kept when a run begins anew over it: NAME.backup, or NAME.backup-2, -3, …,
-/// the first that is not there.
+/// The new name of a checkpoint when a run starts again: NAME.backup, NAME.backup-2, -3, …, the
+/// first that does not exist.
 std::filesystem::path backup_name(const std::filesystem::path& checkpoint);
 
-/// Version, build, resolved parameters, seed and generator; the command and the configuration file
-/// where there are any.
+/// Version, build, resolved parameters, seed, generator, command, and text of the configuration
+/// file (empty if there is none).
 Provenance provenance_of(const RunConfig& config, const std::string& command,
                          const std::string& config_text);
 

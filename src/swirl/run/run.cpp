@@ -44,7 +44,7 @@ bool have_equal_bodies(const std::vector<Disc>& a, const std::vector<Disc>& b) {
 }
 
 /// The run in its initial state, or in the state to resume from.
-BareRun begin(const RunConfig& config, const RunControl& control) {
+CoreRun begin(const RunConfig& config, const RunControl& control) {
     InitialState initial = make_initial_state(config, control.stop);
     SavedTrajectory saved;
     if (control.resume) {
@@ -56,7 +56,7 @@ BareRun begin(const RunConfig& config, const RunControl& control) {
         if (const char* const what = impossible_to_continue(initial, saved.progress))
             throw FileError(fmt::format("the saved state is inconsistent: it says that {}.", what));
     }
-    BareRun run(config, initial, control.observation, saved.progress,
+    CoreRun run(config, initial, control.observation, saved.progress,
                 selected_tuning(control.stop));
     if (control.stop && control.stop->load())
         throw Interrupted(control.resume
@@ -130,8 +130,8 @@ double Run::seconds() const {
 }
 
 bool Run::next_event() {
-    if (run_.is_time_to_look() && !check_progress()) return false;
-    run_.find_event();
+    if (run_.is_check_due() && !check_progress()) return false;
+    run_.execute_event();
     return true;
 }
 

@@ -105,7 +105,7 @@ class Run {
 
     const RunConfig config_;
     const RunControl control_;
-    BareRun run_;
+    CoreRun run_;
     double seconds_before_ = 0.0;  // spent by the runs that this one resumes
     Clock::time_point begin_ = Clock::now(), last_report_ = begin_;
 };

@@ -1,4 +1,4 @@
-// Quotes a word of a command for a POSIX shell.
+// Quotes a word of a command so that a POSIX shell reads it back unchanged.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace swirl {
 
-/// Returns the word itself if a shell does not change it, otherwise in single quotes. A quote inside
-/// the word is escaped outside of them.
+/// Returns the word itself if it needs no quotes, otherwise in single quotes. A single quote in the
+/// word becomes '\''.
 inline std::string shell_word(std::string_view word) {
     constexpr std::string_view safe =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";

@@ -113,7 +113,7 @@ class SweepWorker {
         json["command"] = command;
         if (!plan_.measure.empty()) json["measured"] = measured_json(observation.report());
         writer_.write(number_of_point(point) + ".json", json.dump() + "\n",
-                      [files, point_lock] { forget_checkpoint(files); });
+                      [files, point_lock] { remove_checkpoint(files); });
         const std::lock_guard lock(mutex_);
         ++outcome_.done;
         return true;
@@ -126,7 +126,7 @@ class SweepWorker {
         files.resume = true;
         files.overwrite = true;  // existing files of this number belong to this point
         if (plan_.frames > 0) files.trajectory = folder_ / "trajectories" / (number + ".h5");
-        files.frames.per_swirl = std::max(plan_.frames, 1);
+        files.frames.per_period = std::max(plan_.frames, 1);
         return files;
     }
 
