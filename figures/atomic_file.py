@@ -1,24 +1,33 @@
-"""Files that are there whole or not at all, as the program writes its own (src/swirl/io/atomic_file.hpp):
-beside the target under a name that nobody else has, locked, onto the disk, then renamed. What a kill
-leaves has no lock, and the next `swirl paper` or `experiment` on that folder removes it."""
+"""Atomic writes, as those of the program (src/swirl/io/atomic_file.hpp). Content goes to a locked temporary
+file next to the target, is synchronised to the disk, and is then renamed. A killed process leaves a temporary
+file without a lock; the next `swirl paper` or `swirl experiment` on that folder removes it."""
 
 import fcntl
 import os
 import secrets
+import sys
 
 
 def write(path, content):
-    """Text or bytes; raises OSError, leaving what was there."""
+    """Writes text or bytes. Raises OSError; the target then keeps its old content."""
     if isinstance(content, str):
         content = content.encode("utf-8")
-    aside = f"{path}.{secrets.token_hex(8)}.partial"
-    with open(aside, "xb") as file:
+    temporary = f"{path}.{secrets.token_hex(8)}.partial"
+    with open(temporary, "xb") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-            os.replace(aside, path)
+            os.replace(temporary, path)
         except BaseException:
-            os.remove(aside)
+            os.remove(temporary)
             raise
+
+
+def write_or_exit(path, content):
+    """Ends the script with a message if the file cannot be written."""
+    try:
+        write(path, content)
+    except OSError as error:
+        sys.exit(f"'{path}' cannot be written: {error.strerror}.")

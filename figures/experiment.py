@@ -8,7 +8,7 @@ import html
 import math
 import os
 
-import report
+import html_page as report
 import style
 
 LOOK = {"rough": (style.RED, "o"), "smooth": (style.SKY, "D")}
@@ -119,10 +119,9 @@ def coarser(rows, by):
 def maps(folder, video, amplitude):
     rows = style.read(os.path.join(folder, f"maps_{video}.csv"))
     there = [source for source in ("video", "simulation") if style.select(rows, source=source)]
-    style.AMPLITUDE = amplitude
     drawing, panels = style.figure(width=style.PAGE if len(there) == 2 else style.COLUMN,
                                    height=3.1, ncols=len(there), squeeze=False)
-    R = max(row["x"] for row in rows if row["map"] == "density") * 100 / 99
+    R = style.map_radius(style.select(rows, source=there[0], map="density"))
     density = {source: coarser(style.select(rows, source=source, map="density"), 2)
                for source in there}
     # One colour scale for both; a few rarely visited cells must not set it.
@@ -138,7 +137,7 @@ def maps(folder, video, amplitude):
         shown.set_clim(0, top)
         if flow:
             style.arrows(axes, flow, spacing, fastest, color="white")
-        style.dish(axes, R, color="white")
+        style.container(axes, R, color="white", amplitude=amplitude)
         axes.set_title(f"{source}, $N = {rows[0]['discs']:.0f}$")
     bar = drawing.colorbar(shown, ax=list(panels[0]), shrink=0.85)
     bar.set_label(r"discs per unit area ($r^{-2}$)")

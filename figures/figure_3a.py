@@ -1,7 +1,7 @@
 """Figure 3a: angular velocity of the discs about the centre of mass against the angle.
 
     /usr/bin/python3 figures/figure_3a.py out/figure_3a.csv         slices of the table, 5° wide
-    /usr/bin/python3 figures/figure_3a.py out/figure_3a.csv 20      slices of 20° that slide by 5°
+    /usr/bin/python3 figures/figure_3a.py out/figure_3a.csv 20      sliding slices of 20°, in steps of 5°
 """
 
 import style

@@ -1,7 +1,7 @@
-"""Figure 3b: the same, divided by that of the wall.
+"""Figure 3b: angular velocity of the discs about the centre of mass, relative to that of the wall.
 
     /usr/bin/python3 figures/figure_3b.py out/figure_3b.csv         slices of the table, 5° wide
-    /usr/bin/python3 figures/figure_3b.py out/figure_3b.csv 20      slices of 20° that slide by 5°
+    /usr/bin/python3 figures/figure_3b.py out/figure_3b.csv 20      sliding slices of 20°, in steps of 5°
 """
 
 import style

@@ -1,5 +1,5 @@
-"""Figure 4b: the spin of the discs at the wall, how frustrated the contacts are, and how six-fold the
-packing is.
+"""Figure 4b: the spin of the discs at the wall, frustration of the contacts, and hexatic order of the
+packing.
 
     /usr/bin/python3 figures/figure_4b.py out/figure_4b.csv
 """
@@ -32,15 +32,15 @@ PANELS = (
 def main():
     table = style.table_from_arguments("figure_4b")
     rows = style.read(table)
-    drawing, places = style.figure(width=style.PAGE, height=3.0, ncols=len(PANELS))
-    for axes, (label, curves) in zip(places, PANELS):
+    drawing, panels = style.figure(width=style.PAGE, height=3.0, ncols=len(PANELS))
+    for axes, (label, curves) in zip(panels, PANELS):
         for name, words, color, marker, look in curves:
             style.curve(axes, rows, "discs", name, color=color, marker=marker, label=words, **look)
         axes.set_ylabel(label)
         axes.set_xlabel(r"number of discs $N$")
         style.legend(axes, ncol=1)
-    places[0].set_ylim(bottom=0)
-    style.zero_line(places[1])
+    panels[0].set_ylim(bottom=0)
+    style.zero_line(panels[1])
     style.save(drawing, table)
 
 

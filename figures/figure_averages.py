@@ -1,4 +1,4 @@
-"""Beyond the paper: the average over events minus that over time, for the five frictions of 5b.
+"""Beyond the paper: the average over events minus that over time, for the five pairs of friction coefficients of 5b.
 
     /usr/bin/python3 figures/figure_averages.py out/figure_averages.csv
 """

@@ -1,4 +1,4 @@
-"""Beyond the paper: without disc friction the cluster condenses. How long that takes against the number of
+"""Beyond the paper: without disc friction the cluster condenses. The waiting time against the number of
 discs, and the granular temperature before and after.
 
     /usr/bin/python3 figures/figure_condensation.py out/figure_condensation.csv

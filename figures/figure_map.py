@@ -1,4 +1,4 @@
-"""Beyond the paper: rotation of 48 discs against both frictions.
+"""Beyond the paper: rotation of 48 discs against both friction coefficients.
 
     /usr/bin/python3 figures/figure_map.py out/figure_map.csv
 """
@@ -10,7 +10,7 @@ def main():
     table = style.table_from_arguments("figure_map")
     rows = style.read(table)
     steps = sorted({row["mu_wall"] for row in rows})
-    # Nine steps take a page's width to be readable.
+    # The nine steps of the full study need the width of a page.
     large = len(steps) > 6
     drawing, axes = style.figure(width=style.PAGE if large else style.COLUMN,
                                  height=5.6 if large else 2.9)

@@ -1,12 +1,12 @@
-"""Spheres that roll: rotation against the number of spheres in the experiment's dish, for frictions
-from smooth to rough.
+"""Spheres that roll: rotation against the number of spheres in the experiment's dish, for friction
+coefficients from smooth to rough.
 
     /usr/bin/python3 figures/figure_spheres.py out/figure_spheres.csv
 """
 
 import style
 
-FINE = 0.16  # of Ω: above are few spheres, which rotate
+FINE = 0.16  # in Ω: coarser scale above, where only small N rotate
 
 
 def main():

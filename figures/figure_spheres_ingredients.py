@@ -1,4 +1,4 @@
-"""Spheres that roll: what each ingredient of the model does, switched off alone.
+"""Spheres that roll: rotation with each ingredient of the model switched off alone.
 
     /usr/bin/python3 figures/figure_spheres_ingredients.py out/figure_spheres_ingredients.csv
 """
@@ -17,10 +17,10 @@ CURVES = [
 
 
 def main(figure="figure_spheres_ingredients", full="0.2", ending=""):
-    """`full` is the curve with all ingredients, `ending` that of the names of the others."""
+    """`full` names the curve with all ingredients; `ending` ends the names of the others."""
     table = style.table_from_arguments(figure)
     rows = style.read(table)
-    # A curve named by a number is read back as one.
+    # A table reader returns a numeric curve name as a number.
     curves = [([row for row in rows if str(row["curve"]) == (name + ending if name else full)],
                {"label": label, "color": color, "marker": marker})
               for name, label, color, marker in CURVES]

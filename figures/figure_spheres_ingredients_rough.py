@@ -1,4 +1,4 @@
-"""Spheres that roll: what each ingredient of the model does at a higher friction.
+"""Spheres that roll: rotation without each ingredient of the model, at a higher friction coefficient.
 
     /usr/bin/python3 figures/figure_spheres_ingredients_rough.py out/figure_spheres_ingredients_rough.csv
 """

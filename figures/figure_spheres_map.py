@@ -1,4 +1,4 @@
-"""Spheres that roll: rotation of 36 of them against the friction of their contacts and of the floor.
+"""Spheres that roll: rotation of 36 of them against the friction coefficients of their contacts and of the floor.
 
     /usr/bin/python3 figures/figure_spheres_map.py out/figure_spheres_map.csv
 """
@@ -12,8 +12,8 @@ def main():
     drawing, axes = style.figure(height=2.9)
     style.rotation_map(drawing, axes, rows, ("mu", "floor_friction"),
                        label=r"$\varpi/\Omega$ at $N = 36$")
-    axes.set_xlabel(r"friction of spheres and wall $\mu$")
-    axes.set_ylabel(r"friction on the floor $\mu_f$")
+    axes.set_xlabel(r"friction coefficient of spheres and wall $\mu$")
+    axes.set_ylabel(r"friction coefficient of the floor $\mu_f$")
     style.save(drawing, table)
 
 

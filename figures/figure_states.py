@@ -1,15 +1,13 @@
-"""How much the discs move in the M-frame, with both frictions and with one of them absent.
+"""Motion of the discs in the M-frame, with both frictions and with one of them absent.
 
     /usr/bin/python3 figures/figure_states.py out/figure_states.csv
 """
 
-import math
-
 import style
+from paper_parameters import CONTAINER_RADIUS, OMEGA
 
 SETTINGS = (("high", "both frictions 1", style.RED), ("no-wall", r"$\mu_w = 0$", style.GREEN),
             ("no-disc", r"$\mu_d = 0$", style.ORANGE))
-PERIOD, RADIUS = 11.866071, 8.6
 
 
 def main():
@@ -17,7 +15,7 @@ def main():
     rows = style.read(table)
     numbers = sorted({row["discs"] for row in rows})
     drawing, (speed, heat) = style.figure(height=2.5, ncols=2)
-    per_speed = 1 / (2 * (2 * math.pi / PERIOD) ** 2 * RADIUS)
+    per_speed = 1 / (2 * OMEGA ** 2 * CONTAINER_RADIUS)  # |Coriolis force| = 2 Ω v, in units of ΩR
     for k, (setting, label, color) in enumerate(SETTINGS):
         here = style.select(rows, setting=setting)
         for axes, name, factor in ((speed, "coriolis", per_speed), (heat, "granular", 1.0)):

@@ -4,12 +4,13 @@
 """
 
 import style
+from paper_parameters import EVENTS
 
 
 def smoothed(rows, name, width=10):
-    """Means over `width` swirls, and their middles."""
+    """Means over `width` periods, and the middles of these intervals."""
     blocks = [rows[k:k + width] for k in range(0, len(rows) - width + 1, width)]
-    return ([sum(style.column(b, "swirl")) / width for b in blocks],
+    return ([sum(style.column(b, "period")) / width for b in blocks],
             [sum(style.column(b, name)) / width for b in blocks])
 
 
@@ -25,12 +26,12 @@ def main():
         rotation.plot(*smoothed(curve, "varpi"), **look)
         spin.plot(*smoothed(curve, "spin"), **look)
         for axes in (rotation, spin):
-            passed = [row["swirl"] for row in curve if row["events"] >= 1e6]
-            if passed:
-                axes.axvline(passed[0], color=style.CYCLE[k], linewidth=0.7, linestyle="--")
+            after = [row["period"] for row in curve if row["events"] >= EVENTS]
+            if after:
+                axes.axvline(after[0], color=style.CYCLE[k], linewidth=0.7, linestyle="--")
     rotation.set_ylabel(r"$\varpi/\Omega$")
     spin.set_ylabel(r"mean spin $\langle\omega_i\rangle/\Omega$")
-    spin.set_xlabel(r"swirls since rest (dashed: the paper's $10^6$ events)")
+    spin.set_xlabel(r"periods from rest (dashed: the paper's $10^6$ events)")
     style.legend(rotation, ncol=4)
     style.save(drawing, table)
 

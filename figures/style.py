@@ -1,7 +1,7 @@
-"""What all figures share: sizes, colours, letters, and how a figure is saved.
+"""The common style of all figures: sizes, colours, fonts, recurring elements, and saving.
 
-Colours are those of Okabe and Ito (2008), which people with any kind of colour vision can tell
-apart; every curve has a marker of its own besides.
+The colours are those of Okabe and Ito (2008), which are distinguishable with any kind of colour vision. Every
+curve also has its own marker.
 """
 
 import io
@@ -17,21 +17,21 @@ import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 from matplotlib.patheffects import withStroke  # noqa: E402
 
-import tables  # noqa: E402
 import atomic_file  # noqa: E402
+import tables  # noqa: E402
+from paper_parameters import AMPLITUDE  # noqa: E402
 from tables import column, select  # noqa: E402, F401
 
 # Column widths of the Physical Review, in inches.
 COLUMN = 3.375
 PAGE = 7.0
-SMALLEST = 7  # points: no letter is smaller where a figure is as wide as its column
-AMPLITUDE = 1.892  # of the container's path, in disc radii: where S is in the M-frame
+SMALLEST = 7  # font size in points, where a figure is as wide as its column
+LEAST_VISITS = 200  # a slice of θ with fewer visits is not drawn
 
 BLACK = "#000000"
 ORANGE = "#e69f00"
 SKY = "#56b4e9"
 GREEN = "#009e73"
-YELLOW = "#f0e442"
 BLUE = "#0072b2"
 RED = "#d55e00"
 PINK = "#cc79a7"
@@ -66,43 +66,43 @@ SETTINGS = {
     "image.cmap": "viridis",
     "figure.dpi": 300,
     "savefig.dpi": 300,
-    "pdf.fonttype": 42,  # letters as letters, so that the text can be searched
+    "pdf.fonttype": 42,  # TrueType: the text can be searched
     "axes.unicode_minus": True,
     "mathtext.fontset": "dejavusans",
 }
 
 
 def read(table):
-    """The rows of a table, of which there must be some."""
+    """The rows of a table; ends the script if there are none."""
     rows = tables.read(table)
     if not rows:
-        sys.exit(f"'{table}' has no rows, so there is nothing to draw.")
+        sys.exit(f"'{table}' has no rows, so nothing is drawn.")
     return rows
 
 
 def figure(width=COLUMN, height=None, **subplots):
-    """A figure of the given width in inches; returns what plt.subplots returns."""
+    """plt.subplots() with width and height in inches."""
     plt.rcParams.update(SETTINGS)
     height = height or 0.72 * width
     return plt.subplots(figsize=(width, height), constrained_layout=True, **subplots)
 
 
 def not_steady(rows):
-    """The rows whose run still drifts, or was too short for the test."""
+    """Rows whose steady state is not verified: the run drifts, or is too short for the test."""
     return [row for row in rows
             if row.get("steady_state", "steady") not in ("steady", "failed")]
 
 
 def ring(axes, rows, x, y):
-    """Rings about the points that are not shown to belong to a steady state; the note below the
-    figure (save) says what they are. `y` names a column or is a function of the row."""
+    """Rings around the points whose steady state is not verified, and a note that explains them. `y` names a
+    column or is a function of the row."""
     value = y if callable(y) else lambda row: row[y]
     marked = not_steady(rows)
     if not marked:
         return
     axes.plot(column(marked, x), [value(row) for row in marked], "o", markersize=6.5,
               markerfacecolor="none", markeredgecolor=BLACK, markeredgewidth=0.5, zorder=4)
-    note(axes.figure, "in a ring: run not shown to be steady")
+    note(axes.figure, "ring: steady state not verified")
 
 
 def note(drawing, text):
@@ -111,15 +111,14 @@ def note(drawing, text):
 
 
 def note_not_steady(drawing, rows):
-    """For maps and profiles, whose parts cannot be ringed: of which numbers of discs."""
+    """For maps and profiles, which cannot have rings: a note with the numbers of discs."""
     numbers = sorted({row["discs"] for row in not_steady(rows)})
     if numbers:
-        note(drawing, "not shown to be steady: N = " + ", ".join(f"{n:.0f}" for n in numbers))
+        note(drawing, "steady state not verified: N = " + ", ".join(f"{n:.0f}" for n in numbers))
 
 
 def curve(axes, rows, x, y, **look):
-    """One line with its errors, and rings where the run is not steady; its name alone where no run has an
-    average."""
+    """One line with errors, and rings where the run is not steady. If no run has an average, only its label."""
     if not np.isfinite(column(rows, y)).any():
         axes.errorbar([], [], **look)
         return
@@ -129,8 +128,7 @@ def curve(axes, rows, x, y, **look):
 
 
 def rotation_curves(name, parameter, symbol):
-    """A whole figure: rotation against the number of discs, a curve for each value of a
-    parameter."""
+    """A complete figure: rotation against the number of discs, a curve for each value of a parameter."""
     table = table_from_arguments(name)
     rows = read(table)
     curves = [(select(rows, **{parameter: value}),
@@ -140,8 +138,8 @@ def rotation_curves(name, parameter, symbol):
 
 
 def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=None, **more):
-    """A whole figure: rotation against the number of `of`; `curves` are rows and how they look.
-    Above `fine` the scale is coarser, where there is anything."""
+    """A complete figure: rotation against the number of `of`; `curves` are rows and their style. Above `fine` the
+    scale is coarser, if there are points."""
     drawing, axes = figure(width, height)
     zero_line(axes)
     for rows, look in curves:
@@ -153,12 +151,12 @@ def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=N
     save(drawing, table)
 
 
-COARSER = 6  # times
+COARSER = 6  # factor between the two scales
 
 
 def coarser_above(axes, level, rows):
-    """Every point is shown, and those near zero can be told apart: above the level, which a dotted
-    line marks, the scale of ϖ is coarser."""
+    """Shows all points, with a fine scale near zero: above the level, which a dotted line marks, the scale of ϖ is
+    coarser."""
     ends = [row["by_time"] + sign * (row["by_time_error"] if row["by_time_error"] >= 0 else 0)
             for row in rows if row["by_time"] == row["by_time"] for sign in (-1, 1)]
     if not ends or max(ends) <= level:
@@ -178,14 +176,14 @@ def coarser_above(axes, level, rows):
 
 
 def legend(axes, ncol=2, **more):
-    """Above the axes, where there are no data."""
+    """Above the axes, clear of the data."""
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=ncol, columnspacing=1.2,
                 borderaxespad=0.2, **more)
 
 
 def legend_of_all(drawing, handles, labels, ncol):
     """Above all axes of a figure."""
-    drawing.suptitle(" ", fontsize=SMALLEST)  # room for it
+    drawing.suptitle(" ", fontsize=SMALLEST)  # reserves the space
     drawing.legend(handles, labels, loc="upper center", ncol=ncol, columnspacing=1.2,
                    borderaxespad=0.2)
 
@@ -197,8 +195,8 @@ def rotation_axes(axes, average="by time", of="discs"):
 
 
 def sliding(rows, width):
-    """The profile of one number of discs in slices of `width` degrees that slide by one slice of the table:
-    the paper's "angular slice slides around the entire container". Every visit counts the same; the
+    """The profile of one number of discs in slices of `width` degrees that slide by one slice of the table, like
+    the paper's "angular slice slides around the entire container". All visits have the same weight; the
     normalised angular velocity is the ratio of the two means."""
     result = []
     for row in rows:
@@ -215,8 +213,8 @@ def sliding(rows, width):
 
 
 def profiles(name, quantity, level, label):
-    """A whole figure: a quantity against the angle θ, a curve for each number of discs, with the
-    places where discs become pinned and free. A second argument is the width of a slice that slides."""
+    """A complete figure: a quantity against the angle θ, a curve for each number of discs, and the mean angles where
+    residences at the wall begin and end. A second command-line argument is the width of a sliding slice."""
     width = float(sys.argv.pop()) if len(sys.argv) == 3 and sys.argv[1][:1] != "-" else 0.0
     table = table_from_arguments(name)
     rows = read(table)
@@ -227,7 +225,7 @@ def profiles(name, quantity, level, label):
     for discs in numbers:
         color = colors(0.95 * (discs - numbers[0]) / span)
         here = select(rows, discs=discs)
-        shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > 200]
+        shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > LEAST_VISITS]
         axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
                   linestyle=":" if not_steady(shown) else "-")
         for angle, marker in (("residence_begin", "v"), ("residence_end", "o")):
@@ -240,7 +238,7 @@ def profiles(name, quantity, level, label):
     axes.plot([], [], "v", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
               label="residences at the wall begin")
     axes.plot([], [], "o", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
-              label="and end")
+              label="residences end")
     axes.axhline(level, color=GREY, linewidth=0.6, linestyle="--", zorder=0)
     axes.set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
     axes.set_ylabel(label)
@@ -258,28 +256,34 @@ def zero_line(axes):
 
 
 def scale(values, colors):
-    """What a colour bar needs."""
+    """A mappable for a colour bar."""
     span = matplotlib.colors.Normalize(min(values), max(values))
     return matplotlib.cm.ScalarMappable(norm=span, cmap=colors)
 
 
 def bare(axes):
-    """No axes: a picture of things, not of numbers."""
+    """No axes, for a drawing in space."""
     axes.set_aspect("equal")
     axes.axis("off")
 
 
-def dish(axes, radius, color=BLACK):
-    """The container's wall in the M-frame, with M, the swirl centre S above C, and θ."""
+def map_radius(cells):
+    """The radius of the container, from the centres of the cells of a map."""
+    across = len({row["x"] for row in cells})
+    return max(row["x"] for row in cells) * across / (across - 1)
+
+
+def container(axes, radius, color=BLACK, amplitude=AMPLITUDE):
+    """The wall in the M-frame, with M, the centre S of the swirl above C, and θ."""
     bare(axes)
     axes.add_patch(plt.Circle((0, 0), radius, fill=False, color=BLACK, linewidth=0.8))
     axes.plot(0, -radius, "o", color=PINK, markersize=3, clip_on=False, zorder=5)
     axes.text(0, -1.07 * radius, "$M$", color=PINK, fontsize=SMALLEST + 1, ha="center", va="top")
-    # Seen on arrows and on any colour of a map.
+    # The outline keeps it visible on arrows and on any colour of a map.
     edge = [withStroke(linewidth=1.6, foreground=BLACK if color == "white" else "white")]
-    axes.plot(0, AMPLITUDE, "+", color=color, markersize=4, markeredgewidth=0.8, zorder=5,
+    axes.plot(0, amplitude, "+", color=color, markersize=4, markeredgewidth=0.8, zorder=5,
               path_effects=edge)
-    axes.text(0.05 * radius, AMPLITUDE + 0.02 * radius, "$S$", color=color,
+    axes.text(0.05 * radius, amplitude + 0.02 * radius, "$S$", color=color,
               fontsize=SMALLEST + 1, va="bottom", zorder=5, path_effects=edge)
     for degrees, align in ((0, "left"), (90, "center"), (180, "right")):
         turn = math.radians(degrees)
@@ -291,7 +295,7 @@ def dish(axes, radius, color=BLACK):
 
 
 def cells(axes, rows, name, radius):
-    """A map of equal cells over the square of the container, white outside of it."""
+    """A map of equal cells over the square around the container, white outside the container."""
     side = round(len(rows) ** 0.5)
     image = [column(rows[k * side:(k + 1) * side], name) for k in range(side)]
     shown = axes.imshow(image, origin="lower", extent=[-radius, radius, -radius, radius],
@@ -301,24 +305,24 @@ def cells(axes, rows, name, radius):
 
 
 def often_visited(rows, least):
-    """Cells of a flow where more than this share of all visits was, so that their mean is one."""
+    """Cells of a flow map with more than this share of all visits; others have no reliable mean."""
     total = sum(row["visits"] for row in rows)
     return [row for row in rows if row["visits"] > least * total]
 
 
-COARSE = 2  # cells of the table beside each other that share an arrow, where it lies on a map
+COARSE = 2  # cells of the table, in each direction, that share an arrow on a density map
 
 
 def blocks(rows, side):
-    """The flow in squares of side × side cells, each visit counted alike."""
+    """The flow in squares of side × side cells; all visits have the same weight."""
     across, up = (sorted({row[axis] for row in rows}) for axis in ("x", "y"))
     members = {}
     for row in rows:
         members.setdefault((across.index(row["x"]) // side, up.index(row["y"]) // side),
                            []).append(row)
 
-    def middle(places, k):
-        here = places[k * side:(k + 1) * side]
+    def middle(positions, k):
+        here = positions[k * side:(k + 1) * side]
         return sum(here) / len(here)
 
     result = []
@@ -337,13 +341,13 @@ def speed(row):
 
 
 def arrows(axes, rows, spacing, fastest, color):
-    """Velocities in units of the container's speed, each in the middle of its cell; the fastest is as
-    long as cells are apart, so that none runs into another."""
+    """Velocities in units of the container's speed, each in the middle of its cell. The fastest arrow is as long as
+    the distance of the cells, so arrows do not overlap."""
     drawn = axes.quiver(column(rows, "x"), column(rows, "y"), column(rows, "u_x"),
                         column(rows, "u_y"), color=color, angles="xy", scale_units="xy",
                         scale=fastest / spacing, pivot="mid", units="xy", width=0.095 * spacing,
                         headwidth=3.6, headlength=4, headaxislength=3.6, minlength=0.5)
-    # The scale, outside of the dish.
+    # The scale, outside the container.
     known = max([k for k in (0.1, 0.2, 0.5, 1, 2, 5) if k <= fastest], default=fastest)
     axes.quiverkey(drawn, 0.9, 0.03, known, f"speed {known:g}", labelpos="N", coordinates="axes",
                    color=BLACK if color == "white" else color,
@@ -351,38 +355,34 @@ def arrows(axes, rows, spacing, fastest, color):
 
 
 def save(drawing, table):
-    """PNG and PDF beside the table, each whole or not there; no date inside, so the same table gives
-    the same bytes."""
+    """PNG and PDF next to the table, by atomic writes. They contain no date: the same table gives the same bytes."""
     stem = os.path.splitext(table)[0]
     for kind, about in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
         drawn = io.BytesIO()
         drawing.savefig(drawn, format=kind, metadata=about)
-        try:
-            atomic_file.write(f"{stem}.{kind}", drawn.getvalue())
-        except OSError as error:
-            sys.exit(f"'{stem}.{kind}' could not be written: {error.strerror}.")
+        atomic_file.write_or_exit(f"{stem}.{kind}", drawn.getvalue())
 
 
 def table_from_arguments(name):
-    """The one argument of a figure's script: the table it draws."""
+    """The table to draw: the only argument of a figure's script."""
     if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
         print(f"usage: /usr/bin/python3 {sys.argv[0]} {name}.csv\n"
-              f"draws the table that `swirl paper` wrote, to PNG and PDF beside it", file=sys.stderr)
+              "Draws the table that `swirl paper` wrote, to PNG and PDF next to it", file=sys.stderr)
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     if not os.path.exists(sys.argv[1]):
-        sys.exit(f"There is no table '{sys.argv[1]}'; `swirl paper` writes it.")
+        sys.exit(f"the table '{sys.argv[1]}' does not exist.\nhint: `swirl paper` writes it.")
     return sys.argv[1]
 
 
 def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
-    """ϖ/Ω over two parameters, as colour and as number; `columns` are those along x and y."""
+    """ϖ/Ω over two parameters, as colour and as number; `columns` are the parameters along x and y."""
     across, up = (sorted({row[column] for row in rows}) for column in columns)
     values = [[float("nan")] * len(across) for _ in up]
     for row in rows:
         values[up.index(row[columns[1]])][across.index(row[columns[0]])] = row["by_time"]
     colors = plt.get_cmap("PuOr_r").copy()
     colors.set_bad("0.85")
-    # Counterrotation is weak beside rotation: linear up to 0.02, logarithmic beyond.
+    # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.
     span = matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-1, vmax=1)
     shown = axes.imshow(values, origin="lower", cmap=colors, norm=span)
     for y, line in enumerate(values):
@@ -397,7 +397,7 @@ def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
         corner = (across.index(row[columns[0]]) - 0.44, up.index(row[columns[1]]) - 0.44)
         axes.add_patch(plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7, linestyle=":"))
     if drifting:
-        notes.append("dotted: not shown to be steady")
+        notes.append("dotted: steady state not verified")
     if any(value != value for line in values for value in line):
         notes.append("grey: no result")
     if notes:

@@ -1,10 +1,10 @@
-"""Reading the tables that `swirl paper` writes. Python's standard library only."""
+"""Reads the tables that `swirl paper` writes, with Python's standard library only."""
 
 import csv
 
 
 def read(table):
-    """The rows of a CSV table: numbers as floats, an empty cell as NaN, anything else as text."""
+    """The rows of a CSV table as dictionaries: numbers are floats, an empty cell is NaN, anything else is text."""
 
     def value(cell):
         if cell == "":
@@ -18,8 +18,9 @@ def read(table):
         return [{name: value(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
 
 
-def select(rows, **wanted):
-    return [row for row in rows if all(row[name] == value for name, value in wanted.items())]
+def select(rows, **columns):
+    """The rows whose columns have these values."""
+    return [row for row in rows if all(row[name] == value for name, value in columns.items())]
 
 
 def column(rows, name):

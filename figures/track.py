@@ -9,7 +9,7 @@ import math
 import os
 
 import experiment
-import report
+import html_page as report
 import style
 
 FEWEST = 0.99  # fraction of the frames: a disc that is seen in fewer is doubtful

@@ -1,26 +1,25 @@
-"""The rules by which every claim is judged, in one place.
+"""The rules by which every claim is judged.
 
-A number that was measured is a Value: a mean, its standard error (between seeds and within them,
-statistics/replicates.hpp), the degrees of freedom of that error (seeds − 1), and the points of the
-study that it rests on. A claim asks whether a Value lies above or below a bound. The probability of
-three standard deviations decides, which Student's t turns into a number of errors (threshold()):
+A measured number is a Value: a mean, its standard error (src/swirl/statistics/replicates.hpp), the degrees
+of freedom of that error (seeds − 1), and the points of the study behind it. A claim asks whether a Value
+lies above or below a bound. The decision needs the probability of three standard deviations; Student's t
+turns it into a number of standard errors (threshold()):
 
     holds           it does, by more than that many errors
     does not hold   it does not, by more than that many errors
-    undecided       neither: more seeds would tell, and `swirl paper` spends them on the points of
-                    the Values concerned, until it is decided or the budget of seeds is spent
-    holds in part   of a claim that says several things, some hold and others do not; of a claim
-                    that says one thing this is never the verdict
+    undecided       neither. More seeds would decide, and `swirl paper` adds them to the points of these
+                    Values until the claim is decided or the budget of seeds is spent
+    holds in part   only for a claim with several statements, of which some hold and others do not
 
-What the paper leaves open ("roughly", "slightly", "nearly") is a bound with a name, in claims.py.
-Where what is measured depends on a choice of ours (how thick is the layer at the wall?), a claim is
-judged for each of the choices, and decided only if they agree.
+Bounds that the paper leaves open ("roughly", "slightly", "nearly") are in claims/thresholds.py. Some
+measured quantities depend on a choice of the analysis, for example the thickness of the layer at the wall.
+Such a claim is judged for each choice, and decided only if all choices agree.
 
-Seeds are added until a claim is decided, so a claim is asked several times. An error in a table
-already has Student's factor for 95 % in it (replicates.hpp). The threshold multiplies this error,
-so it is stricter than an exact test of one look. That pays for the repeated looks: with 8, 16 and 32
-seeds a value that lies exactly on its bound is decided in at most 0.6 % of all cases, whatever the
-seeds differ by (tests/cli/claims_test.py, ErrorRateOfDecided; docs/paper.md has the table).
+Seeds are added until a claim is decided, so a claim is tested repeatedly. An error in a table already
+contains Student's factor for 95 % (replicates.hpp). The threshold multiplies this error, so it is stricter
+than an exact single test. That compensates for the repetition: with 8, 16 and 32 seeds, a value that lies
+exactly on its bound is decided in at most 0.6 % of all cases, whatever the scatter between seeds
+(tests/cli/verdicts_test.py, FalseDecisions; docs/paper.md has the table).
 """
 
 import math
@@ -29,30 +28,30 @@ HOLDS, IN_PART, FAILS = "holds", "holds in part", "does not hold"
 UNDECIDED = "undecided"
 UNTESTABLE, MISSING = "not testable by simulation", "not made"
 
-# Standard deviations that make something certain. There is no other such number.
+# Standard deviations that make a statement certain. There is no other such number.
 Z = 3.0
-# Student's t: the share of three standard deviations, 99.73 %, lies within ± this, for 1, 2, …
-# degrees of freedom.
-CERTAIN = (235.80, 19.207, 9.2187, 6.6201, 5.5070, 4.9040, 4.5299, 4.2766, 4.0942, 3.9569)
+# Quantiles of Student's t: the share of three standard deviations, 99.73 %, lies within ± this, for
+# 1, 2, … degrees of freedom.
+STUDENT_T = (235.80, 19.207, 9.2187, 6.6201, 5.5070, 4.9040, 4.5299, 4.2766, 4.0942, 3.9569)
 
 
 def threshold(freedom):
-    """How many standard errors make something certain, if the error has this many degrees of
-    freedom. Between whole numbers it is linear in 1/freedom. One seed has none: never."""
+    """The number of standard errors that makes a statement certain, for this many degrees of freedom.
+    Between integers it is linear in 1/freedom. A single seed has no degree of freedom: infinite."""
     if not freedom >= 1:
         return math.inf
-    if freedom >= len(CERTAIN):  # Abramowitz and Stegun, 26.7.5
+    if freedom >= len(STUDENT_T):  # Abramowitz and Stegun, 26.7.5
         return (Z + (Z ** 3 + Z) / (4 * freedom) +
                 (5 * Z ** 5 + 16 * Z ** 3 + 3 * Z) / (96 * freedom ** 2) +
                 (3 * Z ** 7 + 19 * Z ** 5 + 17 * Z ** 3 - 15 * Z) / (384 * freedom ** 3))
     k = int(freedom)
     share = (1 / k - 1 / freedom) / (1 / k - 1 / (k + 1))
-    return CERTAIN[k - 1] + share * (CERTAIN[k] - CERTAIN[k - 1])
+    return STUDENT_T[k - 1] + share * (STUDENT_T[k] - STUDENT_T[k - 1])
 
 
 class Value:
-    """A mean, its standard error, the degrees of freedom of the error (infinite: it is exact), and
-    the names of the points that more seeds could be spent on."""
+    """A mean, its standard error, the degrees of freedom of the error (infinite: the error is exact), and
+    the names of the points that could get more seeds."""
 
     def __init__(self, mean, error=0.0, points=(), freedom=math.inf):
         self.mean, self.error, self.points = mean, error, frozenset(points)
@@ -64,7 +63,7 @@ class Value:
 
     @property
     def margin(self):
-        """By how much the mean must differ from a bound to be certain."""
+        """The least distance between the mean and a bound that decides."""
         return threshold(self.freedom) * self.error if self.error else 0.0
 
     def __sub__(self, other):
@@ -87,16 +86,15 @@ def as_value(number):
 
 
 def measured(row, name, error=None):
-    """A number of a row of a table, with its error, its point, and its degrees of freedom from the
-    column `averaged_runs`. A table without this column has one run only, or errors of another kind;
-    these are taken as they are."""
+    """A number of a row of a table, with its error, its point, and its degrees of freedom from the column
+    `averaged_runs`. Without this column the error counts as exact."""
     return Value(row[name], row[error or name + "_error"],
                  [row["point"]] if isinstance(row.get("point"), str) else (),
                  row["averaged_runs"] - 1 if "averaged_runs" in row else math.inf)
 
 
 def joint_freedom(values, weights):
-    """Degrees of freedom of the error of Σ weight × value: Welch and Satterthwaite."""
+    """Degrees of freedom of the error of Σ weight × value, by Welch and Satterthwaite."""
     squares = [(w * v.error) ** 2 for w, v in zip(weights, values)]
     if any(s and not v.freedom >= 1 for s, v in zip(squares, values)):
         return 0.0
@@ -115,8 +113,8 @@ def mean_of(values, weights=None):
 
 
 def scattered(numbers, points=(), least=0.0):
-    """The mean of numbers that have no errors of their own: the error is that of their scatter, or
-    of the least that it can be. Of a single one nothing is known."""
+    """The mean of numbers without errors. Its error follows from their scatter, which counts as `least` at
+    least. The error of a single number is unknown."""
     numbers = [x for x in numbers if math.isfinite(x)]
     n = len(numbers)
     if n < 2:
@@ -128,8 +126,8 @@ def scattered(numbers, points=(), least=0.0):
 
 
 def trend(numbers, points=()):
-    """How much a straight line through numbers at equal distances rises from the first to the last,
-    in units of their mean. The error is that of the scatter about the line."""
+    """The rise of a straight line through equally spaced numbers, from the first to the last, in units of
+    their mean. Its error follows from the scatter about the line."""
     n = len(numbers)
     if n < LEAST_POINTS or not all(math.isfinite(x) for x in numbers):
         return Value(math.nan, math.nan, points)
@@ -141,7 +139,7 @@ def trend(numbers, points=()):
     return Value(slope, error, points, n - 2) * ((n - 1) / mean)
 
 
-class Part:
+class Judgement:
     """The verdict on one statement, and the points that could decide it if it is undecided."""
 
     def __init__(self, verdict, points=()):
@@ -149,7 +147,7 @@ class Part:
         self.points = frozenset(points) if verdict == UNDECIDED else frozenset()
 
     def __eq__(self, other):
-        return self.verdict == (other.verdict if isinstance(other, Part) else other)
+        return self.verdict == (other.verdict if isinstance(other, Judgement) else other)
 
     def __repr__(self):
         return self.verdict
@@ -159,12 +157,12 @@ def above(value, bound):
     """Is the value above the bound (a number or another Value)?"""
     gap = as_value(value) - bound
     if not gap.known:
-        return Part(UNDECIDED, gap.points)
+        return Judgement(UNDECIDED, gap.points)
     if gap.mean > gap.margin:
-        return Part(HOLDS)
+        return Judgement(HOLDS)
     if gap.error == 0:
-        return Part(FAILS)  # what is exact is not above what it equals
-    return Part(FAILS) if gap.mean < -gap.margin else Part(UNDECIDED, gap.points)
+        return Judgement(FAILS)  # an exact value is not above an equal bound
+    return Judgement(FAILS) if gap.mean < -gap.margin else Judgement(UNDECIDED, gap.points)
 
 
 def below(value, bound):
@@ -172,84 +170,86 @@ def below(value, bound):
 
 
 def within(value, low, high):
-    """Between two bounds. One bound that fails is enough; both must hold."""
+    """Between two bounds: both must hold, and one that fails is enough."""
     return every([above(value, low), below(value, high)])
 
 
-def true(flag):
-    """Of what is no measurement: it is so, or it is not."""
-    return Part(HOLDS if flag else FAILS)
+def fact(flag):
+    """The judgement on something that is not measured."""
+    return Judgement(HOLDS if flag else FAILS)
 
 
-def every(statements):
-    """One statement about many places: it must hold in each of them."""
-    statements = list(statements)
-    if any(s.verdict == FAILS for s in statements):
-        return Part(FAILS)
-    open_ones = [s for s in statements if s.verdict == UNDECIDED]
-    if open_ones or not statements:
-        return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
-    return Part(IN_PART if any(s.verdict == IN_PART for s in statements) else HOLDS)
+def undecided(judgements):
+    """With the points of all of them."""
+    return Judgement(UNDECIDED, frozenset().union(*(j.points for j in judgements)))
 
 
-def either(statements):
-    """One statement that is true if it holds in any of the places."""
-    statements = list(statements)
-    if any(s.verdict == HOLDS for s in statements):
-        return Part(HOLDS)
-    open_ones = [s for s in statements if s.verdict == UNDECIDED]
-    if open_ones or not statements:
-        return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
-    return Part(IN_PART if any(s.verdict == IN_PART for s in statements) else FAILS)
+def every(judgements):
+    """One statement about many cases: it must hold in each."""
+    return decided_by(FAILS, HOLDS, judgements)
 
 
-def agreed(statements):
-    """One statement, judged once for each choice that could have been made of what is measured. If
-    for one choice it holds and for another it does not, or in part, that is for certain, and no
-    seeds would decide it."""
-    statements = list(statements)
-    verdicts = {s.verdict for s in statements}
+def either(judgements):
+    """One statement that is true if it holds in any case."""
+    return decided_by(HOLDS, FAILS, judgements)
+
+
+def decided_by(decisive, otherwise, judgements):
+    """One `decisive` verdict decides; `otherwise` needs all cases decided."""
+    judgements = list(judgements)
+    verdicts = {j.verdict for j in judgements}
+    if decisive in verdicts:
+        return Judgement(decisive)
+    if UNDECIDED in verdicts or not judgements:
+        return undecided(judgements)
+    return Judgement(IN_PART if IN_PART in verdicts else otherwise)
+
+
+def agreed(judgements):
+    """One statement, judged once for each choice of the analysis. Choices that certainly disagree leave it
+    undecided, without points: no seeds would decide it."""
+    judgements = list(judgements)
+    verdicts = {j.verdict for j in judgements}
     if len(verdicts - {UNDECIDED}) > 1:
-        return Part(UNDECIDED)
-    if UNDECIDED in verdicts or not statements:
-        return Part(UNDECIDED, frozenset().union(*(s.points for s in statements)))
-    return Part(verdicts.pop())
+        return Judgement(UNDECIDED)
+    if UNDECIDED in verdicts or not judgements:
+        return undecided(judgements)
+    return Judgement(verdicts.pop())
 
 
-def parts(*statements):
-    """A claim that says several things. Only here can something hold in part."""
-    verdicts = [s.verdict for s in statements]
-    if IN_PART in verdicts or (HOLDS in verdicts and FAILS in verdicts):
-        return Part(IN_PART)
-    open_ones = [s for s in statements if s.verdict == UNDECIDED]
-    if open_ones:
-        return Part(UNDECIDED, frozenset().union(*(s.points for s in open_ones)))
-    return Part(HOLDS if HOLDS in verdicts else FAILS)
+def combined(*judgements):
+    """A claim with several statements. Only here can a claim hold in part."""
+    verdicts = {j.verdict for j in judgements}
+    if IN_PART in verdicts or {HOLDS, FAILS} <= verdicts:
+        return Judgement(IN_PART)
+    if UNDECIDED in verdicts:
+        return undecided(judgements)
+    return Judgement(HOLDS if HOLDS in verdicts else FAILS)
 
 
-# A curve that rises may fall from any of its points to any later one by this share of its whole rise.
-# A tenth is what the symbols of the paper's Figure 4 hide. All pairs are compared, not neighbours alone:
-# between the neighbours of a finer grid any curve falls by less.
+# A rising curve may fall from any point to any later one by this share of its whole rise: the symbols of
+# the paper's Figure 4 hide a tenth. All pairs are compared, not only neighbours, since between the
+# neighbours of a finer grid any curve falls by less.
 REVERSAL = 0.1
-# Of fewer points one cannot say that they rise all the way.
+# Fewer points do not show that a curve rises throughout.
 LEAST_POINTS = 3
 
 
 def largest_reversal(values):
-    """Of a curve that should rise: (i, j), i < j, between which it falls most; None if it never falls."""
+    """The pair (i, j), i < j, between which a rising curve falls most; None if it never falls."""
     known = [k for k, v in enumerate(values) if v.known]
     falls_by = [(values[i].mean - values[j].mean, (i, j))
                 for n, i in enumerate(known) for j in known[n + 1:]]
-    most = max(falls_by, default=(0.0, None))
-    return most[1] if most[0] > 0 else None
+    largest, pair = max(falls_by, default=(0.0, None))
+    return pair if largest > 0 else None
 
 
 def rises(values, least=0.0):
-    """A curve that rises: from its beginning to its end by more than `least`, the size that matters, and
-    between no two points does it fall by more than REVERSAL of that rise."""
+    """A rising curve: from its beginning to its end it rises by more than `least`, and between no two points
+    does it fall by more than REVERSAL of that rise."""
     values = [v for v in values if v.mean == v.mean]
     if len(values) < LEAST_POINTS:
-        return Part(UNDECIDED, frozenset().union(*(v.points for v in values)))
+        return undecided(values)
     rise = values[-1] - values[0]
     overall = above(rise, least)
     if overall.verdict != HOLDS:

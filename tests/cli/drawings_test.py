@@ -73,7 +73,7 @@ TABLES = {
     "4a": [with_errors(row, slip_resident=0.9, pinned_region=0.95, cluster=0.5)
            for row in curves("setting", ("high", "low"), range(24, 49))],
     "pinning": [{"discs": n, "theta": 10 * k + 5, "steady_state": "drifting"} |
-                {name + end: value for name in ("si_pinned", "si_free", "residence_begin", "residence_end")
+                {name + end: value for name in ("si_pinning", "si_depinning", "residence_begin", "residence_end")
                  for end, value in (("", k / 630), ("_mean", 359.0), ("_resultant", 0.9))}
                 for n in (28, 48) for k in range(36)],
     "4b": [with_errors(row, pinned_wall_spin=0.4, resident_spin=0.4, wall_spin=0.4, spin_correlation=0.0,
@@ -90,7 +90,7 @@ TABLES = {
     "condensation": [with_errors({"discs": n, "condensed": n > 16, "shortest": n, "longest": 3 * n},
                                  waiting=2 * n, before_granular=1.0, after_granular=0.05)
                      for n in range(16, 49, 4)],
-    "energy": [{"sides": m, "seed": seed, "swirl": k, "energy": 10.0 + k * m} for m in (6, 30, 300, 0)
+    "energy": [{"sides": m, "seed": seed, "period": k, "energy": 10.0 + k * m} for m in (6, 30, 300, 0)
                for seed in (1, 2) for k in range(1, 100)],
     "friction": [{"mu": mu, "crosses": float(mu > 0.1), "crossing": 50 - 10 * mu,
                   "crossing_error": 0.5, "steady_state": "drifting"} for mu in (0.05, 0.1, 0.5, 2)],
@@ -100,7 +100,7 @@ TABLES = {
     "polygon": [row for m in (6, 10, 30, 300, 0) for row in rotation((28, 48), sides=m)],
     "restitution": curves("restitution", (1, 0.99, 0.9)),
     "spheres": curves("mu", SPHERES, range(8, 56, 4)),
-    "spheres_coins": curves("curve", ("coins_f0", "coins_f0.01", "coins_f0.02", "coins_f0.03")),
+    "spheres_flat_discs": curves("curve", ("flat-discs_f0", "flat-discs_f0.01", "flat-discs_f0.02", "flat-discs_f0.03")),
     "spheres_ingredients": curves("curve", ("0.2", "no-damping", "shell", "no-vertical-wall",
                                             "no-vertical-disc", "no-vertical", "no-floor")),
     "spheres_ingredients_rough": curves("curve", ("0.3", *(f"{name}-rough" for name in (
@@ -111,14 +111,14 @@ TABLES = {
                                    pinned_wall_spin=0.3, rolling_share=0.7, contact_correlation=0.9)
                        for row in curves("mu", (0.15, 0.5))],
     "spheres_restitution": curves("curve", (1, 0.95, 0.9, 0.8, 0.7, 0.5)),
-    "spheres_sense": [{"mu": mu, "crossing": crossing, "lower": 19 + 20 * mu, "upper": 21 + 20 * mu,
-                       "before": 19 + 20 * mu, "after": 21 + 20 * mu, "sense": sense}
-                      for mu in SPHERES for crossing, sense in ((20 + 20 * mu, "counterrotation"),
+    "spheres_direction": [{"mu": mu, "crossing": crossing, "lower": 19 + 20 * mu, "upper": 21 + 20 * mu,
+                       "before": 19 + 20 * mu, "after": 21 + 20 * mu, "direction": direction}
+                      for mu in SPHERES for crossing, direction in ((20 + 20 * mu, "counterrotation"),
                                                                 ("", "rotation"), ("", "undetermined"))],
     "states": [with_errors(row, coriolis=5.0, granular=0.5)
                for row in curves("setting", ("high", "no-wall", "no-disc"), (28, 48))],
     "tangential": curves("tangential_restitution", (0, 0.5, 1)),
-    "transient": [{"discs": n, "swirl": k, "varpi": k / 200, "spin": -k / 50, "events": 1e4 * k}
+    "transient": [{"discs": n, "period": k, "varpi": k / 200, "spin": -k / 50, "events": 1e4 * k}
                   for n in (40, 43, 46, 48) for k in range(200)],
 }
 

@@ -72,7 +72,7 @@ class Experiment(InFolder):
             page = file.read()
         self.assertNotRegex(page, r'(src|href)="(?!data:)')  # self-contained
         for words in ("Figure 1b", "Figure 3a", "Figure 4a", "N16", "N22",
-                      "No film tells the spins", "there is no Figure 4c", "--smooth"):
+                      "No video has the spins", "there is no Figure 4c", "--smooth"):
             self.assertIn(words, page)
         # A repeated call neither tracks nor simulates again, and gives the same tables.
         again = self.experiment(*videos, *SIMULATION, "--out", out, "--json", "-")

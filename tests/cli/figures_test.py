@@ -1,4 +1,4 @@
-"""Every figure's table has its columns, and its script draws from the table alone."""
+"""The table of every figure has its columns, and its script draws from the table alone."""
 
 import csv
 import os
@@ -9,16 +9,16 @@ import unittest
 
 from program import SOURCE, InFolder, swirl
 
-# Those that share their runs or need none; with 30,000 events each, some swirls of the densest, it takes
-# seconds.
+# Figures that share their runs or have few. With 30,000 events per run, a few periods at the highest N, they
+# take seconds.
 FIGURES = {
     "1b": {"discs", "by_time", "by_time_error", "pancake", "pancake_error", "centre_x", "centre_theta", "left"},
     "2b": {"map", "x", "y", "density", "density_error", "u_x", "u_y", "visits"},
-    "3a": {"discs", "theta", "varpi_m", "varpi_m_error", "becoming_pinned", "becoming_free",
+    "3a": {"discs", "theta", "varpi_m", "varpi_m_error", "pinning", "depinning",
            "residence_begin", "residence_end", "residence_share", "residence_end_resultant", "distance", "speed"},
     "3b": {"discs", "theta", "normalised", "normalised_error", "wall"},
     "4a": {"setting", "discs", "slip_resident", "slip_resident_error", "pinned_region", "cluster"},
-    "pinning": {"discs", "theta", "si_pinned", "si_free", "residence_begin", "residence_end", "si_free_resultant",
+    "pinning": {"discs", "theta", "si_pinning", "si_depinning", "residence_begin", "residence_end", "si_depinning_resultant",
                 "residence_end_resultant", "residence_end_mean", "residence_end_mean_error"},
     "4b": {"discs", "resident_spin", "resident_correlation", "psi6_resident", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking",
            "correlation_by_impulse", "pinned_correlation", "psi6_pinned", "six", "six_pinned", "disc_disc_rate"},
@@ -46,7 +46,7 @@ class Figures(InFolder):
             for kind in ("png", "pdf"):
                 self.assertGreater(os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")),
                                    5000)
-        # Alone, elsewhere, from nothing but the table: the same picture.
+        # In another folder, from the table alone, the script draws the same image.
         alone = self.path("alone")
         os.mkdir(alone)
         shutil.copy(os.path.join(out, "figure_4c.csv"), alone)
@@ -56,7 +56,7 @@ class Figures(InFolder):
             with open(os.path.join(alone, "figure_4c.png"), "rb") as other:
                 self.assertEqual(one.read(), other.read())
 
-    def test_what_is_drawn_for_a_column_is_drawn_small_so_that_its_letters_are_read(self):
+    def test_vector_drawings_are_small_for_readable_letters(self):
         done = swirl("paper", "--figure", "2a", "5a", "--quick", "--out", self.path("out"))
         self.assertEqual(done.returncode, 0, done.stderr)
         for name in ("2a", "5a"):

@@ -1,5 +1,4 @@
-"""swirl paper: its tables do not depend on threads or interruptions, and the figure is drawn from
-the table alone."""
+"""swirl paper: tables do not depend on threads or interruptions, and a figure is drawn from its table alone."""
 
 import csv
 import os
@@ -26,8 +25,8 @@ class Figure5b(InFolder):
         with open(os.path.join(self.folder, *name), "rb") as file:
             return file.read()
 
-    def test_table_and_pictures(self):
-        said = self.make("a").stdout
+    def test_table_and_drawings(self):
+        printed = self.make("a").stdout
         with open(self.path("a/figure_5b.csv"), newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual({row["setting"] for row in rows}, SETTINGS)
@@ -36,12 +35,12 @@ class Figure5b(InFolder):
             self.assertEqual(row["seeds"], "3")
             self.assertEqual(row["point"], f"{row['setting']}_N{row['discs']}")
             if row["too_short_to_average"] == "3":
-                # 6000 events of many discs are not five swirls after the warm-up: nothing is averaged.
+                # For many discs 6000 events are fewer than five periods after the warm-up: no average.
                 self.assertGreater(int(row["discs"]), 24 if row["setting"] != "no-wall" else 8)
                 self.assertEqual((row["by_event"], row["steady_state"]), ("", "failed"))
                 continue
             averaged += 1
-            if int(row["discs"]) <= 48:  # beyond, where the paper has no runs, they go by swirls
+            if int(row["discs"]) <= 48:  # beyond the paper's N lengths are in periods
                 self.assertEqual(row["events"], "6000")
             for name in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
                 float(row[name])
@@ -50,16 +49,16 @@ class Figure5b(InFolder):
         self.assertTrue(self.bytes_of("a", "figure_5b.pdf").startswith(b"%PDF"))
         for words in ("high friction", "medium friction", "low friction", "no wall friction",
                       "no disc friction"):
-            self.assertRegex(said, words + r" .*(crosses zero|always rotates)")
+            self.assertRegex(printed, words + r" .*(crosses zero|always rotates)")
 
-    def test_the_same_on_one_core_and_on_all(self):
+    def test_table_is_independent_of_the_number_of_cores(self):
         self.make("all")
         one = {min(os.sched_getaffinity(0))}
         self.make("one", preexec_fn=lambda: os.sched_setaffinity(0, one))
         self.assertEqual(self.bytes_of("all", "figure_5b.csv"),
                          self.bytes_of("one", "figure_5b.csv"))
 
-    def test_interrupted_and_called_again_it_continues_to_the_same_table(self):
+    def test_interrupted_calls_continue_to_the_same_table(self):
         self.make("whole")
         call = [SWIRL, "paper", "--figure", "5b", "--quick", "--events", "6000", "--out",
                 self.path("cut")]
@@ -74,18 +73,18 @@ class Figure5b(InFolder):
                     process.send_signal(signal.SIGINT)
                     break
                 time.sleep(0.001)
-            _, complaint = process.communicate(timeout=60)
+            _, message = process.communicate(timeout=60)
             if process.returncode == 0:
                 break
-            self.assertEqual(process.returncode, 130, complaint)
-            self.assertIn("continues", complaint)
+            self.assertEqual(process.returncode, 130, message)
+            self.assertIn("continues", message)
             self.assertNotIn("figure_5b.csv", os.listdir(self.path("cut")))
-        said = self.make("cut").stdout
-        self.assertIn("from an earlier call", said)
+        printed = self.make("cut").stdout
+        self.assertIn("from an earlier call", printed)
         self.assertEqual(self.bytes_of("whole", "figure_5b.csv"),
                          self.bytes_of("cut", "figure_5b.csv"))
 
-    def test_damaged_parts_are_made_again(self):
+    def test_damaged_results_are_computed_again(self):
         self.make("a")
         table = self.bytes_of("a", "figure_5b.csv")
         parts = self.path("a/parts")
@@ -99,11 +98,11 @@ class Figure5b(InFolder):
             edited += number % 7 == 6 and damaged != whole
             with open(os.path.join(parts, name), "w") as file:
                 file.write(damaged)
-        self.assertGreater(min(edited, cut), 3)  # runs with averages among them
+        self.assertGreater(min(edited, cut), 3)  # results with averages are among them
         self.make("a")
         self.assertEqual(self.bytes_of("a", "figure_5b.csv"), table)
 
-    def test_the_script_runs_alone_and_draws_the_same_bytes(self):
+    def test_script_alone_draws_the_same_bytes(self):
         self.make("a")
         shutil.copy(self.path("a/figure_5b.csv"), self.path("figure_5b.csv"))
         subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "figures", "figure_5b.py"),
@@ -112,7 +111,7 @@ class Figure5b(InFolder):
             self.assertEqual(self.bytes_of("a", f"figure_5b.{kind}"),
                              self.bytes_of(f"figure_5b.{kind}"))
 
-    def test_a_folder_that_cannot_be_made(self):
+    def test_folder_that_cannot_be_created(self):
         open(self.path("file"), "w").close()
         done = swirl("paper", "--figure", "5b", "--quick", "--out", self.path("file/out"))
         self.assertEqual(done.returncode, 1)

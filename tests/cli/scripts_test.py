@@ -1,4 +1,4 @@
-"""The program runs only its own scripts, and nothing in the environment replaces their modules."""
+"""The program runs only its own scripts, and the environment cannot replace their modules."""
 
 import os
 import shutil
@@ -12,7 +12,7 @@ FIGURE = ["paper", "--figure", "5b", "--quick", "--events", "2000"]
 
 class Scripts(InFolder):
     def trap(self, *names):
-        """Python files that leave the file `ran` if they are run."""
+        """Python files that create the file `ran` if they are executed."""
         for name in names:
             os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
             with open(self.path(name), "w", encoding="utf-8") as file:
@@ -22,7 +22,7 @@ class Scripts(InFolder):
         return os.path.exists(self.path("ran"))
 
     def copied(self, name):
-        """The program, copied there, draws Figure 5b."""
+        """A copy of the program with this name draws Figure 5b."""
         os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
         shutil.copy(SWIRL, self.path(name))
         return subprocess.run([self.path(name), *FIGURE, "--out", self.path("out")], timeout=100,
@@ -31,11 +31,11 @@ class Scripts(InFolder):
     def assert_not_found(self, done):
         self.assertFalse(self.has_run())
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("set SWIRL_FIGURES", done.stdout)  # the reason, with the list
+        self.assertIn("set SWIRL_FIGURES", done.stdout)  # the reason is among the findings
 
-    def test_a_copied_program_runs_nothing_from_the_folders_above_it(self):
-        self.trap(*(f"{place}figures/{name}.py" for place in ("", "a/", "a/b/")
-                    for name in ("style", "figure_5b", "report", "claims")))
+    def test_copied_program_runs_no_scripts_of_parent_folders(self):
+        self.trap(*(f"{parent}figures/{name}.py" for parent in ("", "a/", "a/b/")
+                    for name in ("style", "figure_5b", "report", "judge_claims")))
         self.assert_not_found(self.copied("a/b/swirl"))
 
     def test_scripts_of_another_owner_are_not_run(self):
@@ -48,13 +48,13 @@ class Scripts(InFolder):
                 self.assert_not_found(self.copied("bin/swirl"))
             os.chown(self.path(path), 0, 0)
 
-    def test_an_installed_program_finds_its_scripts(self):
+    def test_installed_program_finds_its_scripts(self):
         shutil.copytree(os.path.join(SOURCE, "figures"), self.path("share/swirl/figures"))
         done = self.copied("bin/swirl")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(os.path.exists(self.path("out/figure_5b.pdf")))
 
-    def test_no_module_comes_from_the_environment(self):
+    def test_modules_from_the_environment_are_ignored(self):
         self.trap("matplotlib.py", "numpy.py", "style.py",
                   "home/lib/python3.11/site-packages/usercustomize.py")
         done = swirl(*FIGURE, "--out", self.path("out"), cwd=self.folder,

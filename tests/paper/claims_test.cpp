@@ -1,5 +1,5 @@
-// What the paper claims of its simulations (main text and Figure 5b), as bands around its numbers.
-// Minutes of simulation: label `slow`.
+// The paper's claims about its simulations (main text and Figure 5b), as intervals around its
+// numbers. Takes minutes: label `slow`.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -44,22 +44,22 @@ TEST(PaperClaimsSlow, RotationAtTwentyFourAndCounterrotationAtFortyEight) {
 }
 
 // "This rotation-counterrotation transition point occurs at higher N when friction is decreased."
-TEST(PaperClaimsSlow, TheCrossingMovesUpAsFrictionFalls) {
+TEST(PaperClaimsSlow, CrossingRisesAsFrictionFalls) {
     const Crossing high = find_crossing(curve(dense, 1.0, 1.0, 1'000'000));
     const Crossing medium = find_crossing(curve(dense, 0.5, 0.5, 1'000'000));
     const Crossing low = find_crossing(curve(dense, 0.1, 0.1, 1'000'000));
     ASSERT_EQ(high.verdict, Crossing::Verdict::crosses);
     ASSERT_EQ(medium.verdict, Crossing::Verdict::crosses);
-    // The experiment of the paper crosses near 36 (main text); 38.4 was found for these discs.
+    // The experiment crosses near N = 36 (main text); these discs cross at 38.4.
     EXPECT_GT(high.discs, 35.0);
     EXPECT_LT(high.discs, 41.0);
     EXPECT_GT(medium.lower, high.upper);
-    // So far up that it is not reached by N = 48.
+    // It crosses beyond N = 48, if at all.
     EXPECT_EQ(low.verdict, Crossing::Verdict::always_rotates);
 }
 
 // "The angular velocity of the cluster therefore remains at that of the container regardless of N."
-TEST(PaperClaimsSlow, WithoutWallFrictionTheClusterTurnsWithTheContainer) {
+TEST(PaperClaimsSlow, WithoutWallFrictionClusterRotatesWithTheSwirl) {
     for (const RotationPoint& p : curve(dense, 1.0, 0.0, 1'000'000))
         EXPECT_NEAR(p.mean, 1.0, 5.0 * p.error + 0.005) << "N = " << p.discs;
 }
@@ -72,9 +72,9 @@ TEST(PaperClaimsSlow, WithoutDiscFrictionThereIsNoCrossing) {
     for (const RotationPoint& p : points) EXPECT_GT(p.mean, 0.5) << "N = " << p.discs;
 }
 
-// Not in the paper: at its lowest N and friction it averages over two states, of which the second
-// stays.
-TEST(PaperClaimsSlow, FiveSmoothDiscsEndTurningWithTheSwirl) {
+// Not in the paper: at its lowest N and friction a run passes from one state to another, which
+// lasts.
+TEST(PaperClaimsSlow, FiveSmoothDiscsEndUpRotatingWithTheSwirl) {
     const auto rotation = [](std::uint64_t seed, std::int64_t warmup) {
         RunConfig config;
         config.discs = 5;
@@ -91,9 +91,9 @@ TEST(PaperClaimsSlow, FiveSmoothDiscsEndTurningWithTheSwirl) {
     }
 }
 
-// Not in the paper, but why its table's I = 10 matters: solid discs counterrotate beyond its
-// largest number alone, N = 48.
-TEST(PaperClaimsSlow, SolidDiscsCounterrotateBeyondThePapersNumbers) {
+// Not in the paper, but the reason why its I = 10 matters: solid discs counterrotate only beyond
+// its last N, 48.
+TEST(PaperClaimsSlow, SolidDiscsCounterrotateOnlyBeyondN48) {
     const auto solid = [](std::int64_t discs) {
         RunConfig config;
         config.discs = discs;

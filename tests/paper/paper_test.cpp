@@ -9,7 +9,7 @@
 #include <map>
 
 #include "io/scratch.hpp"
-#include "swirl/paper/points.hpp"
+#include "swirl/paper/results.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
@@ -18,8 +18,6 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 class Paper : public ::testing::Test {
   protected:
@@ -33,7 +31,7 @@ class Paper : public ::testing::Test {
 
 std::atomic<int> calls = 0;
 
-PaperTask sound(const std::string& key) {
+PaperTask succeeding(const std::string& key) {
     return {key, 1.0, [](const RunControl&) {
                 ++calls;
                 return Json{{"steady_state", {{"verdict", "steady"}}}};
@@ -42,14 +40,14 @@ PaperTask sound(const std::string& key) {
 PaperTask failing(const std::string& key) {
     return {key, 1.0, [](const RunControl&) -> Json {
                 ++calls;
-                throw Failure("Time stands still.");
+                throw Failure("collapse");
             }};
 }
 
-/// Counts its holes.
+/// The second of its runs fails. Findings: the verdict of each run.
 FigurePlan three_runs(const PaperSettings&) {
     FigurePlan plan;
-    plan.points = {sound("a"), failing("b"), sound("c")};
+    plan.points = {succeeding("a"), failing("b"), succeeding("c")};
     plan.finish = [](const std::vector<Json>& results, const fs::path&) {
         FigureOutcome outcome;
         for (const Json& r : results) outcome.findings.push_back(steadiness(r));
@@ -59,79 +57,80 @@ FigurePlan three_runs(const PaperSettings&) {
 }
 FigurePlan impossible(const PaperSettings&) {
     FigurePlan plan;
-    plan.points = {sound("c")};
+    plan.points = {succeeding("c")};
     plan.finish = [](const std::vector<Json>&, const fs::path&) -> FigureOutcome {
-        throw Failure("Nothing can be drawn.");
+        throw Failure("no plan");
     };
     return plan;
 }
 
-// A result is kept under the key of its task, for all figures: two different runs of one key would
-// be taken for each other.
-TEST_F(Paper, TasksOfOneKeyAreTheSameRun) {
+// Results of all figures are stored by the key of their task: different runs with the same key
+// would be confused.
+TEST_F(Paper, TasksWithTheSameKeyAreTheSameRun) {
     for (const bool quick : {false, true}) {
         settings.quick = quick;
         std::map<std::string, std::string> runs;
         for (const PaperFigure& figure : paper_figures())
             for (const PaperPoint& point : figure.plan(settings).points)
                 for (const PaperTask& task : point.runs) {
-                    const auto [known, isnew] = runs.emplace(task.key, task.what);
-                    EXPECT_EQ(known->second, task.what) << task.key << " of figure " << figure.name;
+                    const auto [known, inserted] = runs.emplace(task.key, task.description);
+                    EXPECT_EQ(known->second, task.description)
+                        << task.key << " of figure " << figure.name;
                 }
         EXPECT_GT(runs.size(), 100u);
     }
 }
 
-// A verdict on three seeds would be one on chance: the figures that claims rest on have eight.
-TEST_F(Paper, PointsThatVerdictsRestOnHaveAllTheSeeds) {
+// With three seeds the threshold of a verdict is 19 standard errors; with eight it is 4.5.
+TEST_F(Paper, FiguresWithClaimsHaveEightSeeds) {
     for (const char* name :
-         {"1b", "3a", "4a", "4b", "5b", "states", "spheres", "spheres_sense", "spheres_few",
+         {"1b", "3a", "4a", "4b", "5b", "states", "spheres", "spheres_direction", "spheres_few",
           "spheres_pinned", "spheres_ingredients", "spheres_ingredients_rough"})
         for (const PaperPoint& point : paper_figure(name).plan(settings).points)
             EXPECT_EQ(point.runs.size(), 8u) << name << ": " << point.name;
 }
 
-TEST_F(Paper, ARunThatFailsLeavesAHoleAndIsNamed) {
+TEST_F(Paper, FailedRunLeavesAGapAndIsReported) {
     const PaperResult made = make_figures({{"x", "of three runs", three_runs}}, settings, {});
     EXPECT_EQ(made.failed, 1u);
     EXPECT_THAT(made.figures.front().outcome.findings,
                 ElementsAre("steady", "failed", "steady",
-                            HasSubstr("1 run failed and is left out: 1 of 1 at b (an empty place). "
-                                      "Why: Time stands still.")));
+                            HasSubstr("1 run failed and is omitted: 1 of 1 at b (no result). "
+                                      "Reason: collapse")));
     EXPECT_EQ(made.figures.front().problem, "");
 }
 
-TEST_F(Paper, RunsThatFailAreNamedInOneSentence) {
+TEST_F(Paper, FailedRunsAreReportedInOneSentence) {
     const auto two_fail = [](const PaperSettings&) {
         FigurePlan plan;
-        plan.points = {failing("b"), sound("c"), failing("d")};
+        plan.points = {failing("b"), succeeding("c"), failing("d")};
         plan.finish = [](const std::vector<Json>&, const fs::path&) { return FigureOutcome{}; };
         return plan;
     };
     const PaperResult made = make_figures({{"x", "of three runs", two_fail}}, settings, {});
     EXPECT_THAT(
         made.figures.front().outcome.findings,
-        ElementsAre(HasSubstr("2 runs failed and are left out: 1 of 1 at b (an empty place), 1 of "
-                              "1 at d (an empty place). Of the first: Time stands still.")));
+        ElementsAre(HasSubstr("2 runs failed and are omitted: 1 of 1 at b (no result), 1 of 1 at d "
+                              "(no result). Reason of the first: collapse")));
 }
 
-TEST_F(Paper, ARunThatFailedIsTriedAgainAndTheOthersAreNot) {
+TEST_F(Paper, OnlyFailedRunsAreRepeatedByTheNextCall) {
     make_figures({{"x", "of three runs", three_runs}}, settings, {});
     calls = 0;
     const PaperResult again = make_figures({{"x", "of three runs", three_runs}}, settings, {});
     EXPECT_EQ(calls, 1);
-    EXPECT_EQ(again.remembered, 2u);
+    EXPECT_EQ(again.reused, 2u);
 }
 
-TEST_F(Paper, AFigureThatCannotBeMadeDoesNotKeepTheOthersFromBeingMade) {
+TEST_F(Paper, ImpossibleFigureDoesNotPreventTheOthers) {
     const PaperResult made = make_figures(
         {{"y", "impossible", impossible}, {"x", "of three runs", three_runs}}, settings, {});
-    EXPECT_EQ(made.figures[0].problem, "Nothing can be drawn.");
+    EXPECT_EQ(made.figures[0].problem, "no plan");
     EXPECT_THAT(made.figures[0].outcome.findings, ElementsAre(HasSubstr("could not be made")));
     EXPECT_EQ(made.figures[1].outcome.findings.size(), 4u);
 }
 
-TEST_F(Paper, EventsShortenWhatIsCountedInSwirlsLikewise) {
+TEST_F(Paper, EventsScaleLengthsInPeriods) {
     EXPECT_EQ(settings.periods(600, 20), 600);
     settings.events = 100'000;
     EXPECT_EQ(settings.periods(600, 20), 60);
@@ -155,8 +154,8 @@ PaperTask short_run(std::uint64_t seed) {
     return task;
 }
 
-/// ϖ of one point, 0.1 with an error that falls as seeds are added.
-FigurePlan one_doubtful_point(const PaperSettings& settings) {
+/// One point, ϖ = 0.1 with an error that falls as seeds are added.
+FigurePlan one_undecided_point(const PaperSettings& settings) {
     FigurePlan plan;
     plan.points = {PaperPoint(settings, "no-wall_N40", settings.seeds(), short_run)};
     const std::size_t seeds = plan.points.front().runs.size();
@@ -169,28 +168,28 @@ FigurePlan one_doubtful_point(const PaperSettings& settings) {
     return plan;
 }
 
-TEST_F(Paper, AnUndecidedClaimGetsMoreSeedsUntilItIsDecided) {
-    settings.quick = true;  // 3 seeds, and 0.1 is no three errors of 0.1
+TEST_F(Paper, UndecidedClaimGetsMoreSeedsUntilDecided) {
+    settings.quick = true;  // 3 seeds: 0.1 ± 0.1 is undecided
     calls = 0;
     const PaperResult made =
-        make_figures({{"x", "one point", one_doubtful_point}}, settings, {}, true);
+        make_figures({{"x", "one point", one_undecided_point}}, settings, {}, true);
     // 6: 0.1 ± 0.05; 12: 0.1 ± 0.025.
     EXPECT_THAT(made.figures.front().outcome.findings, Contains("12 seeds"));
     EXPECT_EQ(made.undecided_points, 0u);
-    EXPECT_EQ(calls, 12);  // none twice
-    EXPECT_THAT(make_figures({{"x", "one point", one_doubtful_point}}, settings, {})
+    EXPECT_EQ(calls, 12);  // each seed runs once
+    EXPECT_THAT(make_figures({{"x", "one point", one_undecided_point}}, settings, {})
                     .figures.front()
                     .outcome.findings,
                 Contains("3 seeds"));
 }
 
-TEST_F(Paper, ARunThatFailedIsNotTriedAgainForMoreSeeds) {
+TEST_F(Paper, FailedRunIsNotRepeatedWhenSeedsAreAdded) {
     settings.quick = true;
     calls = 0;
     const auto plan = [](const PaperSettings& s) {
-        FigurePlan doubtful = one_doubtful_point(s);
-        doubtful.points.push_back(failing("b"));
-        return doubtful;
+        FigurePlan undecided = one_undecided_point(s);
+        undecided.points.push_back(failing("b"));
+        return undecided;
     };
     const PaperResult made = make_figures({{"x", "one point", plan}}, settings, {}, true);
     EXPECT_THAT(made.figures.front().outcome.findings, Contains("12 seeds"));
@@ -198,41 +197,42 @@ TEST_F(Paper, ARunThatFailedIsNotTriedAgainForMoreSeeds) {
     EXPECT_EQ(made.failed, 1u);
 }
 
-TEST_F(Paper, TheBudgetOfSeedsEnds) {
+TEST_F(Paper, SeedsStopAtTheBudget) {
     settings.seeds_of_point["no-wall_N40"] = 5;
     settings.quick = true;
-    const FigurePlan plan = one_doubtful_point(settings);
+    const FigurePlan plan = one_undecided_point(settings);
     EXPECT_EQ(plan.points.front().runs.size(), 5u);
     const PaperResult made = make_figures(
         {{"x", "one point",
           [](const PaperSettings& s) {
-              FigurePlan hopeless = one_doubtful_point(s);
-              const std::size_t seeds = hopeless.points.front().runs.size();
-              hopeless.finish = [seeds](const std::vector<Json>&, const fs::path& out) {
+              FigurePlan undecidable = one_undecided_point(s);
+              const std::size_t seeds = undecidable.points.front().runs.size();
+              undecidable.finish = [seeds](const std::vector<Json>&, const fs::path& out) {
                   std::ofstream(out / "figure_5b.csv")
                       << "setting,discs,by_event,by_event_error,point\n"
                       << "no-wall,40,0.0,1.0,no-wall_N40\n";
                   return FigureOutcome{{fmt::format("{} seeds", seeds)}, {}};
               };
-              return hopeless;
+              return undecidable;
           }}},
         settings, {}, true);
-    EXPECT_THAT(made.figures.front().outcome.findings, Contains("10 seeds"));  // 20 are too many
+    EXPECT_THAT(made.figures.front().outcome.findings,
+                Contains("10 seeds"));  // 20 exceed the budget of 12
     EXPECT_EQ(made.undecided_points, 1u);
 }
 
-TEST_F(Paper, EveryFigureSurvivesThatAllItsRunsFail) {
+TEST_F(Paper, EveryFigureHandlesThatAllItsRunsFail) {
     for (const PaperFigure& figure : paper_figures()) {
         settings.quick = true;
         const FigurePlan plan = figure.plan(settings);
         if (plan.points.empty()) continue;
         fs::create_directories(settings.out);
-        const std::vector<Json> results(plan.points.size(), Json{{"failed", "why"}});
+        const std::vector<Json> results(plan.points.size(), Json{{"failed", "reason"}});
         try {
             for (const fs::path& file : plan.finish(results, settings.out).files)
                 EXPECT_TRUE(fs::exists(file)) << figure.name;
         } catch (const Failure&) {
-        }  // a figure may be impossible, but nothing else may happen
+        }  // a figure may be impossible; no other exception is allowed
     }
 }
 

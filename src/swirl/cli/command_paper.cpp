@@ -1,4 +1,4 @@
-// swirl paper: the paper's figures.
+// swirl paper: the paper's figures and the report on its claims.
 #include <fmt/format.h>
 
 #include "swirl/cli/command_line.hpp"
@@ -39,21 +39,22 @@ void make_movies(const PaperCall& call) {
         made = make_paper_movies(settings, control);
     }
     std::string text;
-    if (made.remembered > 0)
-        text = fmt::format("{} of {} movies were there from an earlier call.\n", made.remembered,
+    if (made.reused > 0)
+        text = fmt::format("{} of {} movies are from an earlier call.\n", made.reused,
                            made.files.size() - 1);
     for (const auto& file : made.files) text += fmt::format("wrote {}\n", file.string());
     print_all(text);
 }
 
-/// What could be made is there; what could not makes the call a failure.
+/// All other figures are made; a figure that could not be made makes the call fail.
 void reject_missing(const PaperResult& result) {
     std::string names;
     for (const MadeFigure& figure : result.figures)
         if (!figure.problem.empty())
             names += fmt::format("{}{}", names.empty() ? "" : ", ", figure.name);
     if (!names.empty())
-        throw Failure(fmt::format("Could not be made: {}; see above for why.", names));
+        throw Failure(fmt::format(
+            "figures that could not be made: {}; the reasons are listed above.", names));
 }
 
 void make_paper(PaperCall& call) {
@@ -79,7 +80,7 @@ void make_paper(PaperCall& call) {
         control.progress = [&](double fraction, double rate) {
             line.show(fraction, short_number(rate) + " events/s");
         };
-        // Claims are judged where all figures are there.
+        // Claims are decided only if all figures are made.
         result = make_figures(figures, call.settings, control, call.figures.empty());
     }
     std::string text;
@@ -93,17 +94,16 @@ void make_paper(PaperCall& call) {
     if (call.figures.empty())
         for (const auto& file : write_report(result, call.settings, command_line(), &stop_signal()))
             files.push_back(file);
-    // What failed stands with each figure; of several figures, which share runs, it is counted.
+    // Failed runs are listed with each figure. Figures share runs, so their number is printed here.
     if (result.failed > 0 && result.figures.size() > 1)
-        text += fmt::format("{} of all runs failed, as said above.\n", result.failed);
-    text += fmt::format("{} runs{} in {}.\n", result.tasks,
-                        result.remembered > 0
-                            ? fmt::format(", {} of them from an earlier call,", result.remembered)
-                            : "",
-                        short_duration(result.seconds));
+        text += fmt::format("{} runs failed; see above.\n", result.failed);
+    text += fmt::format(
+        "{} runs{} in {}.\n", result.tasks,
+        result.reused > 0 ? fmt::format(", {} of them from an earlier call,", result.reused) : "",
+        short_duration(result.seconds));
     if (call.figures.empty())
-        text += fmt::format("wrote {} and {} more files there\n", files.back().string(),
-                            files.size() - 1);
+        text += fmt::format("wrote {} and {} more files in the same folder\n",
+                            files.back().string(), files.size() - 1);
     else
         for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
     print_all(text);
@@ -121,23 +121,22 @@ void add_paper_command(Subcommand& subcommand) {
     const auto call = std::make_shared<PaperCall>();
     subcommand
         .add_option("config", call->config_file,
-                    "a TOML file with the names of the options; options given here override it")
+                    "TOML file with option names; the command line overrides it")
         ->type_name("FILE.toml");
-    subcommand
-        .add_option("--figure", call->figures, "which ones [all]; may be given several times")
+    subcommand.add_option("--figure", call->figures, "Figures to make [all]; repeatable")
         ->type_name("NAME");
     subcommand.add_flag("--quick", call->settings.quick,
-                        "fewer points and shorter runs: the shape in a minute");
+                        "Fewer points and shorter runs, about a minute per figure");
     subcommand.add_flag("--movies", call->movies,
-                        "the paper's numerical videos, and movies.html that plays them");
+                        "Movies of the paper, and movies.html that plays them");
     subcommand
         .add_option("--events", call->events,
-                    "length of a run [1e6 as in the paper, quick 2e5]; what is counted in swirls "
-                    "becomes shorter or longer by the same factor")
+                    "Events per run; scales lengths in periods [1e6, quick 2e5]")
         ->type_name("NUMBER");
-    subcommand.add_option("--seed", call->seed, "of every run [1]")->type_name("NUMBER");
-    subcommand.add_option("--out", call->out, "the folder to write to [out]")->type_name("DIR");
-    subcommand.add_flag("--quiet", call->quiet, "no progress");
+    subcommand.add_option("--seed", call->seed, "Random seed of the first run of each point [1]")
+        ->type_name("NUMBER");
+    subcommand.add_option("--out", call->out, "Output folder [out]")->type_name("DIR");
+    subcommand.add_flag("--quiet", call->quiet, "No progress line");
     subcommand.set_examples({"swirl paper --figure 5b --quick",
                              "swirl paper --figure 5b --out fig5b", "swirl paper --quick"});
     subcommand.explain(figure_list() + "\n");
@@ -153,8 +152,7 @@ void add_paper_command(Subcommand& subcommand) {
     });
 }
 
-const Command paper_command(20, "paper",
-                            "The paper's figures: tables and drawings, from simulation.",
+const Command paper_command(20, "paper", "Make the paper's figures from simulation.",
                             add_paper_command);
 
 }  // namespace

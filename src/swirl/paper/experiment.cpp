@@ -10,10 +10,10 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
-#include "swirl/paper/parts.hpp"
-#include "swirl/paper/points.hpp"
+#include "swirl/paper/curves.hpp"
 #include "swirl/paper/python_script.hpp"
-#include "swirl/paper/several_seeds.hpp"
+#include "swirl/paper/result_store.hpp"
+#include "swirl/paper/seed_ensemble.hpp"
 #include "swirl/run/camera_sampled_run.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -25,12 +25,9 @@
 namespace swirl {
 namespace {
 
-using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
-
-/// Dishes of one set-up: their sizes agree to this share.
+/// Radii and amplitudes of the same container agree within this share.
 constexpr double same_container = 0.02;
-/// Below this many whole swirls an error says little of itself.
+/// With fewer blocks (periods) an error is only a rough estimate.
 constexpr std::size_t few_blocks = 5;
 
 const std::vector<std::string>& numbers_against_n() {
@@ -69,7 +66,7 @@ double position_error(const FilmedContainer& video) {
 }
 const char* kind_of(bool smooth) { return smooth ? "smooth" : "rough"; }
 
-/// A simulation that belongs to one or several films.
+/// The simulation for one or several videos.
 struct Counterpart {
     bool smooth;
     RunConfig config;
@@ -103,10 +100,10 @@ class Experiment {
         std::sort(values.begin(), values.end());
         return values[values.size() / 2];
     }
-    /// The films of one set-up share what all of them say of the dish.
+    /// The median of all videos, if this video agrees with it: they show the same container.
     double shared(const FilmedContainer& video, const char* name, double median) const {
-        const double own = of_camera(video, name);
-        return std::abs(own - median) <= same_container * median ? median : own;
+        const double measured = of_camera(video, name);
+        return std::abs(measured - median) <= same_container * median ? median : measured;
     }
     void add_counterpart(std::size_t video);
     const Json& simulated(std::size_t video) const {
@@ -132,7 +129,7 @@ class Experiment {
     std::map<std::size_t, std::size_t> counterpart_of_;
 };
 
-/// Everything of the film but what was given by hand.
+/// The configuration of a video, overridden by the parameters in the settings.
 RunConfig config_of(const FilmedContainer& video, const ExperimentSettings& settings, double radius,
                     double amplitude) {
     ParameterTexts texts{{"events", "5e5"}, {"path", "circle"}};
@@ -144,7 +141,7 @@ RunConfig config_of(const FilmedContainer& video, const ExperimentSettings& sett
     if (!texts.contains("period") && !texts.contains("speed")) texts["speed"] = "1";
     if (const Json& species = at(video.found, {"species"});
         species.is_array() && species.size() == 2) {
-        // The commoner size is the unit of length.
+        // The radius of the more frequent species is the unit of length.
         const bool first = number(species[0]["number"]) >= number(species[1]["number"]);
         const Json &unit = species[first ? 0 : 1], &other = species[first ? 1 : 0];
         texts["mixture"] = fmt::format("{}:{:.4f}", other["number"].get<std::int64_t>(),
@@ -192,13 +189,13 @@ void Experiment::add_counterpart(std::size_t k) {
 }
 
 void Experiment::simulate(const PaperControl& control, ExperimentResult& result) {
-    const PaperParts parts(settings_.out);
+    const ResultStore store(settings_.out);
     std::vector<const PaperTask*> left;
     std::map<std::string, Json> done;
     for (const Counterpart& c : counterparts_)
         for (const PaperTask& task : c.runs) {
             ++result.runs;
-            if (auto part = parts.recall(task.key)) {
+            if (auto part = store.find(task.key)) {
                 done[task.key] = (*part)["result"];
                 ++result.remembered;
             } else {
@@ -224,7 +221,7 @@ void Experiment::simulate(const PaperControl& control, ExperimentResult& result)
             try {
                 found = left[k]->work(inner);
                 const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-                parts.remember(left[k]->key, found, took.count());
+                store.store(left[k]->key, found, took.count());
             } catch (const Failure& failure) {
                 found = {{"failed", failure.what()}};
             }
@@ -236,11 +233,11 @@ void Experiment::simulate(const PaperControl& control, ExperimentResult& result)
     for (Counterpart& c : counterparts_) {
         std::vector<Json> seeds;
         for (const PaperTask& task : c.runs) seeds.push_back(done.at(task.key));
-        c.result = replicates(seeds);
+        c.result = seed_ensemble(seeds);
     }
 }
 
-/// visit(source, kind, name, film, result) for every film and every simulation that there is.
+/// Calls visit(source, surface, name, discs, result) for every video and every simulation.
 template <class Visit>
 void Experiment::each_side(Visit&& visit) const {
     for (const FilmedContainer& video : videos_)
@@ -251,7 +248,7 @@ void Experiment::each_side(Visit&& visit) const {
             visit("simulation", kind_of(c.smooth), std::string(), c.config.discs, c.result);
 }
 
-/// ϖ(N) of films and of simulation. Films of one N and kind are put together.
+/// ϖ(N) of videos and of simulations. Videos with the same N and surface are averaged.
 std::vector<NamedCurve> Experiment::curves() const {
     std::map<std::string, std::map<std::int64_t, std::vector<const Json*>>> points;
     each_side([&](const char* source, const char* kind, const std::string&, std::int64_t discs,
@@ -345,7 +342,7 @@ fs::path Experiment::write_points() const {
             for (const char* what : {"mean", "error"})
                 row.emplace_back(number(at(result, {"rotation", which, what})));
         add_numbers(row, numbers_against_n(), result);
-        // Whether a film's dish was steady is for who took it to know.
+        // The steady state of a video is not tested.
         row.emplace_back(source == std::string("video") ? "steady" : steadiness(result));
         table.add(std::move(row));
     });
@@ -430,17 +427,17 @@ void Experiment::add_video_findings(const FilmedContainer& video, const Json& si
     const Json& blocks = at(video.result, {"rotation", "by_time", "blocks"});
     if (blocks.is_number_integer() && blocks.get<std::size_t>() < few_blocks)
         findings.push_back(fmt::format(
-            "{} shows {:.1f} swirls: an error from {} blocks is a guess; twenty swirls would make "
-            "it one to rely on.",
+            "{} shows {:.1f} periods: an error from {} blocks is only a rough estimate. Twenty "
+            "periods would make it reliable.",
             video.name, number(at(video.result, {"periods"})), blocks.get<std::size_t>()));
     for (const char* name : {"container-radius", "amplitude"}) {
         const double median = name[0] == 'c' ? radius_ : amplitude_;
-        const double own = of_camera(video, name);
-        if (std::abs(own - median) > same_container * median)
+        const double measured = of_camera(video, name);
+        if (std::abs(measured - median) > same_container * median)
             findings.push_back(fmt::format(
-                "The {} of {} is {:.3f} disc radii, where that of the films is {:.3f} in the "
-                "median: another dish, or other discs; its simulation has its own.",
-                name[0] == 'c' ? "dish" : "amplitude", video.name, own, median));
+                "The {} of {} is {:.3f} disc radii, but the median of all videos is {:.3f}: a "
+                "different container, or different discs. Its simulation uses its own value.",
+                name[0] == 'c' ? "container radius" : "amplitude", video.name, measured, median));
     }
 }
 
@@ -448,17 +445,17 @@ std::vector<std::string> Experiment::findings() const {
     std::vector<std::string> findings;
     for (const NamedCurve& curve : curves()) {
         if (curve.points().size() < 2) {
-            findings.push_back(fmt::format(
-                "{}: there is one number of discs; where rotation turns into counterrotation takes "
-                "films of several.",
-                curve.name));
+            findings.push_back(
+                fmt::format("{}: there is only one number of discs; finding the transition to "
+                            "counterrotation needs videos with several.",
+                            curve.name));
             continue;
         }
         const bool crosses = find_crossing(curve.points()).verdict == Crossing::Verdict::crosses;
-        findings.push_back(
-            fmt::format("{}: {}ϖ by time {}", curve.name,
-                        crosses ? "" : "these numbers of discs and errors show no crossing: ",
-                        crossing_sentence(curve)));
+        findings.push_back(fmt::format(
+            "{}: {}ϖ by time {}", curve.name,
+            crosses ? "" : "no crossing is found with these numbers of discs and errors: ",
+            crossing_sentence(curve)));
     }
     for (std::size_t k = 0; k < videos_.size(); ++k)
         add_video_findings(videos_[k], simulated(k), findings);
@@ -469,16 +466,16 @@ std::vector<std::string> Experiment::findings() const {
         });
     if (!spins)
         findings.push_back(
-            "No film tells the spins of its discs, so Figure 4b has the simulation alone; --spin "
-            "measures them where discs have a texture.");
+            "No video has the spins of its discs, so Figure 4b shows only the simulation. --spin "
+            "measures spins if the discs have a texture.");
     if (std::none_of(videos_.begin(), videos_.end(),
                      [](const FilmedContainer& f) { return f.smooth; }))
         findings.push_back(
-            "All films are of one kind of disc, so there is no Figure 4c; --smooth takes films of "
-            "a second, smoother kind.");
+            "All videos have discs of the same roughness, so there is no Figure 4c. --smooth takes "
+            "videos of smoother discs.");
     findings.push_back(
-        "What is made of the collisions themselves (rates, impulses, sticking, energy) no film "
-        "tells: discs collide more often than they are seen.");
+        "Quantities of single collisions (rates, impulses, sticking, energy) cannot be measured in "
+        "a video: discs collide more often than once per frame.");
     return findings;
 }
 

@@ -1,11 +1,10 @@
-// The paper's experiment from films, beside simulation: each film that was tracked and measured,
-// the runs of as many discs in such a dish seen as the camera saw them
-// (run/camera_sampled_run.hpp), tables, drawings, and a report of it all.
+// The paper's experiment from videos, compared with simulation: tables, drawings and a report of
+// tracked videos, and of simulations with the same number of discs in the same container, sampled
+// like the video (run/camera_sampled_run.hpp).
 #pragma once
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,18 +16,18 @@ namespace swirl {
 struct FilmedContainer {
     std::string name;  // of its files and in the report
     bool smooth = false;
-    std::string video;                            // where it was
-    nlohmann::ordered_json result;                // as of a run; {"failed": why}
-    nlohmann::ordered_json found;                 // what stands beside the tracks
-    std::vector<std::string> remarks;             // sentences
-    std::vector<std::filesystem::path> pictures;  // of the film with its discs, if there are any
+    std::string video;                 // path
+    Json result;                       // as of a run, or {"failed": reason}
+    Json found;                        // what tracking found: path, species, quality
+    std::vector<std::string> remarks;  // sentences
+    std::vector<fs::path> pictures;    // images of the video with the detected discs
 
     bool good() const { return !result.contains("failed"); }
 };
 
 struct ExperimentSettings {
-    std::filesystem::path out = "experiment";
-    /// Of the simulation, by hand; dish and number of discs are the film's where nothing is said.
+    fs::path out = "experiment";
+    /// Parameters of the simulation. Container and number of discs default to those of the video.
     ParameterTexts parameters;
     std::string smooth_mu = "0.1";
     int seeds = 3;
@@ -36,18 +35,18 @@ struct ExperimentSettings {
     std::string command;
 };
 
-/// What of the paper's can be measured on tracks.
+/// The measurements of the paper that work on tracks.
 const std::vector<std::string>& measurements_of_a_video();
 
 struct ExperimentResult {
     std::vector<std::string> findings;
-    std::vector<std::filesystem::path> files;  // the report last
+    std::vector<fs::path> files;  // the report last
     std::size_t runs = 0, remembered = 0;
-    nlohmann::ordered_json json;
+    Json json;
 };
 
-/// Throws WrongCall before any work if the parameters are wrong, Failure, and Interrupted: what is
-/// done until then is remembered in OUT/parts.
+/// Throws UsageError before any work if the parameters are invalid, Failure, and Interrupted;
+/// finished runs are stored in OUT/parts.
 void check(const ExperimentSettings& settings);
 ExperimentResult make_experiment(const std::vector<FilmedContainer>& videos,
                                  const ExperimentSettings& settings, const PaperControl& control);

@@ -1,19 +1,17 @@
-// The minimal model, simulated: one disc, nearly as large as the dish, is swirled, and how fast it
-// turns about itself is measured. γ = |ϖ_M|/Ω, where ϖ_M is its spin less Ω; rolling without slip
-// would be γ_c = R_container/R_ball (physics/rolling_ball.hpp).
+// The minimal model, simulated: the spin of one disc in the swirled container, nearly as large as
+// the container. γ = |ϖ_M|/Ω, where ϖ_M is its spin minus Ω; rolling without slip is γ_c =
+// R_container/R_ball (physics/rolling_ball.hpp).
 //
-// The ball is a solid disc. It has nothing to do with the paper's friction between discs; its
-// bounces on the wall are elastic as the paper has them, or lose half of the normal velocity, after
-// which it stays at the wall.
+// The ball is a solid disc, without the paper's friction between discs. Its bounces on the wall are
+// elastic as in the paper, or lose half of the normal velocity, after which it stays at the wall.
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "swirl/io/table.hpp"
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/paper/figures.hpp"
-#include "swirl/paper/points.hpp"
+#include "swirl/paper/results.hpp"
 #include "swirl/physics/rolling_ball.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
@@ -22,8 +20,6 @@
 
 namespace swirl {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Ball {
     double radius, mu, restitution;
@@ -45,7 +41,7 @@ struct BallAverages {
     Estimate gamma, theta;
 };
 
-/// Of one run, averaged over every swirl after the warm-up: γ from the spin, and the direction of
+/// Averages of one run over the periods after the warm-up: γ from the spin, and the direction of
 /// the ball about C in the M-frame, in degrees.
 BallAverages ball_averages(const RunConfig& config, const RunControl& control) {
     Run run(config, control);
@@ -68,33 +64,38 @@ BallAverages ball_averages(const RunConfig& config, const RunControl& control) {
     return {gamma.estimate(), scaled(direction.angle(), degrees_per_radian)};
 }
 
+Json ball_result(const RunConfig& config, int seeds, const RunControl& control) {
+    std::vector<Estimate> gammas, thetas;
+    for (int s = 0; s < seeds; ++s) {
+        RunConfig seeded = config;
+        seeded.seed += static_cast<std::uint64_t>(s);
+        const BallAverages found = ball_averages(seeded, control);
+        gammas.push_back(found.gamma);
+        thetas.push_back(found.theta);
+    }
+    const Ensemble all = ensemble(gammas);
+    const Estimate theta = several_directions(thetas).estimate;
+    return Json{{"mean", all.estimate.mean},
+                {"error", all.estimate.error},
+                {"scatter", all.scatter},
+                {"theta", {{"mean", theta.mean}, {"error", theta.error}}}};
+}
+
 PaperTask task_of(const PaperSettings& settings, const Ball& ball) {
+    constexpr double events_per_period = 100.0;
     const RunConfig config = ball_run(settings, ball);
     const int seeds = settings.seeds();
-    return {fmt::format("ball_R{}_mu{}_e{}_{}of{}periods_{}seeds_seed{}", ball.radius, ball.mu,
-                        ball.restitution, *config.warmup, *config.periods, seeds, config.seed),
-            100.0 * static_cast<double>(*config.periods * seeds),
-            [config, seeds](const RunControl& control) {
-                std::vector<Estimate> gammas, thetas;
-                for (int s = 0; s < seeds; ++s) {
-                    RunConfig one = config;
-                    one.seed += static_cast<std::uint64_t>(s);
-                    const BallAverages found = ball_averages(one, control);
-                    gammas.push_back(found.gamma);
-                    thetas.push_back(found.theta);
-                }
-                const Ensemble all = ensemble(gammas);
-                const Estimate theta = several_directions(thetas).estimate;
-                return Json{{"mean", all.estimate.mean},
-                            {"error", all.estimate.error},
-                            {"scatter", all.scatter},
-                            {"theta", {{"mean", theta.mean}, {"error", theta.error}}}};
-            }};
+    return {
+        fmt::format("ball_R{}_mu{}_e{}_{}of{}periods_{}seeds_seed{}", ball.radius, ball.mu,
+                    ball.restitution, *config.warmup, *config.periods, seeds, config.seed),
+        events_per_period * static_cast<double>(*config.periods * seeds),
+        [config, seeds](const RunControl& control) { return ball_result(config, seeds, control); }};
 }
 
 }  // namespace
 
 static FigurePlan plan_figure_ball(const PaperSettings& settings) {
+    constexpr double reported_radius = 5.0;
     FigurePlan plan;
     plan.script = "figure_ball.py";
     std::vector<Ball> balls;
@@ -105,7 +106,7 @@ static FigurePlan plan_figure_ball(const PaperSettings& settings) {
                 plan.points.push_back(task_of(settings, balls.back()));
             }
     plan.finish = [balls, seeds = settings.seeds()](const std::vector<Json>& results,
-                                                    const std::filesystem::path& out) {
+                                                    const fs::path& out) {
         Table table({"ball_radius", "container_radius", "mu", "restitution", "gamma", "gamma_error",
                      "gamma_no_slip", "slip", "slip_error", "theta", "theta_error", "seeds",
                      "scatter"});
@@ -116,18 +117,21 @@ static FigurePlan plan_figure_ball(const PaperSettings& settings) {
             model.ball_radius = balls[k].radius;
             const double no_slip = model.gamma_no_slip();
             const double gamma = number(results[k]["mean"]), error = number(results[k]["error"]);
-            table.add({balls[k].radius, model.container_radius, balls[k].mu, balls[k].restitution,
-                       gamma, error, no_slip, gamma / no_slip, error / no_slip,
-                       number(at(results[k], {"theta", "mean"})),
-                       number(at(results[k], {"theta", "error"})), std::int64_t{seeds},
-                       number(results[k]["scatter"])});
-            if (balls[k].radius == 5.0 && (balls[k].mu == 0.0 || balls[k].mu == 1.0))
+            std::vector<Table::Cell> row{balls[k].radius, model.container_radius,
+                                         balls[k].mu,     balls[k].restitution,
+                                         gamma,           error,
+                                         no_slip,         gamma / no_slip,
+                                         error / no_slip};
+            add_mean(row, at(results[k], {"theta"}));
+            row.emplace_back(std::int64_t{seeds});
+            row.emplace_back(number(results[k]["scatter"]));
+            table.add(std::move(row));
+            if (balls[k].radius == reported_radius && (balls[k].mu == 0.0 || balls[k].mu == 1.0))
                 outcome.findings.push_back(fmt::format(
-                    "A disc of radius 5, μ = {}, e = {}: γ = {} (γ_c = {:.3f}).", balls[k].mu,
-                    balls[k].restitution, with_error(gamma, error), no_slip));
+                    "A disc of radius {}, μ = {}, e = {}: γ = {} (γ_c = {:.3f}).", balls[k].radius,
+                    balls[k].mu, balls[k].restitution, with_error(gamma, error), no_slip));
         }
-        outcome.files.push_back(out / "figure_ball.csv");
-        table.write(outcome.files.back());
+        outcome.write(table, "ball", out);
         return outcome;
     };
     return plan;

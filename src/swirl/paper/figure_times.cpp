@@ -1,83 +1,74 @@
-// The smallest times between collisions, with friction and without. The paper: "The minimal time
+// The shortest times between collisions, with and without friction. The paper: "The minimal time
 // between collisions is around 10^-11 and 10^-9 with and without friction, respectively" (SI,
 // "Finding the next event").
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "swirl/io/table.hpp"
 #include "swirl/paper/figures.hpp"
 #include "swirl/paper/points.hpp"
+#include "swirl/paper/results.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
-namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// Between one collision and the next, anywhere in the dish.
-Json smallest_time(const RunConfig& config, const RunControl& control) {
+/// Between two consecutive collisions, anywhere in the container.
+static Json shortest_time(const RunConfig& config, const RunControl& control) {
     Run run(config, control);
-    double last = 0.0, smallest = never;
-    std::int64_t periods = -1;  // of the last collision; none yet
+    double last = 0.0, shortest = never;
+    std::int64_t periods = -1;  // of the last collision; -1: none yet
     while (run.next_event()) {
         const Event& event = run.event();
         if (event.kind == EventKind::disc_disc || event.kind == EventKind::disc_wall) {
-            // Across the beginning of a swirl clocks are not compared: it is one in thousands.
+            // Clocks restart with each period. One pair in thousands spans two periods; it is
+            // skipped.
             if (event.periods == periods && event.clock > last)
-                smallest = std::min(smallest, event.clock - last);
+                shortest = std::min(shortest, event.clock - last);
             last = event.clock;
             periods = event.periods;
         }
         run.pass_event();
     }
     if (!run.complete()) throw Interrupted("Stopped.");
-    return {{"events", config.events}, {"smallest", smallest}};
+    return {{"events", config.events}, {"smallest", shortest}};
 }
-
-}  // namespace
 
 static FigurePlan plan_figure_times(const PaperSettings& settings) {
     FigurePlan plan;
-    const std::vector<double> friction_coefficients{1.0, 0.0};
-    for (const double mu : friction_coefficients)
-        for (int s = 0; s < settings.seeds(); ++s) {
-            RunConfig config = paper_config(settings, {"", "", mu, mu}, counterrotating);
-            config.seed += static_cast<std::uint64_t>(s);
-            plan.points.push_back(PaperTask{
-                fmt::format("times_mu{}_{}events_seed{}", mu, config.events, config.seed),
-                static_cast<double>(config.events),
-                [config](const RunControl& control) { return smallest_time(config, control); }});
-        }
-    plan.finish = [friction_coefficients, seeds = settings.seeds()](
-                      const std::vector<Json>& results, const std::filesystem::path& out) {
+    const std::vector<double> coefficients{1.0, 0.0};
+    const int seeds = settings.seeds();
+    for (const double mu : coefficients) {
+        const RunConfig config = paper_config(settings, {"", "", mu, mu}, counterrotating_n);
+        add_seeds(plan, config, seeds, fmt::format("times_mu{}_{}", mu, length_of(config)),
+                  static_cast<double>(config.events), shortest_time);
+    }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table({"mu", "discs", "seed", "events", "smallest"});
         FigureOutcome outcome;
-        for (std::size_t m = 0; m < friction_coefficients.size(); ++m) {
+        for (std::size_t m = 0; m < coefficients.size(); ++m) {
             std::vector<double> found;
             for (int s = 0; s < seeds; ++s) {
                 const Json& r = results[m * std::size_t(seeds) + std::size_t(s)];
                 if (failed(r)) continue;
                 found.push_back(number(r["smallest"]));
-                table.add({friction_coefficients[m], counterrotating, std::int64_t{s + 1},
+                table.add({coefficients[m], counterrotating_n, std::int64_t{s + 1},
                            whole(r["events"]), found.back()});
             }
-            std::sort(found.begin(), found.end());
-            if (!found.empty())
-                outcome.findings.push_back(fmt::format(
-                    "μ = {}, N = {}: the smallest time between two collisions of a run lies "
-                    "between {:.1g} and {:.1g}.",
-                    friction_coefficients[m], counterrotating, found.front(), found.back()));
+            if (found.empty()) continue;
+            const auto [lowest, highest] = std::minmax_element(found.begin(), found.end());
+            outcome.findings.push_back(fmt::format(
+                "μ = {}, N = {}: the shortest time between two collisions of a run lies between "
+                "{:.1g} and {:.1g}.",
+                coefficients[m], counterrotating_n, *lowest, *highest));
         }
-        outcome.files.push_back(out / "figure_times.csv");
-        table.write(outcome.files.back());
+        outcome.write(table, "times", out);
         return outcome;
     };
     return plan;
 }
 
 std::vector<PaperFigure> figures_of_times() {
-    return {{"times", "the smallest times between collisions", plan_figure_times}};
+    return {{"times", "the shortest times between collisions", plan_figure_times}};
 }
 
 }  // namespace swirl

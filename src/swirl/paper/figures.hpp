@@ -1,5 +1,5 @@
-// The figures, by the file in which their plans are. A figure more is its plan there, with a line
-// at the end of that file, and its script.
+// The figures, grouped by the file of their plans. A new figure needs its plan in one of these
+// files, an entry in the list at the end of that file, and a script in figures/.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,17 @@
 namespace swirl {
 
 std::vector<PaperFigure> figures_5b();
-std::vector<PaperFigure> figures_of_pictures();
-std::vector<PaperFigure> figures_of_the_cluster();
-std::vector<PaperFigure> figures_of_maps();
-std::vector<PaperFigure> figures_of_the_ball();
-std::vector<PaperFigure> figures_of_times();
-std::vector<PaperFigure> figures_beyond();
+std::vector<PaperFigure> figures_against_time();
 std::vector<PaperFigure> figures_of_condensation();
+std::vector<PaperFigure> figures_of_drawings();
+std::vector<PaperFigure> figures_of_maps();
+std::vector<PaperFigure> figures_of_parameters();
 std::vector<PaperFigure> figures_of_spheres();
+std::vector<PaperFigure> figures_of_the_ball();
+std::vector<PaperFigure> figures_of_the_cluster();
+std::vector<PaperFigure> figures_of_times();
 
-/// Whose runs others take up again.
+/// Figure `averages` uses its runs.
 FigurePlan plan_figure_5b(const PaperSettings& settings);
 
 }  // namespace swirl

@@ -11,7 +11,8 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
-#include "swirl/paper/parts.hpp"
+#include "swirl/paper/paper_parameters.hpp"
+#include "swirl/paper/result_store.hpp"
 #include "swirl/render/movie.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -23,18 +24,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One movie.
 struct PaperMovie {
-    std::string system;   // "All friction": a heading of the page
-    std::string name;     // of the file, as in the SI, without its ending
-    std::string caption;  // on the page, below it
-    std::string what_to_see;
+    std::string system;  // "All friction": a heading of the page
+    std::string name;    // of the file, as in the SI, without ending
+    std::string caption;
+    std::string explanation;
     MovieConfig config;
-    Json settings;  // what decides its bytes
+    Json settings;  // all that the content of the file depends on
     std::optional<RollingBall> model;
 };
 
-RunConfig filmed_run(std::int64_t discs, double mu_disc, double mu_wall, std::uint64_t seed) {
+RunConfig run_of(std::int64_t discs, double mu_disc, double mu_wall, std::uint64_t seed) {
     RunConfig config;
     config.discs = discs;
     config.mu_disc = mu_disc;
@@ -43,12 +43,12 @@ RunConfig filmed_run(std::int64_t discs, double mu_disc, double mu_wall, std::ui
     return config;
 }
 
-/// What a system shows, in the words of the page.
+/// A pair of friction coefficients, or the minimal model, and the texts about it.
 struct System {
     const char* title;
     double mu_disc, mu_wall;
     Coloring lab_coloring, m_coloring;
-    const char* what_to_see;
+    const char* explanation;
     // Rotating and counterrotating, each in the lab frame and the M-frame.
     const char* lines[2][2];
 };
@@ -59,33 +59,34 @@ constexpr System systems[] = {
      1.0,
      Coloring::id,
      Coloring::pinned,
-     "The passage from rotation to counterrotation. The arc adds up how far the cluster has "
-     "turned.",
-     {{"28 discs slosh round the dish and drift with the swirl: the arc grows to the left.",
-       "Discs that reach the wall ride up with it on the left, come off at the top and cross "
-       "over."},
-      {"48 discs creep against the swirl: the arc grows to the right.",
+     "The transition from rotation to counterrotation. The arc shows the total rotation of the "
+     "cluster.",
+     {{"28 discs slosh round the container and drift with the swirl: the arc grows to the left.",
+       "Discs that reach the wall move up with it on the left, depin at the top and cross the "
+       "container."},
+      {"48 discs drift against the swirl: the arc grows to the right.",
        "Most discs are pinned (orange), in layers against the wall that carries them clockwise."}}},
     {"No disc friction",
      0.0,
      1.0,
      Coloring::spin,
      Coloring::spin,
-     "The wall spins up the discs that touch it, and nothing but their exchange hands the spin on.",
-     {{"Colours show the spin: all have met the wall, and each whirls for itself.",
-       "They fill the dish like a gas that is pushed down towards M."},
-      {"As many discs as counterrotate with all friction: here they go round with the swirl.",
-       "Discs at the wall whirl, those within hardly do: no friction hands the spin on."}}},
+     "The wall accelerates the spin of the discs that touch it. No friction passes the spin on.",
+     {{"Colours show the spin: all discs have touched the wall and spin independently.",
+       "They fill the container like a gas that is pushed down towards M."},
+      {"The number that counterrotates with all friction: here it rotates with the swirl.",
+       "Discs at the wall spin, those inside hardly do: no friction passes the spin on."}}},
     {"No wall friction",
      1.0,
      0.0,
      Coloring::id,
      Coloring::speed,
-     "Nothing drags the discs along the wall, so the cluster turns exactly as fast as the swirl.",
-     {{"The cluster sloshes as one body and turns once a swirl.",
-       "Seen from the M-frame it rests on the wall, like sand that has settled."},
-      {"More discs make no difference: one turn a swirl.",
-       "At rest, almost: the scale of colours ends at the speed of the wall."}}}};
+     "Nothing drags the discs along the wall, so the cluster rotates with the frequency of the "
+     "swirl.",
+     {{"The cluster sloshes as one body and rotates once per period.",
+       "In the M-frame it rests on the wall, like settled sand."},
+      {"With more discs it is the same: one rotation per period.",
+       "Almost at rest: the colour scale ends at the speed of the wall."}}}};
 
 constexpr System minimal_model{
     "Minimal model",
@@ -93,40 +94,40 @@ constexpr System minimal_model{
     0.0,
     Coloring::none,
     Coloring::none,
-    "One rigid ball as large as half the dish, pressed against the wall.",
-    {{"It rolls without slip, like a gear inside a ring, and turns against the swirl.",
-      "The wall turns clockwise and takes the ball along."},
-     {"It slips freely and keeps one side at M, so it turns once a swirl.",
-      "The wall slides past, and the ball stays as it is."}}};
+    "One rigid ball of half the size of the container, pressed against the wall.",
+    {{"It rolls without slip, like a gear inside a ring, and rotates against the swirl.",
+      "The wall turns clockwise and carries the ball along."},
+     {"It slips freely and keeps one side at M, so it rotates once per period.",
+      "The wall slides past, and the ball is at rest."}}};
 
 std::string lower(std::string text) {
     for (char& c : text) c = c == ' ' ? '-' : static_cast<char>(std::tolower(c));
     return text;
 }
 
-PaperMovie video_of(const System& system, int version, Frame frame,
+PaperMovie movie_of(const System& system, int version, Frame frame,
                     const PaperMoviesSettings& settings) {
     const bool lab = frame == Frame::lab, model = &system == &minimal_model;
-    const std::string place = lab ? "lab-frame" : "m-frame";
-    PaperMovie video;
-    video.system = system.title;
-    video.what_to_see = system.lines[version][lab ? 0 : 1];
-    MovieConfig& config = video.config;
+    const std::string frame_name = lab ? "lab-frame" : "m-frame";
+    PaperMovie movie;
+    movie.system = system.title;
+    movie.explanation = system.lines[version][lab ? 0 : 1];
+    MovieConfig& config = movie.config;
     if (model) {
-        video.model = RollingBall{.slip = version == 0 ? 1.0 : 0.0};
-        video.caption = version == 0 ? "No slip, s = 1" : "Slip, s = 0";
-        video.name = "minimal-model-" + place + (version == 0 ? "-no-slip" : "-slip");
-        config.sources = {rolling(*video.model, paper_amplitude, paper_period)};
+        movie.model = RollingBall{.slip = version == 0 ? 1.0 : 0.0};
+        movie.caption = version == 0 ? "No slip, s = 1" : "Slip, s = 0";
+        movie.name = "minimal-model-" + frame_name + (version == 0 ? "-no-slip" : "-slip");
+        config.sources = {rolling(*movie.model, paper_amplitude, paper_period)};
         config.start = 0.0;
     } else {
-        const RunConfig run =
-            filmed_run(version == 0 ? 28 : 48, system.mu_disc, system.mu_wall, settings.seed);
-        video.caption = fmt::format("N = {}", run.discs);
-        video.name = "numerical-" + place + "-" + lower(system.title) +
+        const RunConfig run = run_of(version == 0 ? rotating_n : counterrotating_n, system.mu_disc,
+                                     system.mu_wall, settings.seed);
+        movie.caption = fmt::format("N = {}", run.discs);
+        movie.name = "numerical-" + frame_name + "-" + lower(system.title) +
                      (version == 0 ? "-rotating" : "-counterrotating");
         config.sources = {simulated(run)};
         config.start = static_cast<double>(default_warmup);
-        video.settings["run"] = config_json(run);
+        movie.settings["run"] = config_json(run);
     }
     config.frames_per_second = settings.quick ? 30 : 60;
     config.frames = settings.quick ? 90 : 900;
@@ -139,47 +140,48 @@ PaperMovie video_of(const System& system, int version, Frame frame,
             config.sources[0].container_radius * 2.0 * pi / config.sources[0].period;
     config.appearance.size = settings.quick ? Size{360, 360} : Size{900, 900};
     config.appearance.title =
-        fmt::format("{}, {}", system.title, model ? config.sources[0].caption : video.caption);
-    config.out = (settings.out / (video.name + ".mp4")).string();
-    video.settings["quick"] = settings.quick;
-    return video;
+        fmt::format("{}, {}", system.title, model ? config.sources[0].caption : movie.caption);
+    config.out = (settings.out / (movie.name + ".mp4")).string();
+    movie.settings["quick"] = settings.quick;
+    return movie;
 }
 
 /// In the order of the page.
-std::vector<PaperMovie> all_videos(const PaperMoviesSettings& settings) {
-    std::vector<PaperMovie> videos;
+std::vector<PaperMovie> all_movies(const PaperMoviesSettings& settings) {
+    std::vector<PaperMovie> movies;
     const auto add = [&](const System& system) {
         for (const int version : {0, 1})
             for (const Frame frame : {Frame::lab, Frame::m})
-                videos.push_back(video_of(system, version, frame, settings));
+                movies.push_back(movie_of(system, version, frame, settings));
     };
     for (const System& system : systems) add(system);
     add(minimal_model);
-    return videos;
+    return movies;
 }
 
-std::string movie_key(const PaperMovie& video) { return "movie-" + video.name; }
+std::string movie_key(const PaperMovie& movie) { return "movie-" + movie.name; }
 
-/// The rotation that was found in it, if an earlier call has made this very movie.
-std::optional<double> finished_before(const PaperParts& parts, const PaperMovie& video) {
-    const auto part = parts.recall(movie_key(video));
-    if (!part) return {};
-    const Json& result = (*part)["result"];
+/// The rotation measured in this movie, if an earlier call has made the same movie.
+std::optional<double> find_finished(const ResultStore& store, const PaperMovie& movie) {
+    const auto stored = store.find(movie_key(movie));
+    if (!stored) return {};
+    const Json& result = (*stored)["result"];
     std::error_code missing;
-    const auto bytes = fs::file_size(video.config.out, missing);
+    const auto bytes = fs::file_size(movie.config.out, missing);
     if (missing || result.value("bytes", std::uintmax_t(0)) != bytes ||
-        result.value("movie", Json()) != video.settings)
+        result.value("movie", Json()) != movie.settings)
         return {};
     return result.value("rotation", 0.0);
 }
 
-/// ϖ/Ω over the swirls shown, by time.
-double rotation_in(const PaperMovie& video) {
-    if (video.model) return video.model->rotation();
-    const MovieConfig& movie = video.config;
-    const FrameSource& source = movie.sources.front();
-    const double start = movie.start, periods = movie.frames * movie.pace / movie.frames_per_second;
-    constexpr int samples = 64;  // per swirl
+/// ϖ/Ω over the periods shown, by time.
+double rotation_in(const PaperMovie& movie) {
+    if (movie.model) return movie.model->rotation();
+    const MovieConfig& config = movie.config;
+    const FrameSource& source = config.sources.front();
+    const double start = config.start,
+                 periods = config.frames * config.pace / config.frames_per_second;
+    constexpr int samples = 64;  // per period
     const Playback playback = source.open();
     const auto count = static_cast<int>(std::lround(periods * samples));
     double sum = 0.0;
@@ -220,15 +222,15 @@ figcaption span { float: right; font-variant-numeric: tabular-nums; }
 <body>
 <h1>Swirled discs: the movies</h1>
 <p>The numerical videos of Lee, Ryan, Lahini, Holmes-Cerfon and Rubinstein, “Geometric frustration
-induces the transition between rotation and counterrotation in swirled granular media”, computed
-anew. The dish is swirled counter-clockwise and never turns itself: its marks stand still in the lab
-frame. The M-frame turns with the swirl, so that the point M stays at the bottom and the wall turns
-clockwise. ϖ is the cluster’s rotation in the lab frame, measured over the swirls shown; Ω is that of
+induces the transition between rotation and counterrotation in swirled granular media”, reproduced.
+The container is swirled counter-clockwise and does not turn: its marks are at rest in the lab frame.
+The M-frame turns with the swirl, so the point M stays at the bottom and the wall turns clockwise.
+ϖ is the cluster’s rotation frequency in the lab frame, measured over the periods shown; Ω is that of
 the swirl.</p>
 )";
 
-/// A row plays in step, and only while it can be seen: sixteen movies at once are too many for some
-/// machines.
+/// The movies of a row play synchronously, and only while the row is visible: some machines cannot
+/// play sixteen movies at once.
 constexpr const char* page_end = R"(<script>
 const step = (row, play) => {
   const videos = [...row.querySelectorAll("video")];
@@ -237,36 +239,36 @@ const step = (row, play) => {
     if (play) v.play().catch(() => {}); else v.pause();
   }
 };
-const seen = new IntersectionObserver(
+const visible = new IntersectionObserver(
   (rows) => rows.forEach((r) => step(r.target, r.isIntersecting)), { threshold: 0.25 });
-document.querySelectorAll(".row").forEach((row) => seen.observe(row));
+document.querySelectorAll(".row").forEach((row) => visible.observe(row));
 </script>
 </body>
 </html>
 )";
 
-std::string figure_of(const PaperMovie& video, double rotation) {
-    const bool lab = video.config.appearance.frames.front() == Frame::lab;
+std::string figure_of(const PaperMovie& movie, double rotation) {
+    const bool lab = movie.config.appearance.frames.front() == Frame::lab;
     return fmt::format(
         "<figure><video src=\"{}.mp4\" preload=\"auto\" loop muted playsinline controls></video>\n"
         "<figcaption><b>{}, {}</b> <span>ϖ/Ω = {}</span><br>{}</figcaption></figure>\n",
-        video.name, video.caption, lab ? "lab frame" : "M-frame", signed_number(rotation),
-        video.what_to_see);
+        movie.name, movie.caption, lab ? "lab frame" : "M-frame", signed_number(rotation),
+        movie.explanation);
 }
 
-std::string page_of(const std::vector<PaperMovie>& videos, const std::vector<double>& rotations) {
+std::string page_of(const std::vector<PaperMovie>& movies, const std::vector<double>& rotations) {
     std::string page = page_head, open;
-    for (std::size_t k = 0; k < videos.size(); ++k) {
-        if (videos[k].system != open) {
+    for (std::size_t k = 0; k < movies.size(); ++k) {
+        if (movies[k].system != open) {
             if (!open.empty()) page += "</div>\n</section>\n";
-            open = videos[k].system;
+            open = movies[k].system;
             const auto* const found =
                 std::find_if(std::begin(systems), std::end(systems),
                              [&](const System& s) { return open == s.title; });
             page += fmt::format("<section>\n<h2>{}</h2>\n<p>{}</p>\n<div class=\"row\">\n", open,
-                                (found == std::end(systems) ? minimal_model : *found).what_to_see);
+                                (found == std::end(systems) ? minimal_model : *found).explanation);
         }
-        page += figure_of(videos[k], rotations[k]);
+        page += figure_of(movies[k], rotations[k]);
     }
     return page + "</div>\n</section>\n" + page_end;
 }
@@ -275,14 +277,14 @@ std::string page_of(const std::vector<PaperMovie>& videos, const std::vector<dou
 
 PaperMovies make_paper_movies(const PaperMoviesSettings& settings,
                               const PaperMoviesControl& control) {
-    const std::vector<PaperMovie> videos = all_videos(settings);
-    const PaperParts parts(settings.out);
+    const std::vector<PaperMovie> movies = all_movies(settings);
+    const ResultStore store(settings.out);
     PaperMovies made;
     std::vector<double> rotations;
-    for (const PaperMovie& video : videos) {
-        if (const auto known = finished_before(parts, video)) {
-            rotations.push_back(*known);
-            ++made.remembered;
+    for (const PaperMovie& movie : movies) {
+        if (const auto rotation = find_finished(store, movie)) {
+            rotations.push_back(*rotation);
+            ++made.reused;
         } else {
             const auto begin = std::chrono::steady_clock::now();
             MovieControl movie_control;
@@ -290,27 +292,27 @@ PaperMovies make_paper_movies(const PaperMoviesSettings& settings,
             movie_control.progress = [&](int done, int of) {
                 if (!control.progress) return;
                 const auto whole = static_cast<double>(rotations.size());
-                control.progress((whole + double(done) / of) / double(videos.size()), video.name);
+                control.progress((whole + double(done) / of) / double(movies.size()), movie.name);
             };
-            const MovieResult result = make_movie(video.config, movie_control);
+            const MovieResult result = make_movie(movie.config, movie_control);
             if (!result.complete) {
-                if (result.frames > 0) fs::remove(video.config.out);
-                throw Interrupted(
-                    fmt::format("Stopped after {} of {} movies; the same call makes the others.",
-                                rotations.size(), videos.size()));
+                if (result.frames > 0) fs::remove(movie.config.out);
+                throw Interrupted(fmt::format(
+                    "stopped after {} of {} movies.\nhint: the same call makes the others.",
+                    rotations.size(), movies.size()));
             }
-            rotations.push_back(rotation_in(video));
-            parts.remember(
-                movie_key(video),
-                {{"movie", video.settings},
-                 {"bytes", fs::file_size(video.config.out)},
+            rotations.push_back(rotation_in(movie));
+            store.store(
+                movie_key(movie),
+                {{"movie", movie.settings},
+                 {"bytes", fs::file_size(movie.config.out)},
                  {"rotation", rotations.back()}},
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         }
-        made.files.emplace_back(video.config.out);
+        made.files.emplace_back(movie.config.out);
     }
     const fs::path page = settings.out / "movies.html";
-    write_file_atomically(page, page_of(videos, rotations));
+    write_file_atomically(page, page_of(movies, rotations));
     made.files.push_back(page);
     return made;
 }

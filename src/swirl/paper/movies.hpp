@@ -1,15 +1,15 @@
-// The paper's numerical videos (SI "Video"), named as there, and movies.html, which plays them side
-// by side with a line on what to see.
+// The paper's numerical videos (SI "Video"), with its names, and movies.html, which plays them next
+// to each other with a line on what they show.
 //
 //     numerical · lab frame, M-frame · all friction, no disc friction, no wall friction ·
 //         rotating (N = 28), counterrotating (N = 48)
 //     minimal model · lab frame, M-frame · no slip, slip
 //
-// The SI calls N = 48 counterrotating also where one friction is missing; what the cluster really
-// does there is measured over the swirls shown and stands on the page.
+// The SI calls N = 48 counterrotating also where one friction is absent. The page has the rotation
+// that was measured over the periods shown.
 //
-// A movie that an earlier call has finished is kept if it would come out the same: same program,
-// same settings, and the file as long as it was (paper/parts.hpp).
+// A movie from an earlier call is reused if it would be the same: same program, same settings, and
+// the file has its size (result_store.hpp).
 #pragma once
 
 #include <atomic>
@@ -33,7 +33,7 @@ struct PaperMoviesControl {
 
 struct PaperMovies {
     std::vector<std::filesystem::path> files;  // movies.html last
-    std::size_t remembered = 0;                // made by an earlier call
+    std::size_t reused = 0;                    // from an earlier call
 };
 
 /// Throws Failure, Interrupted.

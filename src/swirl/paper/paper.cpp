@@ -13,10 +13,10 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
-#include "swirl/paper/parts.hpp"
-#include "swirl/paper/points.hpp"
 #include "swirl/paper/python_script.hpp"
-#include "swirl/paper/several_seeds.hpp"
+#include "swirl/paper/result_store.hpp"
+#include "swirl/paper/results.hpp"
+#include "swirl/paper/seed_ensemble.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
@@ -25,12 +25,9 @@
 
 namespace swirl {
 
-using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
-
 namespace {
 
-/// How far all tasks are together, from what each says of itself.
+/// The progress of all tasks together.
 class StudyProgress {
   public:
     StudyProgress(const PaperControl& control, double total) : control_(control), total_(total) {}
@@ -54,7 +51,8 @@ bool stopped(const PaperControl& control) {
     return control.stop && control.stop->load(std::memory_order_relaxed);
 }
 
-Json work_on(const PaperTask& task, const PaperControl& control, StudyProgress& progress) {
+Json run_with_progress(const PaperTask& task, const PaperControl& control,
+                       StudyProgress& progress) {
     double reported = 0.0;
     RunControl inner;
     inner.stop = control.stop;
@@ -67,14 +65,14 @@ Json work_on(const PaperTask& task, const PaperControl& control, StudyProgress& 
     return result;
 }
 
-/// Of a whole set of measurements, in events.
-constexpr double cost_of_a_look = 6.0;
+/// Cost of one sample of all measurements, in events.
+constexpr double cost_of_a_sample = 6.0;
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// What every run has unless its figure says otherwise.
+/// The defaults of every run.
 RunConfig paper_run(const PaperSettings& settings) {
     RunConfig config;
     config.events = settings.events_of_a_run();
@@ -83,9 +81,10 @@ RunConfig paper_run(const PaperSettings& settings) {
 }
 
 [[noreturn]] void throw_interrupted(const PaperSettings& settings) {
-    throw Interrupted(fmt::format(
-        "Stopped before the end; what is done is kept in '{}', and the same call continues there.",
-        (settings.out / "parts").string()));
+    throw Interrupted(
+        fmt::format("stopped before the end; finished tasks are stored in '{}'.\n"
+                    "hint: the same call continues from there.",
+                    (settings.out / "parts").string()));
 }
 
 }  // namespace
@@ -99,30 +98,32 @@ const PaperFigure& paper_figure(const std::string& name) {
     throw UsageError(fmt::format("--figure is '{}', but it must be one of: {}.", name, known));
 }
 
-// In the paper's dish 480 at N = 28 and 3400 at N = 48; few when it is thin, by the corners alone.
-double expected_events_per_swirl(const RunConfig& config) {
-    const double filled = static_cast<double>(config.discs) * config.radius * config.radius /
-                          (config.container_radius * config.container_radius);
-    // A sphere begins to roll after most collisions, and after every corner. Discs that one
-    // friction alone acts on come to turn with what rubs them, and collide gently and often
-    // (measured at N = 11 … 48: 11 to 30 times as often without wall friction, 2.5 to 15 without
-    // disc friction).
-    const double as_many = config.floor                                     ? 3.0
-                           : config.mu_wall == 0.0 && config.mu_disc != 0.0 ? 20.0
-                           : config.mu_disc == 0.0 && config.mu_wall != 0.0 ? 8.0
-                                                                            : 1.0;
-    return config.sides +
-           as_many * static_cast<double>(config.discs) * (5.0 + 275.0 * std::pow(filled, 3.3));
+// In the paper's container 480 at N = 28 and 3400 at N = 48. For small N the vertices of the path
+// dominate.
+double expected_events_per_period(const RunConfig& config) {
+    const double packing_fraction = static_cast<double>(config.discs) * config.radius *
+                                    config.radius /
+                                    (config.container_radius * config.container_radius);
+    // A sphere begins to roll after most collisions, and after every vertex. Discs with only one of
+    // the two frictions come to rotate with what they touch, and collide gently and often (measured
+    // at N = 11 … 48: 11 to 30 times as often without wall friction, 2.5 to 15 without disc
+    // friction).
+    const double factor = config.floor                                     ? 3.0
+                          : config.mu_wall == 0.0 && config.mu_disc != 0.0 ? 20.0
+                          : config.mu_disc == 0.0 && config.mu_wall != 0.0 ? 8.0
+                                                                           : 1.0;
+    return config.sides + factor * static_cast<double>(config.discs) *
+                              (5.0 + 275.0 * std::pow(packing_fraction, 3.3));
 }
 
 PaperTask run_task(const std::string& key, const RunConfig& config,
                    const std::vector<std::string>& measurements) {
     const double events =
-        config.periods ? expected_events_per_swirl(config) * static_cast<double>(*config.periods)
+        config.periods ? expected_events_per_period(config) * static_cast<double>(*config.periods)
                        : static_cast<double>(config.events);
-    const double periods = events / expected_events_per_swirl(config);
-    const double looks = measurements.empty() ? 0.0 : samples_per_period * periods;
-    const double cost = events + looks * cost_of_a_look;
+    const double periods = events / expected_events_per_period(config);
+    const double samples = measurements.empty() ? 0.0 : samples_per_period * periods;
+    const double cost = events + samples * cost_of_a_sample;
     PaperTask task{key, cost, [config, measurements](const RunControl& control) {
                        const MeasuredRun done = measured_run(config, measurements, control);
                        if (!done.run.complete) throw Interrupted("Stopped.");
@@ -130,40 +131,41 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
                        json["measured"] = done.measured;
                        return json;
                    }};
-    task.what = fmt::format("{} {}", config_json(config).dump(), fmt::join(measurements, ","));
+    task.description =
+        fmt::format("{} {}", config_json(config).dump(), fmt::join(measurements, ","));
     return task;
 }
 
 std::int64_t PaperSettings::periods(std::int64_t by_default, std::int64_t minimum) const {
     const double share =
-        static_cast<double>(events_of_a_run()) / static_cast<double>(events_by_default());
+        static_cast<double>(events_of_a_run()) / static_cast<double>(default_events());
     const double periods = std::round(static_cast<double>(by_default) * share);
     return std::max(minimum, static_cast<std::int64_t>(periods));
 }
 
 namespace {
 
-/// What is to be done for all figures together, what of it is known already, and what is left.
+/// The tasks of all figures, the results that exist, and the tasks that remain.
 struct Work {
     std::map<std::string, PaperTask> tasks;
     std::map<std::string, Json> results;
-    std::vector<const PaperTask*> left;         // the most costly first
-    std::map<std::string, std::string> served;  // by another task
+    std::vector<const PaperTask*> left;         // by falling cost
+    std::map<std::string, std::string> served;  // by the result of this task
 
-    /// `before`: the results of this call so far, failures among them, which would fail again.
-    Work(const std::vector<FigurePlan>& plans, const PaperParts& parts,
-         std::map<std::string, Json> before)
-        : results(std::move(before)) {
+    /// `earlier`: the results of this call so far, including failed runs, which would fail again.
+    Work(const std::vector<FigurePlan>& plans, const ResultStore& store,
+         std::map<std::string, Json> earlier)
+        : results(std::move(earlier)) {
         for (const FigurePlan& plan : plans)
             for (const PaperPoint& point : plan.points)
                 for (const PaperTask& task : point.runs) tasks.emplace(task.key, task);
         for (const auto& [key, task] : tasks) {
             if (results.contains(key)) continue;
-            if (auto known = parts.recall(key))
-                results[key] = std::move(*known);
+            if (auto stored = store.find(key))
+                results[key] = std::move(*stored);
             else if (!task.served_by.empty() && tasks.contains(task.served_by))
                 served[key] = task.served_by;
-            else if (auto larger = parts.recall(task.served_by))
+            else if (auto larger = store.find(task.served_by))
                 results[key] = std::move(*larger);
             else
                 left.push_back(&task);
@@ -177,52 +179,51 @@ struct Work {
     }
 };
 
-/// One task; a failure of its run is a result too, but not one to remember.
-Json result_of(const PaperTask& task, const PaperControl& control, const PaperParts& parts,
+/// Runs one task. A failed run is a result, too, but it is not stored.
+Json result_of(const PaperTask& task, const PaperControl& control, const ResultStore& store,
                StudyProgress& progress) {
     const auto started = std::chrono::steady_clock::now();
     try {
-        const Json result = work_on(task, control, progress);
-        return parts.remember(task.key, result, seconds_since(started));
+        const Json result = run_with_progress(task, control, progress);
+        return store.store(task.key, result, seconds_since(started));
     } catch (const Failure& failure) {
         return {{"seconds", seconds_since(started)}, {"result", {{"failed", failure.what()}}}};
     }
 }
 
-/// A sentence is no table: the first few names.
-std::string first_of(const std::vector<std::string>& names) {
+/// The first few names, for a sentence.
+std::string first_few(const std::vector<std::string>& names) {
     constexpr std::size_t few = 5;
     if (names.size() <= few + 1) return fmt::format("{}", fmt::join(names, ", "));
     return fmt::format("{}, and {} more", fmt::join(names.begin(), names.begin() + few, ", "),
                        names.size() - few);
 }
 
-/// Those that failed; why is mostly the same, so the first says it for all.
+/// The failed runs, with the reason of the first.
 std::optional<std::string> remark_on_failures(const FigurePlan& plan,
                                               const std::map<std::string, Json>& runs) {
-    std::vector<std::string> places;
-    std::string why;
+    std::vector<std::string> points;
+    std::string reason;
     std::size_t failures = 0;
     for (const PaperPoint& point : plan.points) {
         std::size_t here = 0;
         for (const PaperTask& task : point.runs)
             if (const Json& run = runs.at(task.key)["result"]; failed(run)) {
-                if (failures + here++ == 0) why = run["failed"].get<std::string>();
+                if (failures + here++ == 0) reason = run["failed"].get<std::string>();
             }
         if (here == 0) continue;
         failures += here;
         const std::string& name = point.name.empty() ? point.runs.front().key : point.name;
-        places.push_back(fmt::format("{} of {} at {}{}", here, point.runs.size(), name,
-                                     here == point.runs.size() ? " (an empty place)" : ""));
+        points.push_back(fmt::format("{} of {} at {}{}", here, point.runs.size(), name,
+                                     here == point.runs.size() ? " (no result)" : ""));
     }
     if (failures == 0) return {};
-    return fmt::format("{} run{} failed and {} left out: {}. {}: {}", failures,
-                       failures == 1 ? "" : "s", failures == 1 ? "is" : "are", first_of(places),
-                       failures == 1 ? "Why" : "Of the first", why);
+    return fmt::format("{} run{} failed and {} omitted: {}. {}: {}", failures,
+                       failures == 1 ? "" : "s", failures == 1 ? "is" : "are", first_few(points),
+                       failures == 1 ? "Reason" : "Reason of the first", reason);
 }
 
-/// What a reader must know of the runs of a figure: which of them failed, how many drift, where
-/// seeds disagree.
+/// Remarks on the runs of a figure: failures, drifting runs, points where the seeds disagree.
 std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Json>& results,
                                     const std::map<std::string, Json>& runs) {
     std::vector<std::string> remarks;
@@ -242,23 +243,22 @@ std::vector<std::string> remarks_on(const FigurePlan& plan, const std::vector<Js
     const std::int64_t not_steady =
         count["drifting"] + count["jumping"] + count["switching"] + count["too_short"];
     if (not_steady > 0)
-        remarks.push_back(fmt::format(
-            "Not shown to be steady after the warm-up: {} of {} runs ({} drifting, {} jumping, {} "
-            "switching between two states, {} too short to tell). They are marked in the figure "
-            "and in its table.",
-            not_steady, judged, count["drifting"], count["jumping"], count["switching"],
-            count["too_short"]));
+        remarks.push_back(
+            fmt::format("Steady state not verified after the warm-up: {} of {} runs ({} drifting, "
+                        "{} jumping, {} switching between two states, {} too short for the test). "
+                        "They are marked in the figure and in its table.",
+                        not_steady, judged, count["drifting"], count["jumping"], count["switching"],
+                        count["too_short"]));
     if (unaveraged > 0)
         remarks.push_back(fmt::format(
-            "{} of them have fewer than {} swirls after their warm-up and are not averaged.",
+            "{} of them have fewer than {} periods after their warm-up and are not averaged.",
             unaveraged, min_periods_of_an_average));
     if (!disagreeing.empty())
         remarks.push_back(fmt::format(
-            "At {} of {} points the seeds scatter more than the errors within their runs can "
-            "explain: {}. Their errors are those between the seeds; where runs "
-            "are "
-            "steady, these are mixtures of states that outlive a run.",
-            disagreeing.size(), results.size(), first_of(disagreeing)));
+            "At {} of {} points the seeds scatter more than the errors within the runs explain: "
+            "{}. The errors given there are those between the seeds; if the runs are steady, these "
+            "points are mixtures of states that last longer than a run.",
+            disagreeing.size(), results.size(), first_few(disagreeing)));
     return remarks;
 }
 
@@ -268,7 +268,7 @@ MadeFigure finished(const PaperFigure& figure, const FigurePlan& plan,
     for (const PaperPoint& point : plan.points) {
         std::vector<Json> seeds;
         for (const PaperTask& task : point.runs) seeds.push_back(runs.at(task.key)["result"]);
-        in_order.push_back(replicates(seeds));
+        in_order.push_back(seed_ensemble(seeds));
         if (!point.name.empty()) in_order.back()["point"] = point.name;
     }
     MadeFigure made{std::string(figure.name), std::string(figure.description), {}};
@@ -294,13 +294,9 @@ void draw(MadeFigure& made, const FigurePlan& plan, const PaperControl& control)
     }
 }
 
-}  // namespace
-
-namespace {
-
-/// All pieces that these plans need and that have not been done.
-void work_on_all(Work& work, const PaperSettings& settings, const PaperControl& control,
-                 const PaperParts& parts, PaperResult& all) {
+/// Runs the remaining tasks in parallel.
+void run_all(Work& work, const PaperSettings& settings, const PaperControl& control,
+             const ResultStore& store, PaperResult& all) {
     StudyProgress progress(control, work.cost());
     std::mutex results_mutex;
     try {
@@ -308,7 +304,7 @@ void work_on_all(Work& work, const PaperSettings& settings, const PaperControl& 
             work.left.size(),
             [&](std::size_t k) {
                 if (stopped(control)) throw_interrupted(settings);
-                Json part = result_of(*work.left[k], control, parts, progress);
+                Json part = result_of(*work.left[k], control, store, progress);
                 const std::lock_guard lock(results_mutex);
                 all.failed += failed(part["result"]) ? 1 : 0;
                 work.results[work.left[k]->key] = std::move(part);
@@ -322,11 +318,11 @@ void work_on_all(Work& work, const PaperSettings& settings, const PaperControl& 
     for (const auto& [key, larger] : work.served) work.results[key] = work.results.at(larger);
 }
 
-/// Twice the seeds for the points that undecided claims rest on; false if there are none, or no
-/// budget for them.
-bool ask_for_more_seeds(PaperSettings& settings, const std::vector<FigurePlan>& plans,
-                        const PaperControl& control, PaperResult& all) {
-    run_python_script("claims.py", {settings.out.string()}, control.stop);
+/// Doubles the seeds of the points on which undecided claims rest. Returns false if there are none,
+/// or if their budget is used.
+bool add_seeds_to_undecided(PaperSettings& settings, const std::vector<FigurePlan>& plans,
+                            const PaperControl& control, PaperResult& all) {
+    run_python_script("judge_claims.py", {settings.out.string()}, control.stop);
     const Json found = Json::parse(read_whole_file(settings.out / "verdicts.json"));
     std::map<std::string, int> seeds;
     for (const FigurePlan& plan : plans)
@@ -352,7 +348,7 @@ bool ask_for_more_seeds(PaperSettings& settings, const std::vector<FigurePlan>& 
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& given,
                          const PaperControl& control, bool decide) {
     const auto begin = std::chrono::steady_clock::now();
-    const PaperParts parts(given.out);
+    const ResultStore store(given.out);
     PaperSettings settings = given;
     std::vector<FigurePlan> plans;
     PaperResult all;
@@ -360,21 +356,21 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
     for (bool first = true;; first = false) {
         plans.clear();
         for (const PaperFigure& figure : figures) plans.push_back(figure.plan(settings));
-        Work work(plans, parts, std::move(results));
+        Work work(plans, store, std::move(results));
         all.tasks = work.tasks.size();
         if (first) {
-            all.remembered = work.results.size();
+            all.reused = work.results.size();
             for (const auto& [key, part] : work.results)
                 all.task_seconds += part["seconds"].get<double>();
         }
-        work_on_all(work, settings, control, parts, all);
+        run_all(work, settings, control, store, all);
         all.figures.clear();
         for (std::size_t f = 0; f < plans.size(); ++f)
             all.figures.push_back(finished(figures[f], plans[f], work.results, settings.out));
         results = std::move(work.results);
-        if (!decide || !ask_for_more_seeds(settings, plans, control, all)) break;
+        if (!decide || !add_seeds_to_undecided(settings, plans, control, all)) break;
     }
-    // The drawings are independent too, and take a second each.
+    // The drawings are also independent, and take a second each.
     parallel_for(
         plans.size(),
         [&](std::size_t f) {
@@ -409,10 +405,10 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
                      {"events_of_a_run", settings.events_of_a_run()},
                      {"defaults", config_json(paper_run(settings))},
                      {"seeds_of_a_point", settings.seeds()},
-                     {"most_seeds_of_a_point", settings.max_seeds()},
+                     {"max_seeds_of_a_point", settings.max_seeds()},
                      {"undecided_points", result.undecided_points},
                      {"runs", result.tasks},
-                     {"runs_of_earlier_calls", result.remembered},
+                     {"runs_of_earlier_calls", result.reused},
                      {"runs_that_failed", result.failed},
                      {"seconds", result.seconds},
                      {"seconds_on_one_core", result.task_seconds},

@@ -1,5 +1,5 @@
-// The paper's figures, from simulation: each is a set of independent pieces of work, a table made
-// of their results, and a script in figures/ that draws the table.
+// The paper's figures, from simulation. A figure is a set of independent tasks, a table made of
+// their results, and a script in figures/ that draws the table.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,71 +13,80 @@
 #include <string_view>
 #include <vector>
 
+#include "swirl/io/table.hpp"
 #include "swirl/run/run.hpp"
 
 namespace swirl {
 
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
 struct PaperSettings {
-    bool quick = false;  // fewer points, shorter runs: the shape of the figure in a minute
-    std::optional<std::int64_t> events;  // of a run of the paper; shortens all others likewise
-    std::filesystem::path out = "out";
+    bool quick = false;                  // fewer points and shorter runs
+    std::optional<std::int64_t> events;  // of a run; scales all lengths in periods likewise
+    fs::path out = "out";
     std::uint64_t seed = 1;
-    /// Of the points, by their names, that need more seeds than others until a claim is decided.
+    /// Points that need more seeds than the others, until a claim is decided.
     std::map<std::string, int> seeds_of_point = {};
 
-    /// Runs at a point of the paper's figures, and of those beyond it.
+    /// Runs at a point of the paper's figures, and of the figures beyond the paper.
     int seeds() const { return quick ? 3 : 8; }
     int seeds_beyond() const { return quick ? 2 : 3; }
-    /// What a point gets at most, for the sake of a claim: the budget.
+    /// The budget of a point on which an undecided claim rests.
     int max_seeds() const { return 4 * seeds(); }
 
-    /// Of one run of the paper: its 10^6, or fewer.
-    std::int64_t events_of_a_run() const { return events.value_or(events_by_default()); }
-    std::int64_t events_by_default() const { return quick ? 200'000 : 1'000'000; }
-    /// A length in swirls, as many times shorter or longer as --events makes the other runs.
+    /// SI: "10^6 iterations".
+    std::int64_t default_events() const { return quick ? 200'000 : 1'000'000; }
+    std::int64_t events_of_a_run() const { return events.value_or(default_events()); }
+    /// A length in periods, scaled as `events` scales the other runs.
     std::int64_t periods(std::int64_t by_default, std::int64_t minimum) const;
 };
 
-/// One piece of work. Its result is remembered in OUT/parts/KEY.json, so a study that was
-/// interrupted continues, and two figures that need the same piece do it once.
+/// One task. Its result is stored in OUT/parts/KEY.json: an interrupted study continues from there,
+/// and two figures that need the same task run it once.
 struct PaperTask {
-    std::string key;  // names what is done: two tasks of one key must be the same work
-    double cost;      // expected, in events: long tasks begin first, and the progress is weighted
+    std::string key;  // two tasks with the same key must do the same work
+    double cost;      // estimated, in events; orders the tasks and weights the progress
     /// Returns the result; throws Interrupted if it was stopped.
-    std::function<nlohmann::ordered_json(const RunControl&)> work;
-    /// Key of a larger piece whose result holds all that this one's does; empty: there is none. If
-    /// that is done anyway, or was done before, it serves.
+    std::function<Json(const RunControl&)> work;
+    /// The key of a larger task whose result contains that of this one, or empty. Its result is
+    /// used if that task is also needed, or was done before.
     std::string served_by = {};
-    /// The whole configuration, of a single run: tasks of one key must have the same.
-    std::string what = {};
+    /// The configuration of a single run, to check that tasks with the same key are equal.
+    std::string description = {};
 };
 
-/// A point of a curve or a map: the same work with several seeds, whose results are put together
-/// (several_seeds.hpp); or a single piece.
+/// A point of a curve or a map: the same task with several seeds, whose results are combined
+/// (seed_ensemble.hpp), or a single task.
 struct PaperPoint {
-    std::string name;  // in tables, and of what needs more seeds; empty if it cannot have them
+    std::string name;  // in tables and verdicts; empty if it cannot have more seeds
     std::vector<PaperTask> runs;
 
     PaperPoint(PaperTask only) : runs{std::move(only)} {}
-    /// `run` makes the piece of a seed. As many as settings.seeds_of_point says, or `seeds`.
+    /// `run` makes the task of a seed. The number of seeds is `seeds`, or more if
+    /// settings.seeds_of_point says so.
     PaperPoint(const PaperSettings& settings, std::string point, int seeds,
                const std::function<PaperTask(std::uint64_t seed)>& run);
 };
 
-/// What a figure leaves behind when its tasks are done.
+/// What a figure produces once its tasks are done.
 struct FigureOutcome {
     std::vector<std::string> findings;  // sentences to print
-    std::vector<std::filesystem::path> files;
+    std::vector<fs::path> files;
+
+    /// Writes OUT/figure_NAME.csv.
+    void write(const Table& table, const std::string& name, const fs::path& out) {
+        files.push_back(out / ("figure_" + name + ".csv"));
+        table.write(files.back());
+    }
 };
 
 struct FigurePlan {
     std::vector<PaperPoint> points;
-    /// Gets a result for each point; writes the tables into the folder.
-    /// That of a point whose runs failed is {"failed": why}, and leaves a hole.
-    std::function<FigureOutcome(const std::vector<nlohmann::ordered_json>& results,
-                                const std::filesystem::path& out)>
-        finish;
-    /// figures/SCRIPT draws from the first file of the outcome; empty: nothing to draw.
+    /// Gets one result for each point and writes the tables to the folder. The result of a point
+    /// whose runs failed is {"failed": reason}; it leaves a gap in the figure.
+    std::function<FigureOutcome(const std::vector<Json>& results, const fs::path& out)> finish;
+    /// figures/SCRIPT draws the first file of the outcome; empty if there is nothing to draw.
     std::string script;
 };
 
@@ -87,9 +96,9 @@ struct PaperFigure {
     FigurePlan (*plan)(const PaperSettings& settings);
 };
 
-/// All figures there are, in the order of the report.
+/// All figures, in the order of the report.
 const std::vector<PaperFigure>& paper_figures();
-/// Throws WrongCall, naming those there are.
+/// Throws UsageError with a list of all names.
 const PaperFigure& paper_figure(const std::string& name);
 
 struct PaperControl {
@@ -101,43 +110,41 @@ struct PaperControl {
 struct MadeFigure {
     std::string name, description;
     FigureOutcome outcome;
-    std::string problem = {};  // why there is no such figure; empty: there is
+    std::string problem = {};  // why the figure could not be made, or empty
 };
 
 struct PaperResult {
     std::vector<MadeFigure> figures;
-    std::size_t tasks = 0, remembered = 0, failed = 0;
-    std::size_t undecided_points = 0;  // that got all the seeds of the budget and decided nothing
+    std::size_t tasks = 0, reused = 0, failed = 0;
+    std::size_t undecided_points = 0;  // points that used their whole budget and decided nothing
     double seconds = 0.0;
-    double task_seconds = 0.0;  // of all pieces, each on one core, those remembered included
+    double task_seconds = 0.0;  // of all tasks, each on one core, including reused ones
 };
 
-/// Makes the figures: tasks on all cores, tables, drawings. With `decide`, claims that the tables
-/// leave undecided (figures/claims.py) get twice the seeds at the points they rest on, and again,
-/// until they are decided or the budget is spent. Throws Interrupted when stopped; what
-/// was done until then is remembered. A run that fails leaves a hole in its figures, a figure that
-/// cannot be made is missing; the findings say so, and the rest is made.
+/// Runs the tasks in parallel, then writes tables and drawings. With `decide`, the seeds of points
+/// on which undecided claims rest (figures/claims/) are doubled until the claims are decided or the
+/// budget is used. Throws Interrupted when stopped; finished tasks are stored. A run that fails
+/// leaves a gap in its figures. A figure that cannot be made is missing; the findings report it,
+/// and all others are made.
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
                          const PaperControl& control, bool decide = false);
 
-/// The report of all that was made: OUT/paper.json, and from it and the tables OUT/report.md and
-/// OUT/report.html. Returns the files.
-std::vector<std::filesystem::path> write_report(const PaperResult& result,
-                                                const PaperSettings& settings,
-                                                const std::string& command,
-                                                const std::atomic<bool>* stop = nullptr);
+/// The report on all figures: OUT/paper.json, and from it and the tables OUT/report.md and
+/// OUT/report.html. Returns these files.
+std::vector<fs::path> write_report(const PaperResult& result, const PaperSettings& settings,
+                                   const std::string& command,
+                                   const std::atomic<bool>* stop = nullptr);
 
-/// Events in a swirl, a fair guess for the progress and the order of work.
-double expected_events_per_swirl(const RunConfig& config);
+/// An estimate of the number of events in a period, for the progress and the order of the tasks.
+double expected_events_per_period(const RunConfig& config);
 
-/// A task that runs one configuration and returns result_json(), with what was measured under
+/// A task that runs one configuration. It returns result_json(), with the measurements under
 /// "measured".
 PaperTask run_task(const std::string& key, const RunConfig& config,
                    const std::vector<std::string>& measurements = {});
 
-/// The script must be one of figures/; draws `table` to PNG and PDF beside it. Returns the files.
-std::vector<std::filesystem::path> draw_figure(const std::string& script,
-                                               const std::filesystem::path& table,
-                                               const std::atomic<bool>* stop = nullptr);
+/// Runs figures/SCRIPT, which draws `table` to PNG and PDF next to it. Returns these files.
+std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table,
+                                  const std::atomic<bool>* stop = nullptr);
 
 }  // namespace swirl

@@ -25,24 +25,24 @@ namespace fs = std::filesystem;
 
 constexpr const char* interpreter = "/usr/bin/python3";
 
-/// Python is started isolated (-I): neither PYTHONPATH, of which an empty entry is the current
-/// folder, nor the user's own packages can replace a module. The scripts import each other, so
-/// their folder comes first.
+/// Python is isolated (-I): neither PYTHONPATH, where an empty entry is the current folder, nor
+/// packages of the user can replace a module. The scripts import each other, so their folder comes
+/// first.
 constexpr const char* runner =
-    "import os, runpy, sys; del sys.argv[0]; "
-    "sys.path.insert(0, os.path.dirname(sys.argv[0])); "
+    "import os, runpy, sys; del sys.argv[0]; sys.path.insert(0, os.path.dirname(sys.argv[0])); "
     "runpy.run_path(sys.argv[0], run_name='__main__')";
 
-/// How long a script that is to stop may take to remove what it has begun.
-constexpr int grace = 500;  // ms
+/// Time for a script to remove its temporary files when it is interrupted.
+constexpr int grace = 500;         // ms
+constexpr int poll_interval = 50;  // ms
 
-/// What it wrote to stdout and stderr, and how it ended.
-struct Ended {
+struct ProcessResult {
     int status;
-    std::string said;
+    std::string output;  // of stdout and stderr
 };
 
-/// In a process group of its own: Ctrl-C reaches us alone, and we end it.
+/// Starts a child in its own process group: Ctrl-C reaches only this program, which then ends the
+/// child.
 pid_t start(const std::vector<std::string>& words, int output) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -65,27 +65,28 @@ pid_t start(const std::vector<std::string>& words, int output) {
     posix_spawnattr_destroy(&attributes);
     if (error == 0) return child;
     throw Failure(
-        fmt::format("'{}' could not be started: {}. The figures need the Debian package "
-                    "python3-matplotlib; the tables are written.",
+        fmt::format("'{}' cannot be started: {}; the tables are written.\n"
+                    "hint: install the Debian package python3-matplotlib.",
                     words.front(), std::generic_category().message(error)));
 }
 
-/// Adds to what was said; false when there will be no more.
-bool listen(int end, std::string& said) {
+/// Appends available output; false at its end.
+bool read_output(int end, std::string& output) {
     std::array<char, 4096> block;
     const ssize_t got = read(end, block.data(), block.size());
     if (got < 0) return errno == EINTR;
-    said.append(block.data(), static_cast<std::size_t>(got));
+    output.append(block.data(), static_cast<std::size_t>(got));
     return got > 0;
 }
 
-/// Runs it to its end, or until it is to stop; then it gets Ctrl-C, and a moment later is killed.
-Ended run_program(const std::vector<std::string>& words, const std::atomic<bool>* stop) {
+/// Runs a program to its end. If `stop` is set, the program is interrupted, and killed after
+/// `grace`.
+ProcessResult run_program(const std::vector<std::string>& words, const std::atomic<bool>* stop) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Failure(
-            fmt::format("No pipe could be made: {}.", std::generic_category().message(errno)));
-    Ended ended{0, ""};
+            fmt::format("a pipe cannot be opened: {}.", std::generic_category().message(errno)));
+    ProcessResult result{0, ""};
     pid_t child = 0;
     try {
         child = start(words, ends[1]);
@@ -96,30 +97,32 @@ Ended run_program(const std::vector<std::string>& words, const std::atomic<bool>
     }
     close(ends[1]);
     pollfd waited{ends[0], POLLIN, 0};
-    int deadline = -1;  // none is needed yet
+    int polls_left = -1;  // until the program is killed; -1: not interrupted
     for (;;) {
-        constexpr int look = 50;  // ms
-        const int ready = poll(&waited, 1, look);
-        if (ready > 0 && !listen(ends[0], ended.said)) break;
-        if (deadline < 0 && stop != nullptr && stop->load()) {
-            deadline = grace / look;
+        const int ready = poll(&waited, 1, poll_interval);
+        if (ready > 0 && !read_output(ends[0], result.output)) break;
+        if (polls_left < 0 && stop != nullptr && stop->load()) {
+            polls_left = grace / poll_interval;
             kill(-child, SIGINT);
         }
-        if (ready == 0 && deadline > 0 && --deadline == 0) kill(-child, SIGKILL);
+        if (ready == 0 && polls_left > 0 && --polls_left == 0) kill(-child, SIGKILL);
     }
     close(ends[0]);
-    while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {
+    while (waitpid(child, &result.status, 0) < 0 && errno == EINTR) {
     }
-    return ended;
+    return result;
 }
 
-std::string last_line(std::string text) {
+/// The last line of the output, with the line before it if it is a hint.
+std::string last_message(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
-    return text.substr(text.rfind('\n') + 1);
+    std::size_t begin = text.rfind('\n') + 1;
+    if (begin > 1 && text.compare(begin, 5, "hint:") == 0) begin = text.rfind('\n', begin - 2) + 1;
+    return text.substr(begin);
 }
 
-/// Whether a folder holds the scripts, and belongs to the owner of the program or to root: what
-/// another user has put next to a copied program is not run.
+/// Whether a folder has the scripts, and its owner is root or that of the program. Scripts that
+/// another user has put next to a copied program are not run.
 bool has_scripts_of_owner(const fs::path& folder, const fs::path& program) {
     struct stat of_program {
     }, of_folder{}, of_script{};
@@ -142,8 +145,8 @@ fs::path figures_folder() {
             has_scripts_of_owner(folder, program))
             return folder;
     throw Failure(fmt::format(
-        "The scripts that draw are not in '{}', where an installed program has them; set "
-        "SWIRL_FIGURES to the folder that holds them.",
+        "the scripts of the figures are not in '{}', where an installed program has them.\n"
+        "hint: set SWIRL_FIGURES to their folder.",
         (program.parent_path() / "../share/swirl/figures").lexically_normal().string()));
 }
 
@@ -152,16 +155,17 @@ void run_python_script(const std::string& script, const std::vector<std::string>
     std::vector<std::string> words{interpreter, "-I",   "-B",
                                    "-c",        runner, (figures_folder() / script).string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    const Ended ended = run_program(words, stop);
+    const ProcessResult result = run_program(words, stop);
     if (stop != nullptr && stop->load())
-        throw Interrupted("Stopped while drawings were made; the tables are written.");
-    if (WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == 0) return;
-    if (ended.said.find("No module named 'matplotlib'") != ended.said.npos)
+        throw Interrupted("stopped while figures were drawn; the tables are written.");
+    if (WIFEXITED(result.status) && WEXITSTATUS(result.status) == 0) return;
+    if (result.output.find("No module named 'matplotlib'") != result.output.npos)
         throw Failure(
-            "The tables are written, but the figures need matplotlib: install the Debian package "
-            "python3-matplotlib.");
-    throw Failure(fmt::format("The tables are written, but figures/{} failed: {}", script,
-                              ended.said.empty() ? "no reason given." : last_line(ended.said)));
+            "the figures need matplotlib; the tables are written.\n"
+            "hint: install the Debian package python3-matplotlib.");
+    throw Failure(
+        fmt::format("figures/{} failed; the tables are written: {}", script,
+                    result.output.empty() ? "no reason given." : last_message(result.output)));
 }
 
 }  // namespace swirl

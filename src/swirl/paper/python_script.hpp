@@ -1,5 +1,5 @@
-// Running one of the scripts in figures/. Always with Debian's interpreter: another python3 may
-// come first on the PATH and have no matplotlib.
+// Runs the scripts in figures/, always with Debian's interpreter: another python3 may come first on
+// the PATH and have no matplotlib.
 #pragma once
 
 #include <atomic>
@@ -9,13 +9,12 @@
 
 namespace swirl {
 
-/// The folder in SWIRL_FIGURES; or share/swirl/figures above the program (installed) or next to it
-/// (build tree), if it belongs to the program's owner or to root. No other folder is searched.
-/// Throws Failure if there is none.
+/// The folder in SWIRL_FIGURES, or share/swirl/figures above the program (installed) or next to it
+/// (build tree), if its owner is root or that of the program. No other folder is searched. Throws
+/// Failure if there is none.
 std::filesystem::path figures_folder();
 
-/// Throws Failure, with what the script had to say, if it does not succeed; Interrupted if it was
-/// stopped.
+/// Throws Failure with the script's last message if it fails, Interrupted if it was stopped.
 void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
                        const std::atomic<bool>* stop = nullptr);
 

@@ -54,7 +54,7 @@ double time_of_frame(const MovieConfig& config, int frame) {
 void write_frame(const std::string& name, Canvas& canvas) {
     AtomicFile file(name);
     file.append(canvas.png());
-    file.empty_buffer();
+    file.flush_buffer();
     file.publish();
 }
 

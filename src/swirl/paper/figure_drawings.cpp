@@ -1,8 +1,8 @@
-// The paper's drawn figures: 1c (what the M-frame is), 2a (pinned and loose discs), 5a (a
-// snapshot).
-#include <filesystem>
+// The paper's drawings: 1c (the M-frame), 2a (pinned and loose discs), 5a (a snapshot).
+#include <fmt/format.h>
 
-#include "swirl/paper/paper.hpp"
+#include "swirl/paper/figures.hpp"
+#include "swirl/paper/paper_parameters.hpp"
 #include "swirl/render/frame_diagram.hpp"
 #include "swirl/render/still.hpp"
 #include "swirl/run/failure.hpp"
@@ -11,18 +11,18 @@ namespace swirl {
 
 namespace {
 
-using Files = std::vector<std::filesystem::path>;
+constexpr double shown_period = 50.3;    // of Figures 2a and 5a
+constexpr double forces_period = 20.13;  // of Figure 1c
 
-/// No table, no script: the picture is drawn at once, in all formats.
+/// There are no tasks, table and script: the figure is drawn directly, in all formats.
 template <class Draw>
-FigurePlan picture_plan(const std::string& stem, const std::string& finding, Draw draw) {
+FigurePlan plan_drawing(const std::string& stem, const std::string& finding, Draw draw) {
     FigurePlan plan;
-    plan.finish = [=](const std::vector<nlohmann::ordered_json>&,
-                      const std::filesystem::path& out) {
+    plan.finish = [=](const std::vector<Json>&, const fs::path& out) {
         FigureOutcome outcome;
         outcome.findings = {finding};
         for (const char* ending : {".png", ".svg", ".pdf"}) {
-            const std::filesystem::path file = out / (stem + ending);
+            const fs::path file = out / (stem + ending);
             draw(file.string());
             outcome.files.push_back(file);
         }
@@ -31,24 +31,24 @@ FigurePlan picture_plan(const std::string& stem, const std::string& finding, Dra
     return plan;
 }
 
-RunConfig pictured_run(std::int64_t discs, std::uint64_t seed) {
+RunConfig shown_run(std::int64_t discs, std::uint64_t seed) {
     RunConfig config;
     config.discs = discs;
     config.seed = seed;
     return config;
 }
 
-StillConfig light_picture(std::uint64_t seed, Frame frame, const std::string& file) {
+StillConfig light_still(std::uint64_t seed, Frame frame, const std::string& file) {
     StillConfig config;
-    config.sources = {simulated(pictured_run(48, seed))};
+    config.sources = {simulated(shown_run(counterrotating_n, seed))};
     config.appearance.frames = {frame};
     config.appearance.theme = light_theme();
     config.appearance.size = {1000, 1000};
     config.appearance.clock = false;
-    config.at = 50.3;
+    config.at = shown_period;
     config.out = file;
-    // What goes to print is as wide as a column, 86 mm or 245 points. Letters can be read there
-    // only if it is drawn small, without what its caption says.
+    // In print the figure has the width of a column, 86 mm or 245 points. For readable letters it
+    // is drawn small, without the parameters, which are in its caption.
     if (!file.ends_with(".png")) {
         config.appearance.size = {300, 300};
         config.sources.front().parameters.clear();
@@ -61,8 +61,8 @@ void title(StillConfig& config, const std::string& text) {
 }
 
 void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
-    const Snapshot s = simulated(pictured_run(28, seed)).open()(20.13);
-    // The disc nearest to a place where its arrows have room, right of C.
+    const Snapshot s = simulated(shown_run(rotating_n, seed)).open()(forces_period);
+    // The disc nearest to a position right of C, where its arrows have space.
     const FrameTransform at(s, Frame::m);
     std::size_t chosen = 0;
     double nearest = never;
@@ -82,34 +82,40 @@ void draw_figure_1c(std::uint64_t seed, const std::string& file) try {
 }  // namespace
 
 static FigurePlan plan_figure_1c(const PaperSettings& settings) {
-    return picture_plan(
-        "figure_1c", "Figure 1c: drawn; the forces are those on one of 28 discs at swirl 20.13.",
+    return plan_drawing(
+        "figure_1c",
+        fmt::format("Figure 1c: drawn; the forces on one of {} discs at period {}.", rotating_n,
+                    forces_period),
         [seed = settings.seed](const std::string& file) { draw_figure_1c(seed, file); });
 }
 
 static FigurePlan plan_figure_2a(const PaperSettings& settings) {
-    return picture_plan("figure_2a",
-                        "Figure 2a: 48 discs in the M-frame at swirl 50.3, pinned and loose.",
-                        [seed = settings.seed](const std::string& file) {
-                            StillConfig config = light_picture(seed, Frame::m, file);
-                            config.appearance.coloring = Coloring::pinned;
-                            config.appearance.angles = true;
-                            config.appearance.slice = 0.75 * pi;
-                            title(config, "Pinned and loose discs");
-                            make_still(config);
-                        });
+    return plan_drawing(
+        "figure_2a",
+        fmt::format("Figure 2a: {} discs in the M-frame at period {}, pinned and loose.",
+                    counterrotating_n, shown_period),
+        [seed = settings.seed](const std::string& file) {
+            StillConfig config = light_still(seed, Frame::m, file);
+            config.appearance.coloring = Coloring::pinned;
+            config.appearance.angles = true;
+            config.appearance.slice = 0.75 * pi;
+            title(config, "Pinned and loose discs");
+            make_still(config);
+        });
 }
 
 static FigurePlan plan_figure_5a(const PaperSettings& settings) {
-    return picture_plan("figure_5a", "Figure 5a: 48 discs in the lab frame at swirl 50.3.",
+    return plan_drawing("figure_5a",
+                        fmt::format("Figure 5a: {} discs in the lab frame at period {}.",
+                                    counterrotating_n, shown_period),
                         [seed = settings.seed](const std::string& file) {
-                            StillConfig config = light_picture(seed, Frame::lab, file);
+                            StillConfig config = light_still(seed, Frame::lab, file);
                             title(config, "The simulated discs");
                             make_still(config);
                         });
 }
 
-std::vector<PaperFigure> figures_of_pictures() {
+std::vector<PaperFigure> figures_of_drawings() {
     return {{"1c", "the M-frame and its forces", plan_figure_1c},
             {"2a", "discs pinned and loose, in the M-frame", plan_figure_2a},
             {"5a", "the simulated discs", plan_figure_5a}};

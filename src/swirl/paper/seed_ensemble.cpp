@@ -1,4 +1,4 @@
-#include "swirl/paper/several_seeds.hpp"
+#include "swirl/paper/seed_ensemble.hpp"
 
 #include <fmt/format.h>
 
@@ -9,32 +9,29 @@
 #include <string_view>
 
 #include "swirl/io/checksum.hpp"
-#include "swirl/paper/points.hpp"
+#include "swirl/paper/results.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/statistics/replicates.hpp"
 
 namespace swirl {
 namespace {
 
-using Json = nlohmann::ordered_json;
+/// The same node in the results of all runs.
+using Nodes = std::vector<const Json*>;
 
-/// One place in the results of all runs.
-using Places = std::vector<const Json*>;
-
-Places inside(const Places& places, const std::string& name) {
-    Places found;
-    for (const Json* place : places) found.push_back(&at(*place, {name}));
+Nodes inside(const Nodes& nodes, const std::string& name) {
+    Nodes found;
+    for (const Json* node : nodes) found.push_back(&at(*node, {name}));
     return found;
 }
 
 bool is_run(const Json& result) { return at(result, {"rotation"}).is_object(); }
 
-/// Over before its warm-up was, or soon after: what was seen of it is the beginning, and it has no
-/// average.
+/// Whether a run ended before its warm-up, or soon after it.
 bool too_short_to_average(const Json& run) {
-    const Json& asked = at(run, {"config", "warmup"});
+    const Json& warmup = at(run, {"config", "warmup"});
     const Json& periods = at(run, {"rotation", "by_event", "blocks"});
-    return (number(at(run, {"warmup", "periods"})) == 0.0 && asked != 0) ||
+    return (number(at(run, {"warmup", "periods"})) == 0.0 && warmup != 0) ||
            number(periods) < min_periods_of_an_average;
 }
 
@@ -52,22 +49,22 @@ Estimate estimate_in(const Json& json) {
     return e;
 }
 
-Ensemble together(const Places& averages, std::span<const double> weights) {
+Ensemble ensemble_of(const Nodes& averages, std::span<const double> weights) {
     std::vector<Estimate> estimates;
     for (const Json* average : averages) estimates.push_back(estimate_in(*average));
     return is_direction(*averages.front()) ? several_directions(estimates, weights)
                                            : ensemble(estimates, weights);
 }
 
-Json average_json(const Places& averages, std::span<const double> weights) {
-    const Ensemble all = together(averages, weights);
+Json average_json(const Nodes& averages, std::span<const double> weights) {
+    const Ensemble all = ensemble_of(averages, weights);
     Json json{{"mean", all.estimate.mean},
               {"error", all.estimate.error},
               {"effective_samples", all.estimate.effective_samples},
               {"blocks", all.estimate.blocks},
               {"scatter", all.scatter},
               {"disagree", all.disagree}};
-    // Details have no errors: counts add up, the rest is averaged.
+    // Further numbers have no errors: counts add up, others are averaged.
     for (const auto& [name, first] : averages.front()->items()) {
         if (json.contains(name)) continue;
         double sum = 0.0;
@@ -77,7 +74,7 @@ Json average_json(const Places& averages, std::span<const double> weights) {
     return json;
 }
 
-/// A cell of a column without errors: what all runs have, to the bit, or their mean.
+/// The common value of all runs, bitwise, or their mean.
 double mean_cell(std::vector<double> cells) {
     std::erase_if(cells, [](double cell) { return std::isnan(cell); });
     if (cells.empty()) return not_available;
@@ -85,116 +82,118 @@ double mean_cell(std::vector<double> cells) {
     return std::accumulate(cells.begin(), cells.end(), 0.0) / static_cast<double>(cells.size());
 }
 
-Json table_json(const Places& tables, std::span<const double> weights) {
+std::vector<double> cells_of(const Nodes& tables, const std::string& column, std::size_t row) {
+    std::vector<double> cells;
+    for (const Json* table : tables) cells.push_back(number(at(*table, {column})[row]));
+    return cells;
+}
+
+/// Adds the combined rows of a column; errors are in the column NAME_error.
+void add_column_with_errors(Json& json, const std::string& name, const Nodes& tables,
+                            std::span<const double> weights) {
+    // Angles in tables are recognised by their names.
+    const bool angle = name.starts_with("becoming_");
+    for (std::size_t row = 0; row < tables.front()->at(name).size(); ++row) {
+        const std::vector<double> means = cells_of(tables, name, row),
+                                  errors = cells_of(tables, name + "_error", row);
+        std::vector<Estimate> estimates;
+        for (std::size_t r = 0; r < means.size(); ++r)
+            estimates.push_back({.mean = means[r], .error = errors[r]});
+        const Ensemble all =
+            angle ? several_directions(estimates, weights) : ensemble(estimates, weights);
+        json[name].push_back(all.estimate.mean);
+        json[name + "_error"].push_back(all.estimate.error);
+    }
+}
+
+Json table_json(const Nodes& tables, std::span<const double> weights) {
     Json json = Json::object();
     for (const auto& [name, first] : tables.front()->items()) {
-        if (json.contains(name)) continue;  // an error that came with its mean
-        const bool has_error = tables.front()->contains(name + "_error");
+        if (json.contains(name)) continue;  // an error, added with its mean
+        if (tables.front()->contains(name + "_error")) {
+            add_column_with_errors(json, name, tables, weights);
+            continue;
+        }
         for (std::size_t row = 0; row < first.size(); ++row) {
-            std::vector<Estimate> estimates;
-            std::vector<double> cells;
-            for (const Json* table : tables) {
-                cells.push_back(number(at(*table, {name})[row]));
-                if (has_error)
-                    estimates.push_back({.mean = cells.back(),
-                                         .error = number(at(*table, {name + "_error"})[row])});
-            }
-            if (has_error) {
-                // Angles in tables are known by their names.
-                const Estimate e =
-                    (name.starts_with("becoming_") ? several_directions(estimates, weights)
-                                                   : ensemble(estimates, weights))
-                        .estimate;
-                json[name].push_back(e.mean);
-                json[name + "_error"].push_back(e.error);
-            } else if (name == "visits") {
-                double sum = 0.0;
-                for (const double cell : cells) sum += cell;
-                json[name].push_back(sum);
-            } else {
-                json[name].push_back(mean_cell(std::move(cells)));
-            }
+            const std::vector<double> cells = cells_of(tables, name, row);
+            json[name].push_back(name == "visits" ? std::accumulate(cells.begin(), cells.end(), 0.0)
+                                                  : mean_cell(cells));
         }
     }
     return json;
 }
 
-/// Rows, tables, and what holds them.
-Json measured_together(const Places& places, std::span<const double> weights) {
-    const Json& first = *places.front();
-    if (is_average(first)) return average_json(places, weights);
+/// Combines averages, tables and numbers, at any depth.
+Json measured_ensemble(const Nodes& nodes, std::span<const double> weights) {
+    const Json& first = *nodes.front();
+    if (is_average(first)) return average_json(nodes, weights);
     if (first.is_object() && !first.empty() && first.begin()->is_array() &&
         !first.begin()->empty() && !first.begin()->front().is_structured())
-        return table_json(places, weights);
+        return table_json(nodes, weights);
     if (!first.is_object()) {
         std::vector<double> cells;
-        for (const Json* place : places) cells.push_back(number(*place));
+        for (const Json* node : nodes) cells.push_back(number(*node));
         return mean_cell(std::move(cells));
     }
     Json json = Json::object();
     for (const auto& [name, value] : first.items())
-        json[name] = measured_together(inside(places, name), weights);
+        json[name] = measured_ensemble(inside(nodes, name), weights);
     return json;
 }
 
-/// Steady if all runs are, otherwise the worst of them.
+/// "steady" if all runs are, otherwise the worst verdict.
 std::string verdict_of(const Json& seeds) {
     for (const char* verdict : {"drifting", "jumping", "switching"})
         if (seeds[verdict] > 0) return verdict;
     return seeds["too_short"] > 0 || seeds["steady"] == 0 ? "too short to tell" : "steady";
 }
 
-Json counted(const std::vector<Json>& results) {
-    std::int64_t failures = 0, unaveraged = 0, steady = 0, drifting = 0, jumping = 0, switching = 0,
-                 too_short = 0;
+Json count_seeds(const std::vector<Json>& results) {
+    Json count;
+    for (const char* name : {"runs", "averaged", "steady", "drifting", "jumping", "switching",
+                             "too_short", "too_short_to_average", "failed"})
+        count[name] = 0;
+    const auto add = [&](const std::string& name) { count[name] = count[name].get<int>() + 1; };
     for (const Json& r : results) {
-        const std::string verdict = steadiness(r);
+        add("runs");
         if (failed(r)) {
-            ++failures;
+            add("failed");
         } else if (too_short_to_average(r)) {
-            ++unaveraged;
-            ++too_short;
+            add("too_short_to_average");
+            add("too_short");
         } else {
-            steady += verdict == "steady" ? 1 : 0;
-            drifting += verdict == "drifting" ? 1 : 0;
-            jumping += verdict == "jumping" ? 1 : 0;
-            switching += verdict == "switching" ? 1 : 0;
-            too_short += verdict == "too short to tell" ? 1 : 0;
+            add("averaged");
+            const std::string verdict = steadiness(r);
+            add(verdict == "too short to tell" ? "too_short" : verdict);
         }
     }
-    const auto runs = static_cast<std::int64_t>(results.size());
-    return {{"runs", runs},           {"averaged", runs - failures - unaveraged},
-            {"steady", steady},       {"drifting", drifting},
-            {"jumping", jumping},     {"switching", switching},
-            {"too_short", too_short}, {"too_short_to_average", unaveraged},
-            {"failed", failures}};
+    return count;
 }
 
-double mean_of(const Places& runs, std::initializer_list<std::string_view> path) {
+double mean_of(const Nodes& runs, std::initializer_list<std::string_view> path) {
     double sum = 0.0;
     for (const Json* run : runs) sum += number(at(*run, path));
     return sum / static_cast<double>(runs.size());
 }
 
-/// Of one run, on average, in whole ones.
-std::int64_t whole_mean(const Places& runs, std::initializer_list<std::string_view> path) {
+/// The mean over the runs, rounded.
+std::int64_t whole_mean(const Nodes& runs, std::initializer_list<std::string_view> path) {
     return static_cast<std::int64_t>(std::llround(mean_of(runs, path)));
 }
 
 }  // namespace
 
-Json replicates(const std::vector<Json>& results) {
+Json seed_ensemble(const std::vector<Json>& results) {
     if (results.size() == 1 && !is_run(results.front())) return results.front();
-    const Json seeds = counted(results);
-    Places runs;
+    const Json seeds = count_seeds(results);
+    Nodes runs;
     for (const Json& r : results)
         if (!failed(r) && !too_short_to_average(r)) runs.push_back(&r);
     if (runs.empty()) {
-        // Nothing to average: the first that says why.
-        const auto why = std::find_if(results.begin(), results.end(), failed);
-        if (why != results.end()) return *why;
+        const auto failure = std::find_if(results.begin(), results.end(), failed);
+        if (failure != results.end()) return *failure;
         return {{"failed",
-                 fmt::format("no run had {} swirls after its warm-up, so nothing is averaged.",
+                 fmt::format("no run has {} periods after its warm-up, so nothing is averaged.",
                              min_periods_of_an_average)},
                 {"seeds", seeds}};
     }
@@ -213,7 +212,7 @@ Json replicates(const std::vector<Json>& results) {
                          by_event ? std::span<const double>() : std::span<const double>(periods));
     }
     if (at(*runs.front(), {"measured"}).is_object())
-        all["measured"] = measured_together(inside(runs, "measured"), periods);
+        all["measured"] = measured_ensemble(inside(runs, "measured"), periods);
     all["seeds"] = seeds;
     all["seeds"]["scatter"] = all["rotation"]["by_event"]["scatter"];
     all["seeds"]["disagree"] = all["rotation"]["by_event"]["disagree"];

@@ -1,0 +1,233 @@
+"""The texts of the report about each figure: the question it answers and what it shows. Numbers come from the
+findings of the figure, which are computed from its table."""
+
+import re
+
+import point_names
+
+CONTRADICTIONS = [
+    ("Amplitude of the path", "The main text says A = 0.96, the SI 1.892 with A/R = 0.22.",
+     "The first is in disc diameters, the second in radii. The SI's value is used: it gives the container the "
+     "speed 1 that the SI states."),
+    ("Moment of inertia", "The table has I = 10 for m = r = 1. A rigid plane disc cannot exceed 1 (a ring); a "
+     "solid disc has ½.", "The paper's 10 is the default. Figure “inertia” shows 1 and ½."),
+    ("Minimal time between collisions", "Predicted contacts within 10⁻¹³ are discarded, since some were false.",
+     "Not done. For discs that touch and separate no contact is predicted; discs that touch and approach collide "
+     "at once."),
+    ("Period of the swirl", "The table calls 11.866071 the value of ω⁻¹.",
+     "It is the period T; Ω = 2π/T. With 30 sides of A = 1.892 it gives the speed 1."),
+    ("Slope against angle", "The SI's formula for depinning compares a slope with an angle, and has a sum where a "
+     "mean is meant.", "Directions are compared with directions, and angles are averaged as directions."),
+    ("“Strong slip (s ≪ 1)”", "In the conclusion s ≪ 1 is strong slip and s ≈ 1 minimal slip; earlier in the text "
+     "s = 1 is no slip.", "Both agree: s = 1 rolls, s = 0 slips."),
+    ("Steady state", "No warm-up is mentioned; the first events seem to count.",
+     "The first 20 periods are left out (a fifth of the run if that is less). Where spins need longer (no disc "
+     "friction), figures “transient” and “5b-steady” show both."),
+    ("Collisions with the wall", "The SI says that no sign changes are needed because the wall does not spin.",
+     "The disc's own spin enters the slip at the wall with the sign of the outward normal."),
+    ("A ball that slips freely", "It has γ = 0 at s = 0 and “corresponds to rotation”. But by the introduction, a "
+     "body without torque has no direction of rotation.",
+     "Without torque its spin in the lab stays 0, so γ = 1 and s = R_ball/R_container: figure “ball” simulates it. "
+     "Rotation also needs a torque."),
+    ("Amplitude of the experiment", "1.15 cm in a dish of 5.1 cm diameter is 0.45 R as an amplitude and 0.225 R "
+     "from peak to peak.", "The SI's A/R = 0.22 fits half of it, so 1.15 cm must be the diameter of the path."),
+    ("Coriolis force", "0–200 cm/s². A disc that moves with the wall has about 720 in the M-frame.",
+     "Computed from the velocities in the M-frame (measurement “centre”)."),
+    ("Which rotation", "ϖ is the mean over the discs of (r × v)/r² about the centre of mass. Discs near it, whose "
+     "r² is small, have the largest weight, and the variance diverges.", "The paper's mean is judged. Every table "
+     "also has the rotation of the rigid body that fits the velocities best (rigid_by_event, rigid_by_time). The "
+     "two change sign at different N; figure 5b has N_c by all four rates."),
+    ("Which average", "Figure 5b averages over events, the experiment over time.",
+     "Both are given everywhere; figure “averages” compares them."),
+]
+
+# The question of each figure beyond the paper.
+QUESTIONS = {
+    "spheres": "The experiment has spheres that roll on the floor of a dish; the simulation of the paper has discs "
+               "with a moment of inertia that no disc has. Do spheres with their own moment of inertia "
+               "counterrotate, and at which N?",
+    "spheres_ingredients": "Friction of the floor, vertical friction of the contacts, damping, the inertia of a "
+                           "solid sphere: each is switched off alone, at μ = 0.2. Which of them causes "
+                           "counterrotation?",
+    "spheres_ingredients_rough": "Does the answer depend on the friction coefficient? The same at μ = 0.3.",
+    "spheres_pinned": "What the paper measured for the spheres at the wall, and what it could not measure: rolling. "
+                      "The correlation is 1 where spheres roll on the floor and neighbours slide at the sum of their "
+                      "speeds, −1 where they roll on each other.",
+    "spheres_flat_discs": "The paper's simulation has discs and shows counterrotation with a moment of inertia that "
+                          "no disc has. Do solid discs (I = 1/2) that lie flat and slide on a floor counterrotate?",
+    "averages": "The paper averages over events, an observer over time. Does it matter?",
+    "transient": "Without disc friction only the wall changes the discs' spins. How long does that take, and does "
+                 "the paper's average include the end of it?",
+    "5b-steady": "Figure 5b after a warm-up that is long enough for the spins.",
+    "friction": "The paper shows that less friction moves the crossing to higher N. How?",
+    "inertia": "The paper's discs have more inertia than a rigid plane disc can have. Where do solid discs (I = ½), "
+               "rings (1) and discs of other inertia change their direction of rotation?",
+    "restitution": "The paper's collisions are elastic in the normal direction. What does a loss change?",
+    "tangential": "In the paper friction only stops the slip. What if part of it is reversed?",
+    "polygon": "The paper's container moves along 30 straight sides. What does that change?",
+    "condensation": "Without disc friction the paper sees a loose, gas-like cluster. How long does it last, and what "
+                    "follows?",
+    "energy": "The paper's program crashes when both frictions are zero. Where does the energy come from?",
+    "map": "Which of the two frictions decides?",
+}
+
+# What each figure shows.
+CAPTIONS = {
+    "1b": "Rotation frequency ϖ of the cluster about its centre of mass, in units of the swirl's Ω, against the "
+          "number of discs. Above zero the cluster rotates with the swirl, below zero it counterrotates. Dashed: a "
+          "rigid pancake with the cluster's perimeter that rolls along the wall without slipping, "
+          "1 − P_container/P_cluster. Averages over time.",
+    "1c": "Left: the centre C of the container moves round the centre S of the swirl, and the container does not "
+          "turn; M is the point of the wall farthest from S. Middle: in the M-frame, which turns with the swirl, S, "
+          "C and M are at rest and the wall turns clockwise with −Ω. Right: the inertial forces in the M-frame, the "
+          "centrifugal force away from S (orange) and, on one disc, the Coriolis force to the right of its "
+          "velocity v.",
+    "2a": "One instant in the M-frame. Pinned discs fly along the wall until their path turns sharply (the SI's "
+          "criterion); loose discs cross the container. Shaded: one of the angular slices over which the profiles of "
+          "Figure 3 are averaged. M is at the bottom, at θ = 270°.",
+    "2b": "Averages in the M-frame for few discs: number density of their centres (colour), and their mean velocity "
+          "relative to the container (arrows), in units of the container's speed. S is the centre of the swirl, M "
+          "the point of the wall farthest from it. Where an arrow is short, discs move with the wall.",
+    "2c": "The same for many discs. Each map has its own colour scale.",
+    "3a": "Mean angular velocity of the discs about the centre of mass of the cluster, in the M-frame, against the "
+          "angle θ; one curve for each number of discs. Dashed: −Ω, that of the wall. Discs move clockwise, to "
+          "smaller θ. Slices are 5° wide. The paper's slice slides around the container and its width is not given "
+          "(figures/figure_3a.py draws slices of any width that slide by 5°). Triangles: mean angle where residences "
+          "in the wall layer begin; circles: where they end.",
+    "3b": "The same, divided by the angular velocity of the wall at this θ about the same centre of mass: 1 (dashed) "
+          "is motion with the wall.",
+    "pinning": "Distributions of the angle θ at which discs pin (above) and depin (below), for few discs and for "
+               "many. Red, dashed: by the criterion of the SI, a disc is pinned while it flies along the wall, "
+               "however far from it, and pins where it turns sharply. Blue: a disc is pinned while it resides in the "
+               "wall layer, with its rim within half a radius of the wall, for at least 40/511 of a period. "
+               "Triangles: mean directions. The resultant is the length of the mean unit vector: 1 if all angles are "
+               "equal, 0 if they have no mean direction. Claims on the pinned region use the residences.",
+    "4a": "Slip parameter s at the wall: 1 is rolling without slip, 0 free slip. For the discs that reside in the "
+          "wall layer (full), for all that are pinned by the SI's criterion (dashed), and for the whole cluster "
+          "(dotted); for a rough wall and rough discs (μ = 1) and for smooth ones (μ = 0.1).",
+    "4b": "How discs at the wall are prevented from spinning. Full red symbols: discs that reside in the wall layer; "
+          "open red symbols: pinned by the SI's criterion. Left: mean magnitude of the spin, in Ω; 0 is a disc that "
+          "sticks to the wall. Middle: correlation of the spins of neighbours, one or both of which reside at the "
+          "wall, and of colliding discs, weighted by impulse; gears would have −1. Right: share of the contacts that "
+          "close a triangle, which cannot all roll; share of the collisions in which friction stops the slip "
+          "completely; and the hexatic order ψ6 of the packing.",
+    "4c": "Rotation of the cluster against the number of discs for smooth (μ = 0.1) and rough (μ = 1) discs and "
+          "walls. The friction coefficients of the experiment's smooth and roughened spheres are not known: these "
+          "two are a choice. Averages over time.",
+    "5a": "A snapshot of the simulation in the lab frame; the line on each disc turns with it. The circle is the "
+          "path of the container's centre C round S.",
+    "5b": "Rotation of the cluster against the number of discs for five pairs of friction coefficients, between "
+          "discs (μ_d) and at the wall (μ_w), averaged over events as in the paper. Below, the same around zero.",
+    "5c": "Number density of the discs' centres in the M-frame, counted by event on 100 × 100 cells as in the paper; "
+          "each map has its own scale.",
+    "5d": "Mean velocity of the discs relative to the container, in units of the container's speed, in the M-frame "
+          "on 20 × 20 cells. One scale for both numbers of discs.",
+    "ball": "The paper's minimal model, simulated: one large disc in the container. γ is its angular velocity in the "
+            "M-frame over Ω, so it counterrotates above 1; dashed: γ of rolling without slip. With e = 0.5 it loses "
+            "energy at the wall, with e = 1 none.",
+    "states": "Motion in the M-frame with both frictions and without one of them. Left: the mean speed of the discs; "
+              "right: the granular temperature, the mean kinetic energy relative to the local mean flow. Without disc "
+              "friction this is the state after 300 periods; figure “condensation” shows the state before.",
+    "condensation": "Without disc friction, from the start. Above: the period in which the cluster condenses; from "
+                    "then on the discs hardly move in the M-frame and the cluster rotates with ϖ = Ω. Below: the "
+                    "granular temperature until then and in the 50 periods after it.",
+    "times": "The shortest time between two collisions of a run, which the precision of the event times must "
+             "resolve.",
+    "spheres": "Rotation of spheres that roll on the floor of the experiment's dish against their number, for several "
+               "friction coefficients μ of the spheres and the wall. Averages over time. The scale is coarser above "
+               "the dotted line. 56 and 57 spheres also fit, but are left out: there the initial packing decides, "
+               "not friction.",
+    "spheres_ingredients": "Rotation against the number of spheres with all ingredients of the model (black), and "
+                           "with one of them removed. Vertical friction is the part of the contacts' friction that "
+                           "acts on the vertical slip of rolling spheres.",
+    "spheres_ingredients_rough": "Rotation with all ingredients (black), and with one of them removed, at the N where "
+                                 "the direction of rotation is decided.",
+    "spheres_pinned": "Spheres that reside in the wall layer (full) and spheres pinned by the SI's criterion (open): "
+                      "slip parameter s and the spin about the vertical. Below, for all spheres: the share that rolls "
+                      "on the floor without slip, and the correlation of the rolling of neighbours along the line of "
+                      "their centres.",
+    "spheres_flat_discs": "Rotation against the number of solid discs that lie flat on the floor, without friction "
+                          "against the floor and for three values of it.",
+    "spheres_direction": "Every number of spheres at which the direction of rotation changes, against the friction "
+                         "coefficient of spheres and wall. Bars without a point: the change lies between two numbers "
+                         "that were run. Crosses: the sign is undetermined there. Dashed: the changes in the paper's "
+                         "experiment.",
+    "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their contacts.",
+    "spheres_few": "A few spheres after a long warm-up: ϖ (in units of Ω), and the share of them that resides at the "
+                   "wall. A row that rolls along the wall with the swirl has 1 for both.",
+    "spheres_map": "Rotation of the cluster as colour and as number: positive rotates with the swirl, negative "
+                   "against it.",
+}
+
+# Sections of the report: headings, and how the description of their figures begins.
+SECTIONS = (("The paper’s figures", ""), ("Spheres that roll", "spheres that roll"),
+            ("Beyond the paper", "beyond the paper"))
+SECTION_OF_DESCRIPTION = re.compile(r"^(?:beyond the paper|spheres that roll): ")
+
+
+def by_section(figures):
+    """[(heading, figures)], without empty sections."""
+    found = {heading: [] for heading, _ in SECTIONS}
+    for figure in figures:
+        heading = [h for h, start in SECTIONS if figure["description"].startswith(start)][-1]
+        found[heading].append(figure)
+    return [(heading, members) for heading, members in found.items() if members]
+
+
+def title_of(figure):
+    text, name = SECTION_OF_DESCRIPTION.sub("", figure["description"]), figure["name"]
+    if name[0].isdigit() and not text.startswith("Figure"):
+        return f"Figure {name}: {text}"
+    return text[0].upper() + text[1:]
+
+
+def question_of(figure):
+    return QUESTIONS.get(figure["name"], "")
+
+
+def caption_of(figure):
+    return CAPTIONS.get(figure["name"], "")
+
+
+def image_of(figure, endings=(".png",)):
+    """The first file with one of these endings, the best ending first."""
+    return next((f for ending in endings for f in figure["files"] if f.endswith(ending)), None)
+
+
+# A remark on the runs, not a result.
+REMARK = re.compile(r"(Steady state not verified|At \d+ of \d+ points the seeds|\d+ of them have fewer|"
+                    r"\d+ runs? failed|Figure \S+: )")
+
+
+class FirstMentions(dict):
+    """{finding: the first figure that has it}. The report prints a finding below that figure only."""
+
+    def of(self, figure):
+        """(findings, remarks on the runs, name of an earlier figure that has more of them)"""
+        new = [f for f in figure["findings"] if self.setdefault(f, figure["name"]) == figure["name"]]
+        earlier = [self[f] for f in figure["findings"] if self[f] != figure["name"]]
+        words = [sentence(point_names.in_words(f)) for f in new]
+        return ([w for f, w in zip(new, words) if not REMARK.match(f)],
+                [w for f, w in zip(new, words) if REMARK.match(f)], earlier[0] if earlier else "")
+
+
+def reference_to(name, figures):
+    figure = next(f for f in figures if f["name"] == name)
+    return f"Figure {name}" if name[0].isdigit() else f"“{title_of(figure)}”"
+
+
+def figure_texts(about):
+    """{name: (caption, findings, remarks)}, in the order of the page."""
+    mentions, texts = FirstMentions(), {}
+    for _, figures in by_section(about["figures"]):
+        for figure in figures:
+            findings, remarks, earlier = mentions.of(figure)
+            if earlier:
+                remarks.append(f"More on its runs: {reference_to(earlier, about['figures'])}.")
+            texts[figure["name"]] = (caption_of(figure), findings, remarks)
+    return texts
+
+
+def sentence(text):
+    """Starts with a capital, except ϖ, whose capital is Π, and the e of "e = 1"."""
+    return text[:1].upper() + text[1:] if text[:1].isascii() and text[1:2] != " " else text

@@ -1,0 +1,65 @@
+"""Numbers and curves in words."""
+
+import math
+
+from verdicts import HOLDS, Value, largest_reversal, measured, rises
+
+from .thresholds import LEAST_CHANGE
+
+
+def number(mean, error=math.nan):
+    """1.234 ± 0.012, with as many digits as the error supports; n/a if the mean is unknown."""
+    if isinstance(mean, Value):
+        mean, error = mean.mean, mean.error
+    if mean != mean:
+        return "n/a"
+    if not error > 0:
+        return f"{mean:.3g}".replace("-", "−")
+    magnitude = math.floor(math.log10(error))
+    # An error that starts with 1 has two digits, others have one.
+    digits = max(0, -magnitude + (1 if error / 10 ** magnitude < 1.95 else 0))
+    return f"{mean:.{digits}f} ± {error:.{digits}f}".replace("-", "−")
+
+
+def known(rows, name):
+    """Rows that have this number."""
+    return [row for row in rows if row[name] == row[name]]
+
+
+def values(rows, name):
+    return [measured(row, name) for row in rows]
+
+
+def value_at(row, name):
+    return f"{number(measured(row, name))} at N = {row['discs']:.0f}"
+
+
+def ends(rows, name):
+    """The first and the last number of a curve."""
+    rows = known(rows, name)
+    return f"{value_at(rows[0], name)}, {value_at(rows[-1], name)}"
+
+
+def lowest_to_highest(rows, name):
+    found = sorted(values(known(rows, name), name), key=lambda v: v.mean)
+    return f"{number(found[0])} to {number(found[-1])}"
+
+
+def monotonic(rows, name, falling=False, least=None):
+    """Whether a curve rises (or falls) with N by `least`, by default LEAST_CHANGE of its first value. Returns
+    the judgement, and the largest reversal in words."""
+    rows = known(rows, name)
+    found = values(rows, name)
+    rising = [-v for v in found] if falling else found
+    if least is None:
+        least = LEAST_CHANGE * abs(found[0].mean)
+    judgement, reversal = rises(rising, least), largest_reversal(rising)
+    if reversal is None or judgement.verdict == HOLDS:
+        return judgement, ""
+    first, last = (rows[k] for k in reversal)
+    return judgement, (f", but it {'rises' if falling else 'falls'} from {value_at(first, name)} to "
+                       f"{value_at(last, name)}")
+
+
+def count(judgements, verdict=HOLDS):
+    return sum(judgement.verdict == verdict for judgement in judgements)
