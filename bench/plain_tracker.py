@@ -1,4 +1,4 @@
-"""What plain tracking makes of the films of docs/camera.md: the method that trackpy has made common,
+"""What plain tracking makes of the films of docs/how-to/record_experiment.md: the method that trackpy has made common,
 written down plainly, against the truth of the films.
 
     /usr/bin/python3 bench/plain_tracker.py       (numpy and scipy; minutes; with SWIRL set to the program)

@@ -1,4 +1,4 @@
-// replay dish|large|gas: the cost of mispredicted branches (docs/performance.md, "Where the limit
+// replay dish|large|gas: the cost of mispredicted branches (docs/explanation/performance.md, "Where the limit
 // is"). Repeats the same few events from the same state until the processor has learnt every branch,
 // and compares them with as many new events. Prints nanoseconds of processor time per event.
 #include <cstdint>

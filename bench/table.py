@@ -1,4 +1,4 @@
-"""bench/table.py RUN.csv...: prints the files of `bench/run --csv` as the tables of docs/performance.md.
+"""bench/table.py RUN.csv...: prints the files of `bench/run --csv` as the tables of docs/explanation/performance.md.
 
 For several runs it prints the median and the range. bench/results/README.md explains the columns.
 """

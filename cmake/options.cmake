@@ -1,5 +1,5 @@
 # Compiler flags for everything in this tree; none of them reaches who links to it. No -ffast-math,
-# no -march=native: the same bits on every machine (docs/determinism.md). -fno-math-errno and
+# no -march=native: the same bits on every machine (docs/explanation/determinism.md). -fno-math-errno and
 # -fno-trapping-math change no value; they let the compiler use the square-root instruction and
 # masked vectors. The one flag that our headers need wherever they are compiled, -ffp-contract=off,
 # belongs to the targets (engine.cmake).
@@ -7,7 +7,7 @@ add_compile_options(
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
   -fno-math-errno -fno-trapping-math)
 # The Python module is a shared object made of the same libraries. What is hidden is called directly,
-# as in a program; the event loop is as fast with these as without (docs/python.md).
+# as in a program; the event loop is as fast with these as without (docs/tutorials/python.md).
 if(SWIRL_PROGRAM)
   add_compile_options(-fPIC
     "$<$<COMPILE_LANGUAGE:CXX>:-fvisibility=hidden;-fvisibility-inlines-hidden>")

@@ -3,7 +3,7 @@
     swirl run --preset experiment --discs 36 --periods 60 --log-events events.h5
     python3 examples/vertical_impulses.py events.h5
 
-The model is planar (docs/spheres.md): a sphere stays on the floor even if vertical friction lifts it, and the
+The model is planar (docs/explanation/spheres.md): a sphere stays on the floor even if vertical friction lifts it, and the
 floor presses with m g on each sphere, whatever pushes it down. This script prints what the model neglects. It
 needs h5py and numpy."""
 

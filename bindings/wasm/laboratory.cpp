@@ -410,7 +410,7 @@ EXPORTED(crossing) std::uint32_t crossing() {
 }
 
 /// The result as `swirl run --json` writes it, as far as a page knows it: not which build of the
-/// program it was, how it was called, and how long it took (docs/lab.md).
+/// program it was, how it was called, and how long it took (docs/how-to/browser_page.md).
 EXPORTED(result) std::uint32_t result() {
     simulated->settle();
     const RunResult r = simulated->result();

@@ -1,7 +1,7 @@
 """Claims on where discs pin and depin, and how many are pinned: by residences in the wall layer.
 
 The SI's own criterion calls a disc pinned while it flies along the wall, however far from it. Its values are
-reported next to those of the residences and decide nothing (docs/paper.md).
+reported next to those of the residences and decide nothing (docs/explanation/paper.md).
 """
 
 import math

@@ -19,7 +19,7 @@ ONE_ERROR = r"\A[^\n]+\.\n(hint: [^\n]+\.\n)?\Z"
 
 def documented_calls():
     """The words of every `swirl movie` and `swirl image` in the documents that needs no input file."""
-    for name in ("README.md", "docs/pictures.md"):
+    for name in ("README.md", "docs/how-to/movies.md"):
         with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
             text = file.read().replace("\\\n", " ")
         for line in text.splitlines():
@@ -132,7 +132,7 @@ class MovieTest(unittest.TestCase):
         calls = list(documented_calls())
         self.assertGreater(len(calls), 8)
         for words in calls:
-            if "docs/swirl.gif" in words:
+            if "docs/images/swirl.gif" in words:
                 continue
             words = [os.path.basename(w) if "/" in w else w for w in words]
             for name, value in (("--size", "160x90"), ("--seconds", "0.1"), ("--start", "1")):
@@ -144,15 +144,15 @@ class MovieTest(unittest.TestCase):
                 self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_animation_of_the_readme_is_made_by_the_documented_command(self):
-        call, = [words for words in documented_calls() if "docs/swirl.gif" in words]
-        call[call.index("docs/swirl.gif")] = self.path("swirl.gif")
+        call, = [words for words in documented_calls() if "docs/images/swirl.gif" in words]
+        call[call.index("docs/images/swirl.gif")] = self.path("swirl.gif")
         result = subprocess.run([SWIRL, *call], capture_output=True, text=True, timeout=120)
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
-            self.assertIn("](docs/swirl.gif)", file.read())
+            self.assertIn("](docs/images/swirl.gif)", file.read())
         entries = "stream=codec_name,width,height,r_frame_rate,nb_read_frames"
         made = self.path("swirl.gif")
-        stored = os.path.join(SOURCE, "docs", "swirl.gif")
+        stored = os.path.join(SOURCE, "docs", "images", "swirl.gif")
         self.assertEqual(probe(made, entries), "gif,440,276,20/1,80")
         self.assertEqual(probe(stored, entries), probe(made, entries))
         self.assertLess(max(os.path.getsize(made), os.path.getsize(stored)), 1.5e6)
@@ -169,21 +169,21 @@ class MovieTest(unittest.TestCase):
     def test_every_image_of_the_documents_has_a_documented_command(self):
         made = set()
         for words in commands_in_the_documents():
-            made |= {os.path.basename(word) for word in words if word.startswith("docs/")}
+            made |= {os.path.basename(word) for word in words if word.startswith("docs/images/")}
             if "--figure" in words:
                 made |= {f"figure_{word}.png" for word in words}
-        stored = {name for name in os.listdir(os.path.join(SOURCE, "docs"))
+        stored = {name for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
                 if name.endswith((".png", ".gif"))}
         self.assertGreater(len(stored), 5)
         self.assertEqual(stored - made, set())
 
     def test_image_of_the_spheres_is_made_by_the_documented_command(self):
         call, = {tuple(words[1:]) for words in commands_in_the_documents()
-                 if words[:2] == ["swirl", "image"] and "docs/spheres.png" in words}
+                 if words[:2] == ["swirl", "image"] and "docs/images/spheres.png" in words}
         made = self.path("spheres.png")
         result = subprocess.run([SWIRL, *call[:-1], made], capture_output=True, text=True, timeout=120)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assert_looks_like(made, os.path.join(SOURCE, "docs", "spheres.png"))
+        self.assert_looks_like(made, os.path.join(SOURCE, "docs", "images", "spheres.png"))
 
     def test_second_movie_with_the_same_name_is_rejected(self):
         out = self.path("m.mp4")

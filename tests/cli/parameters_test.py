@@ -1,5 +1,5 @@
 """Every parameter of a run in every place that accepts it, and which place takes precedence. The list of
-parameters is the table in docs/parameters.md."""
+parameters is the table in docs/reference/parameters.md."""
 
 import json
 import os
@@ -30,7 +30,7 @@ WITH["rolling_resistance"] = ["--body", "sphere", "--floor", "sliding"]
 
 def rows():
     """Name to option; the option is empty for parameters that are only written."""
-    with open(os.path.join(SOURCE, "docs", "parameters.md")) as page:
+    with open(os.path.join(SOURCE, "docs", "reference", "parameters.md")) as page:
         return {name: option for name, _, option in ROW.findall(page.read())}
 
 

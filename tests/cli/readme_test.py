@@ -59,7 +59,7 @@ class Readme(InFolder):
         self.assertGreater(compared, 3)
 
     def test_links_have_targets(self):
-        for name in ("README.md", "CONTRIBUTING.md", "docs/physics.md", "docs/explanation/architecture.md"):
+        for name in ("README.md", "CONTRIBUTING.md", "docs/explanation/physics.md", "docs/explanation/architecture.md"):
             with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
                 text = file.read()
             for link in re.findall(r"\]\(([^)#]+)[^)]*\)", text):

@@ -19,7 +19,7 @@ except ImportError:
           "provide them.")
     sys.exit(77)
 
-# The paper's experiment in units of r and AΩ, as docs/spheres.md derives it.
+# The paper's experiment in units of r and AΩ, as docs/explanation/spheres.md derives it.
 CONTAINER_RADIUS, AMPLITUDE, SIDES = 25.5 / 3, 5.75 / 3, 30
 GRAVITY, RESTITUTION, CONTACT_DURATION = 6.382, 0.9, 1e-3
 PERIOD = 2 * math.pi * AMPLITUDE

@@ -130,6 +130,6 @@ def test_debian_package_can_be_built(tmp_path):
 
 
 def test_links_of_the_documentation_exist():
-    with open(os.path.join(SOURCE, "docs", "python.md"), encoding="utf-8") as file:
+    with open(os.path.join(SOURCE, "docs", "tutorials", "python.md"), encoding="utf-8") as file:
         for link in re.findall(r"\]\(([^)#]+)[^)]*\)", file.read()):
-            assert os.path.exists(os.path.join(SOURCE, "docs", link)), link
+            assert os.path.exists(os.path.join(SOURCE, "docs", "tutorials", link)), link

@@ -1,4 +1,4 @@
-"""docs/python_reference.md is generated from the public signatures and docstrings. This rewrites it:
+"""docs/reference/python.md is generated from the public signatures and docstrings. This rewrites it:
 
     SWIRL_WRITE_DOCS=1 ctest --test-dir build/tests -R python.reference
 """
@@ -12,7 +12,7 @@ import swirl
 import swirl.plot
 from scenes import SOURCE
 
-FILE = os.path.join(SOURCE, "docs", "python_reference.md")
+FILE = os.path.join(SOURCE, "docs", "reference", "python.md")
 HEAD = """# Python: reference
 
 Generated from the docstrings of `bindings/python/swirl` by `tests/python/reference_test.py`. The guide is
@@ -45,7 +45,7 @@ def of_stub(name, node):
 
 def without_parameters(text):
     """The docstring without the list of parameters, which has its own page."""
-    return text.split("\nParameters (docs/parameters.md)")[0].rstrip()
+    return text.split("\nParameters (docs/reference/parameters.md)")[0].rstrip()
 
 
 def arguments(function):
@@ -109,4 +109,4 @@ def test_reference_is_up_to_date():
     if made != there and os.environ.get("SWIRL_WRITE_DOCS"):
         with open(FILE, "w", encoding="utf-8") as file:
             file.write(made)
-    assert made == there, "docs/python_reference.md is out of date (SWIRL_WRITE_DOCS)."
+    assert made == there, "docs/reference/python.md is out of date (SWIRL_WRITE_DOCS)."

@@ -219,7 +219,7 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
     const auto json = measured_json(reports);
     const std::string numbers = text_of(scratch / "numbers.csv"), help = measurement_help_text(),
                       terminal = measured_text(reports),
-                      docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/measurements.md");
+                      docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/reference/measurements.md");
     for (const auto& [name, report] : reports) {
         EXPECT_THAT(docs, HasSubstr("| " + name + " |"));
         for (const ReportRow& row : report.rows) {
@@ -266,9 +266,9 @@ TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
 }
 
 TEST(Measurements, TheTablesOfTheDocsAreUpToDate) {
-    const std::string docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/measurements.md");
+    const std::string docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/reference/measurements.md");
     EXPECT_NE(docs.find(measurement_markdown()), std::string::npos)
-        << "docs/measurements.md must hold what `swirl run --measure markdown` prints.";
+        << "docs/reference/measurements.md must hold what `swirl run --measure markdown` prints.";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The table in docs/parameters.md is generated from the rows. This command updates it:
+// The table in docs/reference/parameters.md is generated from the rows. This command updates it:
 //
 //     SWIRL_WRITE_DOCS=1 build/tests/tests/test_run --gtest_filter='ParameterTable.*'
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace swirl {
 namespace {
 
-const std::string page = std::string(SWIRL_SOURCE_DIR) + "/docs/parameters.md";
+const std::string page = std::string(SWIRL_SOURCE_DIR) + "/docs/reference/parameters.md";
 constexpr std::string_view begin = "<!-- made of src/swirl/run/parameters.hpp -->\n";
 constexpr std::string_view end = "<!-- end -->\n";
 

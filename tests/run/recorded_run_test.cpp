@@ -20,7 +20,7 @@ double processor_seconds() {
 
 // 511 frames per swirl are those of the paper's camera. Compressing and writing happens on a thread
 // of its own, so this is what a run is slowed by where a second core is free: an eighth to a fifth
-// on a quiet machine (docs/files.md). The bound leaves room for neighbours who use the same memory.
+// on a quiet machine (docs/reference/files.md). The bound leaves room for neighbours who use the same memory.
 TEST(RecordedRun, TheFramesOfTheCameraHardlySlowTheEngine) {
     RunConfig config;
     config.periods = 100;

@@ -138,7 +138,7 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
                 testing::ElementsAre(testing::HasSubstr("steady state not verified")));
 }
 
-// 3.3e-10 is the overlap after half a million bounces (docs/physics.md).
+// 3.3e-10 is the overlap after half a million bounces (docs/explanation/physics.md).
 TEST(Warnings, ReportSpheresThatSinkIntoTheWallWithoutContactDuration) {
     RunResult result;
     result.complete = true;

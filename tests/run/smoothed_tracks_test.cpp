@@ -138,7 +138,7 @@ TEST(SmoothedTracks, RecoversAnglesOfPinningWithinTheirErrors) {
 }
 
 // Collisions hidden by the noise reduce the temperature: by 12 % at 0.2 pixels in this dense
-// container, where finite differences give 37 % too much (docs/camera.md).
+// container, where finite differences give 37 % too much (docs/how-to/record_experiment.md).
 TEST(SmoothedTracks, RecoversTheTemperature) {
     const Found exact = exactly(laboratory());
     for (const double noise : {0.0, 0.1, 0.2}) {
@@ -179,7 +179,7 @@ std::string line_of(const char* how, double noise, const Found& found) {
                        text(found.speed, 3));
 }
 
-// The table of docs/camera.md, from "exactly" on.
+// The table of docs/how-to/record_experiment.md, from "exactly" on.
 TEST(SmoothedTracks, TableInTheDocsIsUpToDate) {
     std::string table = line_of("exactly", 0.0, exactly(laboratory()));
     for (const double noise : {0.0, 0.1, 0.2, 0.4}) {
@@ -187,7 +187,7 @@ TEST(SmoothedTracks, TableInTheDocsIsUpToDate) {
         table += line_of("differences", noise, found_in(series_of(tracks, scale_of(laboratory()))));
         table += line_of("smoothed", noise, smoothed(laboratory(), noise));
     }
-    std::ifstream stream(SWIRL_SOURCE_DIR "/docs/camera.md");
+    std::ifstream stream(SWIRL_SOURCE_DIR "/docs/how-to/record_experiment.md");
     const std::string page{std::istreambuf_iterator<char>(stream), {}};
     EXPECT_NE(page.find(table), std::string::npos) << table;
 }

@@ -1,4 +1,4 @@
-// The picture of docs/lab.md and the README: node picture.mjs FILE.html CHROMIUM FILE.png. The paper's 48 discs,
+// The picture of docs/how-to/browser_page.md and the README: node picture.mjs FILE.html CHROMIUM FILE.png. The paper's 48 discs,
 // and 36 of the experiment's spheres kept beside, after some fifty swirls; how many depends on the machine.
 import {pathToFileURL} from "node:url";
 import {chromium} from "playwright-core";

@@ -5,7 +5,7 @@
     sim = swirl.Simulation(discs=48)                    # a simulation, event by event
 
 Engine and parameters are those of the command line, and results are bitwise identical. Units: radius
-of a disc = 1, mass of a disc = 1, speed of the container = 1 (docs/physics.md). docs/python.md is the
+of a disc = 1, mass of a disc = 1, speed of the container = 1 (docs/explanation/physics.md). docs/tutorials/python.md is the
 guide.
 """
 

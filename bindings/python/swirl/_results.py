@@ -29,7 +29,7 @@ class Estimate:
     """A mean with its standard error, from blocks of whole periods.
 
     A value that is not available is NaN, such as an error from too few blocks. `unit` is in terms of
-    docs/physics.md: r radius of a disc, m its mass, v speed of the container, Ω = 2π/T; "1" if there is
+    docs/explanation/physics.md: r radius of a disc, m its mass, v speed of the container, Ω = 2π/T; "1" if there is
     no unit.
     """
 
@@ -68,7 +68,7 @@ class Table:
     `table["by_time"]` is a column as a read-only numpy array. If the rows are the cells of a map
     (columns x and y), it has two dimensions, [y, x], as for matplotlib's `pcolormesh(x, y, …)`.
     Otherwise it has one value per row. `axes` holds the coordinates along the axes, in their order.
-    `units` maps columns to units of docs/physics.md.
+    `units` maps columns to units of docs/explanation/physics.md.
     """
 
     def __init__(self, name: str, description: str, columns: list[tuple[str, str]],

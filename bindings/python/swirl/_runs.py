@@ -20,7 +20,7 @@ ProgressCallback = Callable[[float, int, float], object]  # (fraction, events, p
 
 
 class Parameter(NamedTuple):
-    """One parameter of a run (docs/parameters.md). `lowest` and `highest` limit its value."""
+    """One parameter of a run (docs/reference/parameters.md). `lowest` and `highest` limit its value."""
 
     name: str
     symbol: str
@@ -264,7 +264,7 @@ def parameter_lines() -> str:
 def with_parameters(function: Callable[..., Any], text: str) -> None:
     """Sets docstring and signature of a function with **parameters, so that editors complete their
     names."""
-    function.__doc__ = f"{text}\nParameters (docs/parameters.md), the paper's values by default:\n\n" \
+    function.__doc__ = f"{text}\nParameters (docs/reference/parameters.md), the paper's values by default:\n\n" \
                        f"{parameter_lines()}\n"
     signature = inspect.signature(function)
     named = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]

@@ -1,5 +1,5 @@
 // All measurements, one row each: the name, the header with the definition, and one line of
-// description. The command line, JSON, CSV and docs/measurements.md are generated from this list.
+// description. The command line, JSON, CSV and docs/reference/measurements.md are generated from this list.
 // sampling.hpp lists the functions that a measurement can have and when they are called.
 #pragma once
 

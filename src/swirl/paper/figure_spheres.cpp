@@ -1,5 +1,5 @@
 // Spheres that roll: the paper's experiment, which its simulation does not describe
-// (docs/spheres.md). Solid spheres on a floor in the experiment's dish: ϖ(N) for friction
+// (docs/explanation/spheres.md). Solid spheres on a floor in the experiment's dish: ϖ(N) for friction
 // coefficients between those of smooth and rough plastic, where its sign changes, the effect of
 // each ingredient of the model, and measurements of the pinned spheres and of the rolling.
 #include <fmt/format.h>
@@ -265,7 +265,7 @@ static FigurePlan plan_figure_spheres_restitution(const PaperSettings& settings)
 }
 
 /// Discs with the inertia of solid discs that lie flat on the same floor. A higher floor friction
-/// than the largest of these brings few discs to rest (docs/spheres.md).
+/// than the largest of these brings few discs to rest (docs/explanation/spheres.md).
 static FigurePlan plan_figure_spheres_flat_discs(const PaperSettings& settings) {
     std::vector<Variant> variants;
     for (const double floor_friction : {0.0, 0.01, 0.02, 0.03})
@@ -370,7 +370,7 @@ static FigurePlan plan_figure_spheres_map(const PaperSettings& settings) {
 
 /// "When there are only a few marbles in the container, they form a line that rolls along the
 /// container wall at the frequency of the circular translations" (main text). More than five need
-/// hundreds of periods to form it (docs/spheres.md), and such a line collides with the wall tens of
+/// hundreds of periods to form it (docs/explanation/spheres.md), and such a line collides with the wall tens of
 /// thousands of times in a period.
 static FigurePlan plan_figure_spheres_few(const PaperSettings& settings) {
     FigurePlan plan;

@@ -58,7 +58,7 @@
 //
 // The lifted sphere falls back after 2w/g, and the floor absorbs its w. The model is planar: it
 // removes w at once, so the vertical energy ½ J_z²/m_lifted counts as lost in the collision.
-// docs/spheres.md measures how short and low these flights are.
+// docs/explanation/spheres.md measures how short and low these flights are.
 //
 // A contact that slides, K = μ J_n < |J*|: friction opposes the slip s = (s_t, s_z) at every
 // instant, dJ/dK = −ŝ. The two masses differ, so the slip turns while it decreases, and no fixed
@@ -90,7 +90,7 @@
 // true slip adds (1 − κ) s_z J_z, which is not positive either, as J_z opposes s_z throughout.
 //
 // Limits for spheres: they do not leave the floor, and the floor's own friction does not depend on
-// J_z (docs/spheres.md bounds both effects).
+// J_z (docs/explanation/spheres.md bounds both effects).
 #pragma once
 
 #include "swirl/math/real.hpp"
@@ -299,7 +299,7 @@ SWIRL_INLINE Impulse collide(AnyBody& i, AnyBody& j, const Vec2& separation,
 /// stores the energy that the pressing force needs to act for so long. So a collision within t_c of
 /// the last one is elastic here. It also separates the two with at least μ_f g t_c/2, the speed of
 /// a separation of length t_c under the force of the floor. The energy in question, m (μ_f g
-/// t_c)²/8, is what the choice of t_c decides about (docs/spheres.md).
+/// t_c)²/8, is what the choice of t_c decides about (docs/explanation/spheres.md).
 SWIRL_INLINE Surface at_contact_on_floor(Surface surface, double since_last, const Floor& floor,
                                          const Vec2& separation, const Vec2& relative_velocity) {
     if (floor.deceleration == 0.0) return at_contact(surface, since_last);

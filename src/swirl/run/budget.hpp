@@ -12,7 +12,7 @@ namespace swirl {
 
 /// Kinetic energy K in the lab frame, including spins, and the invariant K − ΩL with the angular
 /// momentum L about the swirl centre. The invariant is conserved on the exact circle without
-/// friction (docs/physics.md).
+/// friction (docs/explanation/physics.md).
 struct Budget {
     double energy = 0.0, invariant = 0.0;
 };

@@ -104,7 +104,7 @@ std::optional<std::string> problem_without_floor(const RunConfig& c) {
 }
 
 /// A contact within the contact duration is delayed: the particles separate with half of the speed
-/// that the floor's friction removes in that time (docs/spheres.md). This separation speed must be
+/// that the floor's friction removes in that time (docs/explanation/spheres.md). This separation speed must be
 /// small compared with the speed of the container. A ratio of 0.3 changes ϖ by less than one
 /// standard error; a ratio of 3 suppresses the counterrotation.
 std::optional<std::string> problem_with_floor_friction(const RunConfig& c) {

@@ -107,7 +107,7 @@ std::optional<std::string> CoreRun::problem_at_the_end() const {
     return {};
 }
 
-/// Overlaps are rounding errors of positions (docs/physics.md) and must stay small.
+/// Overlaps are rounding errors of positions (docs/explanation/physics.md) and must stay small.
 std::optional<std::string> CoreRun::overlap_problem() const {
     constexpr double max_relative_overlap = 1e-6;
     const double smallest =
@@ -134,7 +134,7 @@ std::string CoreRun::reason_for_collapse() const {
             config_.restitution, body_word(config_), config_.contact_duration);
     return fmt::format(
         "friction has dissipated the relative motion of {}s that are pressed together, and they "
-        "collide ever faster (frictional collapse; docs/physics.md). The model has no state "
+        "collide ever faster (frictional collapse; docs/explanation/physics.md). The model has no state "
         "after it.\nhint: another --seed than {} may avoid it.",
         body_word(config_), config_.seed);
 }

@@ -1,6 +1,6 @@
 // What is measured in a run (measure/observation.hpp), for people and for other programs: reads
 // lists of names, and writes reports as JSON, as CSV, as text and as the tables of
-// docs/measurements.md. All of it visits the rows and tables of the reports and knows no
+// docs/reference/measurements.md. All of it visits the rows and tables of the reports and knows no
 // measurement by name.
 //
 // JSON: a row is an object {"mean", "error", "effective_samples", "blocks", …} or a bare number, a
@@ -29,7 +29,7 @@ std::vector<std::string> read_measurement_list(std::string_view list);
 std::string measurement_list_text();
 /// The same with all their rows and tables, and the units.
 std::string measurement_help_text();
-/// The same as the tables of docs/measurements.md.
+/// The same as the tables of docs/reference/measurements.md.
 std::string measurement_markdown();
 
 /// For the container of that run; the names are those of read_measurement_list().

@@ -2,11 +2,11 @@
 //
 // The table is the only description of a parameter. The command line, configuration files, JSON,
 // the identity of a resumed run, the axes and seeds of a sweep, --dry-run, error messages and
-// docs/parameters.md all use it. A new parameter needs a member of RunConfig and a row, both here,
+// docs/reference/parameters.md all use it. A new parameter needs a member of RunConfig and a row, both here,
 // and its use in the engine (config.cpp).
 //
 // The defaults are the values of the paper (Lee et al. 2019, SI "Simulation parameters").
-// Units: length = disc radius, mass = disc mass, speed of the container = 1 (docs/physics.md).
+// Units: length = disc radius, mass = disc mass, speed of the container = 1 (docs/explanation/physics.md).
 #pragma once
 
 #include <array>
@@ -144,11 +144,11 @@ struct SliderRange {
 
 struct Parameter {
     const char* name;          // "mu_disc": the key in every file; the option is --mu-disc
-    const char* symbol = "";   // as in docs/physics.md
+    const char* symbol = "";   // as in docs/explanation/physics.md
     const char* unit = "";     // "length", "time", …; empty for a pure number
     const char* form = "";     // the value after the option: "NUMBER"
     const char* description;   // at most 60 characters, for --help
-    const char* details = "";  // further sentences for docs/parameters.md
+    const char* details = "";  // further sentences for docs/reference/parameters.md
     const char* group;
     /// The member of RunConfig and its allowed range.
     std::variant<std::monostate, double RunConfig::*, std::int64_t RunConfig::*, int RunConfig::*,
@@ -231,7 +231,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
     {.name = "body",
      .form = "disc|sphere",
      .description = "Type of particle",
-     .details = "Spheres rotate about all three axes (docs/spheres.md).",
+     .details = "Spheres rotate about all three axes (docs/explanation/spheres.md).",
      .group = parameter_group::particles,
      .read = read_body,
      .write = write_body,

@@ -19,7 +19,7 @@
 // certain signs. If the bracket ends at the end of the range, with an undetermined sign, the
 // replicates differ, and N_c agrees within its error.
 //
-// A failed run (a collapse by friction, docs/physics.md) is excluded, counted and reported. A number
+// A failed run (a collapse by friction, docs/explanation/physics.md) is excluded, counted and reported. A number
 // of discs at which every run failed has no point. If it lies in a bracket, N_c is not determined,
 // and the bracket is reported.
 //
