@@ -211,11 +211,11 @@ class UsageErrors(InFolder):
     def test_invalid_slurm_options_create_no_folder(self):
         call = ["sweep", "--discs", 5, "--slurm", "--out"]
         self.assert_usage_error(*call, self.path("s"), "--time", "2 hours", says="--time is '2 hours'")
-        self.assert_usage_error(*call, self.path('a"b'), says="no quotation mark")
+        self.assert_usage_error(*call, self.path('a"b'), says="must not contain quotation marks")
         self.assertEqual(self.left_behind(), [])
 
     def test_a_folder_instead_of_a_file(self):
-        self.assert_usage_error("measure", self.folder, says="is a folder, but FILE must be a recording: a trajectory")
+        self.assert_usage_error("measure", self.folder, says="is a folder, but FILE must be a recording.\nhint: give a trajectory")
         for call in (["verify"], ["export", "--to", "xyz"], ["movie"], ["run"]):
             done = swirl(call[0], self.folder, *call[1:])
             self.assertEqual(done.returncode, 1)

@@ -68,7 +68,7 @@ f.close()
         edits += [("particles['velocity/value'][7, 2, 1] = inf", "velocity of disc 2"),
                   ("particles['angular_velocity/value'][7, 0] = nan", "spin of disc 0"),
                   ("f['observables/clock/value'][7] = 1e9", "clock"),
-                  ("f['observables/container_x/value'][7] = inf", "the container goes as far as inf")]
+                  ("f['observables/container_x/value'][7] = inf", "the container reaches as far as inf")]
         for number, (edit, saying) in enumerate(edits):
             file = self.edited("t.h5", edit)
             # All commands share one check, so each edit is tried with one command.

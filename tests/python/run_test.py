@@ -357,5 +357,5 @@ def test_recordings_equal_those_of_the_command_line(tmp_path):
 def test_impossible_runs_raise_failures(tmp_path):
     with pytest.raises(swirl.FileError):
         swirl.run(discs=5, events=100, trajectory=tmp_path / "no" / "such" / "folder.h5")
-    with pytest.raises(swirl.Failure, match="inside its warm_?-?up|inside its warm-up of warmup 400"):
+    with pytest.raises(swirl.Failure, match="within the warm-up of warmup 400"):
         swirl.run(discs=48, events=20000, warmup=400)

@@ -159,7 +159,7 @@ TEST(CrossingSearch, ReportsABracketWhereAllRunsFail) {
     CrossingSettings settings;
     CrossingControl control = planted([](double n) { return -0.01 * (n - 38.3); }, 0.001);
     control.make_run = [make = control.make_run](const RunConfig& c, const RunControl& inner) {
-        if (c.discs == 38 || c.discs == 39) throw Failure("a collapse");
+        if (c.discs == 38 || c.discs == 39) throw Failure("frictional collapse");
         return make(c, inner);
     };
     const CrossingSearch search = search_crossing(settings, control);
@@ -296,8 +296,8 @@ TEST(CrossingSearch, FailedRunsAreExcludedCountedAndReported) {
     const std::string report = crossing_report(settings, search);
     EXPECT_THAT(report, HasSubstr("excluded: "));
     EXPECT_THAT(report, HasSubstr(fmt::format("at N = {}", search.failures.front().discs)));
-    EXPECT_THAT(report, HasSubstr("a collapse"));
-    EXPECT_THAT(crossing_json(settings, search, ""), HasSubstr("\"first_failure\": \"The last "));
+    EXPECT_THAT(report, HasSubstr("frictional collapse"));
+    EXPECT_THAT(crossing_json(settings, search, ""), HasSubstr("\"first_failure\": \"the last "));
 }
 
 TEST(CrossingSearch, RejectsInvalidSettings) {

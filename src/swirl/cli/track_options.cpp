@@ -191,9 +191,9 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
          {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
         if (text->empty())
             throw UsageError(fmt::format(
-                "'{}' has no calibration next to it, so --{} is required.\n"
+                "'{}' has no calibration next to it (a .camera.json file), so --{} is required.\n"
                 "hint: also give --camera-fps, --scale, --centre, --amplitude and --phase if they "
-                "are not 1, 1, 0,0, 0 and 0. `swirl track` writes a calibration.",
+                "are not 1, 1, 0,0, 0 and 0.",
                 file, name));
     TrackScale scale;
     scale.frames_per_time = parse_number(texts, "camera-fps");

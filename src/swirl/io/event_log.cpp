@@ -17,7 +17,7 @@ namespace {
 using h5md::parameters;
 
 constexpr std::uint64_t events_per_chunk = 16384;
-constexpr std::chrono::milliseconds flush_interval(1000);
+constexpr std::chrono::milliseconds log_flush_interval(1000);
 
 /// Calls visit(stored, name, field) for each column of /events, in a fixed order. The column's type
 /// is std::decay_t<decltype(stored)>, and field(event) refers to the value in an Event.
@@ -151,7 +151,7 @@ void EventLogWriter::write_buffer() {
         (column++)->append(values.data(), values.size());
     });
     buffer_.clear();
-    if (std::chrono::steady_clock::now() - last_flush_ >= flush_interval) flush_file();
+    if (std::chrono::steady_clock::now() - last_flush_ >= log_flush_interval) flush_file();
 }
 
 void EventLogWriter::flush_file() {

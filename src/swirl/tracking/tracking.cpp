@@ -15,7 +15,7 @@ namespace swirl {
 
 void TrackingSettings::throw_if_stopped() const {
     if (stop && stop->load())
-        throw Interrupted("stopped while the video was tracked; nothing was written");
+        throw Interrupted("stopped while the video was tracked; nothing was written.");
 }
 
 unsigned thread_count(const TrackingSettings& settings) {
