@@ -1,5 +1,6 @@
 """swirl movie, as a user calls it."""
 
+import glob
 import os
 import re
 import shlex
@@ -31,11 +32,8 @@ def documented_calls():
 
 def commands_in_the_documents():
     """The words of every command in the README and in docs/, on a line of its own or in backquotes."""
-    folder = os.path.join(SOURCE, "docs")
     for path in [os.path.join(SOURCE, "README.md"),
-                 *(os.path.join(folder, name) for name in sorted(os.listdir(folder)))]:
-        if not path.endswith(".md"):
-            continue
+                 *sorted(glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"), recursive=True))]:
         with open(path, encoding="utf-8") as file:
             text = file.read().replace("\\\n", " ")
         for command in re.findall(r"(?:^|`)((?:(?:\./)?swirl|ffmpeg|node) [^`\n]+)", text, re.M):

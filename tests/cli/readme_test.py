@@ -1,5 +1,7 @@
-"""The README is correct: its commands run, its output is printed, its links have targets."""
+"""The README and the first tutorial show what the program prints; links of all pages have targets."""
 
+import functools
+import glob
 import os
 import re
 import shlex
@@ -14,8 +16,21 @@ with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
 TIMING = re.compile(r"^  time |^\d+ runs|^wrote ")
 
 
-def blocks(kind):
-    return re.findall(rf"^```{kind}\n(.*?)^```$", README, re.M | re.S)
+def blocks(kind, text=README):
+    return re.findall(rf"^```{kind}\n(.*?)^```$", text, re.M | re.S)
+
+
+def pages():
+    """Every page of docs/, relative to the root of the sources."""
+    return sorted(os.path.relpath(path, SOURCE) for path in
+                  glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"), recursive=True))
+
+
+@functools.cache
+def output_of(*words):
+    """The lines that a command prints that writes no files."""
+    done = swirl(*words)
+    return (done.stdout + done.stderr).splitlines()
 
 
 class Readme(InFolder):
@@ -26,7 +41,7 @@ class Readme(InFolder):
                 and "--help" not in words and not any(w.endswith(".toml") for w in words):
             words += ["--events", "2000"]
         if words[0] == "paper" and "--figure" in words:
-            words += ["--quick", "--events", "3000"]
+            words += ["--events", "3000"] + ["--quick"] * ("--quick" not in words)
         return swirl(*words, cwd=self.folder)
 
     def test_commands_work(self):
@@ -40,26 +55,60 @@ class Readme(InFolder):
                 done = self.run_shortened(line)
                 self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_the_shown_output_of_a_run_is_printed(self):
-        shown = {}
-        for block in blocks("console"):
-            for part in block.split("$ ")[1:]:
-                command, _, output = part.partition("\n")
-                shown[command] = output.splitlines()
+    def compare_shown_output(self, text):
+        """Runs each command that the text shows with output, and returns the number of compared lines."""
         compared = 0
-        for command, lines in shown.items():
-            words = shlex.split(command)
-            if words[:2] != ["./swirl", "run"]:
-                continue
-            printed = swirl(*words[1:], cwd=self.folder).stdout.splitlines()
-            for line in lines:
-                if line.strip() != "…" and not TIMING.match(line):
-                    self.assertIn(line, printed)
-                    compared += 1
-        self.assertGreater(compared, 3)
+        for block in blocks("console", text):
+            for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
+                command, _, shown = part.partition("\n")
+                words = shlex.split(command)
+                self.assertIn(words[:2], (["./swirl", "run"], ["./swirl", "crossing"]))
+                printed = output_of(*words[1:])
+                for line in shown.splitlines():
+                    if line.strip() != "…" and not TIMING.match(line):
+                        self.assertIn(line, printed, command)
+                        compared += 1
+        return compared
+
+    def test_shown_output_is_printed(self):
+        self.assertGreater(self.compare_shown_output(README), 3)
+
+    def test_output_shown_by_the_first_tutorial_is_printed(self):
+        with open(os.path.join(SOURCE, "docs/tutorials/first_simulation.md"), encoding="utf-8") as file:
+            self.assertGreater(self.compare_shown_output(file.read()), 15)
+
+    def test_options_in_the_documents_exist(self):
+        """Every option of a command, on a line of its own or in backquotes, is in the help of the command."""
+        commands = re.findall(r"^  (\w[\w-]*)  ", swirl("--help").stdout.partition("Subcommands:")[2], re.M)
+        helps, options = {}, 0
+        for name in ["README.md", *pages()]:
+            with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
+                text = file.read().replace("\\\n", " ")
+            for start, call in re.findall(r"(^|^\./|`|`\./|&& \./)swirl ([a-z][^`\n]*)", text, re.M):
+                if start == "" and call.split()[0] not in commands:  # a sentence
+                    continue
+                words = shlex.split(call.replace("…", ""), comments=True)
+                words = words[:words.index("&&")] if "&&" in words else words
+                if not words or words[0] in ("lab", "site", "python"):  # scripts
+                    continue
+                if words[0] not in helps:
+                    helps[words[0]] = swirl(words[0], "--help").stdout
+                    self.assertIn(f"Usage: swirl {words[0]} ", helps[words[0]], f"{name}: {call}")
+                for word in words[1:]:
+                    if word.startswith("--"):
+                        option = word.split("=")[0]
+                        self.assertRegex(helps[words[0]], rf"(?<![\w-]){option}(?![\w-])", f"{name}: {call}")
+                        options += 1
+        self.assertGreater(options, 100)
+
+    def test_index_links_to_every_page(self):
+        with open(os.path.join(SOURCE, "docs/index.md"), encoding="utf-8") as file:
+            linked = re.findall(r"\]\(([^)#]+\.md)", file.read())
+        self.assertEqual(set(pages()) - {os.path.normpath(os.path.join("docs", link)) for link in linked},
+                         {"docs/index.md"})
 
     def test_links_have_targets(self):
-        for name in ("README.md", "CONTRIBUTING.md", "docs/explanation/physics.md", "docs/explanation/architecture.md"):
+        for name in ["README.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md", *pages()]:
             with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
                 text = file.read()
             for link in re.findall(r"\]\(([^)#]+)[^)]*\)", text):

@@ -1,0 +1,35 @@
+"""The Python code of the documentation runs, and its `>>>` examples print what is shown."""
+
+import doctest
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+
+from scenes import SOURCE
+
+PAGES = ("docs/tutorials/python.md", "docs/how-to/own_measurement.md")
+
+
+def text_of(page):
+    with open(os.path.join(SOURCE, page), encoding="utf-8") as file:
+        return file.read()
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_code_runs(page, tmp_path):
+    code = "\n".join(re.findall(r"^```python\n(.*?)^```$", text_of(page), re.M | re.S))
+    assert code.count("swirl.") > 0
+    done = subprocess.run([sys.executable, "-B", "-c", code], capture_output=True, text=True, cwd=tmp_path,
+                          env={**os.environ, "MPLBACKEND": "Agg"})
+    assert done.returncode == 0, done.stderr
+
+
+def test_shown_session_is_printed():
+    session, = re.findall(r"^\$ \./swirl python\n(.*?)^```$", text_of(PAGES[0]), re.M | re.S)
+    examples = doctest.DocTestParser().get_doctest(session, {}, "session", None, None)
+    assert len(examples.examples) == 4
+    runner = doctest.DocTestRunner(verbose=False)
+    assert runner.run(examples).failed == 0
