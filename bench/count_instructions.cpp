@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
     if (argc != 3) return 2;
     const auto is = [&](const char* name) { return std::strcmp(argv[1], name) == 0; };
-    swirl::InitialState scene = is("dish") || is("circle")       ? swirl::paper_container(48)
+    swirl::InitialState scene = is("container") || is("circle")  ? swirl::paper_container(48)
                                 : is("few") || is("few, circle") ? swirl::paper_container(28)
                                 : is("gas")                      ? swirl::gas_at_rest(1000, 0.7)
                                                                  : swirl::gas_at_rest(1000, 0.2);

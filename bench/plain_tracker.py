@@ -1,17 +1,18 @@
-"""What plain tracking makes of the films of docs/how-to/record_experiment.md: the method that trackpy has made common,
-written down plainly, against the truth of the films.
+"""The accuracy of plain tracking, as in docs/how-to/record_experiment.md: the widespread method that trackpy
+implements, in its simplest form, on the synthetic videos of tests/cli/track_test.py, against their ground
+truth.
 
     /usr/bin/python3 bench/plain_tracker.py       (numpy and scipy; minutes; with SWIRL set to the program)
 
-    find   Crocker & Grier (1996): a band pass (a Gaussian less a moving mean of a disc's width, nothing
-           below 0), local maxima of it as bright as the best, the brightness-weighted middle of a disc
-           about each, moved until it stays. The diameter is told; of dark discs the negative is taken.
-           As many of the brightest maxima are kept as there are discs, which is told, too, and where
-           the dish is.
-    link   the assignment with the least sum of squares between two pictures, in the lab, within a
-           range that is told (a disc's radius); who is missing is remembered for three pictures.
+    find   Crocker & Grier (1996): a band pass (a Gaussian minus a moving mean of a disc's width, negative
+           values set to 0), its local maxima, and about each the brightness-weighted centre of a disc,
+           moved until it no longer changes. The diameter is given. Dark discs use the negative. As many of
+           the brightest maxima are kept as there are discs; this number and the position of the container
+           are given, too.
+    link   the assignment with the least sum of squares between two frames, in the lab, within a given
+           range (a disc's radius). A missing disc is remembered for three frames.
 
-trackpy itself does this with more care in places. Nothing of the dish is found, and no error told.
+trackpy itself takes more care in several steps. This method determines neither the container nor errors.
 """
 
 import os
@@ -26,28 +27,28 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import track_test  # noqa: E402
 
 
-def pictures(film):
+def frames_of(video):
     size = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries",
-                           "stream=width,height", "-of", "csv=p=0", film], check=True,
+                           "stream=width,height", "-of", "csv=p=0", video], check=True,
                           stdout=subprocess.PIPE, text=True).stdout.split(",")
     width, height = int(size[0]), int(size[1])
-    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-f", "rawvideo", "-pix_fmt", "gray",
+    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", video, "-f", "rawvideo", "-pix_fmt", "gray",
                           "-"], check=True, stdout=subprocess.PIPE).stdout
     return numpy.frombuffer(raw, numpy.uint8).reshape(-1, height, width)
 
 
-def find(picture, radius, number, dark, centre, dish):
-    grey = picture.astype(float)
+def find(frame, radius, number, dark, centre, container):
+    grey = frame.astype(float)
     if dark:
         grey = 255.0 - grey
     width = 2 * int(radius) + 1
     band = numpy.maximum(0.0, ndimage.gaussian_filter(grey, 1.0)
                          - ndimage.uniform_filter(grey, width))
-    # As trackpy: discs of constant brightness have no maximum in the middle, a mean over them has.
+    # As in trackpy: a disc of constant brightness has no maximum at its centre, but a mean over it has.
     smooth = ndimage.gaussian_filter(band, 0.5 * radius)
     maxima = (ndimage.maximum_filter(smooth, size=int(1.2 * radius)) == smooth) & (smooth > 0)
     rows, columns = numpy.nonzero(maxima)
-    inside = numpy.hypot(columns - centre[0], rows - centre[1]) < dish - 0.5 * radius
+    inside = numpy.hypot(columns - centre[0], rows - centre[1]) < container - 0.5 * radius
     rows, columns = rows[inside], columns[inside]
     best = numpy.argsort(-smooth[rows, columns])[:number]
     reach = int(radius)
@@ -73,47 +74,47 @@ def find(picture, radius, number, dark, centre, dish):
 
 
 def link(found, reach, memory=3):
-    """{frame: {track: place}}."""
-    tracks, known, born = {}, {}, 0  # known: track → (place, last picture)
+    """{frame: {track: position}}."""
+    tracks, known, born = {}, {}, 0  # known: track → (position, last frame)
     for k, here in enumerate(found):
-        names = [t for t, (_, last) in known.items() if k - last <= memory + 1]
+        labels = [t for t, (_, last) in known.items() if k - last <= memory + 1]
         used, tracks[k] = set(), {}
-        if names and len(here):
-            places = numpy.array([known[t][0] for t in names])
-            squares = ((places[:, None] - here[None]) ** 2).sum(axis=2)
+        if labels and len(here):
+            positions = numpy.array([known[t][0] for t in labels])
+            squares = ((positions[:, None] - here[None]) ** 2).sum(axis=2)
             rows, columns = optimize.linear_sum_assignment(
                 numpy.minimum(squares, reach * reach))
             for r, c in zip(rows, columns):
                 if squares[r, c] < reach * reach:
-                    tracks[k][names[r]] = here[c]
+                    tracks[k][labels[r]] = here[c]
                     used.add(c)
-        for c, place in enumerate(here):
+        for c, position in enumerate(here):
             if c not in used:
-                tracks[k][born] = place
+                tracks[k][born] = position
                 born += 1
-        for t, place in tracks[k].items():
-            known[t] = (place, k)
+        for t, position in tracks[k].items():
+            known[t] = (position, k)
     return tracks
 
 
 def main():
     print("| video | frames with all discs | identity swaps per 1000 | rms, pixels |")
     print("|---|---|---|---|")
-    with tempfile.TemporaryDirectory(prefix="swirl-films-") as folder:
+    with tempfile.TemporaryDirectory(prefix="swirl-videos-") as folder:
         for name, options in track_test.VIDEOS:
-            film = os.path.join(folder, name + ".mp4")
-            done = track_test.swirl("synthetic-video", "--camera", name, *options, "--out", film, "--quiet",
+            video = os.path.join(folder, name + ".mp4")
+            done = track_test.swirl("synthetic-video", "--camera", name, *options, "--out", video, "--quiet",
                                     timeout=1200)
             if done.returncode != 0:
                 sys.exit(done.stderr)
-            truth = track_test.Truth(film)
-            dish = [(float(row["x_ideal"]), float(row["y_ideal"]))
-                    for row in track_test.rows(film[:-4] + ".container.csv")]
-            found = [find(picture, truth.about["scale"], truth.about["discs"], name == "steel",
+            truth = track_test.Truth(video)
+            centres = [(float(row["x_ideal"]), float(row["y_ideal"]))
+                    for row in track_test.rows(video[:-4] + ".container.csv")]
+            found = [find(frame, truth.about["scale"], truth.about["discs"], name == "steel",
                           centre, truth.about["container_radius"])
-                     for picture, centre in zip(pictures(film), dish)]
-            # Of the picture, not of an ideal lens: plain tracking knows of none.
-            score = track_test.Score(track_test.positions(film[:-4] + ".truth.csv"),
+                     for frame, centre in zip(frames_of(video), centres)]
+            # Positions in the frame, not of an ideal lens: plain tracking does not correct the lens.
+            score = track_test.Score(track_test.positions(video[:-4] + ".truth.csv"),
                                        link(found, truth.about["scale"]), truth.about)
             print(f"| {name} | {100 * score.complete:.1f} % | {score.swaps_per_thousand:.0f} | "
                   f"{score.rms:.2f} |", flush=True)

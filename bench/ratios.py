@@ -1,4 +1,4 @@
-"""bench/ratios.py FOLDER ROUNDS: the medians of compare.sh, of old-K.json and new-K.json."""
+"""bench/ratios.py FOLDER ROUNDS: prints the median ratios for compare.sh, from old-K.json and new-K.json."""
 
 import json
 import statistics
@@ -6,17 +6,17 @@ import sys
 
 
 def measured(file):
-    """Rates by scene, discs and width, and the named values that are neither rates nor ratios to a baseline."""
+    """Rates by scene, discs and width; and all named values except rates and ratios to a baseline."""
     with open(file) as f:
         result = json.load(f)
     rates = {(row["scene"], row["discs"], row["width"]): row["rate"] for row in result["rows"]}
-    besides = {target["name"]: target["value"] for target in result["targets"]
+    others = {target["name"]: target["value"] for target in result["targets"]
                if "per second" not in target["name"] and not target["name"].startswith("rate over the")}
-    return rates, besides
+    return rates, others
 
 
 def ratios(pairs):
-    """New over old, in every round, of what both have."""
+    """The ratios new / old in every round, for all keys that both versions have."""
     found = {}
     for old, new in pairs:
         for key, value in new.items():
@@ -32,7 +32,7 @@ def words(key):
 def main(folder, rounds):
     runs = [[measured(f"{folder}/{which}-{k}.json") for which in ("old", "new")]
             for k in range(1, rounds + 1)]
-    for title, part in (("rate, new over old", 0), ("besides rates", 1)):
+    for title, part in (("rates, new / old", 0), ("other values, new / old", 1)):
         found = ratios([(old[part], new[part]) for old, new in runs])
         if found:
             print(title)

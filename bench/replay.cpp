@@ -1,6 +1,6 @@
-// replay dish|large|gas: the cost of mispredicted branches (docs/explanation/performance.md, "Where the limit
-// is"). Repeats the same few events from the same state until the processor has learnt every branch,
-// and compares them with as many new events. Prints nanoseconds of processor time per event.
+// replay container|large|gas: the cost of mispredicted branches (bench/NOTES.md, "Branches").
+// Repeats the same few events from the same state until the processor has learnt every branch, and
+// compares them with as many new events. Prints nanoseconds of processor time per event.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -36,11 +36,11 @@ int main(int argc, char** argv) {
                                         : swirl::paper_container(48);
     constexpr int positions = 12, times = 2000, few = 300;
     swirl::Simulation simulation(scene);
-    std::int64_t swirl = 30;
-    std::vector<double> by_heart, unseen;
-    for (int place = 0; place < positions; ++place) {
-        // At the beginning of a swirl, where all clocks stand at 0.
-        simulation.advance_to(swirl += 3, 0.0);
+    std::int64_t period = 30;
+    std::vector<double> learnt, unseen;
+    for (int position = 0; position < positions; ++position) {
+        // At the beginning of a period, where the clocks are at 0.
+        simulation.advance_to(period += 3, 0.0);
         for (std::size_t i = 0; i < scene.discs.size(); ++i) scene.discs[i] = simulation.disc(i);
         std::vector<double> turns;
         for (int turn = 0; turn < times; ++turn) {
@@ -49,13 +49,13 @@ int main(int argc, char** argv) {
             again.run(few);
             turns.push_back((now() - begin) / few);
         }
-        by_heart.push_back(swirl::median(turns));
-        swirl::Simulation on(scene);
+        learnt.push_back(swirl::median(turns));
+        swirl::Simulation onwards(scene);
         constexpr int many = 100'000;
         const double begin = now();
-        on.run(many);
+        onwards.run(many);
         unseen.push_back((now() - begin) / many);
     }
-    std::printf("%d events by heart %.1f, unseen %.1f ns per event\n", few, swirl::median(by_heart),
+    std::printf("%d learnt events: %.1f, unseen: %.1f ns per event\n", few, swirl::median(learnt),
                 swirl::median(unseen));
 }

@@ -1,4 +1,4 @@
-"""bench/table.py RUN.csv...: prints the files of `bench/run --csv` as the tables of docs/explanation/performance.md.
+"""bench/table.py RUN.csv...: prints the files of `bench/run --csv` as Markdown tables.
 
 For several runs it prints the median and the range. bench/results/README.md explains the columns.
 """
@@ -9,7 +9,7 @@ import sys
 
 
 def read(files):
-    """Rows of all runs, by scene, discs and width, in the order of the first."""
+    """The rows of all runs by scene, discs and width, in the order of the first run."""
     found = {}
     for name in files:
         with open(name, newline="") as f:
@@ -19,7 +19,7 @@ def read(files):
 
 
 def number(x):
-    """Three digits, as people write them."""
+    """Three significant digits."""
     for digits in (0, 1, 2, 3):
         if x >= 100 / 10**digits:
             return f"{x:.{digits}f}"

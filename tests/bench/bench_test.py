@@ -110,7 +110,7 @@ class Bench(unittest.TestCase):
             write(f"new-{k}.json", {"dish": 7.0, "gas": 10.0 * faster}, {"time on the circle": 2})
         done = subprocess.run([sys.executable, "-B", BENCH / "ratios.py", self.folder, "3"],
                               capture_output=True, text=True, check=True).stdout.splitlines()
-        self.assertEqual(done[0], "rate, new over old")
+        self.assertEqual(done[0], "rates, new / old")
         self.assertRegex(done[1], r"^  gas, N = 5, avx2 +1\.200   \(1\.000 to 1\.400\)$")
         self.assertEqual(done[2:], ["only new: dish, N = 5, avx2", "only old: gone, N = 5, avx2"])
 

@@ -1,5 +1,5 @@
 // The engine's invariants. They are checked while it runs if SWIRL_INTERNAL_CHECKS is defined
-// (CMake preset `check`); otherwise none of this is compiled.
+// (CMake preset `sanitize`); otherwise none of this is compiled.
 //
 // Each invariant is a function that takes whether it holds, and stops the program if it does not.
 // The engine does not print. The stack trace of a sanitizer or debugger shows which invariant was

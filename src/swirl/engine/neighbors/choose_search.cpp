@@ -74,7 +74,7 @@ bool cells_are_possible(const InitialState& scene) {
 /// fraction, for unequal discs its geometric mean with that of equal discs of the mean radius. It
 /// is increased for the candidates that cells give each prediction: with n discs in a cell, 9n. In
 /// a moving container discs gather, and then lists last; so the limit is lower there. The numbers
-/// were measured (docs/explanation/performance.md).
+/// were measured (bench/NOTES.md).
 bool is_dilute(const InitialState& scene, const RadiusRange& radii) {
     double sum = 0.0, squares = 0.0;
     for (const Disc& d : scene.discs) {

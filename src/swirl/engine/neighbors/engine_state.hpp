@@ -168,7 +168,7 @@ inline constexpr std::uint32_t max_discs_in_columns = 40, max_spheres_in_columns
 struct EventLoops {
     EventLoop lists, cells;
     EventLoop all_pairs[max_discs_in_columns / 8];  // for up to 8, 16, 24 … discs
-    // Up to this many discs, all pairs are fastest (docs/explanation/performance.md).
+    // Up to this many discs, all pairs are fastest (bench/NOTES.md).
     std::uint32_t max_all_pairs;
     EventLoop few_spheres[max_spheres_in_columns / 16];  // for up to 16, 32 … spheres
     EventLoop many_spheres;
