@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -265,10 +266,25 @@ TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
     EXPECT_EQ(json.at("max_overlap").get<double>(), result.max_overlap);
 }
 
+// This command updates the page:
+//
+//     SWIRL_WRITE_DOCS=1 build/tests/tests/test_run --gtest_filter='Measurements.TheTablesOfTheDocs*'
 TEST(Measurements, TheTablesOfTheDocsAreUpToDate) {
-    const std::string docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/reference/measurements.md");
-    EXPECT_NE(docs.find(measurement_markdown()), std::string::npos)
-        << "docs/reference/measurements.md must hold what `swirl run --measure markdown` prints.";
+    const fs::path page = fs::path(SWIRL_SOURCE_DIR) / "docs/reference/measurements.md";
+    const std::string begin = "<!-- made of swirl run --measure markdown -->\n",
+                      end = "<!-- end -->\n";
+    std::string docs = text_of(page);
+    const std::size_t from = docs.find(begin), to = docs.find(end);
+    ASSERT_NE(from, docs.npos);
+    ASSERT_NE(to, docs.npos);
+    const std::size_t first = from + begin.size();
+    const std::string tables = "\n" + measurement_markdown() + "\n";
+    if (std::getenv("SWIRL_WRITE_DOCS")) {
+        docs.replace(first, to - first, tables);
+        std::ofstream(page) << docs;
+        return;
+    }
+    EXPECT_EQ(docs.substr(first, to - first), tables);
 }
 
 }  // namespace

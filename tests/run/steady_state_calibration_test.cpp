@@ -1,6 +1,6 @@
 // Error rates of the steady-state tests (statistics/steady_state.hpp) on recorded series: false alarms
 // in steady runs, and the fraction of planted jumps, drifts and mixtures that they find. The test
-// prints the tables of docs/explanation/physics.md.
+// prints the tables of docs/explanation/statistics.md.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -155,7 +155,7 @@ TEST(SlowSteadyStateCalibration, PlantedChangesInRecordedRunsAreFound) {
         // Larger changes are found more often, with a few exceptions among 100 series.
         for (std::size_t k = 1; k < shares.size(); ++k)
             EXPECT_GE(shares[k], shares[k - 1] - 5) << plant.name;
-        // At the largest size, nearly all changes are found for every shape (docs/explanation/physics.md).
+        // At the largest size, nearly all changes are found for every shape.
         EXPECT_GE(shares.back(), 95) << plant.name;
     }
 }

@@ -135,7 +135,7 @@ std::string measurement_help_text() {
 std::string measurement_markdown() {
     std::string names = "| name | description | definition |\n|---|---|---|\n";
     for (const MeasurementKind& kind : measurement_kinds())
-        names += fmt::format("| {} | {} | [{}](../src/swirl/measure/{}) |\n", kind.name,
+        names += fmt::format("| {} | {} | [{}](../../src/swirl/measure/{}) |\n", kind.name,
                              kind.description, kind.header, kind.header);
     std::string rows = "| quantity | unit | description |\n|---|---|---|\n";
     const auto line = [&](const std::string& name, const ReportRow& row) {

@@ -25,7 +25,7 @@
 // between two states if the separation is at least 0.85, if it changes at least twice, and if a
 // visit to either state lasts five windows on average.
 //
-// Error rates, measured: docs/explanation/physics.md has the table
+// Error rates, measured: docs/explanation/statistics.md has the table
 // (tests/run/steady_state_calibration_test.cpp).
 //
 // Warm-up while a run continues. The blocks so far are tested at intervals, from 50 of them on. The
@@ -202,7 +202,7 @@ inline MeanChange most_likely_change(std::span<const double> blocks) {
 }
 
 /// Upper bounds of the measured rates at which the tests of a steady series with so many effective
-/// samples find a change (docs/explanation/physics.md).
+/// samples find a change (docs/explanation/statistics.md).
 inline double false_alarm_rate(const MeanChange& change) {
     return change.effective_samples >= 100.0  ? 0.0005
            : change.effective_samples >= 50.0 ? 0.004
