@@ -16,14 +16,14 @@ add_executable(other other.cpp)
 target_include_directories(other PRIVATE {source}/examples)
 target_link_libraries(other PRIVATE swirl::engine swirl::measure)
 """
-# With our flags the unused variable would be an error.
+# The warning flags of this project would reject the unused variable.
 PROGRAM = """#include <cstdio>
-#include "dish.hpp"
+#include "paper_scene.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/engine/simulation.hpp"
 int main() {
     int unused;
-    swirl::Simulation simulation(paper_dish(28, 0.5, 7));
+    swirl::Simulation simulation(paper_scene(28, 0.5, 7));
     simulation.run(1000);
     std::printf("%d", swirl::cluster_rotation(simulation.snapshot()).rigid != 0.0);
 }

@@ -1,0 +1,98 @@
+"""Checks what a program can check of the language: the glossary's words in README, docs and help, the
+length of sentences in the README, and the form of commit subjects.
+
+A sentence that needs a rejected word goes into ALLOWED with the reason."""
+
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+SOURCE = pathlib.Path(os.environ.get("SWIRL_SOURCE", pathlib.Path(__file__).parents[2]))
+
+# Rejected words, with the word to use. Only words without a second meaning in these pages are listed.
+REJECTED = {
+    r"\d swirls\b|\bper swirl\b|\bwhole swirls?\b": "period",
+    r"\blegs?\b": "segment",
+    r"\bfilms?\b|\bfilmed\b": "video",
+    r"\btelephones?\b": "phone",
+    r"\bnobody\b|\bsomebody\b|\beverybody\b": "no disc, each disc",
+    r"\bfrictions\b": "friction coefficients",
+    r"\brivals?\b": "baseline",
+    r"\banew\b|\bonce more\b": "again, from scratch",
+    r"\bmend(s|ed)?\b": "fix, repair",
+    r"\boneself\b|\bone's own\b": "you, custom",
+    r"\bbeside\b": "next to, compared with",
+    r"\b(is|are|was) (told|said) (of|to|by|where|when|whether)\b": "report",
+    r"\bby turns\b|\bin turns\b": "alternately",
+    r"\bnot a bit\b|\bto the bit\b": "bitwise identical",
+    r"\bbecom(e|es|ing) (free|pinned)\b": "depin, pin",
+    r"\bthin (dish|gas)\b": "dilute",
+    r"\blimb\b": "edge profile",
+    r"\bmean ball\b": "appearance template",
+}
+# Page: part of a sentence that may stay, and why.
+ALLOWED = {
+    "docs/explanation/paper.md": ["becoming free"],  # quotation of the supplement
+}
+PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").rglob("*.md"))]
+LONGEST = 30  # words in a sentence of the README
+# The convention holds for commits after this one.
+FIRST_COMMIT = "a37b331"
+
+
+def prose_of(text):
+    """The text without code blocks, inline code and addresses."""
+    text = re.sub(r"```.*?```", "", text, flags=re.S)
+    text = re.sub(r"`[^`\n]*`", "", text)
+    return re.sub(r"\]\([^)]*\)", "]", text)
+
+
+def sentences_of(text):
+    for paragraph in re.split(r"\n\s*\n|\n(?=[-*|#])", prose_of(text)):
+        if paragraph.lstrip().startswith(("|", "#", "!")):
+            continue
+        yield from re.split(r"(?<=[.:;!?])\s+", " ".join(paragraph.split()))
+
+
+class Prose(unittest.TestCase):
+    def test_pages_use_the_words_of_the_glossary(self):
+        for page in PAGES:
+            name = str(page.relative_to(SOURCE))
+            text = page.read_text(encoding="utf-8")
+            # The page of commands is help output in code blocks.
+            text = text if name.endswith("commands.md") else prose_of(text)
+            for quoted in ALLOWED.get(name, ()):
+                text = text.replace(quoted, "")
+            for pattern, better in REJECTED.items():
+                found = re.search(pattern, text, re.I)
+                with self.subTest(page=name, write=better):
+                    self.assertIsNone(found, found and text[max(0, found.start() - 60):found.end() + 20])
+
+    def test_rejected_words_are_found(self):
+        for pattern, example in zip(REJECTED, ("30 swirls", "a leg", "a film", "telephone", "nobody", "frictions", "rivals",
+                                               "anew", "mended", "oneself", "beside", "is told to", "in turns", "not a bit",
+                                               "become free", "thin gas", "limb", "mean ball")):
+            self.assertRegex(example, pattern)
+
+    def test_sentences_of_the_readme_are_short(self):
+        text = (SOURCE / "README.md").read_text(encoding="utf-8")
+        for sentence in sentences_of(text):
+            words = [word for word in sentence.split() if re.search(r"\w", word)]
+            with self.subTest(sentence):
+                self.assertLessEqual(len(words), LONGEST)
+
+    def test_commit_subjects_name_an_area(self):
+        done = subprocess.run(["git", "-C", SOURCE, "log", "--format=%s", f"{FIRST_COMMIT}..HEAD"],
+                              capture_output=True, text=True)
+        if done.returncode != 0:
+            self.skipTest("the history of this copy is not available")
+        for subject in done.stdout.splitlines():
+            with self.subTest(subject):
+                self.assertLessEqual(len(subject), 72)
+                self.assertRegex(subject, r"^[a-z0-9][a-z0-9/_, -]*: [a-zA-Z0-9`\-].*[^.]$|^Merge ")
+
+
+if __name__ == "__main__":
+    unittest.main()
