@@ -134,7 +134,8 @@ std::string CoreRun::reason_for_collapse() const {
             config_.restitution, body_word(config_), config_.contact_duration);
     return fmt::format(
         "friction has dissipated the relative motion of {}s that are pressed together, and they "
-        "collide ever faster (frictional collapse; docs/explanation/physics.md). The model has no state "
+        "collide ever faster (frictional collapse; docs/explanation/physics.md). The model has no "
+        "state "
         "after it.\nhint: another --seed than {} may avoid it.",
         body_word(config_), config_.seed);
 }
