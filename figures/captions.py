@@ -50,8 +50,8 @@ QUESTIONS = {
                            "solid sphere: each is switched off alone, at μ = 0.2. Which of them causes "
                            "counterrotation?",
     "spheres_ingredients_rough": "Does the answer depend on the friction coefficient? The same at μ = 0.3.",
-    "spheres_pinned": "What the paper measured for the spheres at the wall, and what it could not measure: rolling. "
-                      "The correlation is 1 where spheres roll on the floor and neighbours slide at the sum of their "
+    "spheres_pinned": "Quantities that the paper measured for the spheres at the wall, and one that it could not "
+                      "measure: rolling. The correlation is 1 where spheres roll on the floor and neighbours slide at the sum of their "
                       "speeds, −1 where they roll on each other.",
     "spheres_flat_discs": "The paper's simulation has discs and shows counterrotation with a moment of inertia that "
                           "no disc has. Do solid discs (I = 1/2) that lie flat and slide on a floor counterrotate?",
@@ -67,8 +67,8 @@ QUESTIONS = {
     "polygon": "The paper's container moves along 30 straight sides. What does that change?",
     "condensation": "Without disc friction the paper sees a loose, gas-like cluster. How long does it last, and what "
                     "follows?",
-    "energy": "The paper's program crashes when both frictions are zero. Where does the energy come from?",
-    "map": "Which of the two frictions decides?",
+    "energy": "The paper's program crashes when both friction coefficients are zero. Where does the energy come from?",
+    "map": "Which of the two friction coefficients decides?",
 }
 
 # What each figure shows.
@@ -112,7 +112,7 @@ CAPTIONS = {
           "close a triangle, which cannot all roll; share of the collisions in which friction stops the slip "
           "completely; and the hexatic order ψ6 of the packing.",
     "4c": "Rotation of the cluster against the number of discs for smooth (μ = 0.1) and rough (μ = 1) discs and "
-          "walls. The friction coefficients of the experiment's smooth and roughened spheres are not known: these "
+          "walls. The friction coefficients of the experiment's smooth and roughened spheres are unknown: these "
           "two are a choice. Averages over time.",
     "5a": "A snapshot of the simulation in the lab frame; the line on each disc turns with it. The circle is the "
           "path of the container's centre C round S.",
@@ -125,9 +125,9 @@ CAPTIONS = {
     "ball": "The paper's minimal model, simulated: one large disc in the container. γ is its angular velocity in the "
             "M-frame over Ω, so it counterrotates above 1; dashed: γ of rolling without slip. With e = 0.5 it loses "
             "energy at the wall, with e = 1 none.",
-    "states": "Motion in the M-frame with both frictions and without one of them. Left: the mean speed of the discs; "
-              "right: the granular temperature, the mean kinetic energy relative to the local mean flow. Without disc "
-              "friction this is the state after 300 periods; figure “condensation” shows the state before.",
+    "states": "Motion in the M-frame with both kinds of friction and without one of them. Left: the mean speed of the "
+              "discs; right: the granular temperature, the mean kinetic energy relative to the local mean flow. "
+              "Without disc friction this is the state after 300 periods; figure “condensation” shows the state before.",
     "condensation": "Without disc friction, from the start. Above: the period in which the cluster condenses; from "
                     "then on the discs hardly move in the M-frame and the cluster rotates with ϖ = Ω. Below: the "
                     "granular temperature until then and in the 50 periods after it.",

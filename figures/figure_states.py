@@ -1,4 +1,4 @@
-"""Motion of the discs in the M-frame, with both frictions and with one of them absent.
+"""Motion of the discs in the M-frame, with both kinds of friction and with one of them absent.
 
     /usr/bin/python3 figures/figure_states.py out/figure_states.csv
 """
@@ -6,7 +6,7 @@
 import style
 from paper_parameters import CONTAINER_RADIUS, OMEGA
 
-SETTINGS = (("high", "both frictions 1", style.RED), ("no-wall", r"$\mu_w = 0$", style.GREEN),
+SETTINGS = (("high", "both coefficients 1", style.RED), ("no-wall", r"$\mu_w = 0$", style.GREEN),
             ("no-disc", r"$\mu_d = 0$", style.ORANGE))
 
 

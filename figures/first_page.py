@@ -30,7 +30,7 @@ def lowest_of(study, setting):
 
 
 def change_of(crossing):
-    """Where the direction of rotation changes along a curve, for a sentence."""
+    """The change of the direction of rotation along a curve, as part of a sentence."""
     if crossing.verdict == "crosses":
         return f"at {crossing_sentence(crossing.words)}"
     low = f"ϖ/Ω is lowest at N = {crossing.lowest_discs:.0f}, {number(crossing.lowest)}"

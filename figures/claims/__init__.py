@@ -12,7 +12,7 @@ How a claim is judged:
 4. The function returns the judgement and a sentence with the numbers behind it (wording.py).
 
 Claims not made by the paper are not judged. A fact of the experiment is not judged by the simulated discs,
-since the friction of the real particles is not known. Spheres that roll on a floor are that experiment,
+since the friction of the real particles is unknown. Spheres that roll on a floor are that experiment,
 except for their friction. A claim about them must hold for at least one of the friction coefficients that
 were run, and all parts of it for the same one. Only a claim about several friction coefficients must hold
 for all of them.

@@ -95,7 +95,7 @@ CLAIMS = [
     # (near M) ..."
     Claim("main text", "The ball of the minimal model stays near the bottom left of the container, near M.",
           "ball", motion.ball_near_m),
-    Claim("SI", "With both frictions zero the energy blows up and the program crashes.",
+    Claim("SI", "With both friction coefficients zero the energy blows up and the program crashes.",
           "energy", motion.blow_up),
     Claim("main text, Fig. 1b", "In the experiment the direction of rotation changes at roughly N = 36.",
           "5b", rotation.near_36),

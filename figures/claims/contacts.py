@@ -14,7 +14,7 @@ def slip_rises(study):
     return combined(judgement, above(measured(rows[-1], "slip_resident"), NEARLY_ONE)), (
         f"s of the discs that reside at the wall: {ends(rows, 'slip_resident')}{reversal} (nearly 1: above "
         f"{NEARLY_ONE}); of all pinned by the SI's criterion: {ends(rows, 'pinned_region')}. The 0.5 at N = 25 is "
-        "that of the experiment, whose friction coefficient is not known.")
+        "that of the experiment, whose friction coefficient is unknown.")
 
 
 def closer_to_one(rough, smooth):

@@ -1,4 +1,4 @@
-"""Claims on forces, on motion without one or both frictions, and on the single ball of the minimal model."""
+"""Claims on forces, on motion without one or both kinds of friction, and on the single ball of the minimal model."""
 
 import math
 
@@ -63,8 +63,8 @@ NUMBERS = (ROTATING_N, COUNTERROTATING_N)
 
 
 def compared(pairs):
-    """Pairs of values, without disc friction and with both frictions, in words."""
-    return ", ".join(f"{number(a)} for {number(b)} with both frictions at N = {n}"
+    """Pairs of values, without disc friction and with both kinds of friction, in words."""
+    return ", ".join(f"{number(a)} ({number(b)} with both kinds of friction) at N = {n}"
                      for n, (a, b) in zip(NUMBERS, pairs))
 
 
@@ -74,7 +74,7 @@ def reference(row, name):
 
 
 def gas(phase):
-    """`phase`: "before" or "after" the cluster condenses. Loose: fewer contacts than with both frictions;
+    """`phase`: "before" or "after" the cluster condenses. Loose: fewer contacts than with both;
     gas-like: hotter."""
     def judge(study):
         rows = [(tables.select(study.table("condensation"), discs=n)[0],

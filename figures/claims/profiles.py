@@ -110,8 +110,8 @@ def loose_peak(study):
 
 
 def pinned_contribution(study):
-    """What makes ⟨ϖ_M⟩ differ between few and many discs. ⟨ϖ_M⟩ = p P + (1 − p) L, with the share p of the
-    visits to the pinned region and the means P there and L in the loose region. Each of the three changes,
+    """Contributions to the difference of ⟨ϖ_M⟩ between few and many discs. ⟨ϖ_M⟩ = p P + (1 − p) L, with
+    the share p of the visits to the pinned region and the means P there and L in the loose region. Each of the three changes,
     and the changes add up exactly if each is multiplied by the mean of the other factor at both ends."""
     profile = by_discs(study.table("3a"), least_visits=0)
     found = []

@@ -89,7 +89,7 @@ def runs_not_steady(row):
 
 
 def drifts(row):
-    """Whether most runs are not steady: their average does not describe one state."""
+    """True if most runs are not steady. Their average then does not describe one state."""
     return "seeds" in row and runs_not_steady(row) > MOST_RUNS * row["seeds"]
 
 
@@ -114,7 +114,7 @@ def steady(study):
     exceptions = [row for row in judged if drifts(row)]
     counts = [f"{sum(row.get(column, 0) for row in judged):.0f} {word}" for column, word in NOT_STEADY.items()]
     return combined(overall, fact(False)) if exceptions else overall, (
-        f"Of {sum(runs):.0f} runs with both frictions after 20 periods, {', '.join(counts)} "
+        f"Of {sum(runs):.0f} runs with both kinds of friction after 20 periods, {', '.join(counts)} "
         f"({sum(row['seeds'] for row in rows) - sum(runs):.0f} more are too short for the test). This is a share of "
         f"{number(found)} if every N and friction coefficient has the same weight; "
         f"{100 * DRIFT_BY_CHANCE:.0f} % are allowed for chance and slow states." +
@@ -132,7 +132,7 @@ def near_omega(rows, bound, where):
     return every(inside), (
         f"{where}ithin {100 * bound:.0f} % of Ω for certain at {count(inside)} of {len(rows)} N, outside for "
         f"certain at {count(inside, FAILS)}; the largest difference is at {value_at(worst, 'by_event')}." +
-        (f" Where most runs drift, from N = {min(drifting):.0f} on at {len(drifting)} N, nothing is decided."
+        (f" Most runs drift at {len(drifting)} N, from N = {min(drifting):.0f} on; nothing is decided there."
          if drifting else ""))
 
 
@@ -210,5 +210,5 @@ def elastic(study):
 
 def near_36(study):
     return Judgement(UNTESTABLE), (
-        "The friction coefficient of the real spheres is not known. The simulation with μ = 1, I = 10 has "
+        "The friction coefficient of the real spheres is unknown. The simulation with μ = 1, I = 10 has "
         f"{study.crossing('5b', 'high').text}.")

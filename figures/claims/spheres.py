@@ -1,6 +1,6 @@
 """Claims on the experiment, judged by spheres that roll on a floor.
 
-The friction coefficient of the experiment's spheres is not known. A claim therefore holds if it holds for at
+The friction coefficient of the experiment's spheres is unknown. A claim therefore holds if it holds for at
 least one of the friction coefficients that were run.
 """
 
@@ -111,7 +111,7 @@ def spheres_change_near(discs):
         changes = sorted(last_changes(study).items())
         return either(judgement for _, judgement in changes_near(changes, discs)), (
             f"{changes_in_words(changes)}{jumps(changes)} (roughly: within {ROUGHLY:.0f} of {discs}; the friction "
-            "coefficient of the spheres is not known).")
+            "coefficient of the spheres is unknown).")
     return judge
 
 

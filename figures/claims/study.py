@@ -27,7 +27,7 @@ class Study:
         return sorted(rows, key=lambda row: row["discs"])
 
     def crossing(self, name, curve):
-        """Where a curve of a figure crosses zero, with the points whose seeds improve it."""
+        """The crossing of a curve of a figure, with the points whose seeds improve it."""
         row = [row for row in self.table(f"{name}_crossings") if is_named(row, "curve", curve)][0]
         near = self.rows_near(name, curve, row)
         runs = [r["averaged_runs"] for r in near if "averaged_runs" in r]

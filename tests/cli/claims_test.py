@@ -23,6 +23,13 @@ class Catalogue(HandMadeTables):
             else:
                 self.assertEqual(verdict, UNTESTABLE)
 
+    def test_page_about_the_paper_lists_every_claim(self):
+        with open(os.path.join(SOURCE, "docs", "explanation", "paper.md"), encoding="utf-8") as file:
+            section = file.read().split("## The claims")[1].split("\n## ")[0]
+        rows = [row.split(" | ")[:3] for row in section.splitlines() if row[:3].strip("| ").isdigit()]
+        self.assertEqual(rows, [[f"| {k}", claim.statement.replace("|", "\\|"), f"`{claim.figure}`"]
+                                for k, claim in enumerate(claims.CLAIMS, 1)])
+
     def test_numbers_have_the_digits_of_their_errors(self):
         self.assertEqual(number(-0.03621, 0.0009), "−0.0362 ± 0.0009")
         self.assertEqual(number(36.42, 0.12), "36.42 ± 0.12")

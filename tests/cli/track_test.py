@@ -1,7 +1,7 @@
 """swirl synthetic-video and swirl track: from videos with known ground truth to ϖ.
 
     track_test.py            tests with small videos
-    track_test.py --table    table of the four videos of docs/how-to/record_experiment.md (minutes)
+    track_test.py --table    table of the four videos of docs/explanation/tracking_accuracy.md (minutes)
     track_test.py --spin     bias of measured spins against spin, noise and compression (minutes)
 """
 

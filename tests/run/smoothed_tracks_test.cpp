@@ -138,7 +138,7 @@ TEST(SmoothedTracks, RecoversAnglesOfPinningWithinTheirErrors) {
 }
 
 // Collisions hidden by the noise reduce the temperature: by 12 % at 0.2 pixels in this dense
-// container, where finite differences give 37 % too much (docs/how-to/record_experiment.md).
+// container, where finite differences give 37 % too much (docs/explanation/tracking_accuracy.md).
 TEST(SmoothedTracks, RecoversTheTemperature) {
     const Found exact = exactly(laboratory());
     for (const double noise : {0.0, 0.1, 0.2}) {
@@ -171,7 +171,7 @@ std::string line_of(const char* how, double noise, const Found& found) {
     const auto text = [](const Estimate& e, int digits) {
         return std::isfinite(e.mean) && e.error > 0.0  // a single turn has none
                    ? fmt::format("{:.{}f} ± {:.{}f}", e.mean, digits, e.error, digits)
-                   : std::string("not told");
+                   : std::string("n/a");
     };
     return fmt::format("| {:.1f} | {} | {} | {} | {} | {} | {} |\n", noise, how,
                        text(found.temperature, 3), text(found.becoming_pinned, 1),
@@ -179,15 +179,15 @@ std::string line_of(const char* how, double noise, const Found& found) {
                        text(found.speed, 3));
 }
 
-// The table of docs/how-to/record_experiment.md, from "exactly" on.
+// The table of docs/explanation/tracking_accuracy.md, from the first row on.
 TEST(SmoothedTracks, TableInTheDocsIsUpToDate) {
-    std::string table = line_of("exactly", 0.0, exactly(laboratory()));
+    std::string table = line_of("exact", 0.0, exactly(laboratory()));
     for (const double noise : {0.0, 0.1, 0.2, 0.4}) {
         const Tracks tracks = camera_tracks(laboratory(), noise);
         table += line_of("differences", noise, found_in(series_of(tracks, scale_of(laboratory()))));
         table += line_of("smoothed", noise, smoothed(laboratory(), noise));
     }
-    std::ifstream stream(SWIRL_SOURCE_DIR "/docs/how-to/record_experiment.md");
+    std::ifstream stream(SWIRL_SOURCE_DIR "/docs/explanation/tracking_accuracy.md");
     const std::string page{std::istreambuf_iterator<char>(stream), {}};
     EXPECT_NE(page.find(table), std::string::npos) << table;
 }

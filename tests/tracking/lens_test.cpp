@@ -101,7 +101,7 @@ double combined(double size_k, double contact_k, double contact_k_error) {
 }
 
 TEST(Lens, SizesThatContradictContactsAreNotUsed) {
-    // Shade changes the sizes of balls without texture like k = −0.015 (docs/how-to/record_experiment.md), and a near
+    // Shade changes the sizes of balls without texture like k = −0.015, and a near
     // camera like −0.0095.
     EXPECT_EQ(combined(-0.015, 0.001, 0.0025), 0.0);
     EXPECT_EQ(combined(-0.0095, 0.001, 0.0025), 0.0);
