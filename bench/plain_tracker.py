@@ -1,25 +1,8 @@
-<<<<<<< HEAD
-"""The accuracy of plain tracking, as in docs/how-to/record_experiment.md: the widespread method that trackpy
-implements, in its simplest form, on the synthetic videos of tests/cli/track_test.py, against their ground
-truth.
-=======
 """Baseline for `swirl track`: a simple version of trackpy's method, scored on the videos of
 docs/explanation/tracking_accuracy.md, whose ground truth is known.
->>>>>>> camera2
 
     SWIRL=build/tests/swirl /usr/bin/python3 bench/plain_tracker.py       (numpy and scipy; minutes)
 
-<<<<<<< HEAD
-    find   Crocker & Grier (1996): a band pass (a Gaussian minus a moving mean of a disc's width, negative
-           values set to 0), its local maxima, and about each the brightness-weighted centre of a disc,
-           moved until it no longer changes. The diameter is given. Dark discs use the negative. As many of
-           the brightest maxima are kept as there are discs; this number and the position of the container
-           are given, too.
-    link   the assignment with the least sum of squares between two frames, in the lab, within a given
-           range (a disc's radius). A missing disc is remembered for three frames.
-
-trackpy itself takes more care in several steps. This method determines neither the container nor errors.
-=======
     find   Crocker & Grier (1996). A band pass (a Gaussian minus a moving mean over a disc's width,
            negative values set to 0), then local maxima, then the brightness-weighted centre of a disc
            around each, moved until it is stationary. Images of dark discs are inverted.
@@ -28,7 +11,6 @@ trackpy itself takes more care in several steps. This method determines neither 
 
 The method is given the radius and number of the discs, and the position of the dish. It estimates no
 errors. trackpy itself is more careful in some steps.
->>>>>>> camera2
 """
 
 import os
@@ -43,11 +25,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import track_test  # noqa: E402
 
 
-<<<<<<< HEAD
-def frames_of(video):
-=======
 def read_frames(video):
->>>>>>> camera2
     size = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries",
                            "stream=width,height", "-of", "csv=p=0", video], check=True,
                           stdout=subprocess.PIPE, text=True).stdout.split(",")
@@ -57,27 +35,18 @@ def read_frames(video):
     return numpy.frombuffer(raw, numpy.uint8).reshape(-1, height, width)
 
 
-<<<<<<< HEAD
-def find(frame, radius, number, dark, centre, container):
-    grey = frame.astype(float)
-=======
 def find(image, radius, number, dark, centre, dish):
     grey = image.astype(float)
->>>>>>> camera2
     if dark:
         grey = 255.0 - grey
     width = 2 * int(radius) + 1
     band = numpy.maximum(0.0, ndimage.gaussian_filter(grey, 1.0)
                          - ndimage.uniform_filter(grey, width))
-<<<<<<< HEAD
-    # As in trackpy: a disc of constant brightness has no maximum at its centre, but a mean over it has.
-=======
     # As in trackpy: a disc of constant brightness has no maximum at its centre, but its mean has.
->>>>>>> camera2
     smooth = ndimage.gaussian_filter(band, 0.5 * radius)
     maxima = (ndimage.maximum_filter(smooth, size=int(1.2 * radius)) == smooth) & (smooth > 0)
     rows, columns = numpy.nonzero(maxima)
-    inside = numpy.hypot(columns - centre[0], rows - centre[1]) < container - 0.5 * radius
+    inside = numpy.hypot(columns - centre[0], rows - centre[1]) < dish - 0.5 * radius
     rows, columns = rows[inside], columns[inside]
     best = numpy.argsort(-smooth[rows, columns])[:number]
     reach = int(radius)
@@ -103,15 +72,6 @@ def find(image, radius, number, dark, centre, dish):
 
 
 def link(found, reach, memory=3):
-<<<<<<< HEAD
-    """{frame: {track: position}}."""
-    tracks, known, born = {}, {}, 0  # known: track → (position, last frame)
-    for k, here in enumerate(found):
-        labels = [t for t, (_, last) in known.items() if k - last <= memory + 1]
-        used, tracks[k] = set(), {}
-        if labels and len(here):
-            positions = numpy.array([known[t][0] for t in labels])
-=======
     """Returns {frame: {track: position}}."""
     tracks, known, born = {}, {}, 0  # known: track → (position, last frame)
     for k, here in enumerate(found):
@@ -119,17 +79,12 @@ def link(found, reach, memory=3):
         used, tracks[k] = set(), {}
         if ids and len(here):
             positions = numpy.array([known[t][0] for t in ids])
->>>>>>> camera2
             squares = ((positions[:, None] - here[None]) ** 2).sum(axis=2)
             rows, columns = optimize.linear_sum_assignment(
                 numpy.minimum(squares, reach * reach))
             for r, c in zip(rows, columns):
                 if squares[r, c] < reach * reach:
-<<<<<<< HEAD
-                    tracks[k][labels[r]] = here[c]
-=======
                     tracks[k][ids[r]] = here[c]
->>>>>>> camera2
                     used.add(c)
         for c, position in enumerate(here):
             if c not in used:
@@ -151,21 +106,12 @@ def main():
             if done.returncode != 0:
                 sys.exit(done.stderr)
             truth = track_test.Truth(video)
-<<<<<<< HEAD
-            centres = [(float(row["x_ideal"]), float(row["y_ideal"]))
-                    for row in track_test.rows(video[:-4] + ".container.csv")]
-            found = [find(frame, truth.about["scale"], truth.about["discs"], name == "steel",
-                          centre, truth.about["container_radius"])
-                     for frame, centre in zip(frames_of(video), centres)]
-            # Positions in the frame, not of an ideal lens: plain tracking does not correct the lens.
-=======
             dish = [(float(row["x_ideal"]), float(row["y_ideal"]))
                     for row in track_test.rows(video[:-4] + ".container.csv")]
             found = [find(image, truth.about["scale"], truth.about["discs"], name == "steel",
                           centre, truth.about["container_radius"])
                      for image, centre in zip(read_frames(video), dish)]
             # Positions in the image, not those of an ideal lens: the baseline has no lens model.
->>>>>>> camera2
             score = track_test.Score(track_test.positions(video[:-4] + ".truth.csv"),
                                        link(found, truth.about["scale"]), truth.about)
             print(f"| {name} | {100 * score.complete:.1f} % | {score.swaps_per_thousand:.0f} | "
