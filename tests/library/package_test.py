@@ -1,5 +1,5 @@
-"""What `cmake --install` writes is a library that others build on, and a program that works
-wherever it was put; what `cpack` writes is a Debian package with its dependencies."""
+"""`cmake --install` writes a library for other projects and a program that works in any folder. `cpack`
+writes one Debian package of each, with its dependencies."""
 
 import csv
 import glob
@@ -26,8 +26,8 @@ def files_below(folder):
     return sorted(os.path.join(path, name) for path, _, names in os.walk(folder) for name in names)
 
 
-def somebody_without_rights():
-    """For subprocess: the user nobody, where that can be chosen."""
+def unprivileged_user():
+    """Arguments of subprocess that choose the user nobody, if this process is root."""
     return {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
 
 
@@ -42,14 +42,14 @@ class Installed(unittest.TestCase):
         output_of("cmake", "--install", BUILD, "--prefix", cls.prefix)
         cls.program = os.path.join(cls.prefix, "bin", "swirl")
 
-    def test_names_no_folder_of_the_build(self):
+    def test_files_do_not_contain_paths_of_the_build(self):
         for file in files_below(self.prefix):
             with open(file, "rb") as opened:
                 content = opened.read()
             for folder in (SOURCE, BUILD):
                 self.assertNotIn(folder.encode(), content, file)
 
-    def test_asks_nothing_of_who_links_to_it_but_exact_arithmetic(self):
+    def test_dependents_get_one_compile_option_for_exact_arithmetic(self):
         text = ""
         for file in glob.glob(f"{self.prefix}/**/cmake/swirl/*.cmake", recursive=True):
             with open(file) as opened:
@@ -58,7 +58,7 @@ class Installed(unittest.TestCase):
                          {"-ffp-contract=off"})
         self.assertNotIn("INTERFACE_COMPILE_DEFINITIONS", text)
 
-    def test_holds_the_headers_of_the_engine_alone(self):
+    def test_installs_only_headers_of_the_engine(self):
         self.assertEqual(sorted(os.listdir(os.path.join(self.prefix, "include", "swirl"))),
                          ["engine", "math", "measure", "physics", "statistics"])
 
@@ -72,28 +72,28 @@ class Installed(unittest.TestCase):
                 for name in ("rotation_rate", "events_one_by_one", "custom_measurement")}
 
     def test_examples(self):
-        said = self.build_examples("g++")
-        self.assertEqual(len(re.findall("impulse|vertex", said["events_one_by_one"])), 10)
-        self.assertIn("\n10000 events", said["events_one_by_one"])
-        # From the middle of a dish of 8.6 to where discs touch the wall: 0 to 7.6.
-        distance = float(re.search(r"centre: ([0-9.]+)", said["custom_measurement"])[1])
+        output = self.build_examples("g++")
+        self.assertEqual(len(re.findall("impulse|vertex", output["events_one_by_one"])), 10)
+        self.assertIn("\n10000 events", output["events_one_by_one"])
+        # Distances lie between 0, the centre, and 7.6, where discs touch the wall of radius 8.6.
+        distance = float(re.search(r"centre: ([0-9.]+)", output["custom_measurement"])[1])
         self.assertTrue(4.0 < distance < 6.0, distance)
-        # The program starts from other velocities: the same within four standard errors.
-        ours = json.loads(output_of(self.program, "run", "--discs", 48, "--periods", 220, "--quiet",
+        # The program starts from other velocities: the means agree within four standard errors.
+        program = json.loads(output_of(self.program, "run", "--discs", 48, "--periods", 220, "--quiet",
                                     "--json", "-"))["rotation"]["by_event"]
         varpi, error = map(float, re.search(r"counterrotate: ϖ/Ω = (-[0-9.]+) ± ([0-9.]+)",
-                                            said["rotation_rate"]).groups())
-        self.assertLess(abs(varpi - ours["mean"]), 4.0 * math.hypot(error, ours["error"]))
+                                            output["rotation_rate"]).groups())
+        self.assertLess(abs(varpi - program["mean"]), 4.0 * math.hypot(error, program["error"]))
         if shutil.which("clang++-19"):
-            self.assertEqual(self.build_examples("clang++-19"), said)
+            self.assertEqual(self.build_examples("clang++-19"), output)
 
-    def test_the_program_draws_for_a_user_without_rights_in_any_folder(self):
+    def test_program_draws_for_an_unprivileged_user_in_any_folder(self):
         before = files_below(self.prefix)
         work = os.path.join(self.folder, "work")
         os.mkdir(work)
         os.chmod(work, 0o777)
         output_of(self.program, "paper", "--figure", "5b", "--quick", "--events", 2000, cwd=work,
-                  env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}, **somebody_without_rights())
+                  env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}, **unprivileged_user())
         with open(os.path.join(work, "out", "figure_5b.csv"), newline="") as file:
             self.assertGreater(len(list(csv.DictReader(file))), 10)
         self.assertGreater(os.path.getsize(os.path.join(work, "out", "figure_5b.png")), 5000)
@@ -101,20 +101,50 @@ class Installed(unittest.TestCase):
 
 
 @unittest.skipUnless(shutil.which("dpkg-shlibdeps"), "this test needs dpkg-dev")
-class DebianPackage(unittest.TestCase):
-    def test_holds_the_program_and_names_what_it_needs(self):
-        with tempfile.TemporaryDirectory() as folder:
-            output_of("cpack", "-G", "DEB", "-B", folder, cwd=BUILD)
-            (package,) = glob.glob(folder + "/*.deb")
-            needed = output_of("dpkg-deb", "--field", package, "Depends")
-            for name in ("libc6", "libcairo2", "libfmt9", "libhdf5", "python3-matplotlib"):
-                self.assertIn(name, needed)
-            self.assertIn("ffmpeg", output_of("dpkg-deb", "--field", package, "Recommends"))
-            files = output_of("dpkg-deb", "--contents", package)
-            for path in ("usr/bin/swirl", "usr/share/swirl/figures/figure_5b.py",
-                         "usr/include/swirl/physics/disc.hpp", "swirlConfig.cmake"):
-                self.assertIn(path, files)
-            output_of("apt-get", "install", "--simulate", "--no-install-recommends", package)
+class DebianPackages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="swirl-debian-")
+        cls.addClassCleanup(folder.cleanup)
+        output_of("cpack", "-G", "DEB", "-B", folder.name, cwd=BUILD)
+        cls.packages = sorted(glob.glob(folder.name + "/*.deb"))
+
+    def package(self, name):
+        (package,) = (p for p in self.packages if os.path.basename(p).startswith(name + "_"))
+        return package
+
+    def field(self, package, name):
+        return re.split(", ?", output_of("dpkg-deb", "--field", package, name).strip())
+
+    def test_program_lists_its_dependencies_once(self):
+        package = self.package("swirl")
+        required, recommended = self.field(package, "Depends"), self.field(package, "Recommends")
+        for name in ("libc6", "libcairo2", "libfmt9", "libhdf5", "fonts-inter"):
+            self.assertIn(name, ", ".join(required))
+        for name in ("ffmpeg", "python3-matplotlib"):
+            self.assertIn(name, recommended)
+        names = [name.partition(" ")[0] for name in required + recommended]
+        self.assertEqual(sorted(set(names)), sorted(names))
+        files = output_of("dpkg-deb", "--contents", package)
+        for path in ("usr/bin/swirl", "usr/share/swirl/figures/figure_5b.py",
+                     "usr/share/doc/swirl/copyright"):
+            self.assertIn(path, files)
+        for path in ("usr/include", ".a\n", "swirlConfig.cmake"):
+            self.assertNotIn(path, files)
+
+    def test_library_depends_on_the_standard_library_alone(self):
+        package = self.package("libswirl-dev")
+        self.assertEqual(self.field(package, "Depends"), ["libstdc++-dev"])
+        self.assertEqual(self.field(package, "Recommends"), [""])
+        files = output_of("dpkg-deb", "--contents", package)
+        for path in ("usr/include/swirl/physics/disc.hpp", "swirlConfig.cmake",
+                     "usr/share/doc/libswirl-dev/copyright"):
+            self.assertIn(path, files)
+        self.assertNotIn("usr/bin", files)
+
+    def test_apt_can_install_them_together(self):
+        self.assertEqual(len(self.packages), 2)
+        output_of("apt-get", "install", "--simulate", "--no-install-recommends", *self.packages)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""Another project takes swirl in with add_subdirectory: it gets the two libraries, and neither our
-warnings, nor our tests, nor the packages that the program needs."""
+"""Another project includes swirl with add_subdirectory. It gets the two libraries, but not the warning
+flags, the tests or the packages that the program needs."""
 
 import os
 import subprocess
@@ -32,7 +32,7 @@ NOT_NEEDED = ("PkgConfig", "fmt", "nlohmann_json", "tomlplusplus", "CLI11", "GTe
 
 
 class Subdirectory(unittest.TestCase):
-    def test_links_to_the_engine_alone(self):
+    def test_needs_only_the_engine(self):
         with tempfile.TemporaryDirectory() as folder:
             for name, text in (("CMakeLists.txt", PROJECT.format(source=SOURCE)),
                                ("other.cpp", PROGRAM)):

@@ -1,16 +1,18 @@
-"""Types, documentation and installation of the package."""
+"""Types, documentation, command and Debian package of the Python package."""
 
 import inspect
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tomllib
 
 import pytest
 
 import swirl
-from scenes import SOURCE
+from scenes import SOURCE, SWIRL
 
 PACKAGE = os.path.dirname(swirl.__file__)
 
@@ -92,34 +94,48 @@ def test_bindings_are_formatted():
     assert done.returncode == 0, done.stderr
 
 
-def test_wheel_can_be_built_and_installed(tmp_path):
-    if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True).returncode:
-        pytest.skip("pip is not installed")
-    build = os.path.dirname(os.path.dirname(PACKAGE))
-    # Without network: pip must not download anything.
-    done = subprocess.run([sys.executable, "-m", "pip", "install", SOURCE, "--target", tmp_path / "there",
-                           "--no-deps", "--no-index", "--config-settings", f"build-dir={build}"],
-                          capture_output=True, text=True, cwd=tmp_path)
-    assert done.returncode == 0, done.stdout + done.stderr
-    script = "import swirl; print(swirl.__file__, swirl.run(discs=5, events=1000).state_hash)"
-    environment = {**os.environ, "PYTHONPATH": str(tmp_path / "there")}
-    used = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True,
-                          cwd=tmp_path, env=environment)
-    file, state = used.stdout.split()
-    assert file.startswith(str(tmp_path)) and state == swirl.run(discs=5, events=1000).state_hash
-    assert (tmp_path / "there" / "swirl" / "py.typed").exists()
+def test_version_of_the_python_package_is_the_version_of_the_project():
+    """The pattern in pyproject.toml finds the version; pip_install.py tests the rest."""
+    with open(os.path.join(SOURCE, "pyproject.toml"), encoding="utf-8") as file:
+        settings = tomllib.loads(file.read())
+    version = settings["tool"]["scikit-build"]["metadata"]["version"]
+    with open(os.path.join(SOURCE, version["input"]), encoding="utf-8") as file:
+        assert re.search(version["regex"], file.read())["value"] == swirl.__version__
+    with open(os.path.join(SOURCE, "CITATION.cff"), encoding="utf-8") as file:
+        assert f"\nversion: {swirl.__version__}\n" in file.read()
+    with open(os.path.join(SOURCE, ".zenodo.json"), encoding="utf-8") as file:
+        assert json.load(file)["version"] == swirl.__version__
+
+
+def run_command(arguments, folder, **environment):
+    return subprocess.run([sys.executable, "-B", "-m", "swirl", *arguments], capture_output=True,
+                          text=True, cwd=folder, env={**os.environ, **environment})
+
+
+def test_command_runs_the_program_on_the_path(tmp_path):
+    program = subprocess.run([SWIRL, "--version"], capture_output=True, text=True)
+    done = run_command(["--version"], tmp_path, PATH=os.path.dirname(os.path.abspath(SWIRL)))
+    assert (done.returncode, done.stdout) == (0, program.stdout), done.stderr
+    done = run_command(["run", "--no-such-option"], tmp_path, PATH=os.path.dirname(os.path.abspath(SWIRL)))
+    assert done.returncode == 2 and "--no-such-option" in done.stderr
+
+
+def test_command_without_program_is_an_error(tmp_path):
+    done = run_command(["--version"], tmp_path, PATH=str(tmp_path))
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: ") and "\nhint: " in done.stderr
 
 
 @pytest.mark.skipif(not shutil.which("dpkg-shlibdeps"), reason="dpkg-dev is not installed")
 def test_debian_package_can_be_built(tmp_path):
     build = os.path.dirname(os.path.dirname(PACKAGE))
-    done = subprocess.run(["cpack", "-G", "DEB", "-D", "CPACK_DEB_COMPONENT_INSTALL=ON", "-D",
-                           "CPACK_COMPONENTS_ALL=python", "-B", tmp_path], cwd=build,
-                          capture_output=True, text=True)
+    done = subprocess.run(["cpack", "-G", "DEB", "-D", "CPACK_COMPONENTS_ALL=python", "-B", tmp_path],
+                          cwd=build, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     (package,) = tmp_path.glob("python3-swirl_*.deb")
     needed = subprocess.run(["dpkg-deb", "--field", package, "Depends"], capture_output=True, text=True)
-    for name in ("python3-numpy", "libhdf5", "libfmt9", "libstdc++6"):
+    python = "python3 (>= 3.{0}), python3 (<< 3.{1})".format(*(sys.version_info[1] + k for k in (0, 1)))
+    for name in (python, "python3-numpy", "libhdf5", "libfmt9", "libstdc++6"):
         assert name in needed.stdout
     subprocess.run(["dpkg-deb", "-x", package, tmp_path / "there"], check=True)
     folder = tmp_path / "there" / "usr" / "lib" / "python3" / "dist-packages"

@@ -23,7 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* interpreter = "/usr/bin/python3";
+/// The environment variable SWIRL_PYTHON names the Python that draws, for example one in a virtual
+/// environment.
+std::string interpreter() {
+    const char* chosen = std::getenv("SWIRL_PYTHON");
+    return chosen != nullptr && *chosen != '\0' ? chosen : "/usr/bin/python3";
+}
 
 /// Python is isolated (-I): neither PYTHONPATH, where an empty entry is the current folder, nor
 /// packages of the user can replace a module. The scripts import each other, so their folder comes
@@ -152,8 +157,8 @@ fs::path figures_folder() {
 
 void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
                        const std::atomic<bool>* stop) {
-    std::vector<std::string> words{interpreter, "-I",   "-B",
-                                   "-c",        runner, (figures_folder() / script).string()};
+    std::vector<std::string> words{interpreter(), "-I",   "-B",
+                                   "-c",          runner, (figures_folder() / script).string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     const ProcessResult result = run_program(words, stop);
     if (stop != nullptr && stop->load())
