@@ -1,6 +1,6 @@
 #!/bin/sh
-# The laboratory in the browser: builds it when it is out of date, then serves it on this machine, or
-# writes it as one file that needs nothing else.
+# `swirl lab`: builds the browser page if it is out of date, then serves it on this machine or writes it
+# as one self-contained file.
 set -eu
 home=$(dirname "$(dirname "$(readlink -f "$0")")")
 me=swirl
@@ -8,15 +8,15 @@ me=swirl
 
 usage() {
     cat <<'TEXT'
-The laboratory in a browser: the same engine, to look at and to play with.
+Interactive simulation in a browser, with the engine of the program.
 Usage: swirl lab [OPTIONS]
 
 Options:
   -h,--help                       Print this help message and exit
-  --port N                        serve it here [8720]
-  --out FILE.html                 write one file that works by double click, without a network, instead
-  --no-browser                    do not open a browser
-  --quiet                         do not say what was written
+  --port N                        Port of the local server [8720]
+  --out FILE.html                 Write a self-contained file instead of serving
+  --no-browser                    Do not open a browser
+  --quiet                         Print no messages
 
 Examples:
   swirl lab
@@ -30,7 +30,7 @@ while [ $# -gt 0 ]; do
     case $1 in
         -h | --help) usage && exit 0 ;;
         --port | --out)
-            [ $# -gt 1 ] || wrong_call "$1 needs a value; swirl lab --help has examples."
+            [ $# -gt 1 ] || wrong_call "$1 needs a value. See swirl lab --help."
             [ "$1" = --out ] && out=$2 || port=$2
             shift 2
             ;;
@@ -39,10 +39,10 @@ while [ $# -gt 0 ]; do
         --no-browser) browser=no && shift ;;
         --quiet) quiet=yes && shift ;;
         --)
-            [ $# -eq 1 ] || wrong_call "There is no use for '$2' of swirl lab."
+            [ $# -eq 1 ] || wrong_call "unexpected argument '$2'. See swirl lab --help."
             break
             ;;
-        *) wrong_call "There is no option '$1' of swirl lab; --port, --out, --no-browser and --quiet are all." ;;
+        *) wrong_call "there is no option '$1'. See swirl lab --help." ;;
     esac
 done
 case $port in
@@ -51,17 +51,17 @@ esac
 [ "$port" -ge 1 ] && [ "$port" -le 65535 ] ||
     wrong_call "--port is '$port', but it must be a whole number from 1 to 65535."
 
-# What takes the place of a device is a file for good, and in a folder it would have another name.
+# A rename would replace a device by a file, and would move the file into a folder.
 if [ -n "$out" ] && [ -e "$out" ] && ! [ -f "$out" ]; then
-    wrong_call "--out is '$out', which is there and is no file; another name would be right."
+    wrong_call "--out is '$out', which exists and is not a file. Choose another name."
 fi
 
 page=$home/build/lab/index.html
 build_page() {
-    mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to $home/build, where the page is built."
-    # Opened for reading: a page that is up to date may belong to another user.
+    mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to the build folder $home/build."
+    # Opened for reading, since a page that is up to date may belong to another user.
     lock=$home/build/.lab.lock
-    [ -e "$lock" ] || true 2>/dev/null >"$lock" || give_up "cannot write to $home/build, where the page is built."
+    [ -e "$lock" ] || true 2>/dev/null >"$lock" || give_up "cannot write to the build folder $home/build."
     exec 9<"$lock"
     flock 9
     # shellcheck disable=SC2086
@@ -73,9 +73,9 @@ build_page() {
     install_packages lab || exit 1
     command -v npm >/dev/null || install_packages npm || exit 1
     log=$home/build/lab.log
-    say "building the page, once; on two cores this takes two minutes or so"
-    # Not npm ci: it wants packages for all the machines that a tool could run on, and registries that
-    # mirror the common ones do not have them. The versions are those of the lock file either way.
+    say "building the page; this takes about two minutes on two cores"
+    # Not npm ci, which requires the packages of all platforms: some mirrors of the registry lack those.
+    # The versions are those of the lock file in both cases.
     if ! {
         cmake -S "$home/bindings/wasm" -B "$home/build/wasm" -G Ninja &&
             cmake --build "$home/build/wasm" &&
@@ -84,19 +84,19 @@ build_page() {
             cd "$home/web" && npm install --no-audit --no-fund --no-save && npm run build
     } >"$log" 2>&1; then
         tail -n 30 "$log" >&2
-        give_up "the page could not be built (see above, all of it in $log)."
+        give_up "the page could not be built (see above; full log: $log)."
     fi
 }
 build_page
 exec 9>&-
 
 if [ -n "$out" ]; then
-    aside=$(mktemp --suffix=.partial "$out.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
-    trap 'rm -f "$aside"' EXIT
+    temporary=$(mktemp --suffix=.partial "$out.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
+    trap 'rm -f "$temporary"' EXIT
     trap 'exit 130' INT
     trap 'exit 143' HUP TERM
-    chmod "$(printf %o $((0666 & ~0$(umask))))" "$aside"
-    cp "$page" "$aside" 2>/dev/null && sync "$aside" && mv -T "$aside" "$out" ||
+    chmod "$(printf %o $((0666 & ~0$(umask))))" "$temporary"
+    cp "$page" "$temporary" 2>/dev/null && sync "$temporary" && mv -T "$temporary" "$out" ||
         give_up "'$out' cannot be written."
     [ -n "$quiet" ] || say "wrote $out"
     exit 0

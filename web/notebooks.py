@@ -1,8 +1,8 @@
-"""Runs notebooks from the top, in a fresh kernel each, and writes them with what they print.
+"""Runs each notebook in a fresh kernel and writes it with its output.
 
     notebooks.py FOLDER FILE…
 
-A name by which a folder cannot be written, or a cell that raises, ends it with that.
+Exits with an error if a cell raises an exception or a file cannot be written.
 """
 
 import os
@@ -15,9 +15,9 @@ from nbclient import NotebookClient
 
 def run(file, folder):
     book = nbformat.read(file, as_version=4)
-    with tempfile.TemporaryDirectory() as place:  # where what it writes is left
+    with tempfile.TemporaryDirectory() as work:  # for the files that it writes
         NotebookClient(book, timeout=600, kernel_name="python3",
-                       resources={"metadata": {"path": place}}).execute()
+                       resources={"metadata": {"path": work}}).execute()
     nbformat.write(book, os.path.join(folder, os.path.basename(file)))
 
 

@@ -1,17 +1,19 @@
-// Serves one page on this machine, to this machine.  node serve.mjs PAGE PORT yes|no
+// Serves one page on the loopback interface: node serve.mjs PAGE PORT yes|no. The last argument says
+// whether to open a browser.
 import {createServer} from "node:http";
 import {readFile} from "node:fs/promises";
 import {spawn} from "node:child_process";
 
 const [page, port, browser] = process.argv.slice(2);
-// A foreign page whose name resolves to this machine (DNS rebinding) sends its own name as Host.
+// Only these names are accepted as Host: a foreign page whose name resolves to this machine (DNS
+// rebinding) sends its own name.
 const hosts = ["localhost", "127.0.0.1", "[::1]"].flatMap(
     (name) => Number(port) === 80 ? [name, `${name}:80`] : [`${name}:${port}`]);
 
 const plain = (status, text, more = {}) =>
     ({status, headers: {"content-type": "text/plain", ...more}, body: text});
 
-/** The target is compared as it stands: nothing in it is decoded, and no file is named by it. */
+/** The target is compared without decoding, and never used as a file name. */
 async function answerTo({method, url, headers}) {
     if (!hosts.includes((headers.host ?? "").toLowerCase()))
         return plain(403, "This server answers requests to localhost only.\n");
@@ -19,12 +21,12 @@ async function answerTo({method, url, headers}) {
         return plain(405, "This server answers GET and HEAD only.\n", {allow: "GET, HEAD"});
     if (!/^\/(?![/\\])/.test(url)) return plain(400, "The request names no path of this server.\n");
     if (!["/", "/index.html"].includes(url.split("?", 1)[0]))
-        return plain(404, "There is only one page here: /\n");
+        return plain(404, "The only page of this server is /\n");
     try {
         const body = await readFile(page);
         return {status: 200, headers: {"content-type": "text/html; charset=utf-8"}, body};
     } catch {
-        return plain(500, "The page cannot be read; start swirl lab again.\n");
+        return plain(500, "The page cannot be read. Restart swirl lab.\n");
     }
 }
 
@@ -35,15 +37,15 @@ const server = createServer(async (request, response) => {
 });
 server.on("error", (error) => {
     const why = error.code === "EADDRINUSE"
-        ? `Port ${port} is taken; another --port would be right.`
-        : error.code === "EACCES" ? `Port ${port} is not for you; one above 1023 would be right.`
+        ? `port ${port} is already in use. Choose another --port.`
+        : error.code === "EACCES" ? `no permission for port ${port}. Choose a --port above 1023.`
         : error.message;
     console.error(`swirl: ${why}`);
     process.exit(1);
 });
 server.listen(Number(port), "127.0.0.1", () => {
     const address = `http://localhost:${port}/`;
-    console.log(`${address}  (Ctrl-C ends it)`);
+    console.log(`${address}  (Ctrl-C stops the server)`);
     if (browser !== "yes" || !(process.env.DISPLAY || process.env.WAYLAND_DISPLAY)) return;
     spawn("xdg-open", [address], {stdio: "ignore", detached: true}).on("error", () => {}).unref();
 });

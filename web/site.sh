@@ -1,6 +1,6 @@
 #!/bin/sh
-# The site: README and docs as pages, the laboratory, the help of every command, in one folder that
-# any web server, or none, can show.
+# `swirl site`: the documentation, the browser page, the gallery and the notebooks as HTML pages in one
+# folder, which works from any web server or as local files.
 set -eu
 home=$(dirname "$(dirname "$(readlink -f "$0")")")
 me=swirl
@@ -8,13 +8,13 @@ me=swirl
 
 usage() {
     cat <<'TEXT'
-The site: documentation, the laboratory and the commands' help as pages in one folder.
+Write the documentation, the browser page, the gallery and the notebooks as a web site.
 Usage: swirl site --out DIR [--report DIR]
 
 Options:
   -h,--help                       Print this help message and exit
-  --out DIR                       the folder to write; a site that is there is replaced
-  --report DIR                    put in what swirl paper wrote to DIR
+  --out DIR                       Output folder; an existing site is replaced
+  --report DIR                    Include the report of swirl paper in DIR
 
 Examples:
   swirl site --out site
@@ -26,87 +26,97 @@ while [ $# -gt 0 ]; do
     case $1 in
         -h | --help) usage && exit 0 ;;
         --out | --report)
-            [ $# -gt 1 ] && [ -n "$2" ] || wrong_call "$1 needs a value; swirl site --help has examples."
+            [ $# -gt 1 ] && [ -n "$2" ] || wrong_call "$1 needs a value. See swirl site --help."
             [ "$1" = --out ] && out=$2 || report=$2
             shift 2
             ;;
         --out=*) out=${1#*=} && shift ;;
         --report=*) report=${1#*=} && shift ;;
         --)
-            [ $# -eq 1 ] || wrong_call "There is no use for '$2' of swirl site."
+            [ $# -eq 1 ] || wrong_call "unexpected argument '$2'. See swirl site --help."
             break
             ;;
-        *) wrong_call "There is no option '$1' of swirl site; --out and --report are all." ;;
+        *) wrong_call "there is no option '$1'. See swirl site --help." ;;
     esac
 done
-[ -n "$out" ] || wrong_call "swirl site needs --out DIR: the folder to write."
+[ -n "$out" ] || wrong_call "missing required option --out DIR."
 if [ -n "$report" ] && ! [ -e "$report/report.html" ]; then
-    wrong_call "--report is '$report', but there is no report.html in it; swirl paper writes one."
+    wrong_call "--report is '$report', but it contains no report.html. Run swirl paper first."
 fi
-# Only a site of ours is replaced.
+# Only a folder that this command wrote is replaced.
 if [ -e "$out" ] && ! [ -e "$out/.swirl-site" ] && [ -n "$(ls -A "$out" 2>/dev/null || echo no folder)" ]; then
-    wrong_call "--out is '$out', which is not empty and not a site; another name would be right."
+    wrong_call "--out is '$out', which is neither empty nor a site. Choose another name."
 fi
 
-# Made in a folder beside it, which is locked for as long. What a kill left has no lock; if it came
-# between the two names at the end, the site of before is in there, and goes back to its place.
-out=${out%"${out##*[!/]}"} # without a slash at its end
+# The site is built in a temporary folder next to it, which is locked meanwhile. After a kill that folder
+# remains without a lock. If the kill came between the two renames at the end, the old site is in it and
+# is moved back.
+out=${out%"${out##*[!/]}"} # without trailing slashes
 for left in "$out".??????.partial; do
     [ -e "$left/lock" ] && flock --nonblock "$left/lock" true || continue
     [ -e "$out" ] || ! [ -e "$left/before" ] || mv -T "$left/before" "$out"
     rm -rf "$left"
 done
 mkdir -p "$(dirname "$out")" 2>/dev/null &&
-    beside=$(mktemp -d --suffix=.partial "$out.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
-trap 'rm -rf "$beside"' EXIT
+    temporary=$(mktemp -d --suffix=.partial "$out.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
+trap 'rm -rf "$temporary"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' HUP TERM
-exec 8>"$beside/lock"
+exec 8>"$temporary/lock"
 flock 8
-aside=$beside/site
-mkdir -p "$aside/.help"
-"$home/web/lab.sh" --quiet --out "$aside/lab.html"
+site=$temporary/site
+source=$temporary/source
+log=$temporary/log
+mkdir -p "$source" "$temporary/gallery" "$temporary/notebooks" "$site"
+install_packages site || exit 1
 program=${SWIRL-$home/swirl}
-"$program" --help >"$aside/.help/swirl.txt"
-for command in $(sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z-]*\).*/\1/p' "$aside/.help/swirl.txt"); do
-    "$program" "$command" --help >"$aside/.help/$command.txt"
-done
-for command in lab site; do
-    "$home/web/$command.sh" --help >"$aside/.help/$command.txt"
-done
-mkdir "$aside/gallery"
-install_packages images movies || true # what cannot be made without them is not shown
+install_packages images movies || true # the gallery omits what cannot be made
 # shellcheck disable=SC2016
 sed -n '/ | docs\//!s/^[^#].* | swirl //p' "$home/web/gallery.txt" | (
-    cd "$aside/gallery"
+    cd "$temporary/gallery"
     while read -r made; do
-        # The file is ours, and its commands have quoted nothing.
+        # The commands in this file contain no quotes.
         # shellcheck disable=SC2086
-        "$program" $made --quiet 2>/dev/null || say "without an image in the gallery: swirl $made"
+        "$program" $made --quiet 2>/dev/null || say "warning: the gallery omits: swirl $made"
     done
 )
-mkdir "$aside/.notebooks"
 python=${SWIRL_PYTHON-$home/bindings/python/python.sh}
-# The first call builds the module where that is needed, and tells of it.
+# The first call builds the module if necessary, and reports that.
 if ! install_packages notebooks || ! "$python" -P -c "import swirl, nbclient"; then
-    say "the notebooks are shown without what they print."
-elif ! "$python" "$home/web/notebooks.py" "$aside/.notebooks" "$home"/examples/*.ipynb 2>"$aside/.log"; then
-    tail -n 5 "$aside/.log" >&2
-    give_up "the notebooks of examples/ could not be run (see above)."
+    say "warning: the notebooks are shown without output."
+elif ! "$python" "$home/web/notebooks.py" "$temporary/notebooks" "$home"/examples/*.ipynb 2>"$log"; then
+    tail -n 5 "$log" >&2
+    give_up "the notebooks of examples/ could not be executed (see above)."
 fi
-node "$home/web/site.mjs" "$home" "$aside" "$aside/.help" "$aside/.notebooks" ${report:+"$report"} >"$aside/.log" 2>&1 || {
-    tail -n 5 "$aside/.log" >&2
-    give_up "the site could not be made (see above)."
-}
-pages=$(cat "$aside/.log")
-rm -rf "$aside/.help" "$aside/.notebooks" "$aside/.log"
-touch "$aside/.swirl-site"
-trap '' INT HUP TERM # two names: either both or none
+# Pages of another Sphinx or theme are another site, so these are Debian's.
+if ! /usr/bin/python3 -B "$home/web/site.py" "$home" "$source" "$temporary/gallery" "$temporary/notebooks" >"$log" 2>&1 ||
+    ! sphinx-build -q -W --keep-going -c "$source/docs" -d "$temporary/doctrees" "$source" "$site" >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    give_up "the site could not be built (see above)."
+fi
+"$home/web/lab.sh" --quiet --out "$site/lab.html"
+# Sphinx copies the images of the pages, but no movies.
+for movie in "$temporary"/gallery/*.mp4; do
+    [ ! -e "$movie" ] || install -D -m 644 "$movie" "$site/gallery/${movie##*/}"
+done
+[ -z "$report" ] || cp -R "$report" "$site/report"
+[ -e "$site/index.html" ] || cat >"$site/index.html" <<'HTML'
+<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<title>swirl</title>
+<meta http-equiv="refresh" content="0; url=docs/index.html">
+<a href="docs/index.html">Documentation</a>
+</html>
+HTML
+pages=$(find "$site" -name '*.html' | wc -l)
+touch "$site/.swirl-site"
+trap '' INT HUP TERM # both renames or none
 if [ -e "$out" ]; then
-    mv -T "$out" "$beside/before" || give_up "'$out' cannot be replaced."
+    mv -T "$out" "$temporary/before" || give_up "'$out' cannot be replaced."
 fi
-mv -T "$aside" "$out" || {
-    ! [ -e "$beside/before" ] || mv -T "$beside/before" "$out"
+mv -T "$site" "$out" || {
+    ! [ -e "$temporary/before" ] || mv -T "$temporary/before" "$out"
     give_up "'$out' cannot be written."
 }
-say "wrote $out/index.html and what belongs to it, $pages"
+say "wrote $out/index.html ($pages pages)"

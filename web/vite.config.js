@@ -1,13 +1,13 @@
-// One file that needs nothing but itself: script, styles, worker and the engine stand in it.
+// Builds one self-contained file: it includes the script, styles, worker and engine.
 import {defineConfig} from "vite";
 import {viteSingleFile} from "vite-plugin-singlefile";
 import {pageTexts} from "./src/texts.ts";
 
-/** {{name}} in the page is what texts.ts calls so. */
+/** Replaces {{name}} in the page by the text of this name in texts.ts. */
 const texts = {
     name: "texts",
     transformIndexHtml: {order: "pre", handler: (html) => html.replace(/\{\{(\w+)\}\}/g, (_, name) => {
-        if (!(name in pageTexts)) throw new Error(`index.html has {{${name}}}, which src/texts.ts has not.`);
+        if (!(name in pageTexts)) throw new Error(`index.html has {{${name}}}, but src/texts.ts has no such text.`);
         return pageTexts[name].replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/"/g, "&quot;");
     })},
 };

@@ -1,4 +1,4 @@
-// Paths that a page makes of others: by hand, from a moment on, and back.
+// Paths that the page needs: by hand, from a given time on, and reversed.
 #pragma once
 
 #include <algorithm>
@@ -7,11 +7,11 @@
 
 namespace swirl {
 
-/// Of a container that is swirled by hand, which has none: long enough.
+/// The period of a path by hand, which has none: practically infinite.
 inline constexpr double no_period = 1e6;
 
-/// Straight to a point, and there it waits to be told where next. At rest at once: that is a
-/// corner, as all others.
+/// Straight to a point, where the container waits for the next target. It stops at once, at a
+/// vertex like any other.
 inline ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double duration) {
     return {no_period,
             {{0.0, duration, from, (1.0 / duration) * (to - from), 0.0},
@@ -20,7 +20,7 @@ inline ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double durat
 
 inline bool is_by_hand(const ContainerPath& path) { return path.period == no_period; }
 
-/// The same path, counted from a moment of its swirl.
+/// The same path, starting at time `clock` of its period.
 inline ContainerPath path_from(const ContainerPath& path, double clock) {
     ContainerPath later{path.period, {}};
     const auto add = [&](const Segment& segment, double begin, double end, double shift) {
@@ -36,14 +36,14 @@ inline ContainerPath path_from(const ContainerPath& path, double clock) {
     return later;
 }
 
-/// From its end to its beginning.
-inline ContainerPath backwards(const ContainerPath& path) {
-    ContainerPath back{path.period, {}};
+/// The path from its end to its start.
+inline ContainerPath reversed(const ContainerPath& path) {
+    ContainerPath result{path.period, {}};
     for (auto segment = path.segments.rbegin(); segment != path.segments.rend(); ++segment)
-        back.segments.push_back({path.period - segment->end, path.period - segment->begin,
-                                 segment->position_at(segment->end),
-                                 -1.0 * segment->velocity_at(segment->end), -segment->turn_rate});
-    return back;
+        result.segments.push_back({path.period - segment->end, path.period - segment->begin,
+                                   segment->position_at(segment->end),
+                                   -1.0 * segment->velocity_at(segment->end), -segment->turn_rate});
+    return result;
 }
 
 }  // namespace swirl

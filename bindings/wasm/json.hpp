@@ -1,5 +1,5 @@
-// JSON for the page, in the words of the command line's (run/json.hpp), whose library is too large
-// for a page.
+// Writes the page's JSON with the same keys as the command line's (run/json.hpp). The library used
+// there is too large for a page.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,19 +13,23 @@
 
 namespace swirl {
 
-/// As JSON has it; what is not known is null.
+/// A JSON number; null if it is not finite.
 inline std::string number(double x) { return std::isfinite(x) ? fmt::format("{}", x) : "null"; }
 
 inline std::string quoted(std::string_view text) {
     std::string json = "\"";
     for (const char c : text) {
+        if (c == '\n') {
+            json += "\\n";
+            continue;
+        }
         if (c == '"' || c == '\\') json += '\\';
         json += c;
     }
     return json + '"';
 }
 
-/// Members in the order in which they are added; the values are JSON already.
+/// Members in the order of addition; values are JSON texts.
 class JsonObject {
   public:
     JsonObject& add(std::string_view name, std::string_view value) {
@@ -33,7 +37,7 @@ class JsonObject {
         return *this;
     }
     JsonObject& add(std::string_view name, double value) { return add(name, number(value)); }
-    /// All of another's.
+    /// Adds all members of another object.
     JsonObject& add(const JsonObject& other) {
         text_ += (text_.empty() || other.text_.empty() ? "" : ",") + other.text_;
         return *this;
@@ -62,7 +66,7 @@ inline std::string row_json(const ReportRow& row) {
     return json + '}';
 }
 
-/// Its columns, added to those of whoever has it.
+/// Adds the columns of a table to an object.
 inline void add_table(JsonObject& json, const ReportTable& table) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
         std::string column;

@@ -1,13 +1,14 @@
-// The laboratory behind functions of plain numbers, as a page in a browser calls them: one dish,
-// its parameters read as the command line reads them, its averages, its events one by one.
+// The functions that the browser page calls; their arguments and results are plain numbers. They
+// simulate one container: its parameters (read as the command line reads them), its averages, and
+// its events one by one.
 //
-// Texts go through one buffer: the page writes its own there before a call, and finds ours there
-// after it; a function that answers with a text returns its length. Where the command line would
-// end with a sentence, the page's `refuse` gets it. That function throws, on the page's side, so
-// what stands on our stack is lost: after it the page takes a new instance.
+// Texts go through one buffer. The page writes a text there before a call, and reads the answer
+// there after it. A function that answers with a text returns its length. If the command line would
+// end with an error message, the page's `reject` gets it. That function throws in JavaScript, so
+// the stack of this module is lost: after it the page creates a new instance.
 //
-// Only this folder knows about the page; engine, measurements and parameters are the same files as
-// everywhere.
+// Only this folder depends on the page. The engine, measurements and parameters are the same files
+// as in all other programs.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -18,7 +19,7 @@
 #include <variant>
 #include <vector>
 
-#include "dish.hpp"
+#include "container.hpp"
 #include "json.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/failure.hpp"
@@ -31,16 +32,14 @@
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
 
 extern "C" {
-[[noreturn]] __attribute__((import_module("page"), import_name("refuse"))) void page_reject(
+[[noreturn]] __attribute__((import_module("page"), import_name("reject"))) void page_reject(
     const char* text, std::size_t size);
 }
 
 namespace swirl {
 
-void throw_usage_error(const std::string& sentence) {
-    page_reject(sentence.data(), sentence.size());
-}
-void throw_interrupted(const std::string& sentence) { throw_usage_error(sentence); }
+void throw_usage_error(const std::string& message) { page_reject(message.data(), message.size()); }
+void throw_interrupted(const std::string& message) { throw_usage_error(message); }
 
 namespace {
 
@@ -51,8 +50,8 @@ std::uint32_t answer(std::string text) {
     return static_cast<std::uint32_t>(buffer.size());
 }
 
-/// "name=value" on every line.
-ParameterTexts texts_in(std::string_view lines) {
+/// Reads lines "name=value".
+ParameterTexts parse_lines(std::string_view lines) {
     ParameterTexts texts;
     while (!lines.empty()) {
         const std::size_t end = std::min(lines.find('\n'), lines.size());
@@ -65,7 +64,8 @@ ParameterTexts texts_in(std::string_view lines) {
     return texts;
 }
 
-std::vector<std::string> names_in(std::string_view list) {
+/// The names of known measurements in a list "a,b,c".
+std::vector<std::string> measurements_in(std::string_view list) {
     std::vector<std::string> names;
     while (!list.empty()) {
         const std::size_t comma = std::min(list.find(','), list.size());
@@ -75,16 +75,16 @@ std::vector<std::string> names_in(std::string_view list) {
     return names;
 }
 
-struct Asked {
+struct Request {
     RunConfig config;
     std::vector<std::string> measured;
     ParameterTexts given;
 };
-Asked asked_for(std::string_view lines) {
-    ParameterTexts given = texts_in(lines);
+Request parse_request(std::string_view lines) {
+    ParameterTexts given = parse_lines(lines);
     std::vector<std::string> measured;
     if (const auto found = given.find("measure"); found != given.end()) {
-        measured = names_in(found->second);
+        measured = measurements_in(found->second);
         given.erase(found);
     }
     RunConfig config = resolve(given);
@@ -92,12 +92,12 @@ Asked asked_for(std::string_view lines) {
 }
 
 std::unique_ptr<Container> simulated;
-ParameterTexts given_to_container;  // at its beginning
+ParameterTexts given_at_start;
 std::vector<double> numbers;
 std::vector<MeasurementReport> reports;
 
-/// The parameters that change at contacts, and where the container goes: discs go on with others of
-/// these; with any other parameter it is another dish.
+/// True if only contact parameters and the path differ. The discs can continue with new values of
+/// these; any other difference needs a new simulation.
 bool only_contacts_and_path_differ(const RunConfig& a, RunConfig b) {
     b.mu_disc = a.mu_disc;
     b.mu_wall = a.mu_wall;
@@ -117,7 +117,7 @@ bool only_contacts_and_path_differ(const RunConfig& a, RunConfig b) {
     return texts_of(a) == texts_of(b);
 }
 
-/// Of a parameter.
+/// The JSON of a parameter's value.
 struct ValueJson {
     std::string operator()(std::monostate) const { return "null"; }
     std::string operator()(const Mixture& m) const {
@@ -131,16 +131,16 @@ struct ValueJson {
     std::string operator()(const auto& value) const { return fmt::format("{}", value); }
 };
 
-/// Of the points between disc i and this one, the farthest to which the disc can be moved, others
-/// and the wall in the way; the point itself if there is room for the disc.
-Vec2 nearest_with_room(const InitialState& state, std::size_t i, const Vec2& point) {
-    constexpr double gap = 1e-9;  // the rounding of a contact that is worked out
+/// The free position nearest to `point` on the line from disc i to it. Other discs and the wall
+/// block the way; if `point` itself is free, it is returned.
+Vec2 nearest_free_position(const InitialState& state, std::size_t i, const Vec2& point) {
+    constexpr double gap = 1e-9;  // above the rounding error of a computed contact
     const Disc& disc = state.discs[i];
     const Vec2 from = disc.position, way = point - from;
     const Vec2 centre = state.path.segments.front().start;
-    const double room = (state.container_radius - disc.radius) * (1.0 - gap);
+    const double reach_of_centre = (state.container_radius - disc.radius) * (1.0 - gap);
     const auto fits = [&](const Vec2& p) {
-        if (dot(p - centre, p - centre) > room * room) return false;
+        if (dot(p - centre, p - centre) > reach_of_centre * reach_of_centre) return false;
         for (std::size_t j = 0; j < state.discs.size(); ++j) {
             const Vec2 d = p - state.discs[j].position;
             const double reach = (disc.radius + state.discs[j].radius) * (1.0 + gap);
@@ -149,16 +149,16 @@ Vec2 nearest_with_room(const InitialState& state, std::size_t i, const Vec2& poi
         return true;
     };
     if (fits(point)) return point;
-    // Halving finds one of the places where it is stopped, which is all that is wanted.
-    double there = 0.0, blocked = 1.0;
+    // Bisection finds one free position next to an obstacle; any of them is good enough.
+    double free = 0.0, blocked = 1.0;
     for (int step = 0; step < 40; ++step) {
-        const double middle = 0.5 * (there + blocked);
-        (fits(from + middle * way) ? there : blocked) = middle;
+        const double middle = 0.5 * (free + blocked);
+        (fits(from + middle * way) ? free : blocked) = middle;
     }
-    return from + there * way;
+    return from + free * way;
 }
 
-/// From, to, step.
+/// [from, to, step], or null.
 std::string slider_json(const SliderRange& slider) {
     if (slider.step == 0.0) return "null";
     return fmt::format("[{},{},{}]", slider.from, slider.to, slider.step);
@@ -167,7 +167,7 @@ std::string slider_json(const SliderRange& slider) {
 std::string parameter_json(const Parameter& p) {
     return fmt::format(
         R"({{"name":{},"symbol":{},"unit":{},"form":{},"description":{},"group":{},"default":{},)"
-        R"("lowest":{},"highest":{},"usual":{},"given":{}}})",
+        R"("lowest":{},"highest":{},"slider":{},"settable":{}}})",
         quoted(p.name), quoted(p.symbol), quoted(p.unit), quoted(p.form), quoted(p.description),
         quoted(p.group), quoted(default_of(p)), number(p.range.lowest), number(p.range.highest),
         slider_json(p.slider), p.is_settable());
@@ -178,14 +178,14 @@ std::string parameter_json(const Parameter& p) {
 
 using namespace swirl;
 
-/// Room for a text of the page's.
-EXPORTED(room) char* room(std::uint32_t size) {
+/// Memory for a text of `size` bytes that the page writes.
+EXPORTED(buffer_for) char* buffer_for(std::uint32_t size) {
     buffer.resize(size);
     return buffer.data();
 }
 EXPORTED(text) const char* text() { return buffer.data(); }
 
-/// The table of parameters, JSON.
+/// The table of parameters as JSON.
 EXPORTED(parameters) std::uint32_t parameters() {
     std::string json = "[";
     for (const Parameter& p : run_parameters)
@@ -193,39 +193,40 @@ EXPORTED(parameters) std::uint32_t parameters() {
     return answer(json + "]");
 }
 
-/// A new dish, at rest: "name=value" on every line, as on the command line, and "measure=a,b,c".
+/// Starts a new simulation at rest. The buffer holds lines "name=value" as on the command line, and
+/// "measure=a,b,c".
 EXPORTED(begin) void begin() {
-    auto [config, measured, given] = asked_for(buffer);
+    auto [config, measured, given] = parse_request(buffer);
     simulated.reset();
     simulated = std::make_unique<Container>(config, make_initial_state(config), measured);
-    given_to_container = std::move(given);
+    given_at_start = std::move(given);
 }
 
-/// 1: change() would keep the discs; 0: it would be another dish.
-EXPORTED(keeps) std::uint32_t keeps() {
-    return only_contacts_and_path_differ(simulated->config(), asked_for(buffer).config);
+/// 1: change() would keep the discs; 0: the change needs a new simulation.
+EXPORTED(keeps_discs) std::uint32_t keeps_discs() {
+    return only_contacts_and_path_differ(simulated->config(), parse_request(buffer).config);
 }
 
-/// The same discs, at this moment and from the container's first leg on, with other frictions,
-/// restitutions or another path; the averages begin anew. 0: it would be another dish.
+/// Continues with the same discs from `time`, at the start of the container's path, with other
+/// friction coefficients, restitutions or another path. Averages are reset. 0: the change needs a
+/// new simulation, and nothing was done.
 EXPORTED(change) std::uint32_t change(double time) {
-    const auto [config, measured, given] = asked_for(buffer);
+    const auto [config, measured, given] = parse_request(buffer);
     if (!only_contacts_and_path_differ(simulated->config(), config)) return 0;
-    const InitialState state = simulated->going_on(time, config, make_path(config));
+    const InitialState state = simulated->continued_from(time, config, make_path(config));
     simulated = std::make_unique<Container>(config, state, measured);
     return 1;
 }
 
-/// Time runs backwards from this moment on: all velocities and spins turned round, and the path,
-/// too. 0: not without loss, since the dish has friction, a floor, or discs that do not bounce back
-/// fully.
+/// Reverses time from `time` on: negates all velocities and spins, and reverses the path. 0: energy
+/// is not conserved (friction, a floor, or a restitution below 1), and nothing was done.
 EXPORTED(reverse) std::uint32_t reverse(double time) {
     const RunConfig& config = simulated->config();
     if (!config.conserves_energy()) return 0;
-    const double clock = simulated->seen_at(time).clock;
+    const double clock = simulated->snapshot_at(time).clock;
     const ContainerPath back =
-        path_from(backwards(simulated->path()), simulated->path().period - clock);
-    InitialState state = simulated->going_on(time, config, back);
+        path_from(reversed(simulated->path()), simulated->path().period - clock);
+    InitialState state = simulated->continued_from(time, config, back);
     for (Disc& disc : state.discs) {
         disc.velocity = -1.0 * disc.velocity;
         disc.spin = -disc.spin;
@@ -234,31 +235,31 @@ EXPORTED(reverse) std::uint32_t reverse(double time) {
     return 1;
 }
 
-/// Disc i is put as near to (x, y) as there is room on the way, and moves with the dish there; all
-/// others go on as they are.
+/// Moves disc i to the free position nearest to (x, y) on the way there. It then moves with the
+/// container; all other discs keep their state.
 EXPORTED(drag) void drag(double time, std::uint32_t i, double x, double y) {
-    const ContainerPath later = path_from(simulated->path(), simulated->seen_at(time).clock);
-    InitialState state = simulated->going_on(time, simulated->config(), later);
+    const ContainerPath later = path_from(simulated->path(), simulated->snapshot_at(time).clock);
+    InitialState state = simulated->continued_from(time, simulated->config(), later);
     if (i >= state.discs.size()) return;
     Disc& disc = state.discs[i];
-    disc.position = nearest_with_room(state, i, {x, y});
+    disc.position = nearest_free_position(state, i, {x, y});
     disc.velocity = later.segments.front().velocity;
     disc.spin = 0.0;
     simulated = std::make_unique<Container>(simulated->config(), state, simulated->measured());
 }
 
-/// By hand: from this moment on the container goes straight to (x, y), which takes the duration
-/// (above 0), and stays there. Times begin anew, and so do averages, which have no swirl to go by.
+/// By hand: from `time` on the container moves straight to (x, y) within `duration` (above 0) and
+/// stops there. Time restarts at 0. Nothing is averaged, since the path has no period.
 EXPORTED(steer) void steer(double time, double x, double y, double duration) {
     RunConfig config = simulated->config();
-    const Vec2 from = simulated->seen_at(time).container_centre;
+    const Vec2 from = simulated->snapshot_at(time).container_centre;
     const InitialState state =
-        simulated->going_on(time, config, path_by_hand(from, {x, y}, duration));
+        simulated->continued_from(time, config, path_by_hand(from, {x, y}, duration));
     config.period = state.path.period;
     simulated = std::make_unique<Container>(config, state, std::vector<std::string>{});
 }
 
-/// What the dish is, "name=value" on every line: what was not given is there, too.
+/// All parameters as lines "name=value", including those that were not given.
 EXPORTED(configuration) std::uint32_t configuration() {
     std::string lines;
     for (const auto& [name, value] : texts_of(simulated->config()))
@@ -266,11 +267,11 @@ EXPORTED(configuration) std::uint32_t configuration() {
     return answer(lines);
 }
 
-/// The command line that comes to the last event that was passed, for a dish that nobody has
-/// changed since its beginning. Without a warm-up that was given it would choose one by the length
-/// of the run; it gets the page's, unless the run ends within it and would be refused.
+/// The command line that reaches the last passed event. It is valid if the simulation was not
+/// changed since its start. If no warm-up was given, the command would choose one by the length of
+/// the run, so the page's is added, unless the run ends within it (an error).
 EXPORTED(command) std::uint32_t command() {
-    ParameterTexts texts = given_to_container;
+    ParameterTexts texts = given_at_start;
     const auto warmup = texts.find("warmup");
     if ((warmup == texts.end() || warmup->second == "auto") && simulated->is_warm())
         texts["warmup"] = fmt::format("{}", simulated->warmup());
@@ -282,29 +283,29 @@ EXPORTED(command) std::uint32_t command() {
     return answer(line + fmt::format(" --events {}", std::max(events, std::uint64_t{1})));
 }
 
-/// None where there is trouble, and none after it.
+/// Executes `count` events; stops at a problem and does nothing after it.
 EXPORTED(run_events) void run_events(std::uint32_t count) {
     for (std::uint32_t k = 0; k < count; ++k) simulated->step();
 }
 
-/// 1: it has come there; 0: there are more events before, or trouble.
+/// 1: `time` was reached; 0: there are more events before it, or a problem.
 EXPORTED(advance_to) std::uint32_t advance_to(double time, std::uint32_t maximum) {
     return simulated->advance_to(time, maximum);
 }
 
-/// The sentence with which a run of the command line would have ended here, if it is the end (1) or
-/// not (0); nothing for a sound run.
+/// The error message with which a run of the command line would end here. `at_the_end` is 1 if this
+/// is the last event. Empty if there is no problem.
 EXPORTED(problem) std::uint32_t problem(std::uint32_t at_the_end) {
     return answer(
         (at_the_end ? simulated->problem_at_the_end() : simulated->problem()).value_or(""));
 }
 
-/// The dish at a moment (between the last event and the next): time, swirls, clock, container's
-/// centre and velocity (4), its radius, the direction from S to C (2), N; then of every disc x, y,
-/// angle, spin, vx, vy, radius, 1 if it is pinned; then of every sphere the quaternion that takes
-/// its own axes to the lab's. In the lab frame.
+/// The state at `time`, between the last event and the next, in the lab frame. Head: time, periods,
+/// clock, container's centre and velocity (4 numbers), its radius, the direction from S to C (2),
+/// N. Each disc: x, y, angle, spin, vx, vy, radius, 1 if it is pinned. Then for each sphere the
+/// quaternion that takes its own axes to those of the lab.
 EXPORTED(frame) const double* frame(double time) {
-    const Snapshot& s = simulated->seen_at(time);
+    const Snapshot& s = simulated->snapshot_at(time);
     const MFrame m = m_frame(s);
     numbers.assign({s.time(), double(s.periods), s.clock, s.container_centre.x,
                     s.container_centre.y, s.container_velocity.x, s.container_velocity.y,
@@ -321,15 +322,15 @@ EXPORTED(frame) const double* frame(double time) {
     }
     return numbers.data();
 }
-/// How many numbers that frame has.
+/// The number of values in that frame.
 EXPORTED(frame_size) std::uint32_t frame_size() {
     return static_cast<std::uint32_t>(numbers.size());
 }
 
 namespace {
-/// Time, kind (0 disc and disc, 1 disc and wall, 2 corner of the path, 3 begins to roll), i, j,
-/// normal (2), impulse along it and along the tangent, sticks.
-const double* numbers_of(const Event& e) {
+/// Time, kind (0 disc-disc, 1 disc-wall, 2 path vertex, 3 begins to roll), i, j, normal (2
+/// numbers), impulse along the normal and the tangent, sticks.
+const double* event_numbers(const Event& e) {
     numbers.assign({double(e.periods) * simulated->config().period + e.clock,
                     double(static_cast<int>(e.kind)), double(e.i), double(e.j), e.normal.x,
                     e.normal.y, e.impulse.normal, e.impulse.tangential, double(e.impulse.sticks)});
@@ -337,10 +338,10 @@ const double* numbers_of(const Event& e) {
 }
 }  // namespace
 
-/// The last one that was passed.
-EXPORTED(event) const double* event() { return numbers_of(simulated->event()); }
-/// The one to come.
-EXPORTED(next_event) const double* next_event() { return numbers_of(simulated->next_event()); }
+/// The last passed event.
+EXPORTED(event) const double* event() { return event_numbers(simulated->event()); }
+/// The next event.
+EXPORTED(next_event) const double* next_event() { return event_numbers(simulated->next_event()); }
 
 EXPORTED(time) double passed_time() { return simulated->time(); }
 EXPORTED(events) double events() {
@@ -348,10 +349,9 @@ EXPORTED(events) double events() {
 }
 EXPORTED(state_hash) std::uint64_t state_hash() { return simulated->simulation().state_hash(); }
 
-/// ϖ/Ω so far by each of the rotation rates, without the warm-up. For the plot, the rigid-body rate
-/// by time block for block, with the warm-up: a disc near the centre of mass makes peaks in the
-/// other. How many of the blocks are the warm-up's and how many swirls a block has, there and after
-/// it: JSON.
+/// JSON: ϖ/Ω so far by each rotation rate, without the warm-up. For the plot: the rigid-body rate by
+/// time in blocks, with the warm-up (the mean over the discs has peaks if a disc is near the centre
+/// of mass); the number of blocks in the warm-up; the periods per block in the warm-up and after it.
 EXPORTED(rotation) std::uint32_t rotation() {
     const RotationEstimates e = simulated->rotation().estimates();
     std::string blocks;
@@ -362,17 +362,17 @@ EXPORTED(rotation) std::uint32_t rotation() {
                       &after = simulated->rotation().rigid_by_time();
     return answer(fmt::format(
         R"({{"by_event":{},"by_time":{},"rigid_by_event":{},"rigid_by_time":{},"warmup":{},)"
-        R"("warmup_blocks":{},"swirls_per_block":[{},{}],"blocks":[{}]}})",
+        R"("warmup_blocks":{},"periods_per_block":[{},{}],"blocks":[{}]}})",
         estimate_json(e.by_event), estimate_json(e.by_time), estimate_json(e.rigid_by_event),
         estimate_json(e.rigid_by_time), simulated->warmup(), before.size(),
         before.periods_per_block(), after.periods_per_block(), blocks));
 }
 
-/// What is measured, as it is now: for the columns to come.
+/// Stores the current report of all measurements; column() reads it.
 EXPORTED(report) void report() { reports = simulated->observation().report(); }
 
-/// A column of a table of the last report: "density//by_time". How many values there are; 0 if
-/// there is no such column.
+/// Selects a column of the stored report, e.g. "density//by_time". Returns its number of values; 0
+/// if there is no such column. values() has them.
 EXPORTED(column) std::uint32_t column() {
     const std::string_view path = buffer;
     const std::size_t first = path.find('/'), second = path.find('/', first + 1);
@@ -393,12 +393,13 @@ EXPORTED(column) std::uint32_t column() {
 }
 EXPORTED(values) const double* values() { return numbers.data(); }
 
-/// N_c of a curve ϖ(N): so many points of three numbers, N, mean and error, from values() on. JSON;
-/// null without a crossing; N_c and its error are null where only the bracket is known.
+/// Memory for `count` points of a curve ϖ(N), three numbers each: N, mean and error.
 EXPORTED(points) double* points(std::uint32_t count) {
     numbers.resize(3 * std::size_t{count});
     return numbers.data();
 }
+/// N_c of these points as JSON; null without a crossing. N_c and its error are null if only the
+/// bracket is known.
 EXPORTED(crossing) std::uint32_t crossing() {
     std::vector<RotationPoint> curve;
     for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
@@ -409,10 +410,10 @@ EXPORTED(crossing) std::uint32_t crossing() {
                               number(c.error), number(c.lower), number(c.upper)));
 }
 
-/// The result as `swirl run --json` writes it, as far as a page knows it: not which build of the
-/// program it was, how it was called, and how long it took (docs/how-to/browser_page.md).
+/// The result as `swirl run --json` writes it, without the keys on the program's build, its command
+/// line and its duration (docs/how-to/browser_page.md).
 EXPORTED(result) std::uint32_t result() {
-    simulated->settle();
+    simulated->pass_found_event();
     const RunResult r = simulated->result();
     JsonObject given, events, warmup, rotation, steady, others, measured;
     for (const Parameter& p : run_parameters) {
@@ -438,9 +439,9 @@ EXPORTED(result) std::uint32_t result() {
     });
     for (const auto& [name, report] : simulated->observation().report())
         measured.add(name, report_json(report));
-    std::string said;
+    std::string joined;
     for (const std::string& warning : warnings(r))
-        said += (said.empty() ? "" : ",") + quoted(warning);
+        joined += (joined.empty() ? "" : ",") + quoted(warning);
     return answer(JsonObject()
                       .add("format", fmt::format("{}", result_format))
                       .add("config", given.text())
@@ -452,7 +453,7 @@ EXPORTED(result) std::uint32_t result() {
                       .add("steady_state", steady.text())
                       .add(others)
                       .add("state_hash", quoted(fmt::format("{:016x}", r.state_hash)))
-                      .add("warnings", '[' + said + ']')
+                      .add("warnings", '[' + joined + ']')
                       .add("generator", quoted(random_generator))
                       .add("measured", measured.text())
                       .text());

@@ -1,5 +1,5 @@
-"""The laboratory's memory over ten minutes at full speed, in a real browser: web/test/memory.mjs looks it
-up every half minute and says what grows. Slow; another number of minutes may be given as an argument."""
+"""The page's memory does not grow in ten minutes at full speed in a real browser (web/test/memory.mjs). Slow;
+an argument sets another number of minutes."""
 
 import os
 import shutil
@@ -15,7 +15,7 @@ MINUTES = int(sys.argv.pop()) if sys.argv[-1].isdigit() else 10
 
 
 class Memory(unittest.TestCase):
-    def test_it_is_flat(self):
+    def test_it_does_not_grow(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
         page = made_of_the_web(type(self), LAB, "laboratory.html")

@@ -1,5 +1,5 @@
-"""The laboratory in the browser: the engine for WebAssembly gives the bits of the command line, and the
-page does what it says, in a real browser."""
+"""The browser page: the WebAssembly engine reproduces the command line exactly, and the page works in a real
+browser."""
 
 import collections
 import csv
@@ -24,7 +24,7 @@ LAB = os.path.join(SOURCE, "web", "lab.sh")
 HERE = os.path.dirname(os.path.abspath(__file__))
 CHROMIUM = shutil.which("chromium")
 
-# As they stand in the page's address.
+# As in the page's address.
 SCENES = [
     {"discs": 1}, {"discs": 5, "mu": 0.1}, {"discs": 28}, {"discs": 48}, {"discs": 50, "seed": 2},
     {"discs": 48, "mu_disc": 0, "mu_wall": 1}, {"discs": 28, "path": "circle"},
@@ -34,8 +34,8 @@ SCENES = [
     {"discs": 20, "preset": "experiment"}, {"discs": 28, "body": "sphere", "mu": 0.3},
 ]
 EVENTS = 20000
-# Of a result on the command line: which build it was and how it was called, and how long it took.
-NOT_OF_A_PAGE = {"seconds", "events_per_second", "simd", "version", "build", "command", "config_text"}
+# Keys of a result that the page omits: the program's build, its command line and its duration.
+ONLY_COMMAND_LINE = {"seconds", "events_per_second", "simd", "version", "build", "command", "config_text"}
 
 NODE = """
 const engineOf = async (path) => {
@@ -44,13 +44,13 @@ const engineOf = async (path) => {
     return () => {
         let out;
         const read = (at, size) => Buffer.from(out.memory.buffer, at, size).toString();
-        const refuse = (at, size) => { throw new Error(read(at, size)); };
+        const reject = (at, size) => { throw new Error(read(at, size)); };
         out = new WebAssembly.Instance(module,
-            {wasi_snapshot_preview1: noSystem, page: {refuse}}).exports;
+            {wasi_snapshot_preview1: noSystem, page: {reject}}).exports;
         out._initialize();
         const write = (given) => {
             const lines = Buffer.from(Object.entries(given).map((e) => e.join("=") + "\\n").join(""));
-            const at = out.room(lines.length);
+            const at = out.buffer_for(lines.length);
             Buffer.from(out.memory.buffer, at, lines.length).set(lines);
         };
         const begin = (given) => { write(given); out.begin(); };
@@ -65,7 +65,7 @@ engineOf(process.argv[1]).then((make) => {
             engine.begin(given);
             engine.out.run_events(events);
             for (const [name, ...values] of steps ?? []) {
-                if (["change", "keeps"].includes(name)) engine.write(values.pop());
+                if (["change", "keeps_discs"].includes(name)) engine.write(values.pop());
                 answers.push(engine.out[name](...values));
             }
             const seen = answers.length ? engine.out.frame(steps.at(-1)[1]) : 0;
@@ -76,11 +76,11 @@ engineOf(process.argv[1]).then((make) => {
                 hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
                 rotation: JSON.parse(engine.answer(engine.out.rotation())),
                 result: JSON.parse(engine.answer(engine.out.result())),
-                trouble: engine.answer(engine.out.trouble(1)),
+                problem: engine.answer(engine.out.problem(1)),
                 command: engine.answer(engine.out.command()),
                 asked: engine.asked});
         } catch (error) {
-            said.push({refused: error.message});
+            said.push({rejected: error.message});
         }
     }
     const table = make();
@@ -95,8 +95,8 @@ def options(scene):
 
 
 def pixels_of(path):
-    """The rows of a PNG of eight bits a channel that is not interlaced, each a list of pixels; what does
-    not decode, by the format's own checksums, is an error."""
+    """The rows of a PNG of eight bits a channel that is not interlaced, each a list of pixels.
+    Raises an error if the file or a checksum is not valid."""
     with open(path, "rb") as opened:
         data = opened.read()
     chunks, at = {}, 8
@@ -115,7 +115,7 @@ def pixels_of(path):
         way, *row = stream[y * (1 + step * width):(y + 1) * (1 + step * width)]
         for k, above in enumerate(before):
             left, corner = (row[k - step], before[k - step]) if k >= step else (0, 0)
-            if way == 4:  # Paeth: whichever is nearest to left + above − corner
+            if way == 4:  # Paeth: the one nearest to left + above − corner
                 nearest = min((left, above, corner), key=lambda x: abs(left + above - corner - x))
             else:
                 nearest = (0, left, above, (left + above) // 2)[way]
@@ -135,12 +135,12 @@ class Laboratory(unittest.TestCase):
                                json.dumps(calls)], check=True, capture_output=True, text=True)
         return json.loads(done.stdout)
 
-    def test_fourteen_scenes_have_the_bits_of_the_command_line(self):
+    def test_fourteen_scenes_match_the_command_line_exactly(self):
         said = self.engine([{"given": {**{k: str(v) for k, v in scene.items()}, "warmup": "0",
                                        "measure": "slip"}, "events": EVENTS} for scene in SCENES])
         for scene, there in zip(SCENES, said["said"]):
             with self.subTest(scene):
-                self.assertNotIn("refused", there)
+                self.assertNotIn("rejected", there)
                 self.assertEqual(there["asked"], [])
                 here = json.loads(swirl("run", *options(scene), "--warmup", "0", "--events",
                                         str(EVENTS), "--measure", "slip", "--json", "-",
@@ -148,7 +148,7 @@ class Laboratory(unittest.TestCase):
                 self.assertEqual(there["hash"], here["state_hash"])
                 self.assert_same_result(there["result"], here)
 
-    def test_the_command_that_it_offers_makes_the_dish(self):
+    def test_the_offered_command_reproduces_the_state(self):
         scenes = [{**scene, "events": events} for scene, events in (
             ({"discs": 12, "seed": 2}, 60000), ({"discs": 48, "warmup": "auto"}, 2000),
             ({"seed": 7, "path": "circle", "discs": 28, "warmup": 3}, 30000),
@@ -161,7 +161,7 @@ class Laboratory(unittest.TestCase):
                 program, *words = shlex.split(there["command"])
                 self.assertEqual(program, "./swirl")
                 here = json.loads(swirl(*words, "--json", "-", "--quiet").stdout)
-                # A run that ends within the page's warm-up has a shorter one on the command line.
+                # If a run ends within the page's warm-up, the command line has a shorter warm-up.
                 has_warmup = bool(re.search(r"--warmup \d", there["command"]))
                 warmups += has_warmup
                 for key in ["state_hash"] + ["rotation", "warmup"] * has_warmup:
@@ -169,14 +169,14 @@ class Laboratory(unittest.TestCase):
         self.assertEqual(warmups, 2)
 
     def assert_same_result(self, there, here):
-        """Every key, and in the same order, of those that a page knows."""
-        self.assertEqual(list(there), [key for key in here if key not in NOT_OF_A_PAGE])
+        """All keys that the page has, in the same order."""
+        self.assertEqual(list(there), [key for key in here if key not in ONLY_COMMAND_LINE])
         for key, value in there.items():
             self.assertEqual(value, here[key], key)
             if isinstance(value, dict):
                 self.assertEqual(list(value), list(here[key]), key)
 
-    def test_warnings_and_verdicts_are_those_of_the_command_line(self):
+    def test_warnings_and_verdicts_match_the_command_line(self):
         warnings, verdicts = set(), set()
         for scene, events in (({"discs": 8, "mu": 0}, 5000), ({"discs": 5, "seed": 2}, 60000),
                               ({"discs": 8, "mu": 0, "path": "circle"}, 5000),
@@ -193,7 +193,7 @@ class Laboratory(unittest.TestCase):
         self.assertGreaterEqual(warnings, {"without", "the", "not"})
         self.assertEqual(verdicts, {"steady", "drifting", "too short to tell"})
 
-    def test_averages_without_a_warmup_given_are_those_of_the_command_that_it_shows(self):
+    def test_averages_with_the_default_warmup_match_the_offered_command(self):
         for scene in ({"discs": 12, "seed": 2}, {"discs": 5, "path": "circle", "warmup": "auto"}):
             with self.subTest(scene):
                 given = {key: str(value) for key, value in scene.items()}
@@ -204,22 +204,22 @@ class Laboratory(unittest.TestCase):
                 for key in ("state_hash", "periods", "warmup", "rotation"):
                     self.assertEqual(there[key], here[key], key)
 
-    def test_a_long_run_says_how_many_swirls_its_blocks_have(self):
+    def test_a_long_run_reports_the_periods_per_block(self):
         period = 11.866071
-        for warmup, swirls, blocks in (("0", 2040, [0, [1, 1], 2040]), ("0", 2060, [0, [1, 2], 1030]),
+        for warmup, periods, blocks in (("0", 2040, [0, [1, 1], 2040]), ("0", 2060, [0, [1, 2], 1030]),
                                        ("2050", 2070, [1025, [2, 1], 1045])):
-            with self.subTest(warmup=warmup, swirls=swirls):
+            with self.subTest(warmup=warmup, periods=periods):
                 given = {"discs": "1", "measure": "", "warmup": warmup}
-                steps = [["advance_to", (swirls + 0.5) * period, 10 ** 9]]
+                steps = [["advance_to", (periods + 0.5) * period, 10 ** 9]]
                 said = self.engine([{"given": given, "events": 0, "steps": steps}])["said"][0]
                 rotation = said["rotation"]
-                self.assertEqual([rotation["warmup_blocks"], rotation["swirls_per_block"],
+                self.assertEqual([rotation["warmup_blocks"], rotation["periods_per_block"],
                                   len(rotation["blocks"])], blocks)
 
-    def test_a_dish_in_trouble_says_so_at_the_event_and_in_the_words_of_the_command_line(self):
+    def test_a_problem_has_the_event_and_the_message_of_the_command_line(self):
         collapsing = {"discs": 48, "restitution": 0.5, "contact_duration": 0}
-        # On the way, at the end of what was asked for, and not yet; then rounding errors.
-        troubles = []
+        # On the way, at the end of the request, not yet; then rounding errors.
+        problems = []
         for scene, events in ((collapsing, 300000), (collapsing, 100000), (collapsing, 2000),
                               ({"discs": 5, "radius": 1e-6, "container_radius": 0.001,
                                 "amplitude": 100000}, 3000)):
@@ -227,12 +227,12 @@ class Laboratory(unittest.TestCase):
                 given = {key: str(value) for key, value in scene.items()}
                 there = self.engine([{"given": given, "events": events}])["said"][0]
                 here = swirl("run", *options(scene), "--events", str(events), "--quiet", check=False)
-                self.assertEqual(here.returncode, 1 if there["trouble"] else 0, here.stderr)
-                self.assertIn(there["trouble"], here.stderr)
-                troubles.append(there["trouble"][:9])
-        self.assertEqual(troubles, ["The last ", "The last ", "", "After 0.0"])
+                self.assertEqual(here.returncode, 1 if there["problem"] else 0, here.stderr)
+                self.assertIn(there["problem"], here.stderr)
+                problems.append(there["problem"][:9])
+        self.assertEqual(problems, ["the last ", "the last ", "", "after 0.0"])
 
-    def test_the_event_to_come_is_the_one_that_comes_and_changes_nothing(self):
+    def test_the_next_event_is_predicted_without_changing_the_state(self):
         given = {"discs": "28", "seed": "2"}
         plain, asked = self.engine([
             {"given": given, "events": 301, "steps": []},
@@ -242,16 +242,16 @@ class Laboratory(unittest.TestCase):
             self.assertEqual(plain["result"][key], asked["result"][key])
 
     def discs(self, given, steps):
-        """What the last step, an advance to some time, shows of every disc: x, y, angle, spin, v."""
+        """x, y, angle, spin and velocity of each disc after the last step, an advance_to."""
         said = self.engine([{"given": {"discs": "5", "seed": "3", **given}, "events": 0,
                              "steps": steps}])["said"][0]
-        self.assertNotIn("refused", said)
+        self.assertNotIn("rejected", said)
         frame, discs = said["frame"][11:], []
         for begin in range(0, len(frame), 8):
             discs.append(frame[begin:begin + 6])
         return discs, said["answers"]
 
-    def test_spheres_are_turned_as_in_a_recording(self):
+    def test_orientations_of_spheres_match_a_recording(self):
         given = {"preset": "experiment", "discs": "12", "seed": "4"}
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
@@ -262,7 +262,7 @@ class Laboratory(unittest.TestCase):
         with open(recorded + ".csv", encoding="utf-8") as opened:
             rows = list(csv.DictReader(opened))
         frames = [rows[k:k + 12] for k in range(0, len(rows), 12)]
-        turned = 0.0
+        largest = 0.0
         for frame in frames[1:10:4]:
             time = float(frame[0]["time (r/v)"])
             seen = self.engine([{"given": given, "events": 0,
@@ -271,56 +271,56 @@ class Laboratory(unittest.TestCase):
             for i, sphere in enumerate(frame):
                 there = seen[11 + 12 * 8 + 4 * i:][:4]
                 here = [float(sphere[f"turned {axis}"]) for axis in "wxyz"]
-                # The moment of a frame is rounded to one of the page's clock: 1e-15 of some 20.
+                # The time of a frame is rounded to the page's clock: 1e-15 relative to about 20.
                 for a, b in zip(there, here, strict=True):
                     self.assertAlmostEqual(a, b, delta=1e-12)
-                turned = max(turned, 1 - abs(here[0]))
-        self.assertGreater(turned, 0.5)  # or the test is one of spheres at rest
+                largest = max(largest, 1 - abs(here[0]))
+        self.assertGreater(largest, 0.5)  # the spheres really rotate
 
     def assert_same_discs(self, these, those):
-        # Positions are shifted into the other dish and rounded, and a few collisions make ten times
-        # as much of that each.
+        # Positions are shifted into the other simulation and rounded. Each of a few collisions increases
+        # that error tenfold.
         for one, other in zip(these, those, strict=True):
             for a, b in zip(one, other, strict=True):
                 self.assertAlmostEqual(a, b, delta=1e-9)
 
-    def test_by_hand_along_the_polygon_is_the_polygon(self):
+    def test_moving_by_hand_along_the_polygon_matches_the_path(self):
         period, amplitude, sides = 11.866071, 1.892, 30
-        corner = [[amplitude * f(2 * math.pi * k / sides) for f in (math.cos, math.sin)]
+        vertices = [[amplitude * f(2 * math.pi * k / sides) for f in (math.cos, math.sin)]
                   for k in range(4)]
-        leg = period / sides
-        swirled, _ = self.discs({}, [["advance_to", 3 * leg * (1 - 1e-12), 10 ** 6]])
+        segment = period / sides
+        swirled, _ = self.discs({}, [["advance_to", 3 * segment * (1 - 1e-12), 10 ** 6]])
         steps = []
         for k in range(3):
-            now = 0 if k == 0 else leg
-            steps += [["steer", now, *corner[k + 1], leg], ["advance_to", leg * (1 - 1e-12), 10 ** 6]]
+            now = 0 if k == 0 else segment
+            steps += [["steer", now, *vertices[k + 1], segment], ["advance_to", segment * (1 - 1e-12), 10 ** 6]]
         by_hand, answers = self.discs({}, steps)
         self.assertEqual(answers[1::2], [1, 1, 1])
         self.assert_same_discs(by_hand, swirled)
 
-    def test_a_change_keeps_the_discs_and_another_dish_is_refused(self):
+    def test_a_change_keeps_the_discs_or_needs_a_new_simulation(self):
         period = 11.866071
         same, _ = self.discs({}, [["advance_to", 1.1 * period, 10 ** 6]])
         given = {"discs": "5", "seed": "3"}
         change = lambda **more: ["change", period, {**given, **more}]  # noqa: E731
         steps = [["advance_to", period, 10 ** 6], change(), ["advance_to", 0.1 * period, 10 ** 6]]
-        self.assertEqual(self.discs({}, [["keeps", {"discs": "5", "seed": "3", "mu": "0"}],
+        self.assertEqual(self.discs({}, [["keeps_discs", {"discs": "5", "seed": "3", "mu": "0"}],
                                          ["advance_to", 0, 10]])[1][0], 1)
         kept, answers = self.discs({}, steps)
         self.assertEqual(answers, [1, 1, 1])
-        # In the laboratory: the container is where it was.
+        # In the lab frame the container does not move.
         self.assert_same_discs(kept, same)
         steps[1] = change(mu="0")
         other, answers = self.discs({}, steps)
         self.assertEqual(answers, [1, 1, 1])
         self.assertNotEqual(other, kept)
         for more in ({"discs": "6"}, {"radius": "0.5"}, {"container_radius": "10"}, {"seed": "4"}):
-            self.assertEqual(self.discs({}, [["keeps", {"discs": "5", "seed": "3", **more}],
+            self.assertEqual(self.discs({}, [["keeps_discs", {"discs": "5", "seed": "3", **more}],
                                              ["advance_to", 0, 10]])[1][0], 0)
             steps[1] = change(**more)
             self.assertEqual(self.discs({}, steps[:2] + [["advance_to", period, 10 ** 6]])[1][1], 0)
 
-    def test_time_backwards_brings_everybody_back(self):
+    def test_reversed_time_leads_back_to_the_start(self):
         period = 11.866071
         for path in ("polygon", "circle"):
             given = {"mu": "0", "path": path}
@@ -333,17 +333,17 @@ class Laboratory(unittest.TestCase):
             self.assertEqual(answers, [1, 1, 1])
             for one, other in zip(back, begin, strict=True):
                 for a, b in zip(one[:2], other[:2]):
-                    # A rounding grows tenfold at each of the few collisions, twice over.
+                    # A rounding error grows tenfold at each of the few collisions, there and back.
                     self.assertAlmostEqual(a, b, delta=1e-7, msg=path)
         for lossy in ({}, {"mu_disc": "0", "mu_wall": "1"}, {"mu": "0", "restitution": "0.9"},
                       {"body": "sphere", "floor": "sliding", "mu": "0"}):
             _, answers = self.discs(lossy, [["reverse", 0.0], ["advance_to", 0, 10]])
             self.assertEqual(answers[0], 0, lossy)
 
-    def test_a_dragged_disc_is_where_there_is_room(self):
+    def test_a_dragged_disc_stops_at_obstacles(self):
         now = 4.0
         before, _ = self.discs({}, [["advance_to", now, 10 ** 6]])
-        dish = self.discs_of_container(now)
+        dish = self.container_centre(now)
         free = next([x, y] for x, y in ((dish[0] + 6.0 * math.cos(k), dish[1] + 6.0 * math.sin(k))
                                         for k in range(7))
                     if all(math.dist(disc[:2], (x, y)) > 2.01 for disc in before[1:]))
@@ -351,7 +351,7 @@ class Laboratory(unittest.TestCase):
                                    ["advance_to", 0, 10 ** 6]])
         self.assert_same_discs([moved[0][:2], *[disc[:2] for disc in moved[1:]]],
                                [free, *[disc[:2] for disc in before[1:]]])
-        # Into another disc, and out of the dish: as far as it goes.
+        # Into another disc, and out of the container: it stops at the contact.
         for target, touches in ((before[1][:2], lambda disc: math.dist(disc[:2], before[1][:2]) - 2),
                                 ([40.0, 0.0], lambda disc: 7.6 - math.dist(disc[:2], dish))):
             moved, _ = self.discs({}, [["advance_to", now, 10 ** 6], ["drag", now, 0, *target],
@@ -360,7 +360,7 @@ class Laboratory(unittest.TestCase):
             self.assertGreaterEqual(others, 2)
             self.assertLess(min(touches(moved[0]), others - 2), 1e-6)
 
-    def discs_of_container(self, now):
+    def container_centre(self, now):
         said = self.engine([{"given": {"discs": "5", "seed": "3"}, "events": 0,
                              "steps": [["advance_to", now, 10 ** 6]]}])["said"][0]
         return said["frame"][3:5]
@@ -368,21 +368,21 @@ class Laboratory(unittest.TestCase):
     def test_the_page_knows_every_parameter_of_the_command_line(self):
         help_text = swirl("run", "--help").stdout
         for row in self.engine([])["parameters"]:
-            if row["given"]:
+            if row["settable"]:
                 self.assertIn(f"--{row['name'].replace('_', '-')} ", help_text)
 
-    def test_a_wrong_parameter_is_refused_in_the_words_of_the_command_line(self):
+    def test_an_invalid_parameter_has_the_message_of_the_command_line(self):
         for wrong in ({"discs": "100"}, {"mu": "nan"}, {"disks": "5"}, {"path": "square"}):
             with self.subTest(wrong):
                 there = self.engine([{"given": wrong, "events": 1}])["said"][0]
                 here = swirl("run", *options(wrong), check=False)
                 self.assertEqual(here.returncode, 2)
-                if "disks" in wrong:  # of options CLI11 says it
-                    self.assertEqual(there["refused"],
+                if "disks" in wrong:  # the command line calls it an option
+                    self.assertEqual(there["rejected"],
                                      "there is no parameter 'disks'.\nhint: did you mean 'discs'?")
                     continue
-                self.assertIn(there["refused"], here.stderr)
-                self.assertRegex(there["refused"], r"(?s)^(--)?\w.*\.$")
+                self.assertIn(there["rejected"], here.stderr)
+                self.assertRegex(there["rejected"], r"(?s)^(--)?\w.*\.$")
 
     def test_the_page_in_a_browser(self):
         if not CHROMIUM:
@@ -417,8 +417,8 @@ class Laboratory(unittest.TestCase):
             self.assertGreater(int(asked.stdout), 5)
 
     def assert_shows_discs(self, path, discs):
-        """In colours from blue over grey to orange, on light paper: as much of the picture as they cover,
-        within a fifth (their rims and hands are drawn in ink, the arc along the wall in colour)."""
+        """The image has a light background and colours from blue to grey to orange, which cover the area of the
+        discs within a fifth. (Rims and orientation marks are dark, the arc along the wall is coloured.)"""
         rows = pixels_of(path)
         self.assertEqual({len(row) for row in rows}, {len(rows)})
         paper, ink = (0xfb, 0xfa, 0xf8), (0x23, 0x27, 0x2b)
@@ -435,17 +435,17 @@ class Laboratory(unittest.TestCase):
         expected = discs * math.pi / (2 * 1.06 * (8.6 + 1.892)) ** 2
         self.assertLess(abs(covered / expected - 1), 0.2)
 
-    def test_what_the_page_works_out_by_itself(self):
+    def test_the_units_of_the_page(self):
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "units.mjs")],
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def test_it_loads_at_once(self):
+    def test_it_is_small(self):
         with open(self.page, "rb") as opened:
             packed = gzip.compress(opened.read(), 9)
         self.assertLessEqual(len(packed), 400_000)
 
-    def test_it_goes_on_moving(self):
+    def test_it_keeps_running(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "frames.mjs"), self.page,
@@ -453,12 +453,12 @@ class Laboratory(unittest.TestCase):
         print(done.stdout)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
-    def test_one_file_asks_nothing_of_anybody(self):
+    def test_it_makes_no_requests(self):
         with open(self.page, encoding="utf-8") as opened:
             text = opened.read()
         self.assertNotRegex(text, r"""(src|href)=["']?(https?:)?//""")
 
-    def test_it_serves_the_page_and_says_where_and_that_a_port_is_taken(self):
+    def test_it_serves_the_page_and_reports_a_port_in_use(self):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = str(free.getsockname()[1])
@@ -468,11 +468,11 @@ class Laboratory(unittest.TestCase):
             second = subprocess.run([LAB, "--port", port, "--no-browser"], capture_output=True,
                                     text=True)
             self.assertEqual(second.returncode, 1)
-            self.assertIn(f"Port {port} is taken", second.stderr)
+            self.assertIn(f"port {port} is already in use", second.stderr)
             lab.send_signal(signal.SIGINT)
         self.assertEqual(lab.returncode, 130)
 
-    def test_wrong_calls(self):
+    def test_usage_errors(self):
         for wrong, said in ((["--port", "0"], "--port is '0'"), (["--port", "x"], "--port is 'x'"),
                             (["--speed"], "'--speed'"), (["--out"], "--out needs a value")):
             done = subprocess.run([LAB, *wrong], capture_output=True, text=True)

@@ -10,7 +10,7 @@ import unittest
 from program import SOURCE, InFolder
 
 PAGE = b"<!doctype html><title>page</title>"
-WAIT = 30  # seconds until a server that does not answer is an error; none is expected to take one
+WAIT = 30  # seconds; an answer normally takes less than one
 
 # Name, request target, expected status. GET, with the right Host.
 TARGETS = [
@@ -77,7 +77,7 @@ class Serve(InFolder):
         self.server.communicate()
 
     def answer(self, request):
-        """All bytes that come back until the server closes the connection."""
+        """All bytes until the server closes the connection."""
         with socket.create_connection(("127.0.0.1", self.port), timeout=WAIT) as connection:
             connection.sendall(request)
             chunks = []
@@ -85,7 +85,7 @@ class Serve(InFolder):
                 while chunk := connection.recv(65536):
                     chunks.append(chunk)
             except ConnectionResetError:
-                pass  # of what it had not read
+                pass  # the server closed with unread data
         return b"".join(chunks)
 
     def status(self, request):
@@ -100,13 +100,13 @@ class Serve(InFolder):
         self.assertIsNone(self.server.poll(), "the server has ended")
         self.assertIn(PAGE, self.answer(self.get("/")))
 
-    def test_no_target_stops_it_or_names_another_file(self):
+    def test_no_target_stops_the_server_or_reaches_another_file(self):
         for name, target, expected in TARGETS:
             with self.subTest(name):
                 self.assertEqual(self.status(self.get(target)), expected)
                 self.assert_serves()
 
-    def test_no_malformed_or_unusual_request_stops_it(self):
+    def test_no_malformed_or_unusual_request_stops_the_server(self):
         host = f"localhost:{self.port}\r\nConnection: close".encode()
         for name, request, expected in RAW:
             with self.subTest(name):
@@ -117,7 +117,7 @@ class Serve(InFolder):
         head = self.answer(self.get("/").replace(b"GET", b"HEAD"))
         self.assertTrue(head.startswith(b"HTTP/1.1 200 ") and head.endswith(b"\r\n\r\n"), head)
 
-    def test_half_open_and_broken_connections_do_not_keep_others_out(self):
+    def test_half_open_and_broken_connections_do_not_block_others(self):
         half_open = []
         for sent in (b"", b"GET / HTTP/1.1\r\nHost:", b"GET "):
             half_open += [socket.create_connection(("127.0.0.1", self.port), timeout=WAIT)
@@ -130,7 +130,7 @@ class Serve(InFolder):
             connection.close()
         self.assert_serves()
 
-    def test_only_names_of_this_machine_are_answered(self):
+    def test_only_names_of_this_machine_are_accepted(self):
         port = self.port
         for host in (f"localhost:{port}", f"127.0.0.1:{port}", f"[::1]:{port}", f"LOCALHOST:{port}"):
             self.assertEqual(self.status(self.get("/", host)), 200, host)
@@ -140,7 +140,7 @@ class Serve(InFolder):
             self.assertEqual(self.status(self.get("/", host)), 403, host)
         self.assert_serves()
 
-    def test_a_page_that_is_gone_is_an_answer(self):
+    def test_a_missing_page_is_reported(self):
         os.remove(self.page)
         for _ in range(2):
             self.assertEqual(self.status(self.get("/")), 500)

@@ -1,5 +1,5 @@
-"""`swirl site` replaces a whole site by a whole one, whatever comes between its two names: web/site.sh in a
-tree of its own, whose pages are made in a moment, with an `mv` that is interrupted."""
+"""`swirl site` replaces a complete site by a complete site, even if it is interrupted between its two renames.
+The tests run web/site.sh in a small tree with stand-ins for its tools, among them an interrupted `mv`."""
 
 import os
 import shutil
@@ -8,11 +8,11 @@ import unittest
 
 from program import SOURCE, InFolder
 
-# Each is a program in the PATH; of the arguments of node the second is the folder of the pages.
+# Programs in the PATH. The last argument of sphinx-build is the output folder.
 PROGRAMS = {
     "web/lab.sh": 'for a; do case $a in *.html) echo lab >"$a" ;; esac; done',
-    "bin/node": '[ -z "${FAIL-}" ] || exit 1\necho "$PAGE" >"$3/index.html"\necho 1 pages',
-    # The k-th call is told, or ends, the shell that called it: before it has done anything, or after.
+    "bin/sphinx-build": '[ -z "${FAIL-}" ] || exit 1\nfor a; do :; done\necho "$PAGE" >"$a/index.html"',
+    # Call number AT sends SIGNAL to the calling shell, before or after its rename.
     "bin/mv": """count=$(($(cat "$COUNT" 2>/dev/null || echo 0) + 1))
 echo $count >"$COUNT"
 if [ "$count.$WHEN" = "$AT.before" ]; then kill -"$SIGNAL" $PPID; fi
@@ -29,7 +29,7 @@ class SiteNames(InFolder):
             os.mkdir(self.path(folder))
         shutil.copy(os.path.join(SOURCE, "web/site.sh"), self.path("web/site.sh"))
         shutil.copy(os.path.join(SOURCE, "cmake/launcher.sh"), self.path("cmake/launcher.sh"))
-        for empty in ("packages", "web/gallery.txt", "web/site.mjs", "web/notebooks.py"):
+        for empty in ("packages", "web/gallery.txt", "web/site.py", "web/notebooks.py"):
             open(self.path(empty), "w").close()
         for name, script in PROGRAMS.items():
             with open(self.path(name), "w", encoding="utf-8") as opened:
@@ -52,7 +52,7 @@ class SiteNames(InFolder):
         with open(os.path.join(self.site, "index.html"), encoding="utf-8") as opened:
             return opened.read().strip()
 
-    def test_stopped_at_a_name_it_is_the_old_site_or_the_new_one(self):
+    def test_a_stop_at_a_rename_leaves_the_old_or_the_new_site(self):
         everywhere = [("TERM", at, when) for at in ("1", "2") for when in ("before", "after")]
         for signal, at, when in [*everywhere, ("INT", "2", "before"), ("HUP", "2", "before")]:
             with self.subTest(signal=signal, at=at, when=when):
@@ -61,13 +61,13 @@ class SiteNames(InFolder):
                 self.assertIn(self.page(), ("old", "new"))
                 self.assertEqual(os.listdir(self.path("out")), ["site"])
 
-    def test_killed_at_a_name_nothing_is_lost(self):
+    def test_a_kill_at_a_rename_loses_nothing(self):
         for at in ("1", "2"):
             for when in ("before", "after"):
                 with self.subTest(at=at, when=when):
                     self.assertEqual(self.make("old").returncode, 0)
                     self.make("new", SIGNAL="KILL", AT=at, WHEN=when)
-                    # The next call, even one that comes to nothing, brings back what was there.
+                    # The next call restores the old site, even if that call fails.
                     self.assertEqual(self.make("newer", FAIL="1").returncode, 1)
                     self.assertIn(self.page(), ("old", "new"))
                     done = self.make("newer")
@@ -75,12 +75,12 @@ class SiteNames(InFolder):
                     self.assertEqual(self.page(), "newer")
                     self.assertEqual(os.listdir(self.path("out")), ["site"])
 
-    def test_a_site_that_another_call_is_making_is_left_alone(self):
+    def test_a_site_in_progress_of_another_call_is_not_touched(self):
         self.assertEqual(self.make("old").returncode, 0)
-        theirs = self.site + ".a1B2c3.partial"
-        os.mkdir(theirs)
-        with subprocess.Popen(["flock", os.path.join(theirs, "lock"), "sleep", "60"]) as holder:
-            while not os.path.exists(os.path.join(theirs, "lock")):
+        other = self.site + ".a1B2c3.partial"
+        os.mkdir(other)
+        with subprocess.Popen(["flock", os.path.join(other, "lock"), "sleep", "60"]) as holder:
+            while not os.path.exists(os.path.join(other, "lock")):
                 self.assertIsNone(holder.poll())
             self.assertEqual(self.make("new").returncode, 0)
             self.assertEqual(sorted(os.listdir(self.path("out"))), ["site", "site.a1B2c3.partial"])

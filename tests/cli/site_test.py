@@ -1,5 +1,4 @@
-"""The site: no link leads nowhere, no page asks anybody for anything, and nothing that is no site of
-ours is written over."""
+"""The site: every link has a target, no page makes a request to another host, and only a site is replaced."""
 
 import os
 import re
@@ -13,7 +12,7 @@ from urllib.parse import unquote, urlsplit
 from program import SOURCE, made_of_the_web
 
 SITE = os.path.join(SOURCE, "web", "site.sh")
-# The module of this build runs the notebooks.
+# The notebooks use the Python module of this build.
 WITH_MODULE = {**os.environ, "SWIRL_PYTHON": "/usr/bin/python3",
                "PYTHONPATH": os.path.join(os.environ["SWIRL_LIBRARIES"], "python")}
 WITHOUT_MODULE = {**os.environ, "SWIRL_PYTHON": "false"}
@@ -27,19 +26,23 @@ const browser = await chromium.launch({executablePath, args: ["--no-sandbox", "-
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
     "--allow-file-access-from-files"]});
 const page = await browser.newPage({viewport: {width: 360, height: 740}});
-const complaints = [];
-page.on("pageerror", (error) => complaints.push(error.message));
-page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+const errors = [];
+page.on("requestfailed", (request) => errors.push(`not found: ${request.url()}`));
+page.on("pageerror", (error) => errors.push(error.message));
+page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
 page.on("request", (request) => {
-    if (!/^(file|data|blob):/.test(request.url())) complaints.push(request.url());
+    if (!/^(file|data|blob):/.test(request.url())) errors.push(request.url());
 });
 for (const file of files) {
     await page.goto(pathToFileURL(file).href);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
-    if (wide > 360) complaints.push(`${file} is ${wide} wide at a width of 360`);
+    if (wide > 360) errors.push(`${file} is ${wide} wide at a width of 360`);
 }
+const search = files.find((file) => file.endsWith("/search.html"));
+await page.goto(`${pathToFileURL(search).href}?q=friction`);
+await page.waitForSelector("#search-results li a", {timeout: 20000}).catch(() => errors.push("no search results"));
 await browser.close();
-console.log(complaints.join("\\n"));
+console.log(errors.join("\\n"));
 """
 
 
@@ -63,13 +66,14 @@ class Site(unittest.TestCase):
         for place, _, names in os.walk(cls.site):
             for name in names:
                 path = os.path.join(place, name)
-                if name.endswith(".html") and path != os.path.join(cls.site, "lab.html"):
+                if name.endswith(".html") and path != os.path.join(cls.site, "lab.html") and \
+                        "_static" not in path:
                     parsed = Links()
                     with open(path, encoding="utf-8") as opened:
                         parsed.feed(opened.read())
                     cls.pages[path] = parsed
 
-    def test_no_link_leads_nowhere(self):
+    def test_every_link_has_a_target(self):
         checked = 0
         for path, page in self.pages.items():
             for link in page.links:
@@ -85,54 +89,66 @@ class Site(unittest.TestCase):
                 checked += 1
         self.assertGreater(checked, 500)
 
-    def test_every_document_and_command_has_its_place(self):
-        for name in os.listdir(os.path.join(SOURCE, "docs")):
-            if name.endswith(".md"):
-                page = os.path.join(self.site, "docs", name[:-3] + ".html")
-                self.assertTrue(page in self.pages, name)
-        with open(os.path.join(self.site, "commands.html"), encoding="utf-8") as opened:
-            text = opened.read()
-        for command in ("run", "paper", "sweep", "measure", "lab", "site"):
-            self.assertIn(f"<h2 id=\"{command}\">swirl {command}</h2>", text)
-        self.assertIn("--mu-disc NUMBER", text)
+    def test_every_document_has_a_page_in_the_contents(self):
+        documents = [os.path.join(place, name)
+                     for place, _, names in os.walk(os.path.join(SOURCE, "docs")) for name in names
+                     if name.endswith(".md")]
+        self.assertGreater(len(documents), 10)
+        home = os.path.join(self.site, "docs", "index.html")
+        listed = {os.path.normpath(os.path.join(os.path.dirname(home), urlsplit(link).path))
+                  for link in self.pages[home].links}
+        for path in documents:
+            page = os.path.join(self.site, os.path.relpath(path, SOURCE)[:-3] + ".html")
+            self.assertIn(page, self.pages)
+            if page != home:
+                self.assertIn(page, listed)
 
-    def test_the_gallery_shows_what_its_commands_make(self):
+    def test_the_home_page_leads_to_the_documentation(self):
+        with open(os.path.join(self.site, "index.html"), encoding="utf-8") as opened:
+            self.assertIn('href="docs/index.html"', opened.read())
+
+    def test_the_search_index_is_a_script(self):  # a browser does not load JSON from file://
+        with open(os.path.join(self.site, "searchindex.js"), encoding="utf-8") as opened:
+            self.assertTrue(opened.read().startswith("Search.setIndex("))
+
+    def test_the_gallery_shows_the_output_of_its_commands(self):
         with open(os.path.join(SOURCE, "web", "gallery.txt"), encoding="utf-8") as opened:
             lines = [line.strip().split(" | ") for line in opened if not line.startswith("#")]
         with open(os.path.join(self.site, "gallery.html"), encoding="utf-8") as opened:
             text = opened.read()
         self.assertGreater(len([line for line in lines if len(line) == 2]), 5)
-        kept = {line[2] for line in lines if len(line) == 3}
-        for _, command, *picture in lines:
-            if not picture and " movie " in command and not shutil.which("ffmpeg"):
+        images = re.findall(r'<(?:img|video)[^>]* src="([^"]+)"', text)
+        shown = {os.path.basename(src) for src in images}
+        for _, command, *stored in lines:
+            if not stored and " movie " in command and not shutil.which("ffmpeg"):
                 continue
-            self.assertIn(command, text)
-            src = picture[0] if picture else f"gallery/{command.split()[-1]}"
-            self.assertIn(f'src="{src}"', text)
-        # Every picture of the documents is in it.
-        of_documents = {f"docs/{name}" for name in os.listdir(os.path.join(SOURCE, "docs"))
-                        if name.endswith((".png", ".gif"))}
-        self.assertEqual(of_documents - kept, set())
+            self.assertIn(command, re.sub(r"<[^>]+>", "", text))
+            self.assertIn(os.path.basename(stored[0]) if stored else command.split()[-1], shown)
+        # The gallery has all images of the documentation.
+        stored = {line[2] for line in lines if len(line) == 3}
+        images = {f"docs/images/{name}" for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
+                  if name.endswith((".png", ".gif"))}
+        self.assertEqual(images - stored, set())
 
-    def test_notebooks_are_read_as_documents(self):
-        path = os.path.join(self.site, "examples", "first_steps.ipynb.html")
+    def test_notebooks_are_pages(self):
+        path = os.path.join(self.site, "examples", "first_steps.html")
         self.assertIn(path, self.pages)
         with open(path, encoding="utf-8") as opened:
             text = opened.read()
         self.assertRegex(text, r"<h1[^>]*>First steps")
-        self.assertIn("swirl.run(discs=12", text)
+        self.assertIn("swirl.run(discs=12", re.sub(r"<[^>]+>", "", text))
         self.assertNotIn("cell_type", text)
 
-    def test_notebooks_show_what_they_print(self):
+    def test_notebooks_show_their_output(self):
         for name in sorted(os.listdir(os.path.join(SOURCE, "examples"))):
             if not name.endswith(".ipynb"):
                 continue
-            with open(os.path.join(self.site, "examples", name + ".html"), encoding="utf-8") as opened:
+            with open(os.path.join(self.site, "examples", name[:-6] + ".html"), encoding="utf-8") as opened:
                 text = opened.read()
-            self.assertRegex(text, r'<img src="data:image/png;base64,|<figure><svg', name)
+            self.assertRegex(text, rf'<img [^>]*src="[^"]*{name[:-6]}_[0-9]+_[0-9]+\.(png|svg)"', name)
             self.assertNotIn("Traceback", text, name)
 
-    def test_only_who_is_asked_to_speaks_to_others(self):
+    def test_no_page_loads_from_another_host(self):
         for path in self.pages:
             with open(path, encoding="utf-8") as opened:
                 text = opened.read()
@@ -146,37 +162,37 @@ class Site(unittest.TestCase):
             opened.write(BROWSER)
         self.addCleanup(os.remove, script)
         documents = [path for path in sorted(self.pages)
-                     if re.search(r"/(index|commands|gallery)\.html$|/docs/", path)]
+                     if re.search(r"/(search|gallery|README)\.html$|/docs/", path)]
         done = subprocess.run(["node", script, CHROMIUM, *documents], capture_output=True, text=True,
                               timeout=150)
         self.assertEqual((done.returncode, done.stdout.strip()), (0, ""), done.stderr)
 
-    def test_a_site_is_replaced_and_nothing_else_is(self):
+    def test_only_a_site_is_replaced(self):
         with tempfile.TemporaryDirectory() as folder:
             site = os.path.join(folder, "site")
             shutil.copytree(self.site, site)
             with open(os.path.join(site, "old.html"), "w", encoding="utf-8") as opened:
-                opened.write("of an older site")
-            # Notebooks that cannot be run are shown all the same.
+                opened.write("from an older site")
+            # Notebooks that cannot be executed are shown without output.
             done = subprocess.run([SITE, "--out", site], check=True, capture_output=True, text=True,
                                   env=WITHOUT_MODULE)
-            self.assertIn("without what they print", done.stderr)
-            self.assertTrue(os.path.exists(os.path.join(site, "examples", "first_steps.ipynb.html")))
+            self.assertIn("the notebooks are shown without output", done.stderr)
+            self.assertTrue(os.path.exists(os.path.join(site, "examples", "first_steps.html")))
             self.assertEqual(os.listdir(folder), ["site"])
             self.assertFalse(os.path.exists(os.path.join(site, "old.html")))
-            mine = os.path.join(site, "docs")  # a folder with something in it
-            done = subprocess.run([SITE, "--out", mine], capture_output=True, text=True)
+            other = os.path.join(site, "docs")  # a folder with something in it
+            done = subprocess.run([SITE, "--out", other], capture_output=True, text=True)
             self.assertEqual(done.returncode, 2)
-            self.assertIn("not empty and not a site", done.stderr)
-            self.assertTrue(os.listdir(mine))
+            self.assertIn("neither empty nor a site", done.stderr)
+            self.assertTrue(os.listdir(other))
 
-    def test_wrong_calls(self):
-        for wrong, said in (([], "needs --out"), (["--out"], "--out needs a value"),
+    def test_usage_errors(self):
+        for wrong, message in (([], "missing required option --out"), (["--out"], "--out needs a value"),
                             (["--to", "x"], "'--to'"),
                             (["--out", "x", "--report", "/nowhere"], "no report.html")):
             done = subprocess.run([SITE, *wrong], capture_output=True, text=True)
             self.assertEqual(done.returncode, 2, wrong)
-            self.assertIn(said, done.stderr)
+            self.assertIn(message, done.stderr)
 
 
 if __name__ == "__main__":

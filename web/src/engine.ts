@@ -1,9 +1,9 @@
-// The engine behind its functions of plain numbers (bindings/wasm/laboratory.cpp).
+// The interface to the WebAssembly engine (bindings/wasm/laboratory.cpp).
 
 import {workerTexts} from "./texts";
 
-/** A sentence of the engine's: what was wrong, which value, what would be right. */
-export class Refusal extends Error {}
+/** An error message of the engine, with an optional hint in a second line. */
+export class UsageError extends Error {}
 
 export interface Parameter {
     name: string;
@@ -15,9 +15,9 @@ export interface Parameter {
     default: string;
     lowest: number;
     highest: number;
-    /** What a slider offers: from, to, step. */
-    usual: [number, number, number] | null;
-    given: boolean;
+    /** From, to, step; null if the parameter has no slider. */
+    slider: [number, number, number] | null;
+    settable: boolean;
 }
 
 export interface Estimate {
@@ -35,24 +35,24 @@ export function perRate<T>(of: (rate: Rate) => T): Record<Rate, T> {
 }
 
 export interface Rotation extends Record<Rate, Estimate> {
-    warmup: number; // swirls
-    /** Those of the warm-up first. */
+    warmup: number; // in periods
+    /** Means over blocks of periods; the warm-up's come first. */
     blocks: (number | null)[];
     warmup_blocks: number;
     /** In the warm-up and after it. */
-    swirls_per_block: [number, number];
+    periods_per_block: [number, number];
 }
 
 interface Exports {
     memory: WebAssembly.Memory;
     _initialize(): void;
-    room(size: number): number;
+    buffer_for(size: number): number;
     text(): number;
     parameters(): number;
     begin(): void;
     configuration(): number;
     run_events(count: number): void;
-    advance_to(time: number, most: number): number;
+    advance_to(time: number, maximum: number): number;
     problem(atTheEnd: number): number;
     frame(time: number): number;
     frame_size(): number;
@@ -62,7 +62,7 @@ interface Exports {
     events(): number;
     state_hash(): bigint;
     rotation(): number;
-    keeps(): number;
+    keeps_discs(): number;
     change(time: number): number;
     steer(time: number, x: number, y: number, duration: number): void;
     reverse(time: number): number;
@@ -76,7 +76,7 @@ interface Exports {
     crossing(): number;
 }
 
-/** N_c, its standard error, its interval of 95 %. If not every N between was run, only the bracket is known. */
+/** N_c, its standard error and its 95 % interval. If not every N in between was run, only the bracket is known. */
 export interface Crossing {
     discs: number | null;
     error: number | null;
@@ -84,30 +84,30 @@ export interface Crossing {
     upper: number;
 }
 
-/** What a frame begins with, and what follows for every disc; then, of spheres that can roll, how each is
- *  turned: four numbers. */
+/** The layout of a frame: numbers in its head, per disc, and per orientation (a quaternion; only spheres
+ *  have one). */
 export const frameHead = 11;
 export const frameDisc = 8;
-export const frameTurn = 4;
+export const frameOrientation = 4;
 
-/** What the C library would ask of a system; a page has none, and 52 is its word for that. */
+/** System calls of the C library. A page has none; 52 is the error code for "not supported". */
 const noSystem = new Proxy({}, {get: () => () => 52});
 
 export class Engine {
     private readonly out: Exports;
 
-    /** Throws where WebAssembly or its vectors are missing. */
+    /** Throws if the browser has no WebAssembly or no SIMD. */
     static compile(bytes: BufferSource): Promise<WebAssembly.Module> {
         return WebAssembly.compile(bytes);
     }
 
     constructor(module: WebAssembly.Module) {
-        const refuse = (at: number, size: number): never => {
-            throw new Refusal(this.read(at, size));
+        const reject = (at: number, size: number): never => {
+            throw new UsageError(this.read(at, size));
         };
         const instance = new WebAssembly.Instance(module, {
             wasi_snapshot_preview1: noSystem as WebAssembly.ModuleImports,
-            page: {refuse},
+            page: {reject},
         });
         this.out = instance.exports as unknown as Exports;
         this.out._initialize();
@@ -123,48 +123,48 @@ export class Engine {
     parameters(): Parameter[] {
         return JSON.parse(this.answer(this.out.parameters())) as Parameter[];
     }
-    private hand(text: string): void {
+    private write(text: string): void {
         const bytes = new TextEncoder().encode(text);
-        const at = this.out.room(bytes.length);
+        const at = this.out.buffer_for(bytes.length);
         new Uint8Array(this.out.memory.buffer, at, bytes.length).set(bytes);
     }
-    /** Values are lines for the engine, and one may come from an address: a control character in it would
-     *  make it several, or another one than is shown. */
-    private handLines(given: Record<string, string>): void {
+    /** Each value is one line for the engine and may come from the page's address. A control character in
+     *  it could add further lines or hide text, so it is an error. */
+    private writeLines(given: Record<string, string>): void {
         for (const [name, value] of Object.entries(given)) {
             const control = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/u.exec(value);
-            if (control) throw new Refusal(workerTexts.control(name, control[0].codePointAt(0) ?? 0));
+            if (control) throw new UsageError(workerTexts.control(name, control[0].codePointAt(0) ?? 0));
         }
-        this.hand(Object.entries(given).map(([name, value]) => `${name}=${value}\n`).join(""));
+        this.write(Object.entries(given).map(([name, value]) => `${name}=${value}\n`).join(""));
     }
-    /** Throws Refusal; the engine is then of no more use. */
+    /** Throws UsageError; the engine cannot be used after that. */
     begin(given: Record<string, string>): void {
-        this.handLines(given);
+        this.writeLines(given);
         this.out.begin();
     }
-    /** Whether change() would keep the discs. Throws Refusal. */
-    keeps(given: Record<string, string>): boolean {
-        this.handLines(given);
-        return this.out.keeps() === 1;
+    /** Whether change() would keep the discs. Throws UsageError. */
+    keepsDiscs(given: Record<string, string>): boolean {
+        this.writeLines(given);
+        return this.out.keeps_discs() === 1;
     }
-    /** The same discs go on from a moment at which a swirl begins; false if that is another dish. */
+    /** The discs continue from `time`, the start of a period; false if the change needs a new simulation. */
     change(time: number, given: Record<string, string>): boolean {
-        this.handLines(given);
+        this.writeLines(given);
         return this.out.change(time) === 1;
     }
-    /** From a moment on the container goes straight to a point; the engine's time begins anew. */
+    /** From `time` on the container moves straight to a point. The engine's time restarts at 0. */
     steer(time: number, x: number, y: number, duration: number): void {
         this.out.steer(time, x, y, duration);
     }
-    /** Time runs backwards from a moment on; false if this dish does not allow that. Times begin anew. */
+    /** Reverses time from `time` on; false if energy is not conserved. The engine's time restarts at 0. */
     reverse(time: number): boolean {
         return this.out.reverse(time) === 1;
     }
-    /** A disc is put as near to a point as there is room. Times begin anew. */
+    /** Moves a disc to the free position nearest to a point. The engine's time restarts at 0. */
     drag(time: number, disc: number, x: number, y: number): void {
         this.out.drag(time, disc, x, y);
     }
-    /** The command line that comes to the last event; for a dish that has not been changed. */
+    /** The command line that reaches the last event, if the simulation was not changed. */
     command(): string {
         return this.answer(this.out.command());
     }
@@ -172,23 +172,23 @@ export class Engine {
     result(): string {
         return this.answer(this.out.result());
     }
-    /** Of what is measured, as it is now; column() reads it. */
+    /** Stores the current report of all measurements; column() reads it. */
     report(): void {
         this.out.report();
     }
-    /** Of the last report: "density//by_time". */
+    /** A column of the stored report, e.g. "density//by_time". */
     column(path: string): Float64Array {
-        this.hand(path);
+        this.write(path);
         const size = this.out.column();
         return this.numbers(this.out.values(), size);
     }
-    /** Of points N, ϖ/Ω, error, one after the other. */
+    /** `points` are triples of N, ϖ/Ω and error. */
     crossing(points: number[]): Crossing | null {
         const at = this.out.points(points.length / 3);
         new Float64Array(this.out.memory.buffer, at, points.length).set(points);
         return JSON.parse(this.answer(this.out.crossing())) as Crossing | null;
     }
-    /** All parameters of the dish, also those that were not given. */
+    /** All parameters, including those that were not given. */
     configuration(): Record<string, string> {
         const lines = this.answer(this.out.configuration()).split("\n").filter(Boolean);
         return Object.fromEntries(lines.map((line) => {
@@ -199,20 +199,20 @@ export class Engine {
     runEvents(count: number): void {
         this.out.run_events(count);
     }
-    advanceTo(time: number, most: number): boolean {
-        return this.out.advance_to(time, most) === 1;
+    advanceTo(time: number, maximum: number): boolean {
+        return this.out.advance_to(time, maximum) === 1;
     }
-    /** The sentence with which a run of the command line would have ended here; empty if it is sound. */
+    /** The error message with which a run of the command line would end here; empty if there is none. */
     problem(atTheEnd: boolean): string {
         return this.answer(this.out.problem(Number(atTheEnd)));
     }
-    /** The dish at a moment, see bindings/wasm/laboratory.cpp; a copy. */
+    /** A copy of the state at `time`, see bindings/wasm/laboratory.cpp. */
     frame(time: number): Float64Array {
         const at = this.out.frame(time);
         return this.numbers(at, this.out.frame_size());
     }
-    /** Of numbers that a call has left there. Only now is the memory's buffer asked for: a call may have
-     *  made it grow, and then it is another one. */
+    /** A copy of `size` numbers at `at`. The buffer is read after the call that wrote the numbers: memory
+     *  that grows gets a new buffer. */
     private numbers(at: number, size: number): Float64Array {
         return new Float64Array(this.out.memory.buffer, at, size).slice();
     }

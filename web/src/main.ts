@@ -1,4 +1,4 @@
-// The page: what is asked for, what is shown. The dish itself is with the worker.
+// The page: controls and views. The simulation itself runs in the worker.
 import "./style.css";
 import "uplot/dist/uPlot.min.css";
 import uPlot from "uplot";
@@ -6,51 +6,51 @@ import engineUrl from "../generated/swirl.wasm.gz?url";
 import EngineWorker from "./worker?worker&inline";
 import type {Parameter, Rotation} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
-import {Beside} from "./beside";
+import {ComparedContainer} from "./compared";
 import {MapsPanel} from "./maps";
 import {accent, byId, button, dark, element, ink, line, quiet, save, withError} from "./page";
 import {Recording} from "./recording";
-import {meansOf, swirlsOf, tableOf} from "./series";
-import {discAt, discOf, draw, pointedAt, recent, turnBetween, type Coloring, type View} from "./scene";
+import {meansOf, periodsOf, tableOf} from "./series";
+import {discAt, discOf, draw, pointedAt, recent, clusterTurnsBetween, type Coloring, type View} from "./scene";
 import {Study} from "./study";
 import {lesson, presets, symbols, texts} from "./texts";
 
 const trailLength = 45; // frames, at most
-const trailPeriods = 0.3; // at most, as swirl movie has it
-const settling = 350; // milliseconds after the last change before it is made
+const trailPeriods = 0.3; // at most, as in `swirl movie`
+const settling = 350; // milliseconds between the last input and its effect
 
 // --- state ------------------------------------------------------------------------------------
 
 let rows: Parameter[] = [];
 let given: Record<string, string> = {};
 let configuration: Record<string, string> = {};
-let runTo = 0; // events, from the address
-const lessMotion = matchMedia("(prefers-reduced-motion: reduce)");
-let playing = !lessMotion.matches;
+let runTo = 0; // number of events, from the page's address
+const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
+let playing = !reducedMotion.matches;
 let view: "lab" | "m" | "both" = "lab";
 let coloring: Coloring = "spin";
 let trails = false;
 let forces = false;
-let swirlsPerSecond = 1;
-let step = -1; // of the lesson
+let periodsPerSecond = 1;
+let step = -1; // of the lesson; -1: closed
 let last: Frame | undefined;
 let history: Float64Array[] = [];
-let waiting = false; // for the answer to a tick
+let waiting = false; // for the frame that answers a message
 let lastTick = 0;
-let keepDiscs = false; // where a parameter changes
-let hasHistory = false; // no command line makes this dish
+let keepDiscs = false; // when a parameter changes
+let hasHistory = false; // the simulation was changed, so no command line reproduces it
 let byHand = false;
-let pointer: [number, number] | undefined; // where the container is to go, by hand
-let turned = 0; // of the pack, in turns
-let dragged: number | undefined; // the disc that the pointer holds
-let held: number | undefined; // the disc that the keys move
+let pointer: [number, number] | undefined; // the container's target when it is moved by hand
+let clusterTurns = 0; // rotation of the cluster, in turns
+let dragged: number | undefined; // the disc under the pointer
+let held: number | undefined; // the disc selected by keys
 let backwards = false;
-let beside: Beside | undefined;
+let compared: ComparedContainer | undefined;
 
 const worker = new EngineWorker();
-const tell = (message: ToWorker): void => worker.postMessage(message);
+const send = (message: ToWorker): void => worker.postMessage(message);
 
-// --- the dish ---------------------------------------------------------------------------------
+// --- views ------------------------------------------------------------------------------------
 
 const canvases: Partial<Record<View, HTMLCanvasElement>> = {};
 
@@ -61,23 +61,23 @@ function layOutViews(): void {
         canvas.setAttribute("role", "img");
         canvases[each] = canvas;
         if (each === "lab") {
-            takePointer(canvas);
-            takeTouch(canvas);
-            takeKeys(canvas);
+            addPointerControl(canvas);
+            addTouchControl(canvas);
+            addKeyControl(canvas);
         }
         return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
     }));
     for (const each of ["lab", "m"] as const) if (!views.includes(each)) delete canvases[each];
-    if (beside) byId("views").append(beside.figure);
+    if (compared) byId("views").append(compared.figure);
     recording.stop();
     redraw();
 }
 
-/** By hand it leads the dish, else the disc that it is put on. */
-function takePointer(canvas: HTMLCanvasElement): void {
-    canvas.title = texts.dragHow;
+/** The pointer moves the container in the mode "by hand", otherwise the disc under it. */
+function addPointerControl(canvas: HTMLCanvasElement): void {
+    canvas.title = texts.dragHelp;
     const point = (event: PointerEvent): [number, number] =>
-        pointedAt(canvas, last!.frame, room(), event.clientX, event.clientY);
+        pointedAt(canvas, last!.frame, maxDistance(), event.clientX, event.clientY);
     canvas.addEventListener("pointerdown", (event) => {
         if (!last) return;
         if (byHand) pointer = point(event);
@@ -87,34 +87,34 @@ function takePointer(canvas: HTMLCanvasElement): void {
     canvas.addEventListener("pointermove", (event) => {
         if (!last) return;
         if (byHand) pointer = point(event);
-        if (dragged !== undefined) put(dragged, ...point(event));
+        if (dragged !== undefined) moveDisc(dragged, ...point(event));
     });
     for (const end of ["pointerup", "pointercancel"] as const)
         canvas.addEventListener(end, () => { dragged = undefined; });
 }
 
-/** A finger that moves up or down scrolls the page, and takes the disc from the pointer, unless the
- *  first touch says that it is for the disc. */
-function takeTouch(canvas: HTMLCanvasElement): void {
+/** A vertical touch move scrolls the page and cancels the pointer. If the touch starts on a disc,
+ *  this prevents the scrolling. */
+function addTouchControl(canvas: HTMLCanvasElement): void {
     canvas.addEventListener("touchstart", (event) => {
         const finger = event.touches[0];
         if (!last || byHand || !finger || event.touches.length > 1) return;
-        const at = pointedAt(canvas, last.frame, room(), finger.clientX, finger.clientY);
+        const at = pointedAt(canvas, last.frame, maxDistance(), finger.clientX, finger.clientY);
         if (discAt(last.frame, ...at) !== undefined) event.preventDefault();
     }, {passive: false});
 }
 
-/** Unless the last one is still under way. */
-function put(disc: number, x: number, y: number): void {
+/** Moves a disc, unless the answer to an earlier message is still missing. */
+function moveDisc(disc: number, x: number, y: number): void {
     if (waiting) return;
     waiting = true;
-    startAnew();
-    tell({kind: "drag", disc, x, y});
+    resetAverages();
+    send({kind: "drag", disc, x, y});
 }
 
-/** What the pointer does, by keys: [ and ] take a disc, arrows move it, Escape lets it go; by hand
- *  arrows lead the dish. */
-function takeKeys(canvas: HTMLCanvasElement): void {
+/** The keys do what the pointer does: [ and ] select a disc, arrows move it, Escape deselects it. In
+ *  the mode "by hand" the arrows move the container. */
+function addKeyControl(canvas: HTMLCanvasElement): void {
     const ways: Record<string, [number, number]> = {
         ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
     };
@@ -128,41 +128,41 @@ function takeKeys(canvas: HTMLCanvasElement): void {
             event.preventDefault();
             if (byHand) {
                 const [x, y] = pointer ?? [last.frame[3]!, last.frame[4]!];
-                const step = 0.1 * room();
+                const step = 0.1 * maxDistance();
                 pointer = [x + step * way[0], y + step * way[1]];
             } else if (held !== undefined && held < discs) {
                 const {x, y, radius} = discOf(last.frame, held);
                 const step = (event.shiftKey ? 0.05 : 0.25) * radius;
-                put(held, x + step * way[0], y + step * way[1]);
+                moveDisc(held, x + step * way[0], y + step * way[1]);
             }
         } else if ((event.key === "[" || event.key === "]") && !byHand && discs > 0) {
             const next = held === undefined ? 0 : held + (event.key === "]" ? 1 : discs - 1);
-            hold(next % discs);
+            select(next % discs);
         } else if (event.key === "Escape") {
-            hold(undefined);
+            select(undefined);
         }
     });
-    canvas.addEventListener("blur", () => hold(undefined));
+    canvas.addEventListener("blur", () => select(undefined));
 }
 
-/** Time stands still while a disc is held. */
-function hold(disc: number | undefined): void {
+/** Time is paused while a disc is selected. */
+function select(disc: number | undefined): void {
     if (disc === held) return;
     held = disc;
-    if (disc !== undefined) byId("headline").textContent = texts.holds(disc + 1);
+    if (disc !== undefined) byId("headline").textContent = texts.selected(disc + 1);
     redraw();
 }
 
-/** The same discs, but no command line makes what they do from here on: averages begin anew. */
-function startAnew(): void {
+/** The discs continue, but no command line reproduces them from here on. */
+function resetAverages(): void {
     hasHistory = true;
     history = [];
-    forgetAverages();
-    turned = 0;
+    clearAverages();
+    clusterTurns = 0;
 }
 
-/** How far from S the container may come; by hand, twice as far as it is swirled. */
-function room(): number {
+/** The largest distance of the container's centre from S; by hand, twice the amplitude. */
+function maxDistance(): number {
     const amplitude = Number(configuration["amplitude"] ?? 0);
     return byHand ? Math.max(2 * amplitude, 0.3 * Number(configuration["container_radius"]))
                   : amplitude;
@@ -175,9 +175,9 @@ function redraw(): void {
         draw(canvas, last.frame, {view: each, coloring, trails: past,
                                   event: last.event, next: last.next, dark: dark(),
                                   omega: forces && !byHand ? 2 * Math.PI / Number(configuration["period"]) : 0,
-                                  room: room(), turned, held});
-        beside?.redraw();
-        const label = texts.dish(counted(last.frame[10] ?? 0), texts.views[each]);
+                                  room: maxDistance(), clusterTurns, held});
+        compared?.redraw();
+        const label = texts.container(counted(last.frame[10] ?? 0), texts.views[each]);
         if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
     }
 }
@@ -187,47 +187,48 @@ function redraw(): void {
 const plot = new uPlot({
     width: 400, height: 190,
     scales: {x: {time: false}},
-    axes: [{label: texts.swirls, stroke: ink, grid: {stroke: line}},
+    axes: [{label: texts.periods, stroke: ink, grid: {stroke: line}},
            {label: symbols.rigidRotation, stroke: ink, grid: {stroke: line}}],
-    series: [{label: texts.swirls}, {label: symbols.rigidRotation, stroke: quiet, width: 1},
+    series: [{label: texts.periods}, {label: symbols.rigidRotation, stroke: quiet, width: 1},
              {label: texts.mean, stroke: accent, width: 2}],
     legend: {show: false},
 }, [[], [], []], byId("plot"));
 
-/** So many of what is in a dish of these parameters. */
-function counted(n: number, {preset, body, floor} = configuration): string {
+/** "48 discs", "1 sphere": the number with the particles of this configuration. */
+function counted(n: number, {preset, body} = configuration): string {
     const sphere = body === "sphere" || (preset === "experiment" && !body);
-    return texts.counted(n, texts.bodies[sphere ? "sphere" : floor === "sliding" ? "coin" : "disc"]);
+    return texts.counted(n, texts.bodies[sphere ? "sphere" : "disc"]);
 }
 
-function sentence(rotation: Rotation): string {
-    if (byHand) return texts.handSays(turned.toFixed(2).replace("-", "−"));
+/** Which way the cluster rotates. */
+function headlineOf(rotation: Rotation): string {
+    if (byHand) return texts.byHandHeadline(clusterTurns.toFixed(2).replace("-", "−"));
     const discs = Number(configuration["discs"]);
     const {mean, error} = rotation.by_time;
     if (mean === null || error === null || Math.abs(mean) < 2 * error) return texts.undecided(counted(discs));
     return (mean > 0 ? texts.rotates : texts.counterrotates)(discs, counted(discs));
 }
 
-let averages: Rotation | undefined; // as they were shown last
+let averages: Rotation | undefined; // as last shown
 const blocksShown = (): number => averages?.blocks.length ?? 0;
 
-function forgetAverages(): void {
+function clearAverages(): void {
     averages = undefined;
     plot.setData([[], [], []]);
 }
 
-/** Nothing takes energy: no contact, nor a floor. */
-function nothingRubs(): boolean {
+/** No contact and no floor dissipates energy. */
+function conservesEnergy(): boolean {
     const {mu_disc, mu_wall, restitution, floor} = configuration;
     return Number(mu_disc) === 0 && Number(mu_wall) === 0 && Number(restitution) === 1 &&
         (floor ?? "none") === "none";
 }
 
-/** What a reader must know before believing the averages. */
+/** A warning about the averages; empty if there is none. */
 function caution(): string {
     const {amplitude, path} = configuration;
-    const keepsGrowing = nothingRubs() && Number(amplitude) > 0 && path !== "circle";
-    return keepsGrowing && !byHand ? texts.grows : "";
+    const energyGrows = conservesEnergy() && Number(amplitude) > 0 && path !== "circle";
+    return energyGrows && !byHand ? texts.grows : "";
 }
 
 function showRotation(rotation: Rotation): void {
@@ -235,28 +236,28 @@ function showRotation(rotation: Rotation): void {
     const pairs: [string, string][] = [
         [texts.byTime, withError(rotation.by_time.mean, rotation.by_time.error, texts.notYet)],
         [texts.byEvent, withError(rotation.by_event.mean, rotation.by_event.error, texts.notYet)],
-        [texts.swirls, (time / Number(configuration["period"])).toFixed(1)],
-        [texts.turned, texts.turns(turned.toFixed(2).replace("-", "−"))],
+        [texts.periods, (time / Number(configuration["period"])).toFixed(1)],
+        [texts.clusterRotation, texts.turns(clusterTurns.toFixed(2).replace("-", "−"))],
     ];
-    if (byHand) pairs.splice(0, 3); // no swirl to go by
+    if (byHand) pairs.splice(0, 3); // no period, so no averages
     const early = rotation.by_time.blocks === 0 && !byHand ? texts.warmup(rotation.warmup) : "";
     byId("numbers").replaceChildren(element("dl", {id: "estimates"}, ...pairs.flatMap(
         ([name, value]) => [element("dt", {textContent: name}), element("dd", {textContent: value})])),
         element("p", {textContent: early}), element("p", {id: "caution", textContent: caution()}));
-    const headline = sentence(rotation);
+    const headline = headlineOf(rotation);
     if (byId("headline").textContent !== headline) byId("headline").textContent = headline;
     const before = blocksShown();
     averages = rotation;
     if (blocksShown() === before) return;
     if (byId("plot").hidden !== blocksShown() < 2) resize();
-    plot.setData([swirlsOf(rotation), rotation.blocks, meansOf(rotation)]);
+    plot.setData([periodsOf(rotation), rotation.blocks, meansOf(rotation)]);
 }
 
-// --- asking for a dish ------------------------------------------------------------------------
+// --- starting a simulation --------------------------------------------------------------------
 
 const copyButton = byId("copy") as HTMLButtonElement;
 
-/** A dish that is refused, or not there yet, has no command. */
+/** Without a running simulation there is no command. */
 function offerCommand(command = ""): void {
     byId("command").textContent = hasHistory ? texts.noCommand : command;
     copyButton.disabled = hasHistory || command === "";
@@ -268,27 +269,27 @@ function address(): string {
     return text ? `?${text}` : location.pathname;
 }
 
-const manyDiscs = 1000; // so many take a moment to be placed
+const manyDiscs = 1000; // placing more discs takes a noticeable time
 
 function begin(events = 0): void {
     history = [];
-    forgetAverages();
+    clearAverages();
     last = undefined;
     waiting = true;
     hasHistory = false;
     setByHand(false);
     setBackwards(false);
     recording.stop();
-    turned = 0;
+    clusterTurns = 0;
     const discs = Number(given["discs"]);
-    byId("headline").textContent = discs >= manyDiscs ? texts.placing(counted(discs, asked())) : "…";
-    byId("refusal").hidden = true;
+    byId("headline").textContent = discs >= manyDiscs ? texts.placing(counted(discs, givenValues())) : "…";
+    byId("error").hidden = true;
     for (const ofState of ["event-count", "state-hash"]) byId(ofState).textContent = "";
     offerCommand();
-    tell({kind: "begin", given: asked(), events});
+    send({kind: "begin", given: givenValues(), events});
 }
 
-function asked(): Record<string, string> {
+function givenValues(): Record<string, string> {
     return Object.fromEntries(Object.entries(given).filter(([, value]) => value !== ""));
 }
 
@@ -299,25 +300,25 @@ function changed(): void {
         try {
             window.history.replaceState(null, "", address());
         } catch {
-            // A page from a memory stick has no address of its own in some browsers.
+            // In some browsers the address of a local file cannot be changed.
         }
-        // What was refused has no dish to go on with.
-        if (keepDiscs && last && !byHand && byId("refusal").hidden)
-            tell({kind: "change", given: asked()});
+        // After an error there is no simulation to continue.
+        if (keepDiscs && last && !byHand && byId("error").hidden)
+            send({kind: "change", given: givenValues()});
         else begin();
     }, settling);
 }
 
-function refuse(text: string): void {
-    byId("refusal").textContent = text;
-    byId("refusal").hidden = false;
+function showError(text: string): void {
+    byId("error").textContent = text;
+    byId("error").hidden = false;
     offerCommand();
     setPlaying(false);
 }
 
 // --- controls ---------------------------------------------------------------------------------
 
-/** What a parameter is given by: text or a choice of words, and a slider beside it. */
+/** The inputs of a parameter: a text or a choice of words, and an optional slider. */
 interface Field {
     text: HTMLInputElement | HTMLSelectElement;
     slider?: HTMLInputElement;
@@ -330,16 +331,16 @@ function setGiven(values: Record<string, string>): void {
 }
 
 function showField(name: string, field: Field): void {
-    const value = given[name] ?? "", holds = holding(name);
+    const value = given[name] ?? "", holds = effectiveValue(name);
     const isChoice = field.text instanceof HTMLSelectElement;
     if (field.text instanceof HTMLInputElement) field.text.placeholder = holds;
     const text = isChoice ? value || holds : value;
-    if (field.text.value.trim() !== text) field.text.value = text; // not what is being typed
+    if (field.text.value.trim() !== text) field.text.value = text; // unless it is being typed
     if (field.slider) field.slider.value = value || holds || field.slider.value;
 }
 
-/** What holds where nothing is given: a preset has other values than the paper. */
-function holding(name: string): string {
+/** The value in effect if none is given: the preset's, or the default. */
+function effectiveValue(name: string): string {
     const {mu_disc, mu_wall, [name]: configured} = configuration;
     const both = name === "mu" && mu_disc === mu_wall ? mu_disc : undefined;
     return configured ?? both ?? rows.find((row) => row.name === name)?.default ?? "";
@@ -351,10 +352,10 @@ function showFields(): void {
 
 const describe = ({name, description}: Parameter): string => texts.descriptions[name] ?? description;
 
-/** The words that a parameter can be, from how it is given: "none|sliding", "NUMBER|paper|solid". */
+/** The words among the values of a parameter, from its form: "none|sliding", "NUMBER|paper|solid". */
 const wordsOf = ({form}: Parameter): string[] => form.split("|").filter((word) => /^[a-z]+$/.test(word));
 
-/** Words alone are to choose from; words beside numbers are proposed. */
+/** A list of choices if all values are words; a text field with suggestions if numbers are allowed, too. */
 function textField(row: Parameter, id: string): [Field["text"], ...HTMLElement[]] {
     const words = wordsOf(row);
     if (words.length > 0 && words.length === row.form.split("|").length)
@@ -375,15 +376,15 @@ function parameterRow(row: Parameter): HTMLElement {
     text.title = describe(row) + (row.unit ? ` (${row.unit})` : "");
     text.addEventListener("input", () => {
         given[row.name] = text.value.trim();
-        if (fields[row.name]?.slider) fields[row.name]!.slider!.value = text.value || holding(row.name);
+        if (fields[row.name]?.slider) fields[row.name]!.slider!.value = text.value || effectiveValue(row.name);
         changed();
     });
     fields[row.name] = {text};
-    if (!row.usual) {
+    if (!row.slider) {
         text.className = "wide";
         return element("div", {className: "row"}, label, text, ...proposed);
     }
-    const [min, max, step] = row.usual.map(String) as [string, string, string];
+    const [min, max, step] = row.slider.map(String) as [string, string, string];
     const slider = element("input", {type: "range", min, max, step});
     slider.setAttribute("aria-label", describe(row));
     slider.addEventListener("input", () => {
@@ -394,11 +395,11 @@ function parameterRow(row: Parameter): HTMLElement {
     return element("div", {className: "row"}, label, slider, text);
 }
 
-/** Those that say how long a run is have no sense where one looks on. */
-const ofTheRun = ["events", "periods"];
+/** The length of a run has no meaning on the page. */
+const lengthParameters = ["events", "periods"];
 
-function layOutParameters(): void {
-    const shown = rows.filter((row) => row.given && !ofTheRun.includes(row.name));
+function buildParameters(): void {
+    const shown = rows.filter((row) => row.settable && !lengthParameters.includes(row.name));
     const groups = [...new Set(shown.map((row) => row.group))];
     byId("parameters").replaceChildren(...groups.map((group, k) => element(
         "details", {open: k === 0},
@@ -414,13 +415,13 @@ function setPlaying(on: boolean): void {
     lastTick = 0;
 }
 
-const handButton = button(texts.hand, () => {
+const byHandButton = button(texts.hand, () => {
     if (byHand) return begin();
     if (!last) return;
     view = "lab";
     (byId(`choose-${texts.view}`) as HTMLSelectElement).value = view;
     hasHistory = true;
-    turned = 0;
+    clusterTurns = 0;
     pointer = [last.frame[3]!, last.frame[4]!];
     setByHand(true);
     layOutViews();
@@ -428,37 +429,38 @@ const handButton = button(texts.hand, () => {
 }, "by-hand");
 function setByHand(on: boolean): void {
     byHand = on;
-    handButton.textContent = on ? texts.handEnds : texts.hand;
-    handButton.setAttribute("aria-pressed", String(on));
+    byHandButton.textContent = on ? texts.byHandStop : texts.hand;
+    byHandButton.setAttribute("aria-pressed", String(on));
     document.body.classList.toggle("by-hand", on);
 }
 
-const backwardsButton = button(texts.backwards, () => tell({kind: "reverse"}), "backwards");
-backwardsButton.title = texts.backwardsHow;
+const backwardsButton = button(texts.backwards, () => send({kind: "reverse"}), "backwards");
+backwardsButton.title = texts.backwardsHelp;
 function setBackwards(on: boolean): void {
     backwards = on;
     backwardsButton.textContent = on ? texts.forwards : texts.backwards;
     backwardsButton.setAttribute("aria-pressed", String(on));
 }
 function allowBackwards(): void {
-    backwardsButton.disabled = !nothingRubs();
+    backwardsButton.disabled = !conservesEnergy();
 }
 
 const recording = new Recording(() => canvases.lab ?? canvases.m);
 
-const besideButton = button(texts.beside, () => {
-    const given = asked();
+const compareButton = button(texts.compare, () => {
+    const given = givenValues();
     const name = [counted(Number(configuration["discs"])),
                   ...Object.entries(given).filter(([key]) => key !== "discs")
                       .map(([key, value]) => `${key} ${value}`)].join(", ");
-    beside = new Beside(new EngineWorker(), engine, given, name, () => {
-        beside = undefined;
-        besideButton.disabled = false;
+    compared = new ComparedContainer(new EngineWorker(), engine, given, name, () => {
+        compared = undefined;
+        compareButton.disabled = false;
         layOutViews();
     });
-    besideButton.disabled = true;
+    compareButton.disabled = true;
     layOutViews();
-}, "keep-beside");
+}, "compare");
+compareButton.title = texts.compareHelp;
 
 function choice<Value extends string>(name: string, options: Record<Value, string>, value: Value,
                                       set: (value: Value) => void): HTMLElement {
@@ -469,16 +471,16 @@ function choice<Value extends string>(name: string, options: Record<Value, strin
     return element("label", {}, `${name} `, select);
 }
 
-function sayColors(): void {
-    byId("colors").textContent = texts.colorMeans[coloring];
+function showColorKey(): void {
+    byId("colors").textContent = texts.colorKey[coloring];
 }
 
-function layOutBar(): void {
-    sayColors();
+function buildBar(): void {
+    showColorKey();
     playButton.addEventListener("click", () => setPlaying(!playing));
     const speed = element("input", {type: "range", min: "-3", max: "1", step: "0.1",
-                                    value: String(Math.log10(swirlsPerSecond)), id: "speed"});
-    speed.addEventListener("input", () => { swirlsPerSecond = 10 ** Number(speed.value); });
+                                    value: String(Math.log10(periodsPerSecond)), id: "speed"});
+    speed.addEventListener("input", () => { periodsPerSecond = 10 ** Number(speed.value); });
     const trailBox = element("input", {type: "checkbox", id: "trails"});
     trailBox.addEventListener("change", () => { trails = trailBox.checked; redraw(); });
     const forcesBox = element("input", {type: "checkbox", id: "forces"});
@@ -495,29 +497,29 @@ function layOutBar(): void {
     });
     byId("bar").replaceChildren(
         playButton,
-        button(texts.step, () => { setPlaying(false); tell({kind: "step"}); }, "step"),
+        button(texts.step, () => { setPlaying(false); send({kind: "step"}); }, "step"),
         button(texts.restart, () => begin(), "restart"),
         element("label", {}, `${texts.presets} `, preset),
         choice(texts.view, texts.views, view, (value) => { view = value; layOutViews(); }),
-        choice(texts.color, texts.colors, coloring, (value) => { coloring = value; sayColors(); redraw(); }),
+        choice(texts.color, texts.colors, coloring, (value) => { coloring = value; showColorKey(); redraw(); }),
         element("label", {}, trailBox, ` ${texts.trails}`),
-        element("label", {title: texts.forcesHow}, forcesBox, ` ${texts.forces}`),
-        element("label", {title: texts.keepHow}, keepBox, ` ${texts.keep}`),
-        handButton, backwardsButton, besideButton,
+        element("label", {title: texts.forcesHelp}, forcesBox, ` ${texts.forces}`),
+        element("label", {title: texts.keepHelp}, keepBox, ` ${texts.keep}`),
+        byHandButton, backwardsButton, compareButton,
         element("label", {}, `${texts.speed} `, speed),
         recording.panel,
-        button(texts.picture, () => {
+        button(texts.image, () => {
             const canvas = canvases.lab ?? canvases.m;
             if (canvas) save("swirl.png", {href: canvas.toDataURL("image/png")});
-        }, "save-picture"),
+        }, "save-image"),
         button(texts.table, () => {
             save("rotation.csv", {text: tableOf(averages), type: "text/csv"});
         }, "save-table"),
-        button(texts.result, () => tell({kind: "result"}), "save-result"));
+        button(texts.result, () => send({kind: "result"}), "save-result"));
     setPlaying(playing);
 }
 
-function layOutLesson(): void {
+function buildLesson(): void {
     const show = (): void => {
         const at = lesson[step];
         if (!at) {
@@ -545,7 +547,7 @@ function layOutLesson(): void {
             (byId(`choose-${texts.view}`) as HTMLSelectElement).value = view;
             layOutViews();
             changed();
-            if (!lessMotion.matches) setPlaying(true);
+            if (!reducedMotion.matches) setPlaying(true);
         }
         show();
     };
@@ -567,7 +569,7 @@ document.addEventListener("keydown", (event) => {
         setPlaying(!playing);
     } else if (event.key === ".") {
         setPlaying(false);
-        tell({kind: "step"});
+        send({kind: "step"});
     }
 });
 
@@ -576,11 +578,11 @@ document.addEventListener("keydown", (event) => {
 function received(frame: Frame): void {
     waiting = false;
     if (last && last.frame.length === frame.frame.length) {
-        turned += turnBetween(last.frame, frame.frame);
+        clusterTurns += clusterTurnsBetween(last.frame, frame.frame);
         history.push(last.frame);
         if (history.length > trailLength) history.shift();
     }
-    const hadRun = last === undefined && runTo > 0;
+    const ranToEvent = last === undefined && runTo > 0;
     last = frame;
     redraw();
     recording.add(frame.frame);
@@ -588,14 +590,14 @@ function received(frame: Frame): void {
     byId("event-count").textContent = String(frame.events);
     byId("state-hash").textContent = frame.hash;
     offerCommand(frame.command);
-    if (maps.open && performance.now() - lastMaps > betweenMaps) askForMaps();
-    if (hadRun) {
+    if (maps.open && performance.now() - lastMaps > mapsInterval) requestMaps();
+    if (ranToEvent) {
         runTo = 0;
         setPlaying(false);
     }
 }
 
-/** What the address asks for; false if it cannot be. */
+/** Applies the page's address; false if it is not valid. */
 function readAddress(): boolean {
     const query = new URLSearchParams(location.search);
     const wanted: Record<string, string> = {};
@@ -605,11 +607,11 @@ function readAddress(): boolean {
             runTo = Number(value);
             if (Number.isInteger(runTo) && runTo >= 0 && runTo <= 1e7) continue;
             runTo = 0;
-            refuse(texts.badEvents(value));
+            showError(texts.invalidEvents(value));
             return false;
         }
-        if (!rows.some((row) => row.name === name && row.given)) {
-            refuse(texts.unknownName(key));
+        if (!rows.some((row) => row.name === name && row.settable)) {
+            showError(texts.unknownParameter(key));
             return false;
         }
         wanted[name] = value;
@@ -622,14 +624,14 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
     switch (data.kind) {
         case "ready":
             rows = data.parameters;
-            layOutParameters();
-            layOutBar();
-            layOutLesson();
+            buildParameters();
+            buildBar();
+            buildLesson();
             layOutViews();
             if (readAddress()) begin(runTo);
             requestAnimationFrame(animate);
             break;
-        case "begun":
+        case "started":
             configuration = data.configuration;
             showFields();
             allowBackwards();
@@ -641,12 +643,12 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
             }
             configuration = data.configuration;
             showFields();
-            startAnew();
+            resetAverages();
             allowBackwards();
             break;
         case "reversed":
             if (!data.done) break;
-            startAnew();
+            resetAverages();
             setBackwards(!backwards);
             break;
         case "result":
@@ -657,12 +659,12 @@ worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
             maps.show(data);
             break;
         case "unsupported":
-            refuse(texts.noWebAssembly);
+            showError(texts.noWebAssembly);
             break;
-        case "refused":
+        case "rejected":
             waiting = false;
             runTo = 0;
-            refuse(data.sentence);
+            showError(data.message);
             break;
         case "progress":
             byId("headline").textContent = texts.running(data.done, data.all);
@@ -678,30 +680,30 @@ function animate(now: number): void {
     const still = dragged !== undefined || held !== undefined;
     if (still) lastTick = 0;
     if (!playing || waiting || !last || still) return;
-    // After a pause, or a while in the background, time goes on from here.
+    // After a pause, or a while in the background, time continues from here.
     const elapsed = lastTick > 0 ? Math.min(now - lastTick, 100) : 0;
     lastTick = now;
-    const swirls = elapsed / 1000 * swirlsPerSecond;
+    const periods = elapsed / 1000 * periodsPerSecond;
     waiting = true;
-    if (beside) {
-        beside.coloring = coloring;
-        beside.tick(swirls);
+    if (compared) {
+        compared.coloring = coloring;
+        compared.tick(periods);
     }
-    if (byHand && pointer) steerTo(pointer, last.frame, swirls);
-    else tell({kind: "tick", swirls});
+    if (byHand && pointer) steerTo(pointer, last.frame, periods);
+    else send({kind: "tick", periods});
 }
 
-/** Straight to where the pointer is, or as far as the hand may go: four times as fast as the dish is
- *  swirled, and not out of the picture. */
-function steerTo([x, y]: [number, number], frame: Float64Array, swirls: number): void {
+/** Moves the container straight to the pointer, at most four times as fast as on its path, and not
+ *  out of the image. */
+function steerTo([x, y]: [number, number], frame: Float64Array, periods: number): void {
     const period = Number(configuration["period"]), amplitude = Number(configuration["amplitude"]);
-    const duration = Math.max(swirls, 1e-4) * period;
+    const duration = Math.max(periods, 1e-4) * period;
     const [fromX, fromY] = [frame[3]!, frame[4]!];
-    const outside = Math.max(1, Math.hypot(x, y) / room());
+    const outside = Math.max(1, Math.hypot(x, y) / maxDistance());
     const [dx, dy] = [x / outside - fromX, y / outside - fromY];
     const usual = 2 * Math.PI * (amplitude || 0.2 * Number(configuration["container_radius"])) / period;
     const share = Math.min(1, 4 * usual * duration / (Math.hypot(dx, dy) || 1));
-    tell({kind: "steer", x: fromX + share * dx, y: fromY + share * dy, duration});
+    send({kind: "steer", x: fromX + share * dx, y: fromY + share * dy, duration});
 }
 
 function resize(): void {
@@ -712,31 +714,31 @@ function resize(): void {
 addEventListener("resize", resize);
 resize();
 
-/** It stands in the page packed, a third of its size. */
+/** The engine is embedded in the page, compressed to a third of its size. */
 async function unpacked(url: string): Promise<ArrayBuffer> {
     const packed = (await fetch(url)).body;
     if (!packed) throw new Error("empty");
     return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 const engine = unpacked(engineUrl);
-engine.then((bytes) => tell({kind: "engine", bytes}), () => refuse(texts.noWebAssembly));
+engine.then((bytes) => send({kind: "engine", bytes}), () => showError(texts.noWebAssembly));
 
-// --- maps, and the paper's figure by oneself --------------------------------------------------
+// --- maps and study ---------------------------------------------------------------------------
 
-const betweenMaps = 1000; // milliseconds
+const mapsInterval = 1000; // milliseconds
 let lastMaps = 0;
-function askForMaps(): void {
+function requestMaps(): void {
     if (byHand) return;
     lastMaps = performance.now();
-    tell({kind: "maps"});
+    send({kind: "maps"});
 }
-const maps = new MapsPanel(askForMaps);
+const maps = new MapsPanel(requestMaps);
 const study = new Study(() => {
-    const one = new EngineWorker();
-    void engine.then((bytes) => one.postMessage({kind: "engine", bytes} satisfies ToWorker));
-    return one;
+    const created = new EngineWorker();
+    void engine.then((bytes) => created.postMessage({kind: "engine", bytes} satisfies ToWorker));
+    return created;
 }, () => {
-    const {discs: _, mu: __, mu_disc: ___, mu_wall: ____, ...others} = asked();
+    const {discs: _, mu: __, mu_disc: ___, mu_wall: ____, ...others} = givenValues();
     return others;
 });
 byId("panels").replaceChildren(maps.panel, study.panel);

@@ -1,5 +1,5 @@
-// What fills up while one looks on, in the M-frame, as in the paper's Figures 2, 3 and 5: density,
-// flow relative to the container, and the angular velocity against θ.
+// Averages in the M-frame as in the paper's Figures 2, 3 and 5: density, flow relative to the
+// container, and the angular velocity against θ.
 import uPlot from "uplot";
 import type {Maps} from "./messages";
 import {accent, dark, element, ink, line, quiet} from "./page";
@@ -8,7 +8,7 @@ import {symbols, texts} from "./texts";
 const densityFrom = 0, densityTo = 0.32; // discs per r²; a dense packing has 0.289
 const side = 100; // cells of the density map
 
-/** From paper by blue to ink: what is dense is dark (light, where the page is dark). */
+/** From the page's background to blue to its text colour: dense regions have the most contrast. */
 function shade(x: number): [number, number, number] {
     const t = Math.max(0, Math.min(1, (x - densityFrom) / (densityTo - densityFrom)));
     const stops = dark() ? [[21, 24, 26], [38, 96, 150], [240, 236, 225]]
@@ -23,7 +23,7 @@ function square(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
     return size > 0 ? canvas.getContext("2d") : null;
 }
 
-function rim(context: CanvasRenderingContext2D, size: number): void {
+function drawWall(context: CanvasRenderingContext2D, size: number): void {
     context.strokeStyle = ink();
     context.lineWidth = size / 200;
     context.beginPath();
@@ -41,7 +41,7 @@ function drawDensity(canvas: HTMLCanvasElement, density: Float64Array): void {
     const image = new ImageData(side, side);
     for (let row = 0; row < side; ++row)
         for (let column = 0; column < side; ++column) {
-            const at = 4 * ((side - 1 - row) * side + column); // pictures count from above
+            const at = 4 * ((side - 1 - row) * side + column); // image rows count from above
             const value = density[row * side + column]!;
             image.data.set(Number.isFinite(value) ? [...shade(value), 255] : [0, 0, 0, 0], at);
         }
@@ -56,7 +56,7 @@ function drawDensity(canvas: HTMLCanvasElement, density: Float64Array): void {
     context.imageSmoothingEnabled = false;
     context.drawImage(small, 0, 0, size, size);
     context.restore();
-    rim(context, size);
+    drawWall(context, size);
 }
 
 function drawFlow(canvas: HTMLCanvasElement, {x, y, ux, uy}: Maps["flow"]): void {
@@ -71,7 +71,7 @@ function drawFlow(canvas: HTMLCanvasElement, {x, y, ux, uy}: Maps["flow"]): void
         const [u, v] = [ux[k]!, uy[k]!];
         if (!Number.isFinite(u) || !Number.isFinite(v)) continue;
         const px = (x[k]! / reach + 1) * size / 2, py = (1 - y[k]! / reach) * size / 2;
-        // The wall goes past with about the speed of the container, 1: an arrow of one cell.
+        // The wall moves at about the speed of the container, 1: an arrow of one cell.
         const [dx, dy] = [u * cell, -v * cell];
         context.beginPath();
         context.moveTo(px - dx / 2, py - dy / 2);
@@ -83,7 +83,7 @@ function drawFlow(canvas: HTMLCanvasElement, {x, y, ux, uy}: Maps["flow"]): void
         context.lineTo(px + dx / 6 + dy / 6, py + dy / 6 - dx / 6);
         context.fill();
     }
-    rim(context, size);
+    drawWall(context, size);
 }
 
 export class MapsPanel {

@@ -1,27 +1,27 @@
-// What the page and its worker say to each other.
+// The messages between the page and its worker.
 import type {Crossing, Parameter, Rate, Rotation} from "./engine";
 
 export type ToWorker =
     | {kind: "engine"; bytes: ArrayBuffer}
     | {kind: "begin"; given: Record<string, string>; events: number}
-    /** Time has gone on by so many swirls. Answered by a frame. */
-    | {kind: "tick"; swirls: number}
+    /** Advances time by so many periods. Answered by a frame. */
+    | {kind: "tick"; periods: number}
     | {kind: "step"}
-    /** Other frictions or another path for the same discs, from the next swirl on. */
+    /** Other friction coefficients or another path for the same discs, from the next period on. */
     | {kind: "change"; given: Record<string, string>}
-    /** By hand: the container goes straight to a point, for so long a time. Answered by a frame. */
+    /** By hand: the container moves straight to a point within `duration`. Answered by a frame. */
     | {kind: "steer"; x: number; y: number; duration: number}
-    /** Time runs backwards from now on, where the dish allows that. */
+    /** Reverses time, if energy is conserved. */
     | {kind: "reverse"}
-    /** A disc is taken as near to a point as there is room. Answered by a frame. */
+    /** Moves a disc to the free position nearest to a point. Answered by a frame. */
     | {kind: "drag"; disc: number; x: number; y: number}
     | {kind: "result"}
     | {kind: "maps"}
-    /** A run from beginning to end, of so many swirls after the warm-up. */
-    | {kind: "point"; given: Record<string, string>; swirls: number}
+    /** A whole run of so many periods after the warm-up. */
+    | {kind: "point"; given: Record<string, string>; periods: number}
     | {kind: "crossing"; curve: number; curves: Record<Rate, number[]>};
 
-/** What fills up while the dish is swirled, in cells of the M-frame, and against θ. */
+/** Averages in cells of the M-frame, and against θ. */
 export interface Maps {
     kind: "maps";
     density: Float64Array;
@@ -34,30 +34,30 @@ export interface Frame {
     frame: Float64Array;
     events: number;
     hash: string;
-    /** What makes this dish on the command line, if it was not changed since its beginning. */
+    /** The command line that reproduces this state, if the simulation was not changed. */
     command: string;
-    /** The last event and the next one, where there was a single step. */
+    /** The last event and the next one, after a single step. */
     event?: Float64Array;
     next?: Float64Array;
-    /** Now and then. */
+    /** Only a few times per second. */
     rotation?: Rotation;
 }
 
 export type FromWorker =
     | {kind: "ready"; parameters: Parameter[]}
-    | {kind: "begun"; configuration: Record<string, string>}
-    | {kind: "refused"; sentence: string}
-    /** On the way to the event that the address asks for. */
+    | {kind: "started"; configuration: Record<string, string>}
+    | {kind: "rejected"; message: string}
+    /** On the way to the event in the page's address. */
     | {kind: "progress"; done: number; all: number}
-    /** The browser lacks what the engine needs. */
+    /** The browser cannot run the engine. */
     | {kind: "unsupported"}
-    /** Whether the discs have gone on with what was changed; if not, it is another dish. */
+    /** Whether the discs continue with the change; if not, a new simulation is needed. */
     | {kind: "changed"; kept: boolean; configuration: Record<string, string>}
     | {kind: "reversed"; done: boolean}
-    /** JSON, as the command line writes it. */
+    /** JSON as the command line writes it. */
     | {kind: "result"; text: string}
     | Maps
-    /** Nothing is known of a dish that has collapsed. */
+    /** A collapsed run has no averages. */
     | {kind: "point"; rotation: Rotation; collapsed: boolean}
     | {kind: "crossing"; curve: number; crossings: Record<Rate, Crossing | null>}
     | Frame;

@@ -1,4 +1,4 @@
-// Making elements of a page, and finding them.
+// Creates and finds elements of the page.
 
 export function element<Tag extends keyof HTMLElementTagNameMap>(
     tag: Tag, properties: Partial<HTMLElementTagNameMap[Tag]> = {},
@@ -20,9 +20,9 @@ export function button(text: string, act: () => void, id = ""): HTMLButtonElemen
     return made;
 }
 
-const downloadBegins = 60_000; // milliseconds; a browser that asks where to save has no event for it
+const downloadStarts = 60_000; // milliseconds; there is no event for the end of a save dialog
 
-/** A file of one's own: of a text, of bytes, or of what is at an address. */
+/** Downloads a text, bytes, or the content at an address. */
 export function save(name: string,
                      content: {href: string} | {bytes: Blob} | {text: string; type: string}): void {
     if ("href" in content) {
@@ -32,8 +32,8 @@ export function save(name: string,
     const href = URL.createObjectURL(
         "bytes" in content ? content.bytes : new Blob([content.text], {type: content.type}));
     element("a", {href, download: name}).click();
-    // An address keeps what it stands for in memory.
-    setTimeout(() => URL.revokeObjectURL(href), downloadBegins);
+    // The address keeps its content in memory until it is revoked.
+    setTimeout(() => URL.revokeObjectURL(href), downloadStarts);
 }
 
 const style = (name: string): string =>

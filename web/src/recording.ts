@@ -1,10 +1,10 @@
-// What the canvas shows, as a movie, and the states behind it, as positions that OVITO, VMD and ASE
-// read: extended XYZ, in the columns of `swirl export`.
+// Records the canvas as a movie, and the discs as extended XYZ with the columns of `swirl export`,
+// which OVITO, VMD and ASE can read.
 import {frameDisc, frameHead} from "./engine";
 import {button, element, save} from "./page";
 import {texts} from "./texts";
 
-const mostNumbers = 2e7; // in memory, eight bytes each
+const maxNumbers = 2e7; // per recording, eight bytes each
 
 /** A frame as extended XYZ. */
 export function xyz(f: Float64Array): string {
@@ -21,33 +21,33 @@ export function xyz(f: Float64Array): string {
     return lines.join("\n") + "\n";
 }
 
-/** Frame by frame: one string of them all might be longer than a browser allows. */
+/** One part per frame: a single string could exceed the browser's limit. */
 export function positionsOf(frames: Float64Array[]): Blob {
     return new Blob(frames.map(xyz), {type: "chemical/x-xyz"});
 }
 
-/** The frames of a recording, as far as memory is meant for them. */
+/** The frames of a recording, up to a limit of memory. */
 export class Frames {
     readonly all: Float64Array[] = [];
     private numbers = 0;
 
-    /** False when there is no room for another one. */
+    /** False if another frame would not fit. */
     add(frame: Float64Array): boolean {
         this.all.push(frame);
         this.numbers += frame.length;
-        return this.numbers + frame.length <= mostNumbers;
+        return this.numbers + frame.length <= maxNumbers;
     }
 }
 
 export class Recording {
     readonly panel = element("span", {id: "recording"});
-    private frames: Frames | undefined; // while it goes on
+    private frames: Frames | undefined; // while recording
     private done: Float64Array[] = [];
-    private movie: MediaRecorder | undefined;
-    private film: Blob | undefined;
+    private recorder: MediaRecorder | undefined;
+    private movie: Blob | undefined;
     private readonly start: HTMLButtonElement;
 
-    /** `canvas` is what is filmed. */
+    /** `canvas` returns the canvas to record. */
     constructor(private readonly canvas: () => HTMLCanvasElement | undefined) {
         this.start = button(texts.record, () => (this.frames ? this.stop() : this.begin()), "record");
         this.layOut();
@@ -57,48 +57,48 @@ export class Recording {
         if (this.frames && !this.frames.add(frame)) this.stop();
     }
 
-    /** Another canvas, or another dish: the film ends. */
+    /** Ends the recording, e.g. when the canvas or the simulation changes. */
     stop(): void {
         if (!this.frames) return;
         this.done = this.frames.all;
         this.frames = undefined;
-        if (this.movie) this.movie.stop(); // and then it hands over the film
+        if (this.recorder) this.recorder.stop(); // its onstop stores the movie
         else this.layOut();
     }
 
     private begin(): void {
         this.frames = new Frames();
-        this.done = []; // its memory is the new one's
-        this.film = undefined;
+        this.done = []; // frees memory for the new recording
+        this.movie = undefined;
         const canvas = this.canvas();
         const type = ["video/webm;codecs=vp8", "video/webm"].find(
             (each) => globalThis.MediaRecorder?.isTypeSupported(each));
         if (canvas && type) {
             const parts: Blob[] = [];
-            this.movie = new MediaRecorder(canvas.captureStream(), {mimeType: type,
+            this.recorder = new MediaRecorder(canvas.captureStream(), {mimeType: type,
                                                                     videoBitsPerSecond: 6e6});
-            this.movie.ondataavailable = ({data}): void => { parts.push(data); };
-            this.movie.onstop = (): void => {
-                this.movie = undefined;
-                this.film = new Blob(parts, {type: "video/webm"});
+            this.recorder.ondataavailable = ({data}): void => { parts.push(data); };
+            this.recorder.onstop = (): void => {
+                this.recorder = undefined;
+                this.movie = new Blob(parts, {type: "video/webm"});
                 this.layOut();
             };
-            this.movie.start();
+            this.recorder.start();
         }
         this.layOut();
     }
 
     private layOut(): void {
-        this.start.textContent = this.frames ? texts.recordEnds : texts.record;
+        this.start.textContent = this.frames ? texts.recordStop : texts.record;
         this.start.setAttribute("aria-pressed", String(this.frames !== undefined));
-        const kept: HTMLElement[] = [];
-        if (this.film && !this.frames) {
-            const film = this.film;
-            kept.push(button(texts.film, () => save("swirl.webm", {bytes: film}), "save-film"));
+        const buttons: HTMLElement[] = [];
+        if (this.movie && !this.frames) {
+            const movie = this.movie;
+            buttons.push(button(texts.movie, () => save("swirl.webm", {bytes: movie}), "save-movie"));
         }
         if (this.done.length > 0 && !this.frames)
-            kept.push(button(texts.positions, () => save("swirl.xyz", {bytes: positionsOf(this.done)}),
+            buttons.push(button(texts.positions, () => save("swirl.xyz", {bytes: positionsOf(this.done)}),
                              "save-positions"));
-        this.panel.replaceChildren(this.start, ...kept);
+        this.panel.replaceChildren(this.start, ...buttons);
     }
 }

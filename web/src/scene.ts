@@ -1,23 +1,23 @@
-// A frame on a canvas: in the laboratory, or in the M-frame, whose origin is the dish's centre and
-// whose −y axis points from the swirl's centre S to it.
-import {drawBall, seenFrom, type Turn} from "./ball";
-import {frameDisc, frameHead, frameTurn} from "./engine";
+// Draws a frame on a canvas, in the lab frame or in the M-frame. The M-frame's origin is the centre
+// C of the container, and its −y axis points from S, the centre of the path, to C.
+import {drawBall, inRotatedAxes, type Orientation} from "./ball";
+import {frameDisc, frameHead, frameOrientation} from "./engine";
 import {symbols} from "./texts";
 
 export type View = "lab" | "m";
 export type Coloring = "spin" | "speed" | "pinned" | "id";
 
-export interface Look {
+export interface DrawOptions {
     view: View;
     coloring: Coloring;
     trails: Float64Array[]; // earlier frames, the oldest first
     event: Float64Array | undefined;
-    next: Float64Array | undefined; // who meets next
-    omega: number; // of the swirl; above 0: forces are drawn, in the M-frame
+    next: Float64Array | undefined; // the next event, whose particles are marked
+    omega: number; // of the container's path; if above 0, forces are drawn in the M-frame
     dark: boolean;
-    room: number; // how far from S the container may come, for the laboratory's scale
-    turned: number; // of the pack, in turns with the swirl; drawn as an arc in the laboratory
-    held: number | undefined; // the disc that the keys move
+    room: number; // largest distance of the container from S, for the scale of the lab frame
+    clusterTurns: number; // rotation of the cluster, in turns; drawn as an arc in the lab frame
+    held: number | undefined; // the disc selected by keys
 }
 
 interface Frame {
@@ -31,7 +31,7 @@ function head(f: Float64Array): Frame {
     return {centre: [f[3]!, f[4]!], radius: f[7]!, down: [f[8]!, f[9]!], discs: f[10]!};
 }
 
-/** Of a point of the laboratory, in the frame that is shown. */
+/** A point of the lab frame in the frame of the view. */
 function shown(frame: Frame, view: View, x: number, y: number): [number, number] {
     if (view === "lab") return [x, y];
     const [dx, dy] = [x - frame.centre[0], y - frame.centre[1]];
@@ -39,13 +39,13 @@ function shown(frame: Frame, view: View, x: number, y: number): [number, number]
     return [-dx * ey + dy * ex, -(dx * ex + dy * ey)];
 }
 
-/** Half the width of the picture. */
+/** Half the width of the image. */
 function reachOf(frame: Frame, look: {view: View; room: number}): number {
     const room = Math.max(look.room, Math.hypot(...frame.centre));
     return (look.view === "lab" ? frame.radius + room : frame.radius) * 1.06;
 }
 
-/** The point of the laboratory at these coordinates of the window. */
+/** The point of the lab frame at these coordinates of the window. */
 export function pointedAt(canvas: HTMLCanvasElement, f: Float64Array, room: number, clientX: number,
                           clientY: number): [number, number] {
     const box = canvas.getBoundingClientRect();
@@ -54,7 +54,7 @@ export function pointedAt(canvas: HTMLCanvasElement, f: Float64Array, room: numb
             (box.top + box.height / 2 - clientY) * scale];
 }
 
-/** The disc at a point of the laboratory. */
+/** The disc at a point of the lab frame. */
 export function discAt(f: Float64Array, x: number, y: number): number | undefined {
     for (let i = 0; i < f[10]!; ++i) {
         const k = frameHead + frameDisc * i;
@@ -63,15 +63,15 @@ export function discAt(f: Float64Array, x: number, y: number): number | undefine
     return undefined;
 }
 
-/** How sphere i is turned; of what cannot roll, nothing. */
-function turnOf(f: Float64Array, i: number): Turn | undefined {
-    const k = frameHead + frameDisc * f[10]! + frameTurn * i;
+/** The orientation of sphere i; undefined for particles that cannot roll. */
+function orientationOf(f: Float64Array, i: number): Orientation | undefined {
+    const k = frameHead + frameDisc * f[10]! + frameOrientation * i;
     return k < f.length ? [f[k]!, f[k + 1]!, f[k + 2]!, f[k + 3]!] : undefined;
 }
 
-/** By how much the pack has turned about its centre of mass from one frame to a later one, in turns:
- *  the rigid rotation that moves the discs most nearly as they moved. */
-export function turnBetween(a: Float64Array, b: Float64Array): number {
+/** Rotation of the cluster about its centre of mass from one frame to a later one, in turns: the rigid
+ *  rotation that fits the motion of the discs best. */
+export function clusterTurnsBetween(a: Float64Array, b: Float64Array): number {
     if (a.length !== b.length) return 0;
     const discs = head(b).discs;
     const mean = (f: Float64Array, at: number): number => {
@@ -90,7 +90,7 @@ export function turnBetween(a: Float64Array, b: Float64Array): number {
     return Math.atan2(across, along) / (2 * Math.PI);
 }
 
-/** From blue (against) by grey to orange (with the swirl); safe for the colour-blind. */
+/** From blue (against the swirl) to grey to orange (with the swirl); suited to colour-blind readers. */
 function diverging(x: number): string {
     const t = Math.max(-1, Math.min(1, x));
     const from = t < 0 ? [36, 99, 158] : [204, 92, 10];
@@ -104,14 +104,14 @@ const names = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00",
 function color(f: Float64Array, k: number, i: number, coloring: Coloring): string {
     if (coloring === "id") return names[i % names.length]!;
     if (coloring === "pinned") return f[k + 7] === 1 ? "#d55e00" : "#56b4e9";
-    if (coloring === "spin") return diverging(1.5 * f[k + 3]!); // full colour at 1.3 Ω of the paper's dish
-    const [vx, vy] = [f[k + 4]! - f[5]!, f[k + 5]! - f[6]!]; // relative to the dish
+    if (coloring === "spin") return diverging(1.5 * f[k + 3]!); // full colour at 1.3 Ω of the paper's container
+    const [vx, vy] = [f[k + 4]! - f[5]!, f[k + 5]! - f[6]!]; // relative to the container
     return diverging(Math.hypot(vx, vy) - 1);
 }
 
-const smallestBall = 6; // pixels; of smaller ones no pattern is seen
+const minBallRadius = 6; // pixels; the pattern of smaller spheres is invisible
 
-export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): void {
+export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptions): void {
     const context = canvas.getContext("2d");
     if (!context) return;
     const ratio = window.devicePixelRatio || 1;
@@ -122,7 +122,7 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
     const scale = size / (2 * reachOf(frame, look));
     const ink = look.dark ? "#e8e6e3" : "#23272b";
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.fillStyle = look.dark ? "#15181a" : "#fbfaf8"; // a film has it, too
+    context.fillStyle = look.dark ? "#15181a" : "#fbfaf8"; // so that a movie has it, too
     context.fillRect(0, 0, size, size);
     context.setTransform(scale, 0, 0, -scale, size / 2, size / 2);
     const hair = 1.2 * ratio / scale;
@@ -144,16 +144,16 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
         context.setLineDash([]);
     }
 
-    if (look.view === "lab") drawTurned(context, frame, look.turned, hair);
+    if (look.view === "lab") drawClusterTurns(context, frame, look.clusterTurns, hair);
     drawTrails(context, f, look, hair);
     const frameAngle = look.view === "m" ? Math.atan2(frame.down[0], -frame.down[1]) : 0;
     for (let i = 0; i < frame.discs; ++i) {
         const k = frameHead + frameDisc * i;
         const [x, y] = shown(frame, look.view, f[k]!, f[k + 1]!);
-        const r = f[k + 6]!, angle = f[k + 2]! - frameAngle, turn = turnOf(f, i);
+        const r = f[k + 6]!, angle = f[k + 2]! - frameAngle, orientation = orientationOf(f, i);
         context.fillStyle = color(f, k, i, look.coloring);
-        if (turn && r * scale > smallestBall) {
-            drawBall(context, x, y, r, seenFrom(frameAngle, turn));
+        if (orientation && r * scale > minBallRadius) {
+            drawBall(context, x, y, r, inRotatedAxes(frameAngle, orientation));
             continue;
         }
         context.beginPath();
@@ -176,7 +176,7 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: Look): vo
     drawMarks(context, frame, look, ink, hair);
 }
 
-function drawHeld(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: Look,
+function drawHeld(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
                   ink: string, held: number, hair: number): void {
     const k = frameHead + frameDisc * held;
     context.strokeStyle = ink;
@@ -186,19 +186,20 @@ function drawHeld(context: CanvasRenderingContext2D, f: Float64Array, frame: Fra
     context.stroke();
 }
 
-/** Where a disc is in the laboratory, and how large. */
+/** Position (lab frame) and radius of a disc. */
 export function discOf(f: Float64Array, i: number): {x: number; y: number; radius: number} {
     const k = frameHead + frameDisc * i;
     return {x: f[k]!, y: f[k + 1]!, radius: f[k + 6]!};
 }
 
-/** Along the rim, from the right: how far the pack has turned; every turn further in. */
-function drawTurned(context: CanvasRenderingContext2D, frame: Frame, turned: number,
+/** An arc along the wall that starts at the right: the rotation of the cluster. A circle stands for all
+ *  whole turns. */
+function drawClusterTurns(context: CanvasRenderingContext2D, frame: Frame, clusterTurns: number,
                     hair: number): void {
-    const whole = Math.trunc(turned), rest = turned - whole;
+    const whole = Math.trunc(clusterTurns), rest = clusterTurns - whole;
     const radius = frame.radius - 4 * hair;
-    if (!(radius > 5 * hair)) return; // the container is a dot beside its path
-    context.strokeStyle = context.fillStyle = turned < 0 ? "#24639e" : "#cc5c0a";
+    if (!(radius > 5 * hair)) return; // the container is a dot at this scale
+    context.strokeStyle = context.fillStyle = clusterTurns < 0 ? "#24639e" : "#cc5c0a";
     context.lineWidth = 4 * hair;
     context.globalAlpha = 0.8;
     if (whole !== 0) {
@@ -212,13 +213,13 @@ function drawTurned(context: CanvasRenderingContext2D, frame: Frame, turned: num
     context.globalAlpha = 1;
 }
 
-/** The part of the history, oldest first, that trails show: no earlier than `longest` before `now`. A
- *  number of frames alone would cover the dish where each takes much of a period. */
+/** The frames for the trails, oldest first: those at most `longest` before `now`. A fixed number of
+ *  frames would cover the container if each takes much of a period. */
 export function recent(history: Float64Array[], now: Float64Array, longest: number): Float64Array[] {
     return history.filter((f) => f[0]! >= now[0]! - longest);
 }
 
-function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: Look,
+function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: DrawOptions,
                     hair: number): void {
     const frames = [...look.trails, f];
     for (let t = 1; t < frames.length; ++t) {
@@ -239,8 +240,8 @@ function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: Lo
     context.globalAlpha = 1;
 }
 
-/** The impulse of a single event, as an arrow on who got it; length by its size. */
-function drawEvent(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: Look,
+/** Draws the impulse of an event as an arrow on the disc that received it. */
+function drawEvent(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
                    hair: number): void {
     const e = look.event;
     if (!e || e[1]! >= 2) return; // without an impulse
@@ -273,15 +274,15 @@ function drawArrow(context: CanvasRenderingContext2D, [ax, ay]: [number, number]
     context.fill();
 }
 
-/** Of every disc in the M-frame, both on one scale: the largest centrifugal force in the dish is two
- *  radii long. */
+/** Draws centrifugal and Coriolis force of each disc in the M-frame, on one scale: the largest
+ *  centrifugal force in the container is two radii long. */
 function drawForces(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, omega: number,
                     hair: number): void {
     const amplitude = Math.hypot(...frame.centre), [sx, sy] = shown(frame, "m", 0, 0);
     for (let i = 0; i < frame.discs; ++i) {
         const k = frameHead + frameDisc * i, [x, y] = [f[k]!, f[k + 1]!];
         const at = shown(frame, "m", x, y);
-        // Of the lab's velocity that part which is not the turning about S.
+        // The lab velocity without the rotation about S.
         const [vx, vy] = [f[k + 4]! + omega * y, f[k + 5]! - omega * x];
         const [ex, ey] = frame.down;
         const [wx, wy] = [-vx * ey + vy * ex, -(vx * ex + vy * ey)];
@@ -293,11 +294,11 @@ function drawForces(context: CanvasRenderingContext2D, f: Float64Array, frame: F
     }
 }
 
-/** A ring round the two that meet next, or the one that meets the wall. */
-function drawNext(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: Look,
+/** Draws a ring around the disc or discs of the next event. */
+function drawNext(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
                   hair: number): void {
     const e = look.next;
-    if (!e || e[1] === 2) return; // all of them
+    if (!e || e[1] === 2) return; // a path vertex, which concerns all discs
     context.strokeStyle = "#b00020";
     context.lineWidth = 2 * hair;
     context.setLineDash([4 * hair, 3 * hair]);
@@ -310,13 +311,13 @@ function drawNext(context: CanvasRenderingContext2D, f: Float64Array, frame: Fra
     context.setLineDash([]);
 }
 
-/** S, the centre of the swirl, C, the dish's, and M, the wall's farthest point from S. */
-function drawMarks(context: CanvasRenderingContext2D, frame: Frame, look: Look, ink: string,
+/** S, the centre of the path; C, the centre of the container; M, the point of the wall farthest from S. */
+function drawMarks(context: CanvasRenderingContext2D, frame: Frame, look: DrawOptions, ink: string,
                    hair: number): void {
     const m: [number, number] = [frame.centre[0] + frame.radius * frame.down[0],
                                  frame.centre[1] + frame.radius * frame.down[1]];
     const marks: [string, [number, number]][] = [
-        [symbols.swirl, [0, 0]], [symbols.dish, frame.centre], [symbols.farthest, m]];
+        [symbols.swirl, [0, 0]], [symbols.container, frame.centre], [symbols.farthest, m]];
     for (const [name, at] of marks) {
         const [x, y] = shown(frame, look.view, ...at);
         context.fillStyle = ink;

@@ -1,12 +1,12 @@
-// The paper's Figure 5b by oneself: ϖ(N) for frictions of one's choice, a run for every point, on
-// all cores, and where the curves cross zero.
+// Reproduces the paper's Figure 5b: ϖ(N) for chosen friction coefficients, with one run per point on
+// all cores, and N_c, where each curve crosses zero.
 import uPlot from "uplot";
 import {perRate, type Crossing, type Estimate, type Rate} from "./engine";
 import type {FromWorker, ToWorker} from "./messages";
 import {button, element, ink, line, save, withError} from "./page";
 import {symbols, texts} from "./texts";
 
-/** Between discs, and with the wall. */
+/** Friction coefficients between discs and at the wall. */
 export interface Friction {
     disc: number;
     wall: number;
@@ -20,39 +20,39 @@ interface Point {
     rotation?: Record<Rate, Estimate>;
 }
 
-/** The rate that is drawn. */
+/** The rotation rate in the plot. */
 const drawn: Rate = "by_time";
 
 const colors = ["#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00"];
-const most = 400; // points
+const maxPoints = 400; // points
 const nameOf = ({disc, wall}: Friction): string => texts.friction(disc, wall);
 
-/** Not a number where there is nothing. */
-const numberIn = (text: string): number => (text.trim() === "" ? NaN : Number(text));
+/** NaN for an empty text. */
+const parseNumber = (text: string): number => (text.trim() === "" ? NaN : Number(text));
 
-/** "5, 10, 20:5:40": numbers, and ranges FROM:STEP:TO. Nothing if it is neither. */
-export function numbersIn(text: string): number[] | undefined {
+/** Parses numbers and ranges FROM:STEP:TO: "5, 10, 20:5:40". Undefined if the text is not valid. */
+export function parseNumbers(text: string): number[] | undefined {
     const all: number[] = [];
     for (const part of text.split(",").map((each) => each.trim()).filter(Boolean)) {
-        const [from, by, to, more] = part.split(":").map(numberIn) as [number, number?, number?, number?];
+        const [from, by, to, more] = part.split(":").map(parseNumber) as [number, number?, number?, number?];
         if (!Number.isFinite(from) || more !== undefined) return undefined;
         if (by === undefined) all.push(from);
         else if (to === undefined || !(by > 0) || !(to >= from)) return undefined;
-        else for (let k = 0; from + k * by <= to * (1 + 1e-12) && all.length <= most; ++k)
+        else for (let k = 0; from + k * by <= to * (1 + 1e-12) && all.length <= maxPoints; ++k)
             all.push(from + k * by);
     }
-    return all.length > 0 && all.length <= most ? all : undefined;
+    return all.length > 0 && all.length <= maxPoints ? all : undefined;
 }
 
-/** As numbersIn, for discs and wall alike, and DISC:WALL for a pair: "0.1, 0:0.5:1, 1:0"; each once.
- *  Nothing if it is none of these. */
-export function frictionsIn(text: string): Friction[] | undefined {
+/** Parses friction coefficients like parseNumbers; DISC:WALL sets the two separately: "0.1, 0:0.5:1,
+ *  1:0". Duplicates are removed. Undefined if the text is not valid. */
+export function parseCoefficients(text: string): Friction[] | undefined {
     const all = new Map<string, Friction>();
     for (const part of text.split(",").filter((each) => each.trim())) {
-        const pair = part.split(":").map(numberIn);
-        const these = pair.length === 2 ? [{disc: pair[0]!, wall: pair[1]!}]
-            : (numbersIn(part) ?? [NaN]).map((mu) => ({disc: mu, wall: mu}));
-        for (const friction of these) {
+        const pair = part.split(":").map(parseNumber);
+        const parsed = pair.length === 2 ? [{disc: pair[0]!, wall: pair[1]!}]
+            : (parseNumbers(part) ?? [NaN]).map((mu) => ({disc: mu, wall: mu}));
+        for (const friction of parsed) {
             if (!Number.isFinite(friction.disc) || !Number.isFinite(friction.wall)) return undefined;
             all.set(nameOf(friction), friction);
         }
@@ -60,7 +60,7 @@ export function frictionsIn(text: string): Friction[] | undefined {
     return all.size > 0 ? [...all.values()] : undefined;
 }
 
-/** What a run has found; nothing of one that collapsed, whose averages end where it did. */
+/** The result of a run. A collapsed run has no rotation rate, since its averages end at the collapse. */
 function found({rotation, collapsed}: Extract<FromWorker, {kind: "point"}>): Partial<Point> {
     if (collapsed) return {done: true, collapsed};
     return {done: true, rotation};
@@ -69,9 +69,9 @@ function found({rotation, collapsed}: Extract<FromWorker, {kind: "point"}>): Par
 export class Study {
     readonly panel: HTMLDetailsElement;
     private readonly discs = element("input", {type: "text", id: "study-discs", value: "5:6:53"});
-    private readonly frictions = element("input", {type: "text", id: "study-mu", value: "0.1, 1"});
-    private readonly swirls = element("input", {type: "text", id: "study-swirls", value: "200"});
-    private readonly said = element("p", {id: "study-said"});
+    private readonly coefficients = element("input", {type: "text", id: "study-mu", value: "0.1, 1"});
+    private readonly periods = element("input", {type: "text", id: "study-periods", value: "200"});
+    private readonly status = element("p", {id: "study-status"});
     private readonly findings = element("ul", {id: "study-findings"});
     private readonly place = element("div", {id: "study-plot"});
     private readonly start = button(texts.start, () => this.toggle(), "study-start");
@@ -81,38 +81,38 @@ export class Study {
     private waiting: Point[] = [];
     private workers: Worker[] = [];
 
-    /** `begin` makes a worker that has the engine; `given` says what else holds of every dish. */
+    /** `begin` creates a worker with the engine; `given` returns the other parameters of all runs. */
     constructor(private readonly begin: () => Worker,
                 private readonly given: () => Record<string, string>) {
         const field = (label: string, input: HTMLInputElement): HTMLElement =>
             element("label", {}, `${label} `, input);
         this.panel = element("details", {id: "study"},
             element("summary", {textContent: texts.study}),
-            element("p", {textContent: texts.studyHow}),
-            element("div", {className: "bar"}, field(symbols.discs, this.discs), field(symbols.friction, this.frictions),
-                    field(texts.swirls, this.swirls), this.start,
+            element("p", {textContent: texts.studyHelp}),
+            element("div", {className: "bar"}, field(symbols.discs, this.discs), field(symbols.friction, this.coefficients),
+                    field(texts.periods, this.periods), this.start,
                     button(texts.studyTable, () => this.saveTable(), "study-table")),
-            this.said, this.place, this.findings);
+            this.status, this.place, this.findings);
     }
 
     private toggle(): void {
         if (this.workers.length > 0) {
             this.stop();
-            this.said.textContent = texts.stopped;
+            this.status.textContent = texts.stopped;
             return;
         }
-        const discs = numbersIn(this.discs.value), frictions = frictionsIn(this.frictions.value);
-        const swirls = Number(this.swirls.value);
-        if (!discs || !frictions || discs.length * frictions.length > most) {
-            this.said.textContent = texts.studyWrong(most);
+        const discs = parseNumbers(this.discs.value), coefficients = parseCoefficients(this.coefficients.value);
+        const periods = Number(this.periods.value);
+        if (!discs || !coefficients || discs.length * coefficients.length > maxPoints) {
+            this.status.textContent = texts.invalidStudy(maxPoints);
             return;
         }
-        if (!(Number.isInteger(swirls) && swirls >= 10 && swirls <= 100000)) {
-            this.said.textContent = texts.swirlsWrong(this.swirls.value);
+        if (!(Number.isInteger(periods) && periods >= 10 && periods <= 100000)) {
+            this.status.textContent = texts.invalidPeriods(this.periods.value);
             return;
         }
-        this.curves = frictions;
-        // Dense dishes take longest, so they come first.
+        this.curves = coefficients;
+        // Runs with many discs take longest, so they come first.
         const numbers = [...new Set(discs)].sort((a, b) => b - a);
         this.points = numbers.flatMap((n) => this.curves.map((friction) => ({friction, discs: n})));
         this.waiting = [...this.points];
@@ -121,7 +121,7 @@ export class Study {
         this.start.textContent = texts.stop;
         const cores = Math.min(navigator.hardwareConcurrency || 1, this.points.length, 16);
         this.workers = Array.from({length: cores}, () => this.begin());
-        for (const worker of this.workers) this.employ(worker, swirls);
+        for (const worker of this.workers) this.runPoints(worker, periods);
     }
 
     private stop(): void {
@@ -130,15 +130,15 @@ export class Study {
         this.start.textContent = texts.start;
     }
 
-    private employ(worker: Worker, swirls: number): void {
+    private runPoints(worker: Worker, periods: number): void {
         let at: Point | undefined;
-        const tell = (message: ToWorker): void => worker.postMessage(message);
+        const send = (message: ToWorker): void => worker.postMessage(message);
         const next = (): void => {
             at = this.waiting.shift();
-            if (at) tell({kind: "point", swirls, given: {
+            if (at) send({kind: "point", periods, given: {
                 ...this.given(), discs: String(at.discs), mu_disc: String(at.friction.disc),
                 mu_wall: String(at.friction.wall)}});
-            else if (this.points.every((each) => each.done)) this.askCrossings(tell);
+            else if (this.points.every((each) => each.done)) this.requestCrossings(send);
         };
         worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
             if (data.kind === "ready") next();
@@ -148,30 +148,30 @@ export class Study {
                 next();
             }
             if (data.kind === "crossing") this.showCrossing(this.curves[data.curve]!, data.crossings);
-            if (data.kind === "refused") {
+            if (data.kind === "rejected") {
                 this.stop();
-                this.said.textContent = data.sentence;
+                this.status.textContent = data.message;
             }
         };
     }
 
     private report(): void {
         const done = this.points.filter((each) => each.done).length;
-        const lost = this.points.filter((each) => each.collapsed);
-        const runs = lost.map((each) => texts.runOf(each.discs, nameOf(each.friction))).join(", ");
-        this.said.textContent = texts.studyProgress(done, this.points.length) +
-            (lost.length > 0 ? ` ${texts.collapsed(runs)}` : "");
+        const collapsed = this.points.filter((each) => each.collapsed);
+        const runs = collapsed.map((each) => texts.runOf(each.discs, nameOf(each.friction))).join(", ");
+        this.status.textContent = texts.studyProgress(done, this.points.length) +
+            (collapsed.length > 0 ? ` ${texts.collapsed(runs)}` : "");
         this.draw();
     }
 
-    private askCrossings(tell: (message: ToWorker) => void): void {
+    private requestCrossings(send: (message: ToWorker) => void): void {
         for (const [curve, friction] of this.curves.entries())
-            tell({kind: "crossing", curve, curves: perRate((rate) => this.points
+            send({kind: "crossing", curve, curves: perRate((rate) => this.points
                 .filter((each) => each.friction === friction)
                 .flatMap(({discs, rotation}) => [discs, rotation?.[rate].mean ?? NaN, rotation?.[rate].error ?? NaN]))});
     }
 
-    /** N_c depends on the rotation rate, so each has its own. */
+    /** Each rotation rate has its own N_c. */
     private showCrossing(friction: Friction, crossings: Record<Rate, Crossing | null>): void {
         const found = perRate((rate) => {
             const crossing = crossings[rate];
@@ -209,7 +209,7 @@ export class Study {
         }, [numbers, ...this.curves.map(values)], this.place);
     }
 
-    /** One standard error up and down, and the line ϖ = 0. */
+    /** Error bars of one standard error, and the line ϖ = 0. */
     private drawErrors(plot: uPlot): void {
         const context = plot.ctx;
         context.save();

@@ -1,94 +1,96 @@
-// Every text of the page, for who wants to translate it. In English remain what the engine says for the
-// command line, too: what it refuses, names of parameters, the keys of files.
+// All texts of the page, in one place for translators. The engine's texts remain English, as on the
+// command line: error messages, names of parameters, keys of files.
 
 import type {Rate} from "./engine";
 
-/** What index.html has in {{braces}}, put there when the page is built. */
+/** The texts for the {{names}} in index.html, inserted when the page is built. */
 export const pageTexts = {
     language: "en",
-    title: "swirl: marbles in a swirled dish",
+    title: "swirl: discs in a swirled container",
     name: "swirl",
-    noScript: "The laboratory runs in this page, by JavaScript, which is turned off here.",
-    dish: "The dish",
-    sameBits: "The engine, the parameters and the averages are those of the command line; the same dish " +
-        "has the same bits there:",
+    noScript: "This page needs JavaScript, which is turned off here.",
+    container: "Container",
+    commandLine: "The page uses the engine, the parameters and the averages of the command line. This command " +
+        "reproduces the state exactly:",
     copy: "Copy",
     after: "After",
-    theStateIs: "events the state is",
+    stateHashIs: "events the hash of the state is",
 };
 
-/** As the paper has them. */
+/** As in the paper. */
 export const symbols = {
     rotation: "ϖ/Ω", rigidRotation: "ϖ/Ω, rigid body", rotationM: "ϖ_M/Ω", theta: "θ", discs: "N", friction: "μ",
-    swirl: "S", dish: "C", farthest: "M", // points: the swirl's centre, the dish's, the wall's farthest
+    // Points: the centre of the path, the centre of the container, the point of the wall farthest from S.
+    swirl: "S", container: "C", farthest: "M",
 };
 
 export const texts = {
     play: "Play",
     pause: "Pause",
-    step: "One event",
-    restart: "From the beginning",
-    picture: "Save picture",
-    table: "Save ϖ per swirl (CSV)",
+    step: "Next event",
+    restart: "Restart",
+    image: "Save image (PNG)",
+    table: "Save ϖ per period (CSV)",
     result: "Save result (JSON)",
     record: "Record",
-    recordEnds: "End recording",
-    film: "Save film (WebM)",
+    recordStop: "Stop recording",
+    movie: "Save movie (WebM)",
     positions: "Save positions (XYZ)",
-    beside: "Keep this dish beside",
-    besideHas: (name: string, rotation: string): string => `${name}: ${symbols.rotation} = ${rotation}`,
-    besideEnds: "End the dish beside",
-    backwards: "Time backwards",
+    compare: "Compare",
+    compareHelp: "Keeps this container next to the next one",
+    comparedResult: (name: string, rotation: string): string => `${name}: ${symbols.rotation} = ${rotation}`,
+    closeCompared: "Close the compared container",
+    backwards: "Reverse time",
     forwards: "Time forwards",
-    backwardsHow: "Only without any friction and without loss: else collisions cannot be undone",
-    dragHow: "Discs can be dragged in the laboratory's view; time stands still meanwhile. " +
-        "By keys: [ and ] take a disc, arrows move it, Escape lets it go",
-    holds: (disc: number) => `Disc ${disc} is held; arrows move it, Escape lets it go.`,
-    speed: "Swirls per second",
+    backwardsHelp: "Needs zero friction and restitution 1: otherwise collisions cannot be reversed",
+    dragHelp: "Drag a disc in the lab frame; time pauses meanwhile. " +
+        "Keys: [ and ] select a disc, arrows move it, Escape deselects it",
+    selected: (disc: number) => `Disc ${disc} is selected. Arrows move it, Escape deselects it.`,
+    speed: "Periods per second",
     view: "View",
-    views: {lab: "Laboratory", m: "M-frame", both: "Both"},
+    views: {lab: "Lab frame", m: "M-frame", both: "Both"},
     color: "Colour",
     colors: {spin: "spin", speed: "speed", pinned: "pinned", id: "disc"},
-    colorMeans: {
-        spin: "Orange spins with the swirl, blue against it, grey hardly.",
-        speed: "Blue is at rest in the dish, grey as fast as the dish goes, orange twice as fast.",
-        pinned: "Orange is pinned at the wall near M (the paper's criterion), blue is not.",
-        id: "Each has a colour of its own.",
+    colorKey: {
+        spin: "Orange: spin with the swirl. Blue: against it. Grey: little spin.",
+        speed: "Speed in the container. Blue: at rest. Grey: as fast as the container. Orange: twice as fast.",
+        pinned: "Orange: pinned at the wall near M (the paper's criterion). Blue: not pinned.",
+        id: "Each disc has its own colour.",
     },
     forces: "Forces",
-    forcesHow: "In the M-frame: centrifugal (away from S) and Coriolis (to the right of where it goes)",
+    forcesHelp: "In the M-frame: centrifugal force (away from S) and Coriolis force (to the right of the velocity)",
     trails: "Trails",
     keep: "Keep the discs",
-    keepHow: "Changed frictions, restitutions and paths act on the same discs, from the next swirl on",
-    hand: "Swirl by hand",
-    handEnds: "End swirling by hand",
-    handSays: (turns: string): string => `Move the dish with the pointer. The pack has turned ${turns} times.`,
-    turned: "turned",
+    keepHelp: "New friction coefficients, restitutions and paths apply to the same discs, from the next period on",
+    hand: "Move by hand",
+    byHandStop: "Stop moving by hand",
+    byHandHeadline: (turns: string): string =>
+        `Move the container with the pointer. The cluster has rotated by ${turns} turns.`,
+    clusterRotation: "rotation of the cluster",
     turns: (turns: string): string => `${turns} turns`,
-    noCommand: "none: the dish was changed while it moved",
+    noCommand: "none, because the simulation was changed while it ran",
     maps: "Maps: density, flow and profile",
-    density: "Density in the M-frame; dark is dense",
-    flow: "Flow relative to the dish",
+    density: "Density in the M-frame; dark regions are dense",
+    flow: "Flow relative to the container",
     theta: "angle θ in the M-frame, M is at 270°",
     discs: "discs",
     wall: "wall",
     study: "Rotation against the number of discs (the paper's Figure 5b)",
-    studyHow: "A run for every N and friction, on all cores, with the other parameters as they are " +
-        "set here. Numbers and ranges FROM:STEP:TO, with commas between; a friction DISC:WALL is one " +
-        "between discs and another at the wall.",
+    studyHelp: "One run for each N and friction coefficient, on all cores, with the other parameters as set here. " +
+        "Enter numbers and ranges FROM:STEP:TO, separated by commas. DISC:WALL sets the friction coefficients " +
+        "between discs and at the wall separately.",
     start: "Start",
     stop: "Stop",
     stopped: "Stopped.",
     numberOfDiscs: "number of discs N",
-    studyTable: "Save the table (CSV)",
-    studyWrong: (most: number): string => "N and μ must be numbers or ranges FROM:STEP:TO, " +
-        "or for μ pairs DISC:WALL, with commas between, for example N 5:6:53 and μ 0.1, 1, 1:0; " +
-        `together at most ${most} runs.`,
+    studyTable: "Save table (CSV)",
+    invalidStudy: (most: number): string => "N and μ must be numbers or ranges FROM:STEP:TO, separated by commas; " +
+        `μ can have pairs DISC:WALL. The limit is ${most} runs.\nhint: try N 5:6:53 and μ 0.1, 1, 1:0.`,
     friction: (disc: number, wall: number): string =>
         disc === wall ? `${symbols.friction} = ${disc}`
             : `${symbols.friction}_d = ${disc}, ${symbols.friction}_w = ${wall}`,
-    swirlsWrong: (text: string): string =>
-        `The length of a run is '${text}', but it must be a whole number of swirls from 10 to 100000.`,
+    invalidPeriods: (text: string): string =>
+        `The length of a run is '${text}', but it must be a whole number of periods from 10 to 100000.`,
     studyProgress: (done: number, all: number): string => `${done} of ${all} runs done.`,
     crossing: (discs: string, lower: number, upper: number): string =>
         `${discs} (95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)})`,
@@ -97,48 +99,49 @@ export const texts = {
     crossings: (friction: string, of: Record<Rate, string>): string =>
         `${friction}: N_c, where the direction of rotation changes. Mean over the discs: ${of.by_time} by time, ` +
         `${of.by_event} by event. Rigid body: ${of.rigid_by_time} by time, ${of.rigid_by_event} by event.`,
-    collapsed: (runs: string): string => "Collapsed, and left out, since the model has no state after " +
-        `it: ${runs}.`,
+    collapsed: (runs: string): string => `Omitted, because the run collapsed: ${runs}.`,
     runOf: (discs: number, friction: string): string => `N = ${discs} at ${friction}`,
     presets: "Presets",
     copied: "Copied",
-    noWebAssembly: "This browser has no WebAssembly with vectors (SIMD), which the engine needs; " +
-        "Chrome 91, Firefox 113, Safari 16.4 and later have it.",
-    unknownName: (name: string): string => `The address has '${name}', but there is no such parameter.`,
-    badEvents: (text: string): string =>
-        `The address has events=${text}, but it must be a whole number from 0 to 10000000.`,
-    warmup: (swirls: number): string => `Averages begin after ${swirls} swirls.`,
-    notYet: "not known yet",
-    grows: "Without friction the energy grows without bound on the polygon; the averages belong to no " +
+    noWebAssembly: "This browser does not support WebAssembly with SIMD, which the engine needs.\n" +
+        "hint: use Chrome 91, Firefox 113, Safari 16.4 or later.",
+    unknownParameter: (name: string): string => `The address contains '${name}', but there is no such parameter.`,
+    invalidEvents: (text: string): string =>
+        `The address contains events=${text}, but it must be a whole number from 0 to 10000000.`,
+    warmup: (periods: number): string => `Averages start after ${periods} periods.`,
+    notYet: "n/a",
+    grows: "Without friction the energy grows without bound on the polygon. The averages do not belong to a " +
         "steady state.",
-    placing: (them: string): string => `Placing ${them}…`,
+    placing: (particles: string): string => `Placing ${particles}…`,
     running: (done: number, all: number): string => `${done} of ${all} events done.`,
     byTime: `${symbols.rotation} by time`,
     byEvent: `${symbols.rotation} by event`,
     mean: "mean",
-    swirls: "swirls",
-    /** One of them, several; a coin is a disc on a floor. */
-    bodies: {disc: ["disc", "discs"], coin: ["coin", "coins"], sphere: ["sphere", "spheres"]},
+    periods: "periods",
+    /** Singular and plural. */
+    bodies: {disc: ["disc", "discs"], sphere: ["sphere", "spheres"]},
     counted: (n: number, [one, several]: readonly string[]): string => `${n} ${n === 1 ? one : several}`,
-    rotates: (n: number, them: string): string => `${them} ${n === 1 ? "rotates" : "rotate"} with the swirl.`,
-    counterrotates: (n: number, them: string): string => `${them} ${n === 1 ? "turns" : "turn"} against the swirl.`,
-    undecided: (them: string): string => `${them}: the sense of rotation is not decided yet.`,
-    dish: (them: string, view: string): string => `${them} in a swirled dish, ${view}`,
-    lesson: "A lesson in six steps",
+    rotates: (n: number, particles: string): string =>
+        `${particles} ${n === 1 ? "rotates" : "rotate"} with the swirl.`,
+    counterrotates: (n: number, particles: string): string =>
+        `${particles} ${n === 1 ? "rotates" : "rotate"} against the swirl.`,
+    undecided: (particles: string): string => `${particles}: the direction of rotation is not determined yet.`,
+    container: (particles: string, view: string): string => `${particles} in a swirled container, ${view}`,
+    lesson: "Lesson in six steps",
     next: "Next",
     back: "Back",
-    /** Of parameters, where they are not to be called as the command line calls them. */
+    /** Translations of parameter groups and descriptions; the command line's texts are the default. */
     groups: {} as Record<string, string>,
     descriptions: {} as Record<string, string>,
 };
 
-/** What the engine's worker says: apart, so that it need not carry the page's texts. */
+/** The texts of the engine's worker, separate so that the worker does not contain those of the page. */
 export const workerTexts = {
-    stopped: (error: string): string => `The engine stopped: ${error}. Reload the page.`,
+    stopped: (error: string): string => `The engine stopped: ${error}.\nhint: reload the page.`,
     control: (name: string, code: number): string => `--${name.replaceAll("_", "-")} contains the control ` +
-        `character U+${code.toString(16).toUpperCase().padStart(4, "0")}, but a value is one line of text.`,
-    tooMany: (discs: string, most: number): string => `${discs} discs are too many for a page, which ` +
-        `takes ${most} at most; the command line has no such limit: ./swirl run --discs ${discs}.`,
+        `character U+${code.toString(16).toUpperCase().padStart(4, "0")}, but a value must be one line of text.`,
+    tooMany: (discs: string, most: number): string => `${discs} discs are too many for the page, whose limit is ` +
+        `${most}.\nhint: use the command line: ./swirl run --discs ${discs}.`,
 };
 
 export interface Step {
@@ -149,28 +152,27 @@ export interface Step {
 }
 
 export const lesson: Step[] = [
-    {title: "A few marbles", view: "lab", given: {discs: "8"},
-     text: "Move a dish round in circles without turning it. A few marbles in it gather on one side " +
-         "and run round with the swirl: the pack rotates the way the dish goes."},
-    {title: "Many marbles", view: "lab", given: {discs: "48"},
-     text: "Add marbles. When the dish is nearly full the pack turns the other way, against the " +
-         "swirl. Nothing else has changed. Why?"},
-    {title: "A frame that turns along", view: "both", given: {discs: "48"},
-     text: "Look at it from a frame that turns with the swirl (right): there the dish stands still " +
-         "and its wall runs clockwise past the marbles, like a belt. M is the point of the wall " +
-         "farthest from the centre of the swirl; there the marbles are pressed against it."},
+    {title: "A few discs", view: "lab", given: {discs: "8"},
+     text: "The container moves on a circle without rotating. The few discs in it gather on one side and move " +
+         "along the wall with the swirl. The cluster rotates in the direction of the container's motion."},
+    {title: "Many discs", view: "lab", given: {discs: "48"},
+     text: "Add discs. When the container is nearly full, the cluster rotates against the swirl. Nothing else " +
+         "was changed. Why does the direction change?"},
+    {title: "The M-frame", view: "both", given: {discs: "48"},
+     text: "The view on the right rotates with the swirl. In this frame the container is at rest, and its wall " +
+         "moves clockwise past the discs like a belt. M is the point of the wall farthest from the centre of " +
+         "the swirl. The discs are pressed against the wall there."},
     {title: "Without friction", view: "both", given: {discs: "48", mu: "0"},
-     text: "Take friction away, between marbles and at the wall. Now nothing holds a marble to the " +
-         "wall, and nothing turns the pack against the swirl."},
+     text: "Set the friction coefficients between discs and at the wall to zero. Then no force holds a disc at " +
+         "the wall, and no force rotates the cluster against the swirl."},
     {title: "Frustration", view: "both", given: {discs: "48", mu: "1"},
-     text: "With friction a marble at the wall would like to roll along it. But neighbours that " +
-         "touch would have to turn in opposite senses, like gears, and three in a triangle cannot. " +
-         "The more there are, the less they roll and the more they are dragged along by the wall: " +
-         "backwards, seen from the room."},
-    {title: "Do it yourself", view: "lab", given: {discs: "28"},
-     text: "Film a dish from above with a telephone: 5 mm marbles, a lid of a jar. Count how far " +
-         "the pack turns in ten swirls, add a marble, and film again. At which number does it stand " +
-         "still?"},
+     text: "With friction, a disc at the wall tends to roll along it. Discs in contact would have to spin in " +
+         "opposite directions, like gears. Three discs in a triangle cannot do that. With more discs there is " +
+         "less rolling, and the wall drags the discs along: backwards in the lab frame."},
+    {title: "Your own experiment", view: "lab", given: {discs: "28"},
+     text: "Record a video of a dish from above with a phone. Use 5 mm spheres in the lid of a jar. Measure how " +
+         "far the cluster rotates in ten periods, add a sphere, and record again. At which number does the " +
+         "rotation stop?"},
 ];
 
 export const presets: {name: string; given: Record<string, string>}[] = [
@@ -180,8 +182,8 @@ export const presets: {name: string; given: Record<string, string>}[] = [
     {name: "48 discs, μ = 0.1", given: {discs: "48", mu: "0.1"}},
     {name: "48 discs, no friction between discs", given: {discs: "48", mu_disc: "0", mu_wall: "1"}},
     {name: "48 discs, no friction at the wall", given: {discs: "48", mu_disc: "1", mu_wall: "0"}},
-    {name: "One large ball", given: {discs: "1", radius: "4"}},
-    {name: "Two sizes", given: {discs: "40", mixture: "20:0.6"}},
-    {name: "36 spheres that roll (the experiment)", given: {preset: "experiment", discs: "36"}},
+    {name: "One large disc", given: {discs: "1", radius: "4"}},
+    {name: "Two species", given: {discs: "40", mixture: "20:0.6"}},
+    {name: "36 rolling spheres (the experiment)", given: {preset: "experiment", discs: "36"}},
     {name: "2000 small discs", given: {discs: "2000", radius: "0.14", inertia: "solid"}},
 ];

@@ -1,34 +1,34 @@
-// The engine at work, beside the page so that the page never waits for it.
-import {Engine, Refusal, perRate} from "./engine";
+// Runs the engine in a worker, so that the page never waits for it.
+import {Engine, UsageError, perRate} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
 import {workerTexts} from "./texts";
 
-/** A tick works for so long at most; what is left of it is not made up for. */
-const patience = 12; // milliseconds
-const eventsAtOnce = 500;
-const betweenAverages = 200; // milliseconds
-/** A swirl of so many takes seconds; of more there would be no motion to look at. */
-const mostDiscs = 20_000;
+/** Longest work per tick. Time that is not reached within it is skipped. */
+const tickBudget = 12; // milliseconds
+const eventsPerBatch = 500;
+const averagesInterval = 200; // milliseconds
+/** A period with so many discs takes seconds; with more there would be no visible motion. */
+const maxDiscs = 20_000;
 
 let module: WebAssembly.Module | undefined;
 let engine: Engine | undefined;
-let now = 0; // the moment that is shown
+let now = 0; // the time on display
 let period = 1;
 let lastAverages = 0;
-let change: Record<string, string> | undefined; // waits for the end of the swirl
+let change: Record<string, string> | undefined; // takes effect at the end of the period
 
-const say = (message: FromWorker): void => postMessage(message);
+const send = (message: FromWorker): void => postMessage(message);
 
-function refuse(error: unknown): void {
+function reject(error: unknown): void {
     engine = undefined;
-    say({kind: "refused", sentence: error instanceof Refusal ? error.message :
+    send({kind: "rejected", message: error instanceof UsageError ? error.message :
         workerTexts.stopped(String(error))});
 }
 
-/** Nothing is shown of a dish that the command line would end with a sentence. */
-function refuseTrouble(dish: Engine, atTheEnd: boolean): void {
-    const sentence = dish.problem(atTheEnd);
-    if (sentence) throw new Refusal(sentence);
+/** Throws if the command line would end the run with an error. */
+function requireNoProblem(simulation: Engine, atTheEnd: boolean): void {
+    const problem = simulation.problem(atTheEnd);
+    if (problem) throw new UsageError(problem);
 }
 
 function show(single = false): void {
@@ -36,91 +36,91 @@ function show(single = false): void {
     const frame: Frame = {kind: "frame", frame: engine.frame(now), events: engine.events,
                           hash: engine.stateHash, command: engine.command()};
     if (single) [frame.event, frame.next] = [engine.event(), engine.nextEvent()];
-    if (single || performance.now() - lastAverages > betweenAverages) {
+    if (single || performance.now() - lastAverages > averagesInterval) {
         frame.rotation = engine.rotation();
         lastAverages = performance.now();
     }
     postMessage(frame, {transfer: [frame.frame.buffer]});
 }
 
-/** A dish at rest; what cannot be is refused. */
-function dishOf(module: WebAssembly.Module, given: Record<string, string>): Engine {
+/** Starts a simulation. Throws UsageError for parameters that are not valid. */
+function startSimulation(module: WebAssembly.Module, given: Record<string, string>): Engine {
     const discs = given["discs"] ?? "";
-    if (Number(discs) > mostDiscs) throw new Refusal(workerTexts.tooMany(discs, mostDiscs));
-    const dish = new Engine(module);
-    dish.begin(given);
-    return dish;
+    if (Number(discs) > maxDiscs) throw new UsageError(workerTexts.tooMany(discs, maxDiscs));
+    const simulation = new Engine(module);
+    simulation.begin(given);
+    return simulation;
 }
 
-/** So many events; says on the way how far it has come. */
-function run(dish: Engine, events: number): void {
-    let said = performance.now();
-    for (let done = 0; done < events; done += eventsAtOnce) {
-        dish.runEvents(Math.min(eventsAtOnce, events - done));
-        refuseTrouble(dish, false);
-        if (performance.now() - said < betweenAverages) continue;
-        said = performance.now();
-        say({kind: "progress", done: Math.min(done + eventsAtOnce, events), all: events});
+/** Executes `events` events and reports the progress. */
+function run(simulation: Engine, events: number): void {
+    let reported = performance.now();
+    for (let done = 0; done < events; done += eventsPerBatch) {
+        simulation.runEvents(Math.min(eventsPerBatch, events - done));
+        requireNoProblem(simulation, false);
+        if (performance.now() - reported < averagesInterval) continue;
+        reported = performance.now();
+        send({kind: "progress", done: Math.min(done + eventsPerBatch, events), all: events});
     }
-    refuseTrouble(dish, true);
+    requireNoProblem(simulation, true);
 }
 
 function begin(given: Record<string, string>, events: number): void {
     if (!module) return;
-    engine = dishOf(module, {...given, ...watched});
+    engine = startSimulation(module, {...given, ...measured});
     now = 0;
     lastAverages = 0;
     change = undefined;
     const configuration = engine.configuration();
     period = Number(configuration["period"]);
-    say({kind: "begun", configuration});
+    send({kind: "started", configuration});
     run(engine, events);
     now = engine.time;
     show(events > 0);
 }
 
-/** The page's own measurements go along with every dish: they change no bit. */
-const watched = {measure: "density,flow,profile"};
+/** The measurements of each simulation. They do not alter the trajectory. */
+const measured = {measure: "density,flow,profile"};
 
-/** To a moment, or as far as patience goes; whether it has come there. */
-function advance(dish: Engine, target: number): boolean {
-    const deadline = performance.now() + patience;
+/** Advances to `target` within tickBudget. Returns whether it was reached. */
+function advance(simulation: Engine, target: number): boolean {
+    const deadline = performance.now() + tickBudget;
     let arrived = false;
     do {
-        arrived = dish.advanceTo(target, eventsAtOnce);
-        refuseTrouble(dish, false);
+        arrived = simulation.advanceTo(target, eventsPerBatch);
+        requireNoProblem(simulation, false);
     } while (!arrived && performance.now() < deadline);
     return arrived;
 }
 
-function tick(swirls: number): void {
+function tick(periods: number): void {
     if (!engine) return;
-    const swirlEnds = (Math.floor(now / period + 1e-9) + 1) * period;
-    const target = change ? Math.min(now + swirls * period, swirlEnds) : now + swirls * period;
+    const periodEnd = (Math.floor(now / period + 1e-9) + 1) * period;
+    const target = change ? Math.min(now + periods * period, periodEnd) : now + periods * period;
     const arrived = advance(engine, target);
     const reached = arrived ? target : Math.min(engine.time, target);
     now = Math.max(now, reached);
-    if (change && now === swirlEnds) goOn(change);
+    if (change && now === periodEnd) applyChange(change);
     show();
 }
 
-/** The same discs wait for the end of the swirl; another dish waits for nothing. */
-function ask(given: Record<string, string>): void {
+/** A change that keeps the discs takes effect at the end of the period; any other at once. */
+function requestChange(given: Record<string, string>): void {
     if (!engine) return;
-    if (engine.keeps(given)) change = given;
-    else say({kind: "changed", kept: false, configuration: engine.configuration()});
+    if (engine.keepsDiscs(given)) change = given;
+    else send({kind: "changed", kept: false, configuration: engine.configuration()});
 }
 
-function goOn(given: Record<string, string>): void {
+function applyChange(given: Record<string, string>): void {
     if (!engine) return;
     change = undefined;
-    const kept = engine.change(now, {...given, ...watched});
+    const kept = engine.change(now, {...given, ...measured});
     const configuration = engine.configuration();
     if (kept) {
         now = 0;
         period = Number(configuration["period"]);
     }
-    say({kind: "changed", kept, configuration});
+    send({kind: "changed", kept, configuration});
 }
 
 function steer(x: number, y: number, duration: number): void {
@@ -135,7 +135,7 @@ function reverse(): void {
     if (!engine) return;
     const done = engine.reverse(now);
     if (done) now = 0;
-    say({kind: "reversed", done});
+    send({kind: "reversed", done});
     show();
 }
 
@@ -150,20 +150,20 @@ function maps(): void {
     if (!engine) return;
     engine.report();
     const of = (column: string): Float64Array => engine!.column(column);
-    say({kind: "maps", density: of("density//by_time"),
+    send({kind: "maps", density: of("density//by_time"),
          flow: {x: of("flow//x"), y: of("flow//y"), ux: of("flow//u_x"), uy: of("flow//u_y")},
          profile: {theta: of("profile//theta"), varpi: of("profile//varpi_m"),
                    wall: of("profile//wall")}});
 }
 
-/** A run of one's own study. Whoever asks for it asks nothing else of this worker meanwhile. */
-function point(given: Record<string, string>, swirls: number): void {
+/** Runs a point of the study. The worker must not get other messages meanwhile. */
+function point(given: Record<string, string>, periods: number): void {
     if (!module) return;
-    const dish = dishOf(module, given), configuration = dish.configuration();
-    const end = (swirls + dish.rotation().warmup) * Number(configuration["period"]);
-    while (!dish.advanceTo(end, eventsAtOnce) && !dish.problem(false));
-    const collapsed = dish.problem(true) !== "";
-    say({kind: "point", rotation: dish.rotation(), collapsed});
+    const simulation = startSimulation(module, given), configuration = simulation.configuration();
+    const end = (periods + simulation.rotation().warmup) * Number(configuration["period"]);
+    while (!simulation.advanceTo(end, eventsPerBatch) && !simulation.problem(false));
+    const collapsed = simulation.problem(true) !== "";
+    send({kind: "point", rotation: simulation.rotation(), collapsed});
 }
 
 onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
@@ -171,17 +171,17 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
         switch (data.kind) {
             case "engine":
                 module = await Engine.compile(data.bytes).catch(() => undefined);
-                say(module ? {kind: "ready", parameters: new Engine(module).parameters()}
+                send(module ? {kind: "ready", parameters: new Engine(module).parameters()}
                            : {kind: "unsupported"});
                 break;
             case "begin":
                 begin(data.given, data.events);
                 break;
             case "tick":
-                tick(data.swirls);
+                tick(data.periods);
                 break;
             case "change":
-                ask(data.given);
+                requestChange(data.given);
                 break;
             case "steer":
                 steer(data.x, data.y, data.duration);
@@ -193,18 +193,18 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                 drag(data.disc, data.x, data.y);
                 break;
             case "result":
-                if (engine) say({kind: "result", text: engine.result()});
+                if (engine) send({kind: "result", text: engine.result()});
                 break;
             case "maps":
                 maps();
                 break;
             case "point":
-                point(data.given, data.swirls);
+                point(data.given, data.periods);
                 break;
             case "crossing":
                 if (module) {
                     const found = new Engine(module);
-                    say({kind: "crossing", curve: data.curve,
+                    send({kind: "crossing", curve: data.curve,
                          crossings: perRate((rate) => found.crossing(data.curves[rate]))});
                 }
                 break;
@@ -216,6 +216,6 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                 break;
         }
     } catch (error) {
-        refuse(error);
+        reject(error);
     }
 };

@@ -1,24 +1,25 @@
-// The one file in a real browser: node page.mjs FILE.html CHROMIUM HASH PICTURE.svg [FOLDER], where the
-// picture is `swirl image --bare` of the dish that has this hash, and FOLDER gets what is downloaded. Ends with 1 and a sentence for whatever is not as it should be.
+// Tests the page in a real browser: node page.mjs FILE.html CHROMIUM HASH IMAGE.svg [FOLDER]. IMAGE is
+// from `swirl image --bare` of the state with this HASH; downloads are stored in FOLDER. Exits with 1 and
+// a message if a test fails.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
 import {chromium} from "playwright-core";
 
-const [file, executablePath, wantedHash, picture, folder] = process.argv.slice(2);
+const [file, executablePath, wantedHash, image, folder] = process.argv.slice(2);
 const address = pathToFileURL(file).href;
 const args = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
               "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 const browser = await chromium.launch({executablePath, args});
 const page = await browser.newPage({viewport: {width: 1200, height: 800}});
-const complaints = [], requests = [];
-page.on("pageerror", (error) => complaints.push(error.message));
-page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+const errors = [], requests = [];
+page.on("pageerror", (error) => errors.push(error.message));
+page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
 page.on("request", (request) => {
     if (!/^(file|data|blob):/.test(request.url())) requests.push(request.url());
 });
-// Where the page draws circles, in pixels of the canvas.
+// Records the circles that the page draws, in pixels of the canvas.
 await page.addInitScript(() => {
     globalThis.drawnCircles = [];
     const arc = CanvasRenderingContext2D.prototype.arc;
@@ -28,8 +29,8 @@ await page.addInitScript(() => {
         return arc.call(this, x, y, r, ...angles);
     };
 });
-/** Nothing that keeps anybody from using it: axe-core's rules of WCAG 2.1, levels A and AA. */
-const barriers = async (where) => {
+/** Fails if axe-core finds a violation of WCAG 2.1, levels A and AA. */
+const requireAccessible = async (where) => {
     await page.addScriptTag({path: createRequire(import.meta.url).resolve("axe-core/axe.min.js")});
     const {violations, passes} = await page.evaluate(() => globalThis.axe.run(
         {runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}));
@@ -37,17 +38,17 @@ const barriers = async (where) => {
     assert.deepEqual(violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`), [], where);
 };
 const text = (id) => page.textContent(`#${id}`);
-/** The name and the bytes of what a button saves. */
+/** The name and the bytes of a button's download. */
 const downloaded = async (button) => {
     const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
     const chunks = await (await download.createReadStream()).toArray();
     return [download.suggestedFilename(), Buffer.concat(chunks)];
 };
-/** A study of 20 swirls a run, until all its findings are told. */
+/** Runs a study with 20 periods per run until all findings are shown. */
 const study = async (discs, mu, findings) => {
     await page.fill("#study-discs", discs);
     await page.fill("#study-mu", mu);
-    await page.fill("#study-swirls", "20");
+    await page.fill("#study-periods", "20");
     await page.click("#study-start");
     await page.waitForFunction(
         (wanted) => document.querySelectorAll("#study-findings li").length === wanted, findings,
@@ -56,18 +57,18 @@ const study = async (discs, mu, findings) => {
 const open = async (query) => {
     await page.goto(address + query);
     await page.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
-        !document.getElementById("refusal").hidden, null, {timeout: 60_000});
+        !document.getElementById("error").hidden, null, {timeout: 60_000});
 };
 
-// The address holds the dish, and runs to exactly that event.
+// The address sets the parameters, and the page runs to exactly that event.
 await open("?discs=28&mu=0.5&seed=3&events=20000");
 assert.equal(await text("state-hash"), wantedHash);
 assert.equal(await text("event-count"), "20000");
-// Averages of the command line leave out what the page leaves out, as soon as there are any.
+// The command has the page's warm-up as soon as there are averages.
 assert.equal(await text("command"), "./swirl run --discs 28 --mu 0.5 --warmup 20 --seed 3 --events 20000");
 
-// It draws every disc where `swirl image` draws it, to half a pixel: places in radii of a disc from
-// the middle of the dish, which has the widest circle.
+// The page draws each disc where `swirl image` draws it, to half a pixel. Positions are in disc radii from
+// the centre of the container, which is the widest circle.
 const circlesOf = (list, radiusOf) => {
     const [cx, cy, widest] = list.reduce((a, b) => (b[2] > a[2] ? b : a));
     const small = list.filter(([, , r]) => r > 0.08 * widest && r < 0.2 * widest);
@@ -75,13 +76,13 @@ const circlesOf = (list, radiusOf) => {
     return {radius, discs: small.filter(([, , r]) => Math.abs(r - radius) < 0.1)
         .map(([x, y]) => [(x - cx) / radius, (y - cy) / radius])};
 };
-const ofPage = circlesOf(await page.evaluate(() => { // of the last time that it drew
+const ofPage = circlesOf(await page.evaluate(() => { // of the last frame
     const circles = globalThis.drawnCircles;
     return circles.slice(circles.findLastIndex(([, , r]) => r === Math.max(...circles.map((c) => c[2]))));
-}), (dish) => dish / 8.6); // the picture's widest circle is the wall's outer edge
-const ofPicture = circlesOf([...readFileSync(picture, "utf-8").matchAll(/ d="M ([^"]*)"/g)]
+}), (dish) => dish / 8.6); // the image's widest circle is the outer edge of the wall
+const ofImage = circlesOf([...readFileSync(image, "utf-8").matchAll(/ d="M ([^"]*)"/g)]
     .map(([, path]) => path.split(/[^-\d.]+/).filter(Boolean).map(Number))
-    .filter((numbers) => numbers.length >= 26) // round: four curves
+    .filter((numbers) => numbers.length >= 26) // circles consist of four curves
     .map((numbers) => {
         const xs = numbers.filter((_, k) => k % 2 === 0), ys = numbers.filter((_, k) => k % 2 === 1);
         return [0.5 * (Math.min(...xs) + Math.max(...xs)), 0.5 * (Math.min(...ys) + Math.max(...ys)),
@@ -89,31 +90,31 @@ const ofPicture = circlesOf([...readFileSync(picture, "utf-8").matchAll(/ d="M (
     }), (_, discs) => Math.max(...discs));
 assert.equal(new Set(ofPage.discs.map(String)).size, 28);
 for (const [x, y] of ofPage.discs) {
-    const nearest = Math.min(...ofPicture.discs.map(([u, v]) => Math.hypot(u - x, v - y)));
+    const nearest = Math.min(...ofImage.discs.map(([u, v]) => Math.hypot(u - x, v - y)));
     assert.ok(nearest * ofPage.radius < 0.5, `a disc is drawn ${nearest * ofPage.radius} pixels off`);
 }
 
-// One event more, drawn with its impulse.
+// One more event, drawn with its impulse.
 await page.click("#step");
 await page.waitForFunction(() => document.getElementById("event-count").textContent === "20001");
 
-// A thousand more, one by one, with the next one looked up each time.
+// A thousand more events one by one; each time the page also determines the next one.
 await page.evaluate(() => { for (let k = 0; k < 1000; ++k) document.getElementById("step").click(); });
 await page.waitForFunction(() => document.getElementById("event-count").textContent === "21001");
-assert.equal(await page.isHidden("#refusal"), true);
-await barriers("a dish");
+assert.equal(await page.isHidden("#error"), true);
+await requireAccessible("a container");
 await page.emulateMedia({colorScheme: "dark"});
-await barriers("a dish in the dark");
+await requireAccessible("the dark theme");
 await page.emulateMedia({colorScheme: "light"});
 assert.equal(await text("caution"), "");
 
-for (const [query, options] of [["?discs=48&events=2000", "--discs 48"], // has not come so far
+for (const [query, options] of [["?discs=48&events=2000", "--discs 48"], // ends within the warm-up
                                 ["?discs=5&warmup=2&events=3000", "--discs 5 --warmup 2"]]) {
     await open(query);
     assert.equal(await text("command"), `./swirl run ${options} --events ${query.split("events=")[1]}`);
 }
 
-// It moves, and time goes on.
+// The simulation runs.
 await open("?discs=48");
 const before = Number(await text("event-count"));
 await page.waitForFunction((n) => Number(document.getElementById("event-count").textContent) > n,
@@ -125,7 +126,7 @@ const painted = await page.evaluate(() => {
 });
 assert.ok(painted > 5, `the canvas shows ${painted} shades`);
 
-// Every number has a slider, and what the slider says stands in the field.
+// Each numeric parameter has a slider, whose value is shown in the text field.
 const withoutSlider = await page.$$eval("#parameters .row", (all) => all
     .filter((row) => !row.querySelector("input[type=range]"))
     .map((row) => row.querySelector("input[type=text], select").id.replace("parameter-", "")));
@@ -136,7 +137,7 @@ await ofMuWall.fill("0.35");
 assert.equal(await page.inputValue("#parameter-mu_wall"), "0.35");
 await page.fill("#parameter-mu_wall", "");
 
-// A slider and a field make another dish; the address follows where the page has one.
+// Sliders and fields start a new simulation with these parameters.
 await page.fill("#parameter-discs", "5");
 await page.waitForFunction(
     () => document.getElementById("command").textContent.includes("--discs 5 "));
@@ -146,27 +147,28 @@ await page.waitForFunction(
 await page.selectOption("#choose-View", "both");
 assert.equal(await page.locator("canvas:visible").count() >= 2, true);
 
-// Words are chosen; what a preset brings stands where nothing is given.
+// Words are in a list of choices. The values of a preset are shown as placeholders.
 await page.selectOption("#parameter-preset", "experiment");
 await page.waitForSelector('canvas[aria-label^="48 spheres"]');
 await page.waitForFunction(() => document.getElementById("parameter-body").value === "sphere");
 assert.equal(await page.inputValue("#parameter-restitution"), "");
 assert.equal(await page.getAttribute("#parameter-restitution", "placeholder"), "0.9");
 await page.selectOption("#parameter-body", "disc");
-await page.waitForSelector('canvas[aria-label^="48 coins"]');
+await page.waitForSelector('canvas[aria-label^="48 discs"]');
 await page.selectOption("#parameter-preset", "");
 await page.selectOption("#parameter-body", "sphere");
 await page.waitForSelector('canvas[aria-label^="48 spheres"]');
 
-// What cannot be is said in a sentence, and mended.
+// Invalid values show an error message, which disappears after a correction.
 await page.fill("#parameter-discs", "1000");
-await page.waitForFunction(() => !document.getElementById("refusal").hidden);
-assert.match(await text("refusal"), /1000 spheres do not fit/);
+await page.waitForFunction(() => !document.getElementById("error").hidden);
+assert.match(await text("error"), /^1000 spheres do not fit.*\nhint: /);
+assert.equal(await page.$eval("#error", (shown) => getComputedStyle(shown).whiteSpace), "pre-line");
 assert.deepEqual([await text("command"), await page.isDisabled("#copy")], ["", true]);
 await page.fill("#parameter-discs", "12");
-await page.waitForFunction(() => document.getElementById("refusal").hidden &&
+await page.waitForFunction(() => document.getElementById("error").hidden &&
     document.getElementById("command").textContent.includes("--discs 12 "));
-// What is copied is what is shown.
+// The copied command is the one on display.
 const [copied, shown] = await page.evaluate(() => {
     let copied;
     Object.defineProperty(navigator, "clipboard", {value: {writeText: async (text) => { copied = text; }}});
@@ -174,40 +176,40 @@ const [copied, shown] = await page.evaluate(() => {
     return [copied, document.getElementById("command").textContent];
 });
 assert.equal(copied, shown);
-// A value of more than one line, or with characters that are not shown, is another command than it seems.
+// Values with line breaks or invisible characters are errors: the command would not be what it seems.
 for (const [query, code] of [["?discs=5%0Atouch%20x%20%23", "000A"], ["?discs=5%0Aseed=7", "000A"],
                              ["?seed=1&mu=0.5%0D", "000D"], ["?discs=5%00", "0000"], ["?seed=3%1B[2J", "001B"],
                              ["?path=circle%E2%80%AE", "202E"], ["?discs=5%E2%80%A8", "2028"]]) {
     await open(query);
-    assert.match(await text("refusal"), new RegExp(`control character U\\+${code},`), query);
+    assert.match(await text("error"), new RegExp(`control character U\\+${code},`), query);
     assert.deepEqual([await text("command"), await page.isDisabled("#copy"), await text("event-count")],
                      ["", true, ""], query);
 }
 await open("?disks=5");
-assert.match(await text("refusal"), /'disks'/);
+assert.match(await text("error"), /'disks'/);
 await open("?discs=5&events=-1");
-assert.match(await text("refusal"), /events=-1/);
+assert.match(await text("error"), /events=-1/);
 await open("?discs=30000&radius=0.01");
-assert.match(await text("refusal"), /30000 discs are too many for a page.* \.\/swirl run --discs 30000\.$/);
+assert.match(await text("error"), /^30000 discs are too many for the page, .*\nhint: .* \.\/swirl run --discs 30000\.$/);
 
-// A container that is a dot beside its path is drawn, with its discs and marks.
+// A container that is much smaller than its path is drawn with its discs and marks.
 await open("?discs=5&amplitude=1e6&events=100");
 assert.ok(await page.evaluate(() => {
     globalThis.drawnCircles = [];
     document.getElementById("trails").click();
     return globalThis.drawnCircles.length;
 }) >= 10);
-assert.deepEqual(complaints, []);
+assert.deepEqual(errors, []);
 
-// A collapse is no state: neither on the way to an event nor while one looks on.
+// A collapse is an error, both on the way to an event and while the page runs.
 for (const events of ["&events=300000", ""]) {
     await page.goto(`${address}?discs=48&restitution=0.5&contact_duration=0${events}`);
-    await page.waitForFunction(() => !document.getElementById("refusal").hidden, null, {timeout: 60_000});
-    assert.match(await text("refusal"), /\(inelastic collapse\)/);
+    await page.waitForFunction(() => !document.getElementById("error").hidden, null, {timeout: 60_000});
+    assert.match(await text("error"), /\(inelastic collapse\)/);
     if (events) assert.equal(await text("state-hash"), "");
 }
 
-// What takes a while says how far it is.
+// Long computations show their progress.
 await page.goto(`${address}?discs=48&events=1000000`);
 await page.waitForFunction(
     () => /^\d+ of 1000000 events done\.$/.test(document.getElementById("headline").textContent));
@@ -223,31 +225,31 @@ await page.selectOption("#choose-preset", {label: "2000 small discs"});
 await page.waitForSelector('canvas[aria-label^="2000 discs"]');
 assert.ok((await page.evaluate(() => globalThis.headlines)).includes("Placing 2000 discs…"));
 
-// Changed on the way: the same discs go on, and no command line makes them.
+// A change keeps the discs, and there is no command that reproduces the state.
 await open("?discs=8");
 await page.check("#keep");
-await page.evaluate(() => { // ten swirls a second
+await page.evaluate(() => { // ten periods per second
     const speed = document.getElementById("speed");
     speed.value = "1";
     speed.dispatchEvent(new Event("input"));
 });
 await page.fill("#parameter-mu", "0.2");
 await page.waitForFunction(() => document.getElementById("command").textContent.startsWith("none"));
-await page.fill("#parameter-discs", "9"); // that is another dish
+await page.fill("#parameter-discs", "9"); // needs a new simulation
 await page.waitForFunction(
     () => document.getElementById("command").textContent.includes("--discs 9 --mu 0.2"));
-await page.click("#play"); // and does not wait for the end of a swirl, which may never come
+await page.click("#play"); // a new simulation does not wait for the end of the period
 await page.fill("#parameter-discs", "7");
 await page.waitForSelector('canvas[aria-label^="7 discs"]');
-await page.fill("#parameter-discs", "900"); // nor does a sentence
-await page.waitForFunction(() => /do not fit/.test(document.getElementById("refusal").textContent));
+await page.fill("#parameter-discs", "900"); // nor does an error message
+await page.waitForFunction(() => /do not fit/.test(document.getElementById("error").textContent));
 await page.fill("#parameter-discs", "9");
 await page.waitForSelector('canvas[aria-label^="9 discs"]');
-assert.equal(await page.isHidden("#refusal"), true);
+assert.equal(await page.isHidden("#error"), true);
 await page.click("#play");
 await page.uncheck("#keep");
 
-// Maps fill up.
+// Maps are drawn.
 await page.click("#maps summary");
 await page.waitForFunction(() => {
     const canvas = document.getElementById("density-map");
@@ -257,7 +259,7 @@ await page.waitForFunction(() => {
 await page.waitForSelector("#profile canvas");
 await page.click("#maps summary");
 
-// By hand: the dish goes where the pointer goes, and ends where one says.
+// By hand: the container follows the pointer until the mode is switched off.
 await page.click("#by-hand");
 const dish = await page.locator("#views canvas").boundingBox();
 for (let k = 0; k < 40; ++k) {
@@ -265,28 +267,28 @@ for (let k = 0; k < 40; ++k) {
                           dish.y + dish.height * (0.5 + 0.1 * Math.sin(k / 3)));
     await page.waitForTimeout(20);
 }
-assert.match(await text("headline"), /^Move the dish/);
+assert.match(await text("headline"), /^Move the container/);
 await page.click("#by-hand");
 await page.waitForFunction(() => /^9 discs/.test(document.getElementById("headline").textContent));
 
-// Time backwards: only where nothing is lost.
+// Time can be reversed only if energy is conserved.
 await open("?discs=8");
 assert.equal(await page.isDisabled("#backwards"), true);
 await open("?discs=8&mu=0");
-assert.match(await text("caution"), /^Without friction the energy grows without bound on the polygon; /);
-await open("?discs=8&mu=0&body=sphere&floor=sliding"); // the floor takes it
+assert.match(await text("caution"), /^Without friction the energy grows without bound on the polygon\. /);
+await open("?discs=8&mu=0&body=sphere&floor=sliding"); // the floor dissipates energy
 assert.equal(await text("caution"), "");
 await open("?discs=8&mu=0");
 await page.click("#backwards");
 await page.waitForFunction(() => document.getElementById("backwards").textContent === "Time forwards");
 assert.match(await text("command"), /^none/);
 await page.click("#backwards");
-await page.waitForFunction(() => document.getElementById("backwards").textContent === "Time backwards");
+await page.waitForFunction(() => document.getElementById("backwards").textContent === "Reverse time");
 
-// A disc that is dragged goes where the pointer goes.
+// A dragged disc follows the pointer.
 await open("?discs=1&events=20");
 const table1 = await page.locator("#views canvas").boundingBox();
-const centroid = (of = page) => of.evaluate(() => { // of what is drawn in the disc's colour
+const centroid = (of = page) => of.evaluate(() => { // of the pixels in the disc's colour
     const canvas = document.querySelector("#views canvas");
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     let n = 0, x = 0, y = 0;
@@ -308,28 +310,28 @@ await page.mouse.move(table1.x + 0.5 * table1.width, table1.y + 0.45 * table1.he
 await page.waitForTimeout(300);
 const put = await centroid();
 await page.mouse.up();
-// The hand of the disc and its rim are not of its colour: to a hundredth of the picture.
+// The orientation mark and the rim have another colour, so the tolerance is 0.01 of the image.
 assert.ok(Math.hypot(put[0] - 0.5, put[1] - 0.45) < 0.01, `dragged to ${put}`);
 
-// And by keys: taken, moved, let go; time stands still while it is held.
+// Keys do the same: select, move, deselect. Time is paused while a disc is selected.
 const lab = page.locator("#views canvas").first();
 await lab.focus();
 await page.keyboard.press("]");
-assert.match(await text("headline"), /^Disc 1 is held/);
+assert.match(await text("headline"), /^Disc 1 is selected/);
 const lifted = await centroid();
 for (let k = 0; k < 4; ++k) {
     await page.keyboard.press("ArrowLeft");
     await page.waitForTimeout(150);
 }
 const pushed = await centroid();
-// Four quarters of its radius, in widths of the picture: that shows R + A, and a margin.
+// Four quarters of its radius, in units of the image width, which is R + A with a margin.
 const radius = 1 / (2 * 1.06 * (8.6 + 1.892));
 assert.ok(Math.hypot(lifted[0] - pushed[0] - radius, pushed[1] - lifted[1]) < 0.1 * radius,
     `moved from ${lifted} to ${pushed}`);
 await page.keyboard.press("Escape");
 await page.selectOption("#choose-Colour", "spin");
 
-// A finger takes a disc up and down, which elsewhere would scroll the page.
+// A touch drags a disc vertically. Elsewhere the same touch scrolls the page.
 const phone = await browser.newPage({viewport: {width: 360, height: 740}, hasTouch: true,
                                      reducedMotion: "reduce"});
 await phone.goto(`${address}?discs=1&events=20`);
@@ -349,26 +351,26 @@ for (let k = 1; k <= 20; ++k) {
 }
 const led = await centroid(phone);
 await touch("touchEnd");
-assert.ok(Math.hypot(led[0] - touched[0], led[1] - touched[1] - way) < 0.02, `a finger led it to ${led}`);
+assert.ok(Math.hypot(led[0] - touched[0], led[1] - touched[1] - way) < 0.02, `the touch moved it to ${led}`);
 
-// Who asked for less motion has none from the lesson either.
+// If reduced motion is enabled in the system, the lesson starts paused, too.
 await phone.click("#lesson-start");
 await phone.waitForSelector('canvas[aria-label^="8 discs"]');
 assert.equal(await phone.textContent("#play"), "Play");
 await phone.close();
 
-// A second dish, which stays as it was asked for.
+// A compared container keeps its parameters.
 await open("?discs=12");
-await page.click("#keep-beside");
+await page.click("#compare");
 await page.fill("#parameter-discs", "20");
 await page.waitForFunction(() => /^12 discs: ϖ/.test(
-    document.querySelector("#beside figcaption")?.textContent ?? ""), null, {timeout: 60_000});
+    document.querySelector("#compared figcaption")?.textContent ?? ""), null, {timeout: 60_000});
 await page.waitForFunction(() => document.getElementById("command").textContent.includes("--discs 20 "));
-await barriers("two dishes");
-await page.click("#beside-ends");
-assert.equal(await page.locator("#beside").count(), 0);
+await requireAccessible("two containers");
+await page.click("#close-compared");
+assert.equal(await page.locator("#compared").count(), 0);
 
-// The paper's figure by oneself, in small; the warm-up that is looked for is the page's own here.
+// A small version of the paper's figure. Here warmup=auto means the page's default.
 await open("?discs=12&warmup=auto");
 await page.click("#study summary");
 for (const [discs, mu, said] of [["5:x", "1", /must be numbers or ranges/], ["", "1", /must be numbers/],
@@ -377,15 +379,15 @@ for (const [discs, mu, said] of [["5:x", "1", /must be numbers or ranges/], ["",
     await page.fill("#study-discs", discs);
     await page.fill("#study-mu", mu);
     await page.click("#study-start");
-    assert.match(await text("study-said"), said);
+    assert.match(await text("study-status"), said);
 }
 await study("5, 8:2:10", "0, 1, 1:0", 3);
-assert.match(await text("study-said"), /^9 of 9 runs/);
+assert.match(await text("study-status"), /^9 of 9 runs/);
 assert.deepEqual((await page.$$eval("#study-findings li", (all) => all.map((each) => each.textContent)))
     .map((each) => each.split(": ")[0]).sort(), ["μ = 0", "μ = 1", "μ_d = 1, μ_w = 0"]);
 for (const each of await page.$$eval("#study-findings li", (all) => all.map((one) => one.textContent)))
     assert.match(each, /Mean over the discs: .+ by time, .+ by event\. Rigid body: .+ by time, .+ by event\.$/);
-await barriers("the study");
+await requireAccessible("the study");
 const table = (await downloaded("#study-table"))[1].toString().trim().split("\n");
 assert.equal(table.length, 10);
 assert.equal(table[0], "mu_disc,mu_wall,discs,varpi,varpi_error,collapsed,varpi_rigid,varpi_rigid_error");
@@ -396,41 +398,41 @@ assert.ok(table.slice(1).every((row) => row.split(",").every((x) => Number.isFin
 await page.fill("#study-discs", "1000");
 await page.click("#study-start");
 await page.waitForFunction(
-    () => /do not fit/.test(document.getElementById("study-said").textContent));
+    () => /do not fit/.test(document.getElementById("study-status").textContent));
 await page.click("#study summary");
 
-// A run of it that collapses is told, and has no average.
+// A run that collapses is reported and has no average.
 await page.goto(`${address}?discs=5&restitution=0.5&contact_duration=0`);
 await page.click("#study summary");
 await study("48", "1", 1);
-assert.match(await text("study-said"), /^1 of 1 runs done\. Collapsed, and left out.*: N = 48 at μ = 1\.$/);
+assert.match(await text("study-status"), /^1 of 1 runs done\. Omitted, because the run collapsed: N = 48 at μ = 1\.$/);
 assert.match((await downloaded("#study-table"))[1].toString(), /\n1,1,48,,,1,,\n$/);
 await page.click("#study summary");
 
-// The lesson goes through its six steps by keyboard alone.
+// The six steps of the lesson work with the keyboard alone.
 await open("");
 await page.focus("#lesson-start");
 await page.keyboard.press("Enter");
 for (let step = 1; step <= 6; ++step) {
-    if (step === 3) await barriers("the lesson");
+    if (step === 3) await requireAccessible("the lesson");
     assert.match(await text("lesson"), new RegExp(`^${step}\\. `));
     await page.locator("#lesson button").last().focus();
     await page.keyboard.press("Enter");
 }
 assert.equal(await page.locator("#lesson-start").count(), 1);
 
-// A recording is a film and the positions.
+// A recording gives a movie and the positions.
 await page.waitForSelector('canvas[aria-label^="28 discs"]');
 await page.click("#record");
 await page.waitForTimeout(1500);
 await page.click("#record");
-await page.waitForSelector("#save-film", {timeout: 90_000}); // a busy machine is slow to end a film
+await page.waitForSelector("#save-movie", {timeout: 90_000}); // a busy machine is slow to finish a movie
 
 // Downloads.
 const saved = {}, canvasSize = await page.$eval("#views canvas", ({width, height}) => [width, height]);
-for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
-                                      ["#save-table", "rotation.csv", "swirl,varpi_rigid\n"],
-                                      ["#save-film", "swirl.webm", "\x1a\x45\xdf\xa3"],
+for (const [button, name, begins] of [["#save-image", "swirl.png", "\x89PNG"],
+                                      ["#save-table", "rotation.csv", "period,varpi_rigid\n"],
+                                      ["#save-movie", "swirl.webm", "\x1a\x45\xdf\xa3"],
                                       ["#save-positions", "swirl.xyz", "28\nProperties=species"],
                                       ["#save-result", "result.json", "{\n"]]) {
     const [called, bytes] = await downloaded(button);
@@ -439,11 +441,11 @@ for (const [button, name, begins] of [["#save-picture", "swirl.png", "\x89PNG"],
     assert.ok(saved[name].toString("latin1").startsWith(begins), name);
 }
 
-// The picture has the canvas's size; tests/cli/lab_test.py decodes it.
+// The image has the canvas's size; tests/cli/lab_test.py decodes it.
 assert.deepEqual([16, 20].map((at) => saved["swirl.png"].readUInt32BE(at)), canvasSize);
 assert.ok(canvasSize[0] >= 300, `${canvasSize}`);
 
-// Positions are extended XYZ, frame for frame: later and later, everybody in the dish, nobody in another.
+// Positions are extended XYZ. Times increase, all discs are in the container, and no discs overlap.
 const lines = saved["swirl.xyz"].toString().trimEnd().split("\n"), frames = [];
 for (let at = 0; at < lines.length; at += 30) {
     assert.equal(lines[at], "28");
@@ -465,26 +467,26 @@ for (const [k, {time, rows}] of frames.entries()) {
 }
 if (folder) for (const [name, bytes] of Object.entries(saved)) writeFileSync(`${folder}/${name}`, bytes);
 
-// A narrow screen has nothing that sticks out.
+// On a narrow screen nothing extends beyond the page.
 await page.setViewportSize({width: 360, height: 740});
 const wide = await page.evaluate(() => document.documentElement.scrollWidth);
 assert.ok(wide <= 360, `at a width of 360 the page is ${wide} wide`);
 
-assert.deepEqual(complaints, []);
+assert.deepEqual(errors, []);
 assert.deepEqual(requests, []);
 
-// Without JavaScript there is a sentence.
+// Without JavaScript the page shows a message.
 const plain = await browser.newPage({javaScriptEnabled: false});
 await plain.goto(address);
 assert.match(await plain.innerText("body"), /JavaScript, which is turned off here/);
 await browser.close();
 
-// And without vectors in WebAssembly, which Chromium leaves out where the processor has none.
+// Without SIMD, which Chromium disables on old processors, the page shows an error message.
 const old = await chromium.launch({executablePath, args: [
     ...args, "--js-flags=--no-enable-sse4-1 --no-enable-ssse3 --no-enable-sse3"]});
 const without = await old.newPage();
 await without.goto(address);
 await without.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
-    !document.getElementById("refusal").hidden, null, {timeout: 60_000});
-assert.match(await without.textContent("#refusal"), /^This browser has no WebAssembly with vectors \(SIMD\)/);
+    !document.getElementById("error").hidden, null, {timeout: 60_000});
+assert.match(await without.textContent("#error"), /^This browser does not support WebAssembly with SIMD/);
 await old.close();

@@ -1,6 +1,7 @@
-// How fast the engine is as WebAssembly: node speed.mjs SWIRL, after ./swirl lab. Prints events per second in
-// this Node.js, by turns with the program SWIRL: of the event loop alone, with vectors and without, beside
-// `bench/run --width baseline`, and with the page's averages beside `swirl run`.
+// Compares the speed of the WebAssembly engine with the program: node speed.mjs SWIRL, after `./swirl lab`
+// and a build of bench/run. The runs alternate. Prints events per second in Node.js: the bare event loop
+// with and without SIMD next to `bench/run --width baseline`, and with the page's averages next to
+// `SWIRL run`.
 import {execFileSync} from "node:child_process";
 import {readFileSync} from "node:fs";
 import {dirname, join} from "node:path";
@@ -8,7 +9,8 @@ import {fileURLToPath} from "node:url";
 
 const [program] = process.argv.slice(2);
 const built = join(dirname(fileURLToPath(import.meta.url)), "..", "..", "build", "wasm");
-execFileSync("cmake", ["--build", built, "--target", "swirl", "loop_alone", "loop_alone_scalar"], {stdio: "ignore"});
+execFileSync("cmake", ["--build", built, "--target", "swirl", "event_loop", "event_loop_scalar"], {stdio: "ignore"});
+const bench = join(built, "..", "..", "bench", "run");
 const median = (values) => values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
 const events = 300_000;
 
@@ -16,7 +18,7 @@ const compiled = (name) => WebAssembly.compile(readFileSync(join(built, `${name}
 const instance = (module) => {
     const {exports} = new WebAssembly.Instance(module, {
         wasi_snapshot_preview1: new Proxy({}, {get: () => () => 52}),
-        page: {refuse: () => { throw new Error("refused"); }}});
+        page: {reject: () => { throw new Error("rejected"); }}});
     exports._initialize();
     return exports;
 };
@@ -35,17 +37,17 @@ function loopRate(module, discs) {
 function pageRate(module, discs) {
     const dish = instance(module);
     const lines = Buffer.from(`discs=${discs}\n`);
-    const at = dish.room(lines.length);
+    const at = dish.buffer_for(lines.length);
     Buffer.from(dish.memory.buffer, at, lines.length).set(lines);
     dish.begin();
     return rateOf(dish);
 }
-const answerOf = (...call) => JSON.parse(execFileSync(program, [...call, "--json", "-", "--quiet"]));
+const answerOf = (command, ...options) => JSON.parse(execFileSync(command, [...options, "--json", "-", "--quiet"]));
 const runRate = (discs) =>
-    answerOf("run", "--discs", discs, "--events", events).events_per_second / 1e6;
-const benchRates = () => answerOf("bench", "--width", "baseline", "--seconds", "0.3").rows;
+    answerOf(program, "run", "--discs", discs, "--events", events).events_per_second / 1e6;
+const benchRates = () => answerOf(bench, "--width", "baseline", "--seconds", "0.3").rows;
 
-const [page, loop, scalar] = await Promise.all(["swirl", "loop_alone", "loop_alone_scalar"].map(compiled));
+const [page, loop, scalar] = await Promise.all(["swirl", "event_loop", "event_loop_scalar"].map(compiled));
 const rows = new Map([48, 28, 5].map((discs) =>
     [discs, {native: [], loop: [], scalar: [], run: [], page: []}]));
 for (let turn = 0; turn < 5; ++turn) {
@@ -59,10 +61,10 @@ for (let turn = 0; turn < 5; ++turn) {
     }
 }
 for (const [discs, row] of rows) {
-    const [native, vectors, plain, run, seen] =
+    const [native, simd, scalar, run, page] =
         [row.native, row.loop, row.scalar, row.run, row.page].map(median);
     console.log(`N = ${discs}, million events/s: loop ${native.toFixed(2)}, ` +
-        `as WebAssembly ${vectors.toFixed(2)} (${(vectors / native).toFixed(2)}), ` +
-        `without vectors ${plain.toFixed(2)} (${(plain / native).toFixed(2)}); ` +
-        `with averages ${run.toFixed(2)}, on the page ${seen.toFixed(2)} (${(seen / run).toFixed(2)})`);
+        `WebAssembly ${simd.toFixed(2)} (${(simd / native).toFixed(2)}), ` +
+        `without SIMD ${scalar.toFixed(2)} (${(scalar / native).toFixed(2)}); ` +
+        `with averages ${run.toFixed(2)}, page ${page.toFixed(2)} (${(page / run).toFixed(2)})`);
 }

@@ -1,4 +1,4 @@
-// What the page works out by itself: node units.mjs. Ends with 1 and a sentence for whatever is wrong.
+// Unit tests of the page's own computations: node units.mjs. Exits with 1 and a message if a test fails.
 import assert from "node:assert/strict";
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -19,23 +19,22 @@ const frame = (discs, {time = 0, centre = [0, 0], radius = 8.6} = {}) => new Flo
     [time, 0, 0, ...centre, 0, 0, radius, 1, 0, discs.length,
      ...discs.flatMap(([x, y, r = 1]) => [x, y, 0.25, -0.5, 1, 2, r, 0])]);
 
-/** What a reader sees, or hears, of a source that stands in it instead of in texts.ts: letters where an
- *  element gets its text, name or label, or a canvas its; and elsewhere whatever reads as a sentence, or
- *  has letters that no name in the code has. */
+/** Finds visible texts in a source other than texts.ts: letters in the text, name or label of an element
+ *  or canvas; elsewhere strings of several words, or with letters that identifiers cannot have. */
 const shownBy = (source) => {
     const found = [], file = ts.createSourceFile("a.ts", source, ts.ScriptTarget.ES2022, true);
     const shown = ["textContent", "innerText", "innerHTML", "title", "label", "alt", "placeholder", "ariaLabel"];
     const nameOf = (node) => node.name?.text ?? node.text ?? "";
-    /** Of a call, the arguments that are shown. */
+    /** The arguments of a call that are shown. */
     const shownOf = ({expression, arguments: given = []}) => ({
         __proto__: null, element: given.slice(2), append: given, prepend: given, button: given.slice(0, 1),
         field: given.slice(0, 1), choice: given.slice(0, 1), figure: given.slice(1), alert: given,
-        refuse: given, Refusal: given, fillText: given.slice(0, 1), strokeText: given.slice(0, 1),
+        showError: given, UsageError: given, fillText: given.slice(0, 1), strokeText: given.slice(0, 1),
         setAttribute: /^(aria-label|aria-description|title|alt|placeholder)$/.test(given[0]?.text)
             ? given.slice(1) : [],
     })[nameOf(expression)] ?? [];
     const hidden = (node) => ts.isImportDeclaration(node) || ts.isTypeNode(node) ||
-        (ts.isNewExpression(node) && nameOf(node.expression) === "Error") || // a mistake of ours
+        (ts.isNewExpression(node) && nameOf(node.expression) === "Error") || // a programming error, not shown to users
         (ts.isBinaryExpression(node) && nameOf(node.left) === "font") ||
         (ts.isCallExpression(node) && nameOf(node.expression) === "setAttribute" &&
             shownOf(node).length === 0);
@@ -51,7 +50,7 @@ const shownBy = (source) => {
         const gives = ts.isPropertyAssignment(node) && shown.includes(nameOf(node)) ||
             ts.isBinaryExpression(node) && node.operatorToken.kind === ts.SyntaxKind.EqualsToken &&
             shown.includes(nameOf(node.left));
-        // What decides is not shown, nor are names of elements and keys.
+        // Conditions, names of elements and keys are not shown.
         const decides = (child) => ts.isConditionalExpression(node) && child === node.condition ||
             ts.isElementAccessExpression(node) && child === node.argumentExpression;
         ts.forEachChild(node, (child) => visit(child, calls ? args.includes(child)
@@ -60,7 +59,7 @@ const shownBy = (source) => {
     visit(file, false);
     return found;
 };
-/** And of a page, where names in double braces stand for texts. */
+/** Finds visible texts in HTML, where names in double braces stand for texts. */
 const shownByPage = (html) => html.replace(/<!.*?>|\{\{\w+\}\}|<script.*?<\/script>/gs, "")
     .replace(/<[^>]*>/g, (tag) => (/\b(?:aria-label|title|alt|placeholder)="[^"]*"/.exec(tag) ?? [""])[0]
         .replace(/^.*?=/, "")).match(/\p{L}+/gu) ?? [];
@@ -80,32 +79,32 @@ try {
     ]) assert.deepEqual(shownBy(source), wanted, source);
     for (const name of readdirSync(sources).filter((each) => each.endsWith(".ts") && each !== "texts.ts")) {
         const stray = shownBy(readFileSync(join(sources, name), "utf-8"));
-        assert.deepEqual(stray, [], `${name} has texts that belong into texts.ts`);
+        assert.deepEqual(stray, [], `${name} has texts that belong in texts.ts`);
     }
     assert.deepEqual(shownByPage('<a title="So {{b}}" id="x">{{a}} <b>yes</b></a>'), ["So", "yes"]);
     assert.deepEqual(shownByPage(readFileSync(join(sources, "..", "index.html"), "utf-8")), []);
 
-    const {turnBetween, discAt, recent} = await load("scene");
-    const turned = (discs, by) => discs.map(([x, y]) => [
+    const {clusterTurnsBetween, discAt, recent} = await load("scene");
+    const moved = (discs, by) => discs.map(([x, y]) => [
         3 + x * Math.cos(by) - y * Math.sin(by), 4 + x * Math.sin(by) + y * Math.cos(by)]);
-    const pack = [[0, 0], [2, 0], [1, 3], [-4, 2]];
-    for (const by of [0, 0.3, -0.3, 3, -3]) { // moved elsewhere as well: that is no turning
-        const turns = turnBetween(frame(pack), frame(turned(pack, by)));
+    const cluster = [[0, 0], [2, 0], [1, 3], [-4, 2]];
+    for (const by of [0, 0.3, -0.3, 3, -3]) { // the translation must not count as rotation
+        const turns = clusterTurnsBetween(frame(cluster), frame(moved(cluster, by)));
         assert.ok(Math.abs(turns - by / (2 * Math.PI)) < 1e-12, `${turns} turns for ${by}`);
     }
-    assert.equal(turnBetween(frame(pack), frame(pack.slice(1))), 0); // another dish
-    assert.equal(discAt(frame(pack), 2.5, 0.5), 1);
-    assert.equal(discAt(frame(pack), 2.9, 0.9), undefined);
-    // Trails reach back by a time, however much of it lies between two frames.
+    assert.equal(clusterTurnsBetween(frame(cluster), frame(cluster.slice(1))), 0); // another number of discs
+    assert.equal(discAt(frame(cluster), 2.5, 0.5), 1);
+    assert.equal(discAt(frame(cluster), 2.9, 0.9), undefined);
+    // Trails span a fixed time, whatever the interval between two frames.
     for (const [step, count] of [[0.01, 30], [0.1, 3], [0.2, 1], [2, 0]]) {
-        const history = Array.from({length: 45}, (_, k) => frame(pack, {time: step * (k - 45) - 1e-9}));
-        const past = recent(history, frame(pack), 0.3 + 1e-8);
+        const history = Array.from({length: 45}, (_, k) => frame(cluster, {time: step * (k - 45) - 1e-9}));
+        const past = recent(history, frame(cluster), 0.3 + 1e-8);
         assert.equal(past.length, count, `${past.length} frames of ${step} periods`);
         assert.deepEqual(past, history.slice(45 - count)); // the newest ones, in order
     }
 
-    // The eight octants of a ball, however it is turned, cover what is seen of it, and nothing twice.
-    const {seenFrom, turnedBy, visiblePart} = await load("ball");
+    // In any orientation the eight octants of a sphere cover its visible half exactly once.
+    const {inRotatedAxes, rotated, visiblePart} = await load("ball");
     const areaOf = (outline) => outline.reduce((sum, [x, y], k) => {
         const [u, v] = outline[(k + 1) % outline.length];
         return sum + 0.5 * (x * v - y * u);
@@ -118,17 +117,17 @@ try {
         for (const x of [-1, 1]) for (const y of [-1, 1]) for (const z of [-1, 1]) {
             const corners = [[x, 0, 0], [0, y, 0], [0, 0, z]];
             const outline = corners.flatMap((corner, k) => edge(corner, corners[(k + 1) % 3]));
-            seen += Math.abs(areaOf(visiblePart(outline.map((point) => turnedBy(turn, point)))));
+            seen += Math.abs(areaOf(visiblePart(outline.map((point) => rotated(turn, point)))));
         }
-        // A limb of five straight pieces to an eighth of a turn or more is short of the circle by at most
-        // a sixth of (π/2/5)², and nothing else is cut off.
+        // The rim of a part has five straight pieces. Its area is smaller than the circle's by at most a sixth
+        // of (π/2/5)²; nothing else may be missing.
         assert.ok(seen < Math.PI * (1 + 1e-12) && seen > Math.PI * (1 - 0.1 / 6), `${seen} for ${turn}`);
     }
-    const [q0, q1] = [0, 0.3].map((angle) => turnedBy(
-        seenFrom(angle, [0.5, 0.5, 0.5, 0.5]), [0.6, 0, 0.8]));
+    const [q0, q1] = [0, 0.3].map((angle) => rotated(
+        inRotatedAxes(angle, [0.5, 0.5, 0.5, 0.5]), [0.6, 0, 0.8]));
     assert.ok(Math.abs(q1[0] - (q0[0] * Math.cos(0.3) + q0[1] * Math.sin(0.3))) < 1e-15);
     assert.ok(Math.abs(q1[1] - (q0[1] * Math.cos(0.3) - q0[0] * Math.sin(0.3))) < 1e-15);
-    assert.deepEqual(turnedBy([0.5, 0.5, 0.5, 0.5], [1, 0, 0]), [0, 1, 0]); // x to y, y to z, z to x
+    assert.deepEqual(rotated([0.5, 0.5, 0.5, 0.5], [1, 0, 0]), [0, 1, 0]); // x to y, y to z, z to x
 
     const {xyz, positionsOf, Frames} = await load("recording");
     const lines = xyz(frame([[1, 2], [3, 4, 0.5]], {time: 7.5})).split("\n");
@@ -139,19 +138,19 @@ try {
     assert.deepEqual(lines.slice(4), [""]);
     const both = [frame([[1, 2]]), frame([[3, 4]], {time: 1})];
     assert.equal(await positionsOf(both).text(), both.map(xyz).join(""));
-    const kept = new Frames(), large = {length: 3e6}; // as many numbers as 375,000 discs have
+    const kept = new Frames(), large = {length: 3e6}; // the size of a frame with 375,000 discs
     assert.deepEqual(Array.from({length: 6}, () => kept.add(large)), [true, true, true, true, true, false]);
     assert.equal(kept.all.length, 6);
 
-    const {swirlsOf, meansOf, tableOf} = await load("series");
-    const short = {warmup: 2, warmup_blocks: 2, swirls_per_block: [1, 1], blocks: [5, 7, 1, 3, null]};
-    assert.deepEqual(swirlsOf(short), [1, 2, 3, 4, 5]);
+    const {periodsOf, meansOf, tableOf} = await load("series");
+    const short = {warmup: 2, warmup_blocks: 2, periods_per_block: [1, 1], blocks: [5, 7, 1, 3, null]};
+    assert.deepEqual(periodsOf(short), [1, 2, 3, 4, 5]);
     assert.deepEqual(meansOf(short), [null, null, 1, 2, 4 / 3]);
-    assert.equal(tableOf(short), "swirl,varpi_rigid\n1,5\n2,7\n3,1\n4,3\n5,\n");
-    assert.equal(tableOf(undefined), "swirl,varpi_rigid\n");
-    // So long that neighbours were put together: in twos in the warm-up, in fours after it.
-    const long = {warmup: 5, warmup_blocks: 2, swirls_per_block: [2, 4], blocks: [1, 1, 3, 5]};
-    assert.deepEqual(swirlsOf(long), [2, 4, 9, 13]);
+    assert.equal(tableOf(short), "period,varpi_rigid\n1,5\n2,7\n3,1\n4,3\n5,\n");
+    assert.equal(tableOf(undefined), "period,varpi_rigid\n");
+    // A long run with merged blocks: two periods each in the warm-up, four after it.
+    const long = {warmup: 5, warmup_blocks: 2, periods_per_block: [2, 4], blocks: [1, 1, 3, 5]};
+    assert.deepEqual(periodsOf(long), [2, 4, 9, 13]);
     assert.deepEqual(meansOf(long), [null, null, 3, 4]);
 
     const {withError} = await load("page");
@@ -161,13 +160,13 @@ try {
     assert.equal(withError(null, null, "?"), "?");
     assert.equal(withError(0.25, null, "?"), "0.250");
 
-    const {numbersIn, frictionsIn} = await load("study");
-    assert.deepEqual(numbersIn("5, 8:2:12"), [5, 8, 10, 12]);
-    assert.deepEqual(numbersIn("0:0.1:0.3").map((x) => x.toFixed(6)),
+    const {parseNumbers, parseCoefficients} = await load("study");
+    assert.deepEqual(parseNumbers("5, 8:2:12"), [5, 8, 10, 12]);
+    assert.deepEqual(parseNumbers("0:0.1:0.3").map((x) => x.toFixed(6)),
                      ["0.000000", "0.100000", "0.200000", "0.300000"]);
     for (const wrong of ["", "5:x", "1:0:5", "1:2", ":1:3", "1::3", "1:1:3:5"])
-        assert.equal(numbersIn(wrong), undefined, wrong);
-    const pairs = (text) => frictionsIn(text)?.map(({disc, wall}) => [disc, wall]);
+        assert.equal(parseNumbers(wrong), undefined, wrong);
+    const pairs = (text) => parseCoefficients(text)?.map(({disc, wall}) => [disc, wall]);
     assert.deepEqual(pairs("0.1, 0:0.5:1, 1:0 , 0:1"), [[0.1, 0.1], [0, 0], [0.5, 0.5], [1, 1], [1, 0], [0, 1]]);
     assert.deepEqual(pairs("1, 1:1, 1:0, 1:0"), [[1, 1], [1, 0]]);
     for (const wrong of ["", " , ", "1:x", "1:", ":1", "x", "1:2:3:4", "0.1, 1:y", "1:0:5"])

@@ -1,5 +1,5 @@
-// One dish under observation, as the page shows it: between its events too, and taken up again with
-// another path, other contacts, or a disc somewhere else.
+// The simulation as the page shows it: also at times between events. It can be continued with
+// another path, other contact parameters, or a moved disc.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,9 @@
 
 namespace swirl {
 
-/// One dish under observation. An event is found first, by executing it: until then the state of
-/// the snapshot holds, and can be looked at in between; then it is passed.
+/// A simulated container with its measurements. An event is first found by executing it. The
+/// snapshot still holds the state before it, for frames in between. Then the event is passed, and
+/// the snapshot holds the state after it.
 class Container {
   public:
     Container(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
@@ -30,16 +31,16 @@ class Container {
           measured_(std::move(measured)),
           observation_(config.container_radius, config.period, measured_),
           run_(endless(config), begin, measured_.empty() ? nullptr : &observation_),
-          seen_(run_.stored_snapshot()),
+          shown_(run_.stored_snapshot()),
           pinned_times_(samples_per_period, config.period) {
         run_.follow_orientations();
     }
     Container(const Container&) = delete;
     Container& operator=(const Container&) = delete;
 
-    /// The last one that was passed.
+    /// The last passed event.
     const Event& event() const { return passed_; }
-    /// The one to come. Nothing is executed for it: hash and counts stay those of the last one.
+    /// The next event. It is not executed here: hash and counts stay those of the last one.
     Event next_event() const {
         if (found_) return run_.event();
         InitialState state = without_discs(config_, path());
@@ -47,13 +48,12 @@ class Container {
             state.discs.push_back(simulation().disc(i));
         return Simulation(state, simulation().progress()).step();
     }
-    /// An event that was found is passed, so that averages, counts and state are of the same
-    /// moment.
-    void settle() {
+    /// Passes an event that was found, so that averages, counts and state belong to the same time.
+    void pass_found_event() {
         if (found_) pass();
     }
-    /// Of each disc, by the paper's criterion, some frames ago; none in the first frames, and none
-    /// where nothing is measured.
+    /// True if disc i is pinned by the paper's criterion, which is known some frames later. False in
+    /// the first frames, and if nothing is measured.
     bool is_pinned(std::size_t i) const {
         const PinnedLoose& found = pinned_.pinned_loose();
         return found.is_known() && found.pinned()[i] != 0;
@@ -61,7 +61,7 @@ class Container {
     const Simulation& simulation() const { return run_.simulation(); }
     const RunConfig& config() const { return config_; }
     const ContainerPath& path() const { return run_.path(); }
-    /// The names that are measured.
+    /// The names of the measurements.
     const std::vector<std::string>& measured() const { return measured_; }
     const ClusterRotation& rotation_in_warmup() { return run_.rotation_in_warmup(); }
     const ClusterRotation& rotation() { return run_.rotation_after_warmup(); }
@@ -69,9 +69,8 @@ class Container {
     std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
     bool is_warm() const { return run_.stored_snapshot().periods >= warmup(); }
 
-    /// As a run of the command line that ended with the last event would have it, but for the time
-    /// that it took. Nothing is said of a warm-up that has not ended. No event is found beyond the
-    /// last one (settle).
+    /// The result of a run that ends with the last passed event, without its duration. During the
+    /// warm-up there are no averages. Call pass_found_event() first.
     RunResult result() {
         RunResult r = run_.result();
         r.config = config_;
@@ -84,10 +83,10 @@ class Container {
         return r;
     }
 
-    /// In the words of a run of the command line, which would end here; from then on there are no
+    /// The error message with which a run of the command line would end here. After it there are no
     /// more events.
     const std::optional<std::string>& problem() const { return problem_; }
-    /// The same, if this is the end.
+    /// The same if this is the last event.
     std::optional<std::string> problem_at_the_end() const {
         return problem_ || is_by_hand(path()) ? problem_ : run_.problem_at_the_end();
     }
@@ -96,7 +95,7 @@ class Container {
         if (find()) pass();
     }
 
-    /// All events up to a moment, but no more than `most`; says whether it has come to that moment.
+    /// Passes all events up to `time`, at most `maximum`. Returns whether `time` was reached.
     bool advance_to(double time, std::uint32_t maximum) {
         while (find()) {
             if (time_of(run_.event()) > time) return true;
@@ -106,28 +105,28 @@ class Container {
         return false;
     }
 
-    /// The dish at a moment between the last event and the next.
-    const Snapshot& seen_at(double time) {
-        seen_ = run_.stored_snapshot();
-        const double clock = time - static_cast<double>(seen_.periods) * config_.period;
-        // The samples may have moved the snapshot on towards the next event.
-        seen_.clock = std::fmin(std::fmax(passed_clock_, clock), config_.period);
-        const Segment& segment = path().segment_at(seen_.clock);
-        seen_.container_centre = segment.position_at(seen_.clock);
-        seen_.container_velocity = segment.velocity_at(seen_.clock);
-        return seen_;
+    /// The state at `time`, between the last event and the next.
+    const Snapshot& snapshot_at(double time) {
+        shown_ = run_.stored_snapshot();
+        const double clock = time - static_cast<double>(shown_.periods) * config_.period;
+        // Sampling may have advanced the snapshot towards the next event.
+        shown_.clock = std::fmin(std::fmax(passed_clock_, clock), config_.period);
+        const Segment& segment = path().segment_at(shown_.clock);
+        shown_.container_centre = segment.position_at(shown_.clock);
+        shown_.container_velocity = segment.velocity_at(shown_.clock);
+        return shown_;
     }
-    /// Of the last event that was passed.
+    /// The time of the last passed event.
     double time() const {
         return static_cast<double>(run_.stored_snapshot().periods) * config_.period + passed_clock_;
     }
 
-    /// What another dish begins with whose discs are where they are at this moment, as seen from
-    /// the container, which is put where that dish's path begins. Velocities stay as they are: to
-    /// the discs it is a corner.
-    InitialState going_on(double time, const RunConfig& config, const ContainerPath& path) {
+    /// The initial state of a simulation that continues from `time`. The container is moved to the
+    /// start of `path`, and the discs keep their positions relative to it. Velocities are not
+    /// changed: the discs experience a vertex of the path.
+    InitialState continued_from(double time, const RunConfig& config, const ContainerPath& path) {
         InitialState state = without_discs(config, path);
-        const Snapshot now = seen_at(time).up_to_date();
+        const Snapshot now = snapshot_at(time).up_to_date();
         const Segment& segment = path.segments.front();
         for (std::size_t i = 0; i < now.size(); ++i) {
             Disc disc = now.disc(i);
@@ -142,7 +141,7 @@ class Container {
     double time_of(const Event& event) const {
         return static_cast<double>(event.periods) * config_.period + event.clock;
     }
-    /// A page's dish goes on for ever, and has no length of which the warm-up could be a part.
+    /// The page has no end of the run, so the warm-up cannot be a part of its length.
     static RunConfig endless(RunConfig config) {
         config.events = std::numeric_limits<std::int64_t>::max();
         config.periods.reset();
@@ -151,15 +150,16 @@ class Container {
         return config;
     }
 
-    /// Finds the event to come, unless it is found; false where there is none.
+    /// Finds the next event unless it is already found; false if there is none.
     bool find() {
         if (found_) return true;
-        // By hand there is no swirl to go by.
+        // A path by hand has no period to check by.
         if (!problem_ && run_.is_check_due() && !is_by_hand(path())) problem_ = run_.problem();
         if (problem_) return false;
         run_.execute_event();
         found_ = true;
-        // Who is pinned is asked by who looks on, and costs more than the dish: 511 looks a swirl.
+        // The pinned criterion takes 511 samples per period, which cost more than the simulation.
+        // They are taken only for a page that measures.
         if (!measured_.empty())
             while (run_.next_sample(pinned_times_)) pinned_.sample(run_.snapshot());
         return true;
@@ -175,12 +175,12 @@ class Container {
     std::vector<std::string> measured_;
     Observation observation_;
     CoreRun run_;
-    Snapshot seen_;
+    Snapshot shown_;
     Event passed_{};
     SampleTimes pinned_times_;
     PinnedFrames pinned_;
     bool found_ = false;
-    double passed_clock_ = 0.0;  // of the last event that was passed
+    double passed_clock_ = 0.0;  // of the last passed event
     std::optional<std::string> problem_;
 };
 

@@ -1,5 +1,5 @@
-// The event loop alone, with no_disc who looks on: what WebAssembly comes to beside
-// `bench/run --width baseline` (web/test/speed.mjs). No part of the laboratory.
+// The bare event loop without measurements: web/test/speed.mjs compares it with
+// `bench/run --width baseline`. It is no part of the browser page.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace swirl {
 
-// The dishes that are timed are right.
+// The timed configurations are valid.
 void throw_usage_error(const std::string&) { __builtin_trap(); }
 void throw_interrupted(const std::string&) { __builtin_trap(); }
 

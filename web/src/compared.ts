@@ -1,11 +1,11 @@
-// A second dish beside the first: kept as it was asked for, swirled at the same pace.
+// A second container next to the first. It keeps its parameters and runs at the same speed.
 import type {FromWorker, ToWorker} from "./messages";
 import {button, dark, element, withError} from "./page";
 import {draw, type Coloring} from "./scene";
 import {texts} from "./texts";
 
-export class Beside {
-    readonly figure = element("figure", {id: "beside"});
+export class ComparedContainer {
+    readonly figure = element("figure", {id: "compared"});
     private readonly canvas = element("canvas");
     private readonly caption = element("figcaption");
     private readonly worker: Worker;
@@ -14,7 +14,7 @@ export class Beside {
     private room = 0;
     coloring: Coloring = "spin";
 
-    /** `given` are its parameters, `name` what it is called. */
+    /** `given` are its parameters, `name` its caption. */
     constructor(worker: Worker, engine: Promise<ArrayBuffer>, private readonly given:
                 Record<string, string>, private readonly name: string, ended: () => void) {
         this.worker = worker;
@@ -24,34 +24,34 @@ export class Beside {
         const end = button("×", () => {
             this.worker.terminate();
             ended();
-        }, "beside-ends");
-        end.setAttribute("aria-label", texts.besideEnds);
+        }, "close-compared");
+        end.setAttribute("aria-label", texts.closeCompared);
         this.figure.append(this.canvas, element("div", {className: "row-of-caption"}, this.caption, end));
         worker.onmessage = ({data}: MessageEvent<FromWorker>): void => this.hear(data);
-        void engine.then((bytes) => this.tell({kind: "engine", bytes}));
+        void engine.then((bytes) => this.send({kind: "engine", bytes}));
     }
 
-    tick(swirls: number): void {
+    tick(periods: number): void {
         if (this.waiting) return;
         this.waiting = true;
-        this.tell({kind: "tick", swirls});
+        this.send({kind: "tick", periods});
     }
 
     redraw(): void {
         if (this.frame)
             draw(this.canvas, this.frame, {view: "lab", coloring: this.coloring, trails: [],
                                            event: undefined, next: undefined, omega: 0,
-                                           dark: dark(), room: this.room, turned: 0, held: undefined});
+                                           dark: dark(), room: this.room, clusterTurns: 0, held: undefined});
     }
 
-    private tell(message: ToWorker): void {
+    private send(message: ToWorker): void {
         this.worker.postMessage(message);
     }
 
     private hear(data: FromWorker): void {
-        if (data.kind === "ready") this.tell({kind: "begin", given: this.given, events: 0});
-        else if (data.kind === "begun") this.room = Number(data.configuration["amplitude"]);
-        else if (data.kind === "refused") this.caption.textContent = data.sentence;
+        if (data.kind === "ready") this.send({kind: "begin", given: this.given, events: 0});
+        else if (data.kind === "started") this.room = Number(data.configuration["amplitude"]);
+        else if (data.kind === "rejected") this.caption.textContent = data.message;
         if (data.kind !== "frame") return;
         this.waiting = false;
         this.frame = data.frame;
@@ -59,6 +59,6 @@ export class Beside {
         const found = data.rotation?.by_time;
         if (found)
             this.caption.textContent =
-                texts.besideHas(this.name, withError(found.mean, found.error, texts.notYet));
+                texts.comparedResult(this.name, withError(found.mean, found.error, texts.notYet));
     }
 }

@@ -1,0 +1,121 @@
+"""Sphinx configuration of the documentation. The source folder is the root of the tree, so that the links of the
+pages to source files work unchanged:
+
+    sphinx-build -c docs . OUT
+
+`swirl site` adds the gallery and the executed notebooks (web/site.py).
+"""
+
+import os
+import posixpath
+import re
+from html import escape
+from io import BytesIO
+
+from docutils import nodes
+from sphinx.util.nodes import make_refnode
+
+project = "swirl"
+root_doc = "docs/index"
+extensions = ["myst_parser"]
+include_patterns = ["*.md", "docs/*.md", "docs/**/*.md", "bench/*.md", "bench/**/*.md", "src/**/README.md",
+                    "examples/*.md"]
+exclude_patterns = ["build", "out", "web", ".git", ".github", "bindings", "tests", "**/node_modules"]
+# A heading of the third level directly below the first is no error.
+suppress_warnings = ["myst.header"]
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+html_theme = "furo"
+html_title = "swirl"
+html_copy_source = False
+html_show_sourcelink = False
+html_show_copyright = False
+pygments_style = "default"
+html_math_renderer = "mathtext"
+html_static_path = ["site.css"]
+html_css_files = ["site.css"]
+
+# The pages themselves have no Sphinx directives, since they are also read as plain Markdown.
+CONTENTS = [("Tutorials", "tutorials/*"), ("How-to guides", "how-to/*"), ("Reference", "reference/*"),
+            ("Explanation", "explanation/*")]
+PROJECT = ["/README", "/gallery", "/examples/index", "/CONTRIBUTING", "/CHANGELOG", "/SECURITY"]
+
+
+def add_contents(app, docname, source):
+    """Appends the tables of contents to the home page. Pages in src and bench are in none."""
+    if docname.startswith(("src/", "bench/")):
+        source[0] = f"---\norphan: true\n---\n{source[0]}"
+    if docname != root_doc:
+        return
+    project = [name for name in PROJECT if os.path.exists(f"{app.srcdir}{name}.md")]
+    for caption, pages in [*CONTENTS, ("Project", "\n".join(project))]:
+        source[0] += f"\n```{{toctree}}\n:caption: {caption}\n:glob:\n:hidden:\n\n{pages}\n```\n"
+
+
+def resolve_folder(app, env, node, contnode):
+    """A link to a folder leads to its page, if it has one; otherwise its text remains."""
+    target = posixpath.normpath(posixpath.join(posixpath.dirname(node.get("refdoc", "")), node["reftarget"]))
+    if not os.path.isdir(os.path.join(app.srcdir, target)):
+        return None
+    for page in (f"{target}/index", f"{target}/README"):
+        if page in env.found_docs:
+            return make_refnode(app.builder, node["refdoc"], page, "", contnode)
+    return contnode
+
+
+def math_svg(formula):
+    """The formula as SVG by matplotlib, since MathJax would need a network."""
+    from matplotlib import rc_context
+    from matplotlib.mathtext import math_to_image
+    formula = re.sub(r"\\text\{([^}]*)\}", lambda text: f"\\mathrm{{{text[1]}}}".replace(" ", r"\ "), formula)
+    formula = re.sub(r"\\(ge|le)(?![a-z])", r"\\\1q", formula)  # names that matplotlib has
+    image = BytesIO()
+    with rc_context({"svg.fonttype": "path", "mathtext.fontset": "cm", "svg.hashsalt": "swirl"}):
+        math_to_image(f"${formula.strip()}$", image, dpi=72, format="svg")
+    text = image.getvalue().decode()
+    return f'<span role="img" aria-label="{escape(formula)}" class="formula">{text[text.index("<svg"):]}</span>'
+
+
+def visit_math(self, node):
+    self.body.append(math_svg(node.astext()))
+    raise nodes.SkipNode
+
+
+def visit_math_block(self, node):
+    formula = " ".join(node.astext().split())
+    self.body.append(f'<div class="formula-block">{math_svg(formula)}</div>')
+    raise nodes.SkipNode
+
+
+def bundle_theme(app, exception):
+    """Makes Debian's furo work from file://. Its script imports a second one, and its style sheet one of the web
+    server; both are inserted here."""
+    if exception:
+        return
+    style = os.path.join(app.outdir, "_static", "styles", "furo.css")
+    with open(style, encoding="utf-8") as opened:
+        text = opened.read()
+    with open("/usr/share/javascript/normalize.css/normalize.css", encoding="utf-8") as opened:
+        text = re.sub(r"@import [^;]*/normalize\.css[^;]*;", lambda _: opened.read(), text)
+    with open(style, "w", encoding="utf-8") as opened:
+        opened.write(text)
+    scripts = os.path.join(app.outdir, "_static", "scripts")
+    parts = []
+    for name in ("gumshoe-patched.js", "furo.js"):
+        if not os.path.exists(os.path.join(scripts, name)):
+            return
+        with open(os.path.join(scripts, name), encoding="utf-8") as opened:
+            parts.append(re.sub(r"^import Gumshoe from .*$", "", opened.read(), flags=re.M))
+    # A page without subheadings has no last item.
+    parts[0] = re.sub(r"(var useLastItem = function \(item, settings\) \{)", r"\1 if (!item) return false;", parts[0])
+    with open(os.path.join(scripts, "furo.js"), "w", encoding="utf-8") as opened:
+        opened.write("\n".join(parts))
+    os.remove(os.path.join(scripts, "gumshoe-patched.js"))
+
+
+def setup(app):
+    app.connect("build-finished", bundle_theme)
+    app.connect("source-read", add_contents)
+    app.connect("missing-reference", resolve_folder)
+    app.add_html_math_renderer("mathtext", (visit_math, None), (visit_math_block, None))
