@@ -1,8 +1,8 @@
 # The engine and its measurements: math, physics, engine, statistics, measure. They use the standard
 # library only, and no exceptions.
 #
-# Whoever links to them compiles the functions in our headers. Nothing may be fused there either, or
-# the same text would give other bits than it gives in our own files.
+# A program that links to them compiles the functions in our headers. Multiplications and additions
+# must not be fused there either, or results would differ in the last bits from ours.
 add_library(swirl_physics INTERFACE)
 target_compile_features(swirl_physics INTERFACE cxx_std_20)
 target_compile_options(swirl_physics INTERFACE -ffp-contract=off)
@@ -45,8 +45,8 @@ add_library(swirl_engine STATIC ${engine_sources})
 target_link_libraries(swirl_engine PUBLIC swirl_physics)
 target_compile_options(swirl_engine PRIVATE -fno-exceptions)
 if(SWIRL_FUZZ)
-  # Made-up input goes to the readers of files. The engine behind them has the sanitizers' own suite, and
-  # with them its loops take the compiler minutes each.
+  # Random input is for the readers of files. The engine has its own suite with sanitizers, which make
+  # the compiler take minutes for each of its loops.
   target_compile_options(swirl_engine PRIVATE -fno-sanitize=all)
 endif()
 foreach(layer statistics measure)

@@ -28,7 +28,8 @@ install(TARGETS swirl)
 install(DIRECTORY figures DESTINATION ${CMAKE_INSTALL_DATADIR}/swirl FILES_MATCHING PATTERN *.py)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
-install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  PATTERN conf.py EXCLUDE PATTERN site.css EXCLUDE)
 if(SKBUILD)
   # Component of the Python wheel: the module and the program with its figure scripts.
   install(TARGETS swirl_python LIBRARY DESTINATION swirl COMPONENT wheel)

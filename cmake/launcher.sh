@@ -1,9 +1,10 @@
-# What ./swirl and ./check share: install the Debian packages that are missing, and build when the
-# sources are newer than the last build. Sourced by both; expects $home, the root of the tree, $me,
-# and $long, what a first build takes on two cores. Whoever wants other settings for cmake sets
-# $settings afterwards.
+# Functions for ./swirl, ./check and other scripts: install missing Debian packages, and build when the
+# sources are newer than the last build. A script that sources this file sets $home, the root of the
+# tree, $me, its name, and $long, the duration of a first build on two cores. It may set $settings,
+# arguments for cmake, afterwards.
 #
-# Everything said here goes to stderr: stdout belongs to the program (`--json -`).
+# All messages go to stderr: stdout belongs to the program (`--json -`). POSIX sh, and of find also
+# -cnewer, which GNU and BSD have.
 
 settings= # not what the environment may have under that name
 
@@ -25,13 +26,16 @@ shell_word() {
     esac
 }
 
-# Gives up if $home/build, or something in "$@" (files and folders in it, which need not exist),
-# belongs to somebody else.
+# Gives up if this user cannot write to $home/build or to the files and folders "$@" in it, which need
+# not exist.
 require_writable() {
     locked=$home/build
-    [ ! -w "$locked" ] || locked=$(find "$@" ! -type l ! -writable -print -quit 2>/dev/null) || true
+    [ ! -w "$locked" ] || locked=$(find "$@" ! -type l -exec sh -c '
+        for file do [ -w "$file" ] || { printf "%s\n" "$file" && exit; }; done' sh {} + 2>/dev/null |
+        head -n 1)
     [ -n "$locked" ] || return 0
-    say "cannot build: '$locked' cannot be written; it belongs to $(stat -c %U "$locked")."
+    # shellcheck disable=SC2012
+    say "cannot build: '$locked' cannot be written; it belongs to $(ls -ld "$locked" | awk '{print $3}')."
     say "hint: sudo chown -R $(id -u) $(shell_word "$home/build")"
     exit 1
 }
@@ -59,10 +63,10 @@ apt_install() {
         --no-install-recommends "$@"
 }
 
-# Installs what is missing of the sections "$@". Without root, or where that fails, it says which
-# command would, and fails.
+# Installs the missing packages of the sections "$@". Without root, or if that fails, it prints the
+# command for it, and fails.
 install_packages() {
-    command -v dpkg-query >/dev/null || return 0 # not Debian: who needs it will say what it lacks
+    command -v dpkg-query >/dev/null || return 0 # not Debian: see has_tools
     missing=$(missing_packages "$@" | sort -u)
     [ -n "$missing" ] || return 0
     # shellcheck disable=SC2116,SC2086
@@ -72,91 +76,168 @@ install_packages() {
         echo "    sudo apt-get install --no-install-recommends $missing" >&2
         return 1
     fi
-    log=$home/build/packages.log
-    say "installing Debian packages, once: $missing"
-    # shellcheck disable=SC2086
-    if ! apt_install $missing </dev/null >"$log" 2>&1; then
-        # A machine that never asked for them has no lists of packages yet, or old ones.
-        if ! apt-get -o DPkg::Lock::Timeout=300 update </dev/null >>"$log" 2>&1 ||
-            ! apt_install $missing </dev/null >>"$log" 2>&1; then
-            tail -n 15 "$log" >&2
-            say "installing the packages failed (see above, all of it in $log); this is the command:"
-            echo "    apt-get install --no-install-recommends $missing" >&2
-            return 1
-        fi
+    if [ "${SWIRL_INSTALL-}" = no ]; then
+        say "some Debian packages are missing, and SWIRL_INSTALL=no forbids to install them; the command is:"
+        echo "    apt-get install --no-install-recommends $missing" >&2
+        return 1
     fi
+    log=$home/build/packages.log
+    say "installing Debian packages, once (SWIRL_INSTALL=no forbids it): $missing"
+    # shellcheck disable=SC2086
+    apt_install $missing </dev/null >"$log" 2>&1 && return 0
+    # A machine that has never installed packages has no lists of them, or old ones.
+    # shellcheck disable=SC2086
+    if ! is_interrupted_dpkg && apt-get -o DPkg::Lock::Timeout=300 update </dev/null >>"$log" 2>&1 &&
+        apt_install $missing </dev/null >>"$log" 2>&1; then
+        return 0
+    fi
+    tail -n 15 "$log" >&2
+    if is_interrupted_dpkg; then
+        say "an earlier installation of packages was interrupted; this completes it, then try again:"
+        echo "    dpkg --configure -a" >&2
+    else
+        say "installing the packages failed (see above, all of it in $log); this is the command:"
+        echo "    apt-get install --no-install-recommends $missing" >&2
+    fi
+    return 1
 }
 
-# What a call of the program needs besides the program itself: the packages in the sections "$@".
-# Looked for again only when packages were installed or removed since. If they cannot be had, the
-# program does what it can without them.
+is_interrupted_dpkg() { grep -q "dpkg --configure -a" "$log"; }
+
+# On a system without dpkg: lists the tools and libraries that a build lacks, and fails if there are any.
+has_tools() {
+    ! command -v dpkg-query >/dev/null || return 0
+    lacking=
+    newline='
+'
+    lack() { lacking="$lacking$newline    $*"; }
+    for tool in cmake ninja pkg-config; do command -v $tool >/dev/null || lack $tool; done
+    compiler=
+    for name in "${CXX-}" c++ g++ clang++; do
+        if [ -z "$compiler" ] && command -v "$name" >/dev/null; then compiler=$name; fi
+    done
+    if [ -z "$compiler" ]; then
+        lack "a C++20 compiler"
+        lack "CLI11, fmt, nlohmann-json, toml++, HDF5 with its high-level library, cairo (all with headers)"
+    else
+        includes="$(pkg-config --cflags cairo 2>/dev/null) $(pkg-config --cflags hdf5 2>/dev/null)"
+        for library in CLI11:CLI/CLI.hpp fmt:fmt/format.h nlohmann-json:nlohmann/json.hpp \
+            toml++:toml++/toml.h HDF5:hdf5.h HDF5-high-level:hdf5_hl.h cairo:cairo.h; do
+            # shellcheck disable=SC2086
+            echo "#include <${library#*:}>" | "$compiler" -x c++ -std=c++20 -E $includes \
+                -I/usr/include/hdf5/serial - >/dev/null 2>&1 ||
+                lack "${library%%:*}, with the header ${library#*:}"
+        done
+    fi
+    [ -n "$lacking" ] || return 0
+    say "cannot build. This system has no dpkg, so install these yourself:$lacking"
+    say "hint: \`./swirl\` then builds, or: cmake --preset release && cmake --build --preset release"
+    return 1
+}
+
+# Tells whether the packages in the sections "$@" are installed. Looks again only if packages were installed
+# or removed since.
+has_packages() {
+    packages_stamp=$home/build/.packages-$(echo "$@" | tr ' ' '-')
+    if [ "$packages_stamp" -nt /var/lib/dpkg/status ] && [ "$packages_stamp" -nt "$home/packages" ]; then
+        return 0
+    fi
+    command -v dpkg-query >/dev/null || return 0
+    [ -z "$(missing_packages "$@")" ] || return 1
+    touch "$packages_stamp" 2>/dev/null || true
+}
+
+# Installs the packages in the sections "$@", which a call needs in addition to the program. If that
+# fails, the program does what it can without them.
 packages_for_this_call() {
-    stamp=$home/build/.packages-$(echo "$@" | tr ' ' '-')
-    if [ "$stamp" -nt /var/lib/dpkg/status ] && [ "$stamp" -nt "$home/packages" ]; then return 0; fi
     mkdir -p "$home/build" 2>/dev/null || return 0
-    if install_packages "$@"; then touch "$stamp" 2>/dev/null || true; fi
+    has_packages "$@" || ! install_packages "$@" || touch "$packages_stamp" 2>/dev/null || true
 }
 
-# Sources, and the packages they are built with, whose status changed since the stamp; ctime, so
-# that a file moved here with an old date, or a removed one (its folder changed), counts as well.
+# Tells whether the sources, the current commit (which every result names) or the installed packages
+# have changed since the stamp; "$@" names more files and folders. It compares ctime, so that files moved
+# here with an old date count; a removed file counts because its folder has changed.
 changed_since() {
-    changed=$(cd "$home" && find src cmake CMakeLists.txt CMakePresets.json packages "$@" \
-        -cnewer "$stamp" -print -quit 2>/dev/null) || return 0
+    changed=$(
+        cd "$home"
+        git_folder=.git
+        [ ! -f .git ] || git_folder=$(sed -n 's/^gitdir: //p' .git)
+        set -- src cmake CMakeLists.txt CMakePresets.json packages "$@"
+        for file in "$git_folder/logs/HEAD" "$git_folder/HEAD" /var/lib/dpkg/status; do
+            [ ! -e "$file" ] || set -- "$@" "$file"
+        done
+        find "$@" -cnewer "$stamp" -print 2>/dev/null
+    ) || return 0
     [ -n "$changed" ]
 }
 
-# Where the current commit is recorded: it goes into every result.
-commit_files() {
-    if [ -f "$home/.git" ]; then
-        git_folder=$(sed -n 's/^gitdir: //p' "$home/.git")
-    else
-        git_folder=$home/.git
-    fi
-    for file in "$git_folder/logs/HEAD" "$git_folder/HEAD" /var/lib/dpkg/status; do
-        [ -e "$file" ] && echo "$file"
+# One build at a time. The lock is a symbolic link that names the process which builds: a link is
+# created in one step or not at all. The lock of a process that ended without removing it is removed.
+lock_build() {
+    build_lock=$home/build/.building
+    failed=0
+    until ln -s $$ "$build_lock" 2>/dev/null; do
+        builder=$(readlink "$build_lock") || builder=
+        if [ -z "$builder" ]; then
+            failed=$((failed + 1))
+            [ $failed -lt 100 ] || give_up "cannot create the lock '$build_lock'."
+        elif kill -0 "$builder" 2>/dev/null || [ -d "/proc/$builder" ]; then
+            sleep 1
+        elif mv "$build_lock" "$build_lock.$$" 2>/dev/null; then
+            # Another process may have replaced the lock in between.
+            if [ "$(readlink "$build_lock.$$")" = "$builder" ]; then rm "$build_lock.$$"; else mv "$build_lock.$$" "$build_lock"; fi
+        fi
     done
 }
+unlock_build() { rm -f "$home/build/.building"; }
 
-# While the build writes its log $1: how far it is, every ten seconds. Ends with this shell.
+# Reports the progress of the build with the log $1 every ten seconds. Ends with this shell.
 report_progress() {
     waited=0
     while sleep 1 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
         waited=$((waited + 1))
         [ $((waited % 10)) -eq 0 ] || continue
         # ninja writes "[37/98] Building …".
-        step=$(sed -n 's/^\[\([0-9]*\)\/\([0-9]*\)\].*/\1 \2/p' "$1" | tail -n 1)
+        step=$(sed -n '/Re-checking/d; s/^\[\([0-9]*\)\/\([0-9]*\)\].*/\1 \2/p' "$1" | tail -n 1)
         [ -z "$step" ] || say "building: ${step% *} of ${step#* }, $((100 * ${step% *} / ${step#* })) %"
     done
 }
 
-# build PRESET SECTIONS_NEEDED [FOLDERS_WATCHED_BESIDES [TARGETS]]
-# Returns at once if build/PRESET (of it, those targets) is newer than everything it was made of.
-build() {
-    folder=$home/build/$1
-    stamp="$folder/.built${4:+ $4}${settings:+ $settings}"
-    # shellcheck disable=SC2046,SC2086
-    if [ -e "$stamp" ] && ! changed_since ${3-} $(commit_files); then return 0; fi
+# is_built PRESET [FOLDERS_WATCHED [TARGETS]]: whether build/PRESET is newer than all of its sources.
+is_built() {
+    stamp="$home/build/$1/.built${3:+ $3}${settings:+ $settings}"
+    # shellcheck disable=SC2086
+    [ -e "$stamp" ] && ! changed_since ${2-}
+}
 
+# build PRESET SECTIONS_NEEDED [FOLDERS_WATCHED [TARGETS]]
+# Builds in build/PRESET all or these targets, if they are not up to date.
+build() {
+    if is_built "$1" "${3-}" "${4-}"; then return 0; fi
+    case $home in
+        *[\"\;\\]*) give_up "cannot build in '$home': CMake does not support \", ; and \\ in the names of folders." ;;
+    esac
+    folder=$home/build/$1
     mkdir -p "$folder" 2>/dev/null || give_up "cannot write to $home/build, where the program is built."
-    require_writable "$home/build/.lock" "$folder"
-    # One at a time; whoever waited finds the work done.
-    exec 9>"$home/build/.lock"
-    flock 9
-    # shellcheck disable=SC2046,SC2086
-    if [ -e "$stamp" ] && ! changed_since ${3-} $(commit_files); then
-        exec 9>&-
+    require_writable "$folder"
+    lock_build
+    # Another process may have built it while this one waited.
+    if is_built "$1" "${3-}" "${4-}"; then
+        unlock_build
         return 0
     fi
     # shellcheck disable=SC2086
-    install_packages $2 || exit 1
-    command -v cmake >/dev/null || give_up "cmake is missing; install it, a C++20 compiler and the libraries listed in $home/packages."
-    # A tree that was moved cannot go on with a build made elsewhere.
+    if ! install_packages $2 || ! { [ -e "$stamp" ] || has_tools; }; then
+        unlock_build
+        exit 1
+    fi
+    # A build made elsewhere cannot be continued in a tree that was moved.
     if [ -e "$folder/CMakeCache.txt" ] &&
         ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$home" "$folder/CMakeCache.txt"; then
         rm -rf "$folder"
         mkdir -p "$folder"
     fi
-    # ninja goes by the date of a file alone; make the date tell.
+    # ninja compares modification times only, so files that changed otherwise get a new one.
     if [ -e "$stamp" ]; then
         # shellcheck disable=SC2086
         (cd "$home" && find src cmake CMakeLists.txt ${3-} -type f -cnewer "$stamp" ! -newer "$stamp" \
@@ -166,7 +247,7 @@ build() {
     touch "$stamp.building"
     log=$folder/build.log
     : >"$log"
-    report_progress "$log" 9>&- &
+    report_progress "$log" &
     reporter=$!
     built=yes
     # shellcheck disable=SC2086
@@ -175,8 +256,18 @@ build() {
     kill "$reporter" 2>/dev/null || true
     if [ $built = no ]; then
         tail -n 40 "$log" >&2
+        unlock_build
         give_up "the build failed (see above, all of it in $log)."
     fi
-    mv "$stamp.building" "$stamp" # dated before the build: what changed meanwhile is newer
-    exec 9>&-
+    mv "$stamp.building" "$stamp" # dated before the build: later changes are newer
+    unlock_build
+}
+
+# print_section HEADING: the first block of text below `## HEADING` of docs/reference/commands.md.
+print_section() {
+    heading="## $1" awk '
+        /^```/ { if (here && inside) exit; inside = !inside; next }
+        /^## / && !inside { here = $0 == ENVIRON["heading"] }
+        here && inside { print; found = 1 }
+        END { exit !found }' "$home/docs/reference/commands.md" 2>/dev/null
 }

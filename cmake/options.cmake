@@ -1,13 +1,13 @@
-# Compiler flags for everything in this tree; none of them reaches who links to it. No -ffast-math,
-# no -march=native: the same bits on every machine (docs/explanation/determinism.md). -fno-math-errno and
-# -fno-trapping-math change no value; they let the compiler use the square-root instruction and
-# masked vectors. The one flag that our headers need wherever they are compiled, -ffp-contract=off,
-# belongs to the targets (engine.cmake).
+# Compiler flags for everything in this tree; programs that link to it do not get them. There is no
+# -ffast-math and no -march=native, so that results are bitwise identical on all machines
+# (docs/explanation/determinism.md). -fno-math-errno and -fno-trapping-math change no value; they let the
+# compiler use the square-root instruction and masked vectors. Our headers need one flag wherever they
+# are compiled, -ffp-contract=off; it belongs to the targets (engine.cmake).
 add_compile_options(
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
   -fno-math-errno -fno-trapping-math)
-# The Python module is a shared object made of the same libraries. What is hidden is called directly,
-# as in a program; the event loop is as fast with these as without (docs/tutorials/python.md).
+# The Python module is a shared object made of the same libraries. Hidden functions are called directly,
+# as in a program, so these flags do not slow the event loop down (docs/tutorials/python.md).
 if(SWIRL_PROGRAM)
   add_compile_options(-fPIC
     "$<$<COMPILE_LANGUAGE:CXX>:-fvisibility=hidden;-fvisibility-inlines-hidden>")
@@ -38,17 +38,12 @@ endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 find_program(ccache_program ccache)
 if(ccache_program)
-  # It takes precompiled headers only when it is told that the macros in them are meant.
-  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${ccache_program})
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    add_compile_options(-fpch-preprocess)
-  endif()
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ccache_program})
 endif()
 
-# The compiler gets several files of a layer at once, since headers and their templates are most of
-# the work; so no two of them may have the same name in their unnamed namespaces (tests/layers). On
-# few cores a layer is one batch or two, since every batch reads the same headers again; many cores
-# wait less for small ones.
+# The compiler gets several files of a layer at once, because headers and their templates are most of
+# the work. So names in unnamed namespaces must be unique within a layer (tests/layers). Every batch
+# reads the headers again, so batches are large on few cores; on many cores small ones finish earlier.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 if(cores LESS_EQUAL 4)
   set(batch 16)
@@ -58,7 +53,7 @@ endif()
 function(swirl_compiled_at_once target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
-    # A local name may be that of another file's constant, which it cannot mean.
+    # A local name may equal the name of a constant in another file of the batch.
     target_compile_options(${target} PRIVATE -Wno-shadow -Wshadow=local)
   endif()
 endfunction()

@@ -11,26 +11,10 @@ find_path(hdf5_include hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_library hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_hl_library hdf5_hl PATH_SUFFIXES hdf5/serial REQUIRED)
 
-# Headers that take longer to read than what they are for takes to compile, read once for all layers.
-# Every file still includes what it uses: with ccache alone (SWIRL_PRECOMPILED=OFF) it must.
-option(SWIRL_PRECOMPILED "Precompile the slow headers" ON)
-if(SWIRL_PRECOMPILED)
-  file(CONFIGURE OUTPUT slow_headers.cpp CONTENT "// The home of the precompiled headers.\n")
-  add_library(swirl_slow_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/slow_headers.cpp)
-  target_compile_options(swirl_slow_headers PRIVATE -ffp-contract=off -O2)
-  target_link_libraries(swirl_slow_headers PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
-  target_precompile_headers(swirl_slow_headers PRIVATE
-    <nlohmann/json.hpp> <fmt/format.h> <algorithm> <array> <filesystem> <functional>
-    <map> <memory> <optional> <string> <vector>)
-endif()
-
-# What is not the engine is compiled for less time: -O1 where nothing waits for it, -O2 for what is
-# done at every frame. The level changes no bit.
+# Layers above the engine are optimised less, to compile faster: -O2 for the work at every frame, -O1
+# for the rest. The level does not change results.
 function(swirl_settings target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
-  if(SWIRL_PRECOMPILED)
-    target_precompile_headers(${target} REUSE_FROM swirl_slow_headers)
-  endif()
 endfunction()
 
 function(swirl_layer layer level)
@@ -45,7 +29,7 @@ swirl_layer(io -O2
   PUBLIC swirl_measure swirl_engine nlohmann_json::nlohmann_json fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${hdf5_library} ${hdf5_hl_library})
 target_include_directories(swirl_io SYSTEM PRIVATE ${hdf5_include})
-# Their classes have members of types that nobody else may see.
+# Their classes have members of types in unnamed namespaces.
 set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer.cpp
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 swirl_layer(run -O1 PUBLIC swirl_io)
@@ -55,10 +39,10 @@ swirl_layer(paper -O1 PUBLIC swirl_study swirl_render)
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/figures ${PROJECT_BINARY_DIR}/share/swirl/figures SYMBOLIC)
-# The layer `tracking` is built where OpenCV is (section [camera] of `packages`); without it the rest
-# is, and `swirl track` says what is missing.
-option(SWIRL_CAMERA "Build `swirl track` where OpenCV is" ON)
-# (Debian has the CMake files of OpenCV in a package that takes all of it along.)
+# The layer `tracking` is built if OpenCV is found (section [camera] of `packages`). Otherwise `swirl
+# track` reports what is missing.
+option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON)
+# Debian's package with the CMake files of OpenCV depends on all of OpenCV, so they are not used.
 find_path(opencv_include opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
 find_library(opencv_core_library opencv_core)
 find_library(opencv_imgproc_library opencv_imgproc)
@@ -71,7 +55,7 @@ if(SWIRL_CAMERA)
   target_include_directories(swirl_tracking SYSTEM PUBLIC ${opencv_include})
 endif()
 
-# What goes into every result: the version (version.inc) and what built it.
+# Every result contains the version (version.inc), the compiler and its flags.
 add_dependencies(swirl_run swirl_version_stamp)
 target_include_directories(swirl_run PRIVATE ${PROJECT_BINARY_DIR}/generated)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)

@@ -1,6 +1,6 @@
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=12
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-# Without git (a machine with the compiler only, or a tree owned by somebody else) the folder .git
+# Without git (not installed, or the tree belongs to another user) the folder .git
 # still tells the commit, though not whether the sources were changed since.
 if(NOT commit AND EXISTS ${SOURCE_DIR}/.git/HEAD)
   file(STRINGS ${SOURCE_DIR}/.git/HEAD commit LIMIT_COUNT 1)

@@ -25,6 +25,7 @@ PROGRAM = """#include <cstdio>
 #include <unistd.h>
 int main(int argc, char** argv) {
     if (argc > 2 && std::strcmp(argv[2], "camera") == 0) std::puts(CAMERA);
+    if (std::getenv("SWIRL_PARSE_ONLY")) return argc > 2 && std::strcmp(argv[2], "--wrong") == 0 ? 2 : 0;
     std::printf("%s %d\\n", "WORD", int(getpid()));
     std::fflush(stdout);
     if (argc > 2 && std::strcmp(argv[2], "wait") == 0) pause();
@@ -38,14 +39,19 @@ class Launcher(InFolder):
         super().setUp()
         os.makedirs(self.path("src"))
         os.makedirs(self.path("cmake"))
-        shutil.copy(os.path.join(SOURCE, "swirl"), self.path("swirl"))
-        shutil.copy(os.path.join(SOURCE, "cmake", "launcher.sh"), self.path("cmake"))
+        self.copy("swirl")
+        self.copy("cmake/launcher.sh")
         self.write("packages", "[build]\ng++\ncmake\nninja-build\n[figures]\n")
         self.write("CMakeLists.txt", CMAKE)
         self.write("CMakePresets.json", PRESETS)
         self.write_program("first")
 
+    def copy(self, name):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        shutil.copy(os.path.join(SOURCE, name), self.path(name))
+
     def write(self, name, text):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
         with open(self.path(name), "w") as file:
             file.write(text)
 
@@ -80,9 +86,7 @@ class Launcher(InFolder):
         names = ("settings", "me", "long", "home", "stamp", "section", "sections", "camera", "door",
                  "folder", "changed", "log", "missing", "wanted", "installed", "git_folder", "built")
         leaks = dict(os.environ, **{name: "-DLEAKED=ON" for name in names})
-        os.makedirs(self.path("bindings/python"))
-        shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
-                    self.path("bindings/python"))
+        self.copy("bindings/python/python.sh")
         self.write("CMakeLists.txt", CMAKE + """add_custom_target(swirl_python VERBATIM
   COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/bindings/python/swirl.py python/swirl.py)
 """)
@@ -97,9 +101,7 @@ class Launcher(InFolder):
                     self.assertFalse("LEAKED" in cache.read())
 
     def test_an_empty_entry_of_pythonpath_is_not_the_current_folder(self):
-        os.makedirs(self.path("bindings/python"))
-        shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
-                    self.path("bindings/python"))
+        self.copy("bindings/python/python.sh")
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
         for given, others in (("", []), (":", []), (":/x::/y:", ["/x", "/y"])):
             with self.subTest(given):
@@ -212,10 +214,10 @@ class Launcher(InFolder):
         self.write("bin/" + name, "#!/bin/sh\n" + script)
         os.chmod(self.path("bin/" + name), 0o755)
 
-    def call_with_stand_ins(self, *arguments):
+    def call_with_stand_ins(self, *arguments, **environment):
+        path = self.path("bin") + ":" + os.environ["PATH"]
         return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
-                              timeout=100,
-                              env=dict(os.environ, PATH=self.path("bin") + ":" + os.environ["PATH"]))
+                              timeout=100, env=dict(os.environ, PATH=path, **environment))
 
     def test_without_root_the_install_command_is_printed(self):
         self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
@@ -224,6 +226,154 @@ class Launcher(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertIn("sudo apt-get install --no-install-recommends swirl-no-such-package\n",
                       done.stderr)
+
+    def test_as_root_it_can_be_forbidden_to_install(self):
+        self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
+        self.stand_in("id", "echo 0\n")
+        self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\nexit 1\n')
+        done = self.call_with_stand_ins(SWIRL_INSTALL="no")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("\n    apt-get install --no-install-recommends swirl-no-such-package\n",
+                      done.stderr)
+        self.assertFalse(os.path.exists(self.path("asked")))
+        done = self.call_with_stand_ins()
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(os.path.exists(self.path("asked")))
+        self.assertIn("installing Debian packages, once (SWIRL_INSTALL=no forbids it): "
+                      "swirl-no-such-package\n", done.stderr)
+
+    def test_an_interrupted_installation_is_reported_with_its_remedy(self):
+        self.write("packages", "[build]\nswirl-no-such-package\n")
+        self.stand_in("id", "echo 0\n")
+        self.stand_in("apt-get", f"""echo "$@" >>{self.path("asked")}
+echo "E: dpkg was interrupted, you must manually run 'dpkg --configure -a' to correct the problem." >&2
+exit 100
+""")
+        done = self.call_with_stand_ins()
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(done.stderr.endswith("\n    dpkg --configure -a\n"), done.stderr)
+        with open(self.path("asked")) as file:
+            self.assertNotIn("update", file.read())
+
+    def test_a_wrong_call_installs_nothing(self):
+        self.write("packages", "[build]\ng++\n[movies]\nno-movies\n[camera]\nno-camera\n")
+        self.stand_in("id", "echo 0\n")
+        self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\n')
+        for command in ("movie", "track"):
+            done = self.call_with_stand_ins(command, "--wrong")
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertFalse(os.path.exists(self.path("asked")))
+        done = self.call_with_stand_ins("track", "camera")
+        self.assertEqual(done.stdout.split()[:2], ["ON", "first"], done.stderr)
+        self.assertTrue(os.path.exists(self.path("asked")))
+
+    def test_help_installs_and_builds_nothing(self):
+        for name in ("cmake", "ninja", "g++", "apt-get", "dpkg-query"):
+            self.stand_in(name, f'echo {name} >>{self.path("started")}\nexit 1\n')
+        self.assertEqual(self.call_with_stand_ins("run", "--help").returncode, 1)
+        self.write("docs/reference/commands.md", """# Commands
+
+## swirl
+
+```text
+Usage: swirl COMMAND
+```
+
+## swirl run
+
+Runs.
+
+```text
+Usage: swirl run [OPTIONS]
+
+## not a heading
+```
+
+```sh
+swirl run
+```
+
+## swirl movie
+
+No block of text.
+""")
+        run = "Usage: swirl run [OPTIONS]\n\n## not a heading\n"
+        for call, code, text in ((["run", "--help"], 0, run), (["run", "--discs", "4", "-h"], 0, run),
+                                 (["nothing", "-h"], 2, "Usage: swirl COMMAND\n")):
+            with self.subTest(call):
+                done = self.call_with_stand_ins(*call)
+                self.assertEqual((done.returncode, done.stdout), (code, text), done.stderr)
+        for word in ("--help", "-h"):
+            done = self.call_with_stand_ins(word)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertTrue(done.stdout.startswith("Usage: swirl COMMAND\n\nFurther commands"))
+        self.copy("bindings/python/python.sh")
+        self.assertIn("Usage: swirl python", self.call_with_stand_ins("python", "--help").stdout)
+        self.assertFalse(os.path.exists(self.path("started")))
+        self.assertFalse(os.path.exists(self.path("build")))
+        # With a program, help comes from the program, even if the sources have changed since.
+        self.assertEqual(self.word(), "first")
+        self.write_program("second")
+        done = self.call_with_stand_ins("run", "--help")
+        self.assertEqual(done.stdout.split()[:1], ["first"])
+        self.assertIn("note: this is the help of the last build", done.stderr)
+        self.assertFalse(os.path.exists(self.path("started")))
+
+    def test_without_dpkg_it_lists_what_is_missing(self):
+        everything = self.path("bin")
+        os.makedirs(everything)
+        for folder in ("/bin", "/usr/bin"):
+            for name in os.listdir(folder):
+                if not name.startswith(("dpkg", "apt", "cmake", "ninja")):
+                    if not os.path.lexists(os.path.join(everything, name)):
+                        os.symlink(os.path.join(folder, name), os.path.join(everything, name))
+        def call():
+            return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=100,
+                                  env=dict(os.environ, PATH=everything))
+        done = call()
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("no dpkg, so install these yourself:\n    cmake\n    ninja\n", done.stderr)
+        self.assertIn("cmake --preset release && cmake --build --preset release", done.stderr)
+        self.assertNotIn("compiler", done.stderr)
+        self.assertNotIn("fmt", done.stderr)
+        for name in ("c++", "g++", "clang++"):
+            if os.path.lexists(os.path.join(everything, name)):
+                os.remove(os.path.join(everything, name))
+        self.assertIn("\n    a C++20 compiler\n", call().stderr)
+
+    def test_rejects_folders_that_cmake_does_not_support(self):
+        for name in ('a "b"', "a;b", "a\\b"):
+            strange = self.path(name)
+            os.makedirs(strange)
+            for part in ("src", "cmake"):
+                shutil.copytree(self.path(part), os.path.join(strange, part))
+            shutil.copy(self.path("swirl"), strange)
+            done = subprocess.run([os.path.join(strange, "swirl")], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r"\Aswirl: cannot build in '.*': CMake does not support .*\n\Z")
+            self.assertFalse(os.path.exists(os.path.join(strange, "build")))
+
+    def test_works_in_a_folder_with_a_strange_name(self):
+        strange = self.path("it's a test & $HOME `x`")
+        os.makedirs(strange)
+        for name in ("src", "cmake", "swirl", "packages", "CMakeLists.txt", "CMakePresets.json"):
+            shutil.move(self.path(name), strange)
+        subprocess.run(["git", "init", "-q", strange], check=True)
+        subprocess.run(["git", "-C", strange, "-c", "user.name=a", "-c", "user.email=a@b", "commit",
+                        "-q", "--allow-empty", "-m", "first"], check=True)
+        for builds in (True, False):
+            done = subprocess.run([os.path.join(strange, "swirl")], capture_output=True, text=True,
+                                  timeout=100, cwd="/")
+            self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
+            self.assertEqual("building" in done.stderr, builds)
+
+    def test_the_lock_of_a_killed_call_is_removed(self):
+        ended = subprocess.Popen(["true"])
+        ended.wait()
+        os.makedirs(self.path("build"))
+        os.symlink(str(ended.pid), self.path("build/.building"))
+        self.assertEqual(self.word(), "first")
+        self.assertFalse(os.path.lexists(self.path("build/.building")))
 
     def test_packages_of_a_subcommand_are_installed_once(self):
         self.write("packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n"
@@ -254,9 +404,7 @@ class Launcher(InFolder):
         self.assertEqual(done.stdout.split()[:1], ["first"])
 
     def test_python_finds_the_module(self):
-        os.makedirs(self.path("bindings/python"))
-        shutil.copy(os.path.join(SOURCE, "bindings", "python", "python.sh"),
-                    self.path("bindings/python"))
+        self.copy("bindings/python/python.sh")
         self.write("CMakeLists.txt", CMAKE + """add_custom_target(swirl_python VERBATIM
   COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/bindings/python/swirl.py python/swirl.py)
 """)

@@ -23,14 +23,14 @@ def compiler(*names):
     return next((path for path in map(shutil.which, names) if path), None)
 
 
-def hashes(folder, cxx, level):
+def hashes(folder, cxx, level, *flags, emulator=()):
     unit = os.path.join(folder, "unit.cpp")
     with open(unit, "w") as f:
         f.writelines(f'#include "{SOURCE}/{part}"\n' for part in PARTS)
     program = os.path.join(folder, "print_hashes")
     subprocess.run([cxx, "-std=c++20", level, "-ffp-contract=off", "-DSWIRL_BASELINE_ONLY", "-w",
-                    f"-I{SOURCE}/src", f"-I{SOURCE}/tests", unit, "-o", program], check=True)
-    return subprocess.run([program], check=True, capture_output=True, text=True).stdout
+                    f"-I{SOURCE}/src", f"-I{SOURCE}/tests", *flags, unit, "-o", program], check=True)
+    return subprocess.run([*emulator, program], check=True, capture_output=True, text=True).stdout
 
 
 class Compilers(unittest.TestCase):

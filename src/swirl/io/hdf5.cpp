@@ -338,7 +338,12 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, JournaledFile::Mode mode) 
     const hid_t driver = journaled_driver();
     state_ = std::make_shared<State>(path, mode);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_driver(access, driver, nullptr);
+    // With the library's default driver instead, a file would have no journal.
+    if (driver < 0 || H5Pset_driver(access, driver, nullptr) < 0)
+        throw FileError(
+            fmt::format("'{}' could not be opened: this HDF5 library ({}) has no place "
+                        "for another file driver.",
+                        path.string(), library_reason()));
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     const OpenedByDriver opened(state_->journaled, state_->failure);
     if (mode == JournaledFile::Mode::create) {

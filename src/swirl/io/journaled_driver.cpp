@@ -40,6 +40,14 @@ const H5FD_class_t& driver_class() {
     static const H5FD_class_t driver = [] {
         H5FD_class_t c;
         std::memset(&c, 0, sizeof c);
+#ifdef H5FD_CLASS_VERSION
+        // HDF5 1.14 registers a driver only with the right version. Values up to 255 belong to the
+        // library's own drivers.
+        c.version = H5FD_CLASS_VERSION;
+        c.value = H5FD_class_value_t(511);
+#endif
+        // There are no functions `lock` and `unlock`, so the library takes no lock of its own,
+        // whatever HDF5_USE_FILE_LOCKING says: JournaledFile holds the lock on the file.
         c.name = "swirl_journaled";
         c.maxaddr = haddr_t(1) << 62;
         c.fc_degree = H5F_CLOSE_STRONG;

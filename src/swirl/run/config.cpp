@@ -8,6 +8,7 @@
 
 #include "swirl/engine/placement.hpp"
 #include "swirl/math/random.hpp"
+#include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 
 namespace swirl {
@@ -187,7 +188,7 @@ ContainerPath make_path(const RunConfig& c) {
 
 double container_speed(const RunConfig& c) {
     if (c.path == PathShape::circle) return c.amplitude * c.omega();
-    return 2.0 * c.amplitude * c.sides * std::sin(pi / c.sides) / c.period;
+    return 2.0 * c.amplitude * c.sides * unit_circle(0.5 / c.sides).y / c.period;
 }
 
 Tuning stopped_by(const std::atomic<bool>* stop) {

@@ -1,0 +1,144 @@
+"""Debian 13 works from ./swirl on: in a fresh system the launcher installs the packages and builds with
+g++ 14 and HDF5 1.14. Runs, recordings, a resumed run and exports are those of the program of this build.
+
+Takes several minutes and 2 GB of temporary storage; needs root, mmdebstrap and a mirror."""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "cli"))
+from program import SOURCE, SWIRL
+
+RUN = ["run", "--discs", "20", "--mixture", "10:1.2", "--periods", "6", "--warmup", "2", "--seed", "3",
+       "--sides", "13", "--speed", "1.3", "--measure", "all", "--quiet"]
+# Of a result: what differs between machines or calls.
+DIFFERENT = ("seconds", "events_per_second", "command", "build", "simd", "version", "machine")
+
+
+def skip(reason):
+    print("skipped:", reason)
+    sys.exit(77)
+
+
+def mirror():
+    """The mirror of Debian that this system uses."""
+    done = subprocess.run(["apt-get", "indextargets", "--format", "$(SITE)", "Created-By: Packages"],
+                          capture_output=True, text=True)
+    sites = [site for site in done.stdout.split() if re.search(r"/debian/?$", site)]
+    return sites[0] if sites else None
+
+
+def result(path):
+    with open(path) as file:
+        return {key: value for key, value in json.load(file).items() if key not in DIFFERENT}
+
+
+class Debian13(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.here = os.path.join(folder.name, "here")
+        cls.root = os.path.join(folder.name, "root")
+        os.mkdir(cls.here)
+        subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", "trixie", cls.root, mirror()],
+                       check=True, stdin=subprocess.DEVNULL)
+        for name in ("resolv.conf", "hosts"):
+            if os.path.exists("/etc/" + name):
+                shutil.copy("/etc/" + name, os.path.join(cls.root, "etc", name))
+        cls.there = os.path.join(cls.root, "root/results")
+        os.makedirs(cls.there)
+        source = os.path.join(cls.root, "root/swirl")
+        os.mkdir(source)
+        for name in ("swirl", "packages", "CMakeLists.txt", "CMakePresets.json", "src", "cmake", "bench",
+                     "figures", "bindings", "web", "docs", "LICENSE", "README.md", "CITATION.cff"):
+            path = os.path.join(SOURCE, name)
+            if os.path.isdir(path):
+                shutil.copytree(path, os.path.join(source, name), symlinks=True,
+                                ignore=shutil.ignore_patterns("node_modules", "__pycache__"))
+            elif os.path.exists(path):
+                shutil.copy(path, source)
+
+    def in_debian13(self, *command):
+        """Runs a command in the folder of results there, with /proc for this command alone."""
+        script = ('mount -t proc proc "$0/proc" && exec chroot "$0" /bin/sh -c '
+                  '\'cd /root/results && exec "$@"\' sh "$@"')
+        done = subprocess.run(["unshare", "--mount", "sh", "-c", script, self.root, *command],
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8"})
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done
+
+    def both(self, *arguments):
+        self.in_debian13("/root/swirl/swirl", *arguments)
+        subprocess.run([SWIRL, *arguments], cwd=self.here, check=True, capture_output=True)
+
+    def assert_same(self, name):
+        with open(os.path.join(self.here, name), "rb") as a, open(os.path.join(self.there, name), "rb") as b:
+            self.assertTrue(a.read() == b.read(), name)
+
+    def test_same_results_and_recordings(self):
+        first = self.in_debian13("/root/swirl/swirl", "run", "--events", "1000", "--quiet")
+        self.assertIn("installing Debian packages", first.stderr)
+        self.assertIn("building", first.stderr)
+        versions = self.in_debian13("sh", "-c", "g++ -dumpversion; dpkg-query -W libhdf5-dev").stdout
+        self.assertTrue(versions.startswith("14"), versions)
+        self.assertIn("1.14", versions)
+
+        self.both(*RUN, "--json", "run.json", "--trajectory", "run.h5", "--log-events", "events.h5")
+        here, there = (result(os.path.join(folder, "run.json")) for folder in (self.here, self.there))
+        self.assertIn("state_hash", json.dumps(here))
+        self.assertEqual(here, there)
+
+        # There the run is interrupted and resumed, here it is not.
+        long_run = ["run", "--discs", "20", "--periods", "20000", "--frames", "1", "--quiet",
+                    "--trajectory", "two.h5", "--json", "two.json"]
+        self.in_debian13("sh", "-c", 'timeout -s INT 0.5 "$@"; [ $? -eq 124 ]', "sh",
+                         "/root/swirl/swirl", *long_run)
+        self.assertFalse(result(os.path.join(self.there, "two.json"))["complete"])
+        self.in_debian13("/root/swirl/swirl", *long_run, "--resume")
+        subprocess.run([SWIRL, *long_run], cwd=self.here, check=True, capture_output=True)
+        here, there = (result(os.path.join(folder, "two.json")) for folder in (self.here, self.there))
+        for key in ("complete", "events", "rotation", "state_hash"):
+            self.assertEqual(here[key], there[key])
+
+        # Each system reads the recordings of the other.
+        for name in ("run", "two"):
+            self.both("export", name + ".h5", "--to", "table", "--out", name + ".csv", "--quiet", "--stride",
+                      "7")
+            self.assert_same(name + ".csv")
+        shutil.copy(os.path.join(self.here, "run.h5"), os.path.join(self.there, "other.h5"))
+        shutil.copy(os.path.join(self.there, "run.h5"), os.path.join(self.here, "other.h5"))
+        self.both("export", "other.h5", "--to", "table", "--quiet", "--out", "other.csv")
+        self.assert_same("other.csv")
+        for name in ("run.json", "run.h5", "events.h5", "other.h5"):
+            self.both("verify", name, "--quiet")
+
+    def test_locks_are_those_of_the_program(self):
+        """With the library's own locks or without, a recording is written and read."""
+        for locking in ("TRUE", "FALSE", "BEST_EFFORT"):
+            with self.subTest(locking):
+                name = locking + ".h5"
+                self.in_debian13("env", "HDF5_USE_FILE_LOCKING=" + locking, "/root/swirl/swirl", "run",
+                                 "--events", "1000", "--quiet", "--trajectory", name)
+                self.in_debian13("env", "HDF5_USE_FILE_LOCKING=" + locking, "/root/swirl/swirl", "verify",
+                                 name, "--quiet")
+
+
+if __name__ == "__main__":
+    if os.geteuid() != 0:
+        skip("only root can create a root folder for Debian 13")
+    for tool in ("mmdebstrap", "apt-get", "unshare"):
+        if not shutil.which(tool):
+            skip(tool + " is missing")
+    if subprocess.run(["unshare", "--mount", "true"], capture_output=True).returncode:
+        skip("mounts are not allowed here")
+    if not mirror():
+        skip("this system names no mirror of Debian")
+    unittest.main()
