@@ -6,7 +6,7 @@
 # All messages go to stderr: stdout belongs to the program (`--json -`). POSIX sh, and of find also
 # -cnewer, which GNU and BSD have.
 
-settings= # not what the environment may have under that name
+settings= # ignores a variable of that name in the environment
 
 say() { echo "$me: $*" >&2; }
 give_up() {

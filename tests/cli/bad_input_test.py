@@ -280,7 +280,7 @@ class UsageErrors(InFolder):
         self.assert_usage_error(*call, "--stride", "0", says="--stride is '0', but it must be a whole number")
         self.assertEqual(self.left_behind(), ["t.h5"])
         for text, frames in (("3:9", 7), ("9:", 1), (":", 10)):
-            self.assertIn(f"{frames} frames of", swirl(*call, "--range", text).stdout)
+            self.assertIn(f"{frames} frame{'' if frames == 1 else 's'} of", swirl(*call, "--range", text).stdout)
 
 
 class UnwritableOutput(InFolder):

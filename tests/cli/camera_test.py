@@ -60,7 +60,7 @@ def positions(frame, clockwise=False):
     return found
 
 
-def take_picture(path, discs):
+def write_image(path, discs):
     rows = [bytearray([70] * WIDTH) for _ in range(HEIGHT)]
     for px, py in discs:
         reach = BRIGHT * SCALE
@@ -84,7 +84,7 @@ class CameraTest(InFolder):
             table.write("frame,particle,x,y\n")
             for frame in range(frames):
                 discs = positions(frame, clockwise)
-                take_picture(self.path(f"seen/{frame + first:04d}.png"), discs)
+                write_image(self.path(f"seen/{frame + first:04d}.png"), discs)
                 for k, (x, y) in enumerate(discs):
                     if not (k == 0 and lose is not None and frame >= lose):
                         table.write(f"{frame},{k},{x!r},{y!r}\n")
@@ -182,9 +182,9 @@ class CameraTest(InFolder):
                         self.path("seen/%04d.png"), "-c:v", "ffv1", "-pix_fmt", "gray",
                         self.path("seen.avi")], check=True)
         made = []
-        for pictures in ("seen/%04d.png", "seen.avi"):
-            folder = self.path("made-" + pictures[-3:])
-            self.assert_good(self.call("movie", "--over", self.path(pictures), "--frames", folder,
+        for images in ("seen/%04d.png", "seen.avi"):
+            folder = self.path("made-" + images[-3:])
+            self.assert_good(self.call("movie", "--over", self.path(images), "--frames", folder,
                                        over=False))
             frames = []
             for name in sorted(os.listdir(folder)):

@@ -112,7 +112,7 @@ class Motion(HandMadeTables):
         self.assertEqual(doubtful.points, {"high_N24", "high_N36", "high_N48"})
 
     def condensed(self, before, after, n=(28, 48), waiting=40.0, condensed=8, error=0.01, **more):
-        """(temperature, contacts) before and after; with both frictions it is (0.3, 2.0)."""
+        """(temperature, contacts) before and after; with friction at wall and discs it is (0.3, 2.0)."""
         columns = {"before_granular": before[0], "before_coordination": before[1],
                    "after_granular": after[0], "after_coordination": after[1], "waiting": waiting,
                    "before_wall_spin": 2.0, "before_spin_correlation": 0.0} | more

@@ -29,7 +29,7 @@ class ConfigFiles(InFolder):
         with open(self.path(name), "rb") as opened:
             return opened.read()
 
-    def test_a_picture(self):
+    def test_an_image(self):
         options = ["--discs", 12, "--mu-wall", 0.25, "--frame", "m", "--angles", "--size", "320x240",
                    "--trail-length", 0.5, "--at", 2]
         self.good("image", *options, "--out", self.path("hand.png"))
@@ -45,7 +45,7 @@ class ConfigFiles(InFolder):
                   self.path("y.png"))
         self.assertEqual(self.bytes_of("x.png"), self.bytes_of("y.png"))
 
-    def test_a_picture_of_a_recording_that_the_file_names(self):
+    def test_an_image_of_a_recording_that_the_file_names(self):
         self.good("run", "--discs", 5, "--events", 2000, "--frames", 20, "--trajectory",
                   self.path("t.h5"), "--quiet")
         file = self.config(f'file = "{self.path("t.h5")}"', 'size = "200x200"')

@@ -1,10 +1,15 @@
 """Every --help has descriptions, and examples with valid options."""
 
+import fcntl
 import os
+import pty
 import re
+import struct
+import subprocess
+import termios
 import unittest
 
-from program import SOURCE, result_of, swirl
+from program import SOURCE, SWIRL, result_of, swirl
 
 
 def subcommands():
@@ -12,6 +17,40 @@ def subcommands():
     text = swirl("--help").stdout
     listed = text[text.index("Subcommands:"):text.index("Examples:")]
     return re.findall(r"^  (\S+)", listed, re.MULTILINE)
+
+
+def described_options(text):
+    """(name, description) of each option in a help text; wrapped lines are joined."""
+    found = []
+    for line in text[:text.index("Examples:")].splitlines():
+        option = re.match(r"  (--[a-z-]+)\b(?:\S| (?! ))*(?:  +(\S.*))?$", line)
+        if option:
+            found.append([option[1], option[2] or ""])
+        elif found and re.match(r" {20,}\S", line):
+            found[-1][1] = (found[-1][1] + " " + line.strip()).strip()
+        elif not line.startswith("  "):
+            found.append(["", ""])  # a heading: later lines do not belong to the option before
+    return [(name, text) for name, text in found if name]
+
+
+def on_terminal(columns, *arguments):
+    """The output on a terminal of this width."""
+    ours, its = pty.openpty()
+    fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
+    process = subprocess.Popen([SWIRL, *arguments], stdout=its, stderr=its, stdin=subprocess.DEVNULL)
+    os.close(its)
+    output = b""
+    while True:
+        try:
+            piece = os.read(ours, 65536)
+        except OSError:  # EIO: the program has ended
+            break
+        if not piece:
+            break
+        output += piece
+    os.close(ours)
+    process.wait()
+    return output.decode().replace("\r\n", "\n")
 
 
 def examples(text):
@@ -55,6 +94,57 @@ class Help(unittest.TestCase):
                 described = re.search(r"\S\s{2,}\S", line) or re.match(r"\s{20,}\S", following) \
                     or len(line) > 60
                 self.assertTrue(described, f"{name}: {line}")
+
+    def test_descriptions_are_short_noun_phrases(self):
+        seen = 0
+        for name in subcommands():
+            for option, description in described_options(swirl(name, "--help").stdout):
+                seen += 1
+                self.assertTrue(1 <= len(description) <= 60, f"{name} {option}: {description}")
+                self.assertRegex(description, r"^[A-Z]", f"{name} {option}")
+        self.assertGreater(seen, 250)
+
+    def test_the_short_help_has_the_main_options_and_names_the_full_help(self):
+        for name in subcommands():
+            with self.subTest(name):
+                short, full = swirl(name, "-h"), swirl(name, "--help")
+                self.assertEqual((short.returncode, short.stderr), (0, ""))
+                options = dict(described_options(short.stdout))
+                options.pop("--help")
+                self.assertLessEqual(len(options), 15)
+                self.assertLessEqual(options.items(), dict(described_options(full.stdout)).items())
+                self.assertIn(f"All options: swirl {name} --help\n", short.stdout)
+                self.assertEqual(examples(short.stdout), examples(full.stdout))
+        self.assertLess(len(swirl("run", "-h").stdout), 0.4 * len(swirl("run", "--help").stdout))
+        self.assertEqual(swirl("-h").stdout, swirl("--help").stdout)
+
+    def test_the_help_fits_the_terminal(self):
+        for columns in (60, 100):
+            for name in ("run", "crossing", "image", "sweep"):
+                for line in on_terminal(columns, name, "--help").splitlines():
+                    if not re.match(r"  swirl |.*  --|Usage|  -\w|    ", line):
+                        self.assertLessEqual(len(line), columns, line)
+        self.assertNotEqual(on_terminal(60, "run", "--help"), on_terminal(100, "run", "--help"))
+        self.assertEqual(on_terminal(200, "run", "--help"), swirl("run", "--help").stdout)
+
+    def test_names_of_options_accept_both_spellings(self):
+        for spelling in ("--color", "--colour"):
+            self.assertIn("--color is 'sped'", swirl("image", spelling, "sped", "--out", "x.png").stderr)
+        for spelling in ("--centre", "--center"):
+            self.assertNotIn("there is no option", swirl("measure", "missing.csv", f"{spelling}=1,1").stderr)
+        self.assertIn("did you mean --centre?", swirl("measure", "missing.csv", "--centr=1,1").stderr)
+
+    def test_a_wrong_value_gets_a_suggestion(self):
+        for call, meant in ((["run", "--body", "spere"], "sphere"), (["run", "--path", "cirle"], "circle"),
+                            (["run", "--measure", "dens"], "density"), (["run", "--inertia", "shel"], "shell"),
+                            (["image", "--color", "sped", "--out", "x.png"], "speed"),
+                            (["image", "--theme", "drak", "--out", "x.png"], "dark"),
+                            (["synthetic-video", "--camera", "fone", "--out", "x.mp4"], "phone"),
+                            (["paper", "--figure", "fricton"], "friction")):
+            with self.subTest(call):
+                done = swirl(*call)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertRegex(done.stderr, rf"\nhint: did you mean '{meant}'\?\n\Z")
 
     def test_messages_name_only_options_that_exist(self):
         known = {name: set(re.findall(r"(--[a-z][a-z0-9-]+)", swirl(name, "--help").stdout))

@@ -183,6 +183,15 @@ class MeasureTest(InFolder):
         done = swirl("measure", self.path("30.h5"), "--measure", "rolling")
         self.assertIn("hint: record 511 frames per period", done.stderr)
 
+    def test_missing_averages_of_a_short_recording_are_one_line(self):
+        recording = self.path("short.h5")
+        swirl("run", "--discs", 8, "--periods", 2, "--warmup", 0, "--trajectory", recording, "--quiet")
+        done = swirl("measure", recording, "--measure", "all", "--skip", 1.96)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("n/a"), 1, done.stdout)
+        self.assertRegex(done.stdout, r"(?m)^  n/a +\d+ of \d+ averages$")
+        self.assertIn("; 1 frame\n", done.stdout)
+
     def test_a_single_frame_gives_no_rotation(self):
         self.write({0: self.answer()[2][0]})
         self.rejected("a single frame", skip=0, measure="density")
@@ -193,7 +202,7 @@ class MeasureTest(InFolder):
         table = {}
         for k, frame in self.answer()[2].items():
             if k < 2000 and k // 10 % 2 == 0:
-                table[k] = {disc + 100 * (k // 10): place for disc, place in frame.items()}
+                table[k] = {disc + 100 * (k // 10): position for disc, position in frame.items()}
         self.write(table)
         self.rejected("consecutive frames", "slip", skip=0, measure="slip")
         self.measured(skip=0, measure="density,temperature")

@@ -15,7 +15,7 @@ USUAL = {
     "size": (320, 320), "balls": 20, "radius": 14.0, "dish": 92.0, "amplitude": 26.0,
     "middle": (0.0, 0.0),      # of the container's path, relative to the image centre
     "small": 0, "small_radius": 0.7,
-    "per_swirl": 60, "frames": 84, "still_for": 0, "clockwise": False, "seed": 1,
+    "frames_per_period": 60, "frames": 84, "still_for": 0, "clockwise": False, "seed": 1,
     # Appearance, in grey levels of 255.
     "table": 110.0, "floor": 45.0, "rim": 170.0, "rim_width": 5.0, "ball": 190.0,
     "colours": None,           # of the spheres, cyclically: (red, green, blue)
@@ -37,7 +37,7 @@ USUAL = {
 }
 
 
-MOTION = ("balls", "radius", "small", "small_radius", "dish", "amplitude", "per_swirl", "frames",
+MOTION = ("balls", "radius", "small", "small_radius", "dish", "amplitude", "frames_per_period", "frames",
           "still_for", "clockwise", "seed")
 motions = {}  # cache: videos that differ only in appearance share their motion
 
@@ -63,7 +63,7 @@ def random_ball(rng, kind):
 def course(s, frame):
     """The container's centre relative to that of its path, y down, at a time in frames."""
     t = max(0.0, frame - s["still_for"])
-    turn = 2.0 * math.pi * t / s["per_swirl"] + 0.7
+    turn = 2.0 * math.pi * t / s["frames_per_period"] + 0.7
     if not s["clockwise"]:
         turn = -turn
     return s["amplitude"] * numpy.array([math.cos(turn), math.sin(turn)])
@@ -83,18 +83,18 @@ def moved(s, radii, rng):
     p = p + course(s, 0.0)
     v = numpy.zeros((n, 2))
     # Units: pixels and frames. The stiffness limits overlaps to about a hundredth of a radius.
-    speed = 2.0 * math.pi * s["amplitude"] / s["per_swirl"]
+    speed = 2.0 * math.pi * s["amplitude"] / s["frames_per_period"]
     stiff = (speed / (0.012 * radii.mean())) ** 2
     dt = 1.0 / steps
     while stiff * dt * dt > 0.03:
         dt *= 0.5
         steps *= 2
-    lossy, drag = 0.25 * math.sqrt(stiff), 0.5 * 2.0 * math.pi / s["per_swirl"]
+    lossy, drag = 0.25 * math.sqrt(stiff), 0.5 * 2.0 * math.pi / s["frames_per_period"]
     turned = numpy.tile(numpy.eye(3), (n, 1, 1))
     spin = numpy.zeros(n)
     rotations = []
     sums = radii[:, None] + radii[None, :]
-    warm = int(2.5 * s["per_swirl"])
+    warm = int(2.5 * s["frames_per_period"])
     for frame in range(-warm, s["frames"]):
         if frame >= 0:
             positions.append(p.copy())
@@ -145,19 +145,19 @@ def moved(s, radii, rng):
     return positions, rotations
 
 
-def blurred(picture, sigma):
+def blurred(image, sigma):
     if sigma <= 0.0:
-        return picture
+        return image
     reach = int(math.ceil(3.0 * sigma))
     x = numpy.arange(-reach, reach + 1)
     kernel = numpy.exp(-0.5 * (x / sigma) ** 2)
     kernel /= kernel.sum()
     for axis in (0, 1):
-        wide = numpy.pad(picture, [(reach, reach) if a == axis else (0, 0)
-                                   for a in range(picture.ndim)], mode="edge")
-        picture = sum(w * numpy.take(wide, range(k, k + picture.shape[axis]), axis)
+        wide = numpy.pad(image, [(reach, reach) if a == axis else (0, 0)
+                                   for a in range(image.ndim)], mode="edge")
+        image = sum(w * numpy.take(wide, range(k, k + image.shape[axis]), axis)
                       for k, w in enumerate(kernel))
-    return picture
+    return image
 
 
 class Painter:
@@ -199,7 +199,7 @@ class Painter:
 
     def paint(self, middle, positions, turned):
         s = self.s
-        picture = self.table.copy()
+        image = self.table.copy()
         far = numpy.hypot(self.x - middle[0], self.y - middle[1])
         inner, outer = s["dish"], s["dish"] + s["rim_width"]
         in_dish = numpy.clip(inner - far + 0.5, 0.0, 1.0)[..., None]
@@ -219,16 +219,16 @@ class Painter:
         side = ((self.x - middle[0]) * self.lamp[0] + (self.y - middle[1]) * self.lamp[1]) \
             / numpy.maximum(far, 1.0)
         rim = s["rim"] * (1.0 + 0.25 * side)
-        picture = picture * (1.0 - in_rim) + in_rim * rim[..., None]
-        picture = picture * (1.0 - in_dish) + in_dish * floor[..., None]
+        image = image * (1.0 - in_rim) + in_rim * rim[..., None]
+        image = image * (1.0 - in_dish) + in_dish * floor[..., None]
         for i, p in enumerate(positions):
-            self.paint_ball(picture, p, self.radii[i], turned[i], i)
-        return picture
+            self.paint_ball(image, p, self.radii[i], turned[i], i)
+        return image
 
-    def paint_ball(self, picture, p, a, turned, i):
+    def paint_ball(self, image, p, a, turned, i):
         s = self.s
-        x0, x1 = max(0, int(p[0] - a - 2)), min(picture.shape[1], int(p[0] + a + 3))
-        y0, y1 = max(0, int(p[1] - a - 2)), min(picture.shape[0], int(p[1] + a + 3))
+        x0, x1 = max(0, int(p[0] - a - 2)), min(image.shape[1], int(p[0] + a + 3))
+        y0, y1 = max(0, int(p[1] - a - 2)), min(image.shape[0], int(p[1] + a + 3))
         if x0 >= x1 or y0 >= y1:
             return
         dx, dy = (self.x[y0:y1, x0:x1] - p[0]) / a, (self.y[y0:y1, x0:x1] - p[1]) / a
@@ -252,29 +252,29 @@ class Painter:
             colour = colour + (s["gloss"] * numpy.maximum(0.0, n @ half) ** (4.0 * s["shine"]))[
                 ..., None]
         c = cover[..., None]
-        picture[y0:y1, x0:x1] = (1.0 - c) * picture[y0:y1, x0:x1] + c * colour
+        image[y0:y1, x0:x1] = (1.0 - c) * image[y0:y1, x0:x1] + c * colour
 
-    def finished(self, picture, frame):
+    def finished(self, image, frame):
         s, rng = self.s, self.rng
-        picture = picture * self.light[..., None]
+        image = image * self.light[..., None]
         if s["glare"] > 0.0:
             width, height = s["size"]
             gx = (0.4 + 0.2 * math.sin(0.05 * frame)) * width
-            picture = picture + s["glare"] * numpy.exp(
+            image = image + s["glare"] * numpy.exp(
                 -((self.x - gx) ** 2 + (self.y - 0.42 * height) ** 2)
                 / (0.02 * width * width))[..., None]
-        picture = blurred(picture, s["blur"])
-        picture = picture * (1.0 + s["flicker"] * rng.normal())
-        picture = 255.0 * numpy.clip(picture / 255.0, 0.0, None) ** s["gamma"]
-        picture = picture + s["noise"] * rng.normal(size=picture.shape[:2])[..., None] \
-            + 0.5 * s["noise"] * rng.normal(size=picture.shape)
+        image = blurred(image, s["blur"])
+        image = image * (1.0 + s["flicker"] * rng.normal())
+        image = 255.0 * numpy.clip(image / 255.0, 0.0, None) ** s["gamma"]
+        image = image + s["noise"] * rng.normal(size=image.shape[:2])[..., None] \
+            + 0.5 * s["noise"] * rng.normal(size=image.shape)
         if s["label"]:
-            height = picture.shape[0]
+            height = image.shape[0]
             digits = numpy.kron((numpy.arange(60) * (frame + 7) % 5 > 1).reshape(5, 12),
                                 numpy.ones((3, 6)))
-            picture[height - 20:height - 5, 6:78] = 0.0
-            picture[height - 20:height - 5, 6:78][digits > 0] = 255.0
-        return numpy.clip(picture + 0.5, 0.0, 255.0).astype(numpy.uint8)
+            image[height - 20:height - 5, 6:78] = 0.0
+            image[height - 20:height - 5, 6:78][digits > 0] = 255.0
+        return numpy.clip(image + 0.5, 0.0, 255.0).astype(numpy.uint8)
 
 
 def make(path, **faults):
@@ -312,12 +312,12 @@ def make(path, **faults):
             v = positions[min(k + 1, s["frames"] - 1)] - positions[max(k - 1, 0)]
             sum_of = sum_of + painter.paint(middle + shake + course(s, k) + shift,
                                             positions[k] + 0.5 * o * v + middle + shake, rotations[k])
-        picture = painter.finished(sum_of / len(between), k)
+        image = painter.finished(sum_of / len(between), k)
         for _ in range(0 if k in s["drop"] else 2 if k in s["double"] else 1):
-            writer.stdin.write(picture.tobytes())
+            writer.stdin.write(image.tobytes())
             video.positions.append(positions[k] + middle + shake)
     writer.stdin.close()
     assert writer.wait() == 0, "ffmpeg failed"
     video.centre, video.amplitude, video.container = middle, s["amplitude"], s["dish"]
-    video.frames_per_period, video.clockwise = s["per_swirl"], s["clockwise"]
+    video.frames_per_period, video.clockwise = s["frames_per_period"], s["clockwise"]
     return video

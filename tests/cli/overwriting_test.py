@@ -60,22 +60,22 @@ class Overwriting(InFolder):
             self.assertEqual(opened.read(), checkpoint)
 
     def test_a_second_backup_does_not_replace_the_first(self):
-        kept = {}
+        saved = {}
         for seed, name in ((1, "backup"), (2, "backup-2")):
             self.killed("--overwrite", seed=seed)
             with open(self.path("r.json.checkpoint"), "rb") as opened:
-                kept[name] = opened.read()
+                saved[name] = opened.read()
             self.assert_rejected(*self.run_call(), says=f"r.json.checkpoint.{name}'")
             done = swirl(*self.run_call("--overwrite"))
             self.assertEqual(done.returncode, 0, done.stderr)
-        for name, checkpoint in kept.items():
+        for name, checkpoint in saved.items():
             with open(self.path(f"r.json.checkpoint.{name}"), "rb") as opened:
                 self.assertEqual(opened.read(), checkpoint)
 
     def test_recordings_of_another_run_are_neither_overwritten_nor_continued(self):
         self.killed()
-        kept = self.path("kept.checkpoint")
-        shutil.copy(self.path("r.json.checkpoint"), kept)
+        saved = self.path("kept.checkpoint")
+        shutil.copy(self.path("r.json.checkpoint"), saved)
         os.remove(self.path("r.json.checkpoint"))
         # Run B would overwrite the recording of run A.
         self.assert_rejected(*self.run_call(seed=2), says="unfinished recording of another run")
@@ -83,7 +83,7 @@ class Overwriting(InFolder):
         self.assertEqual(swirl(*self.run_call("--overwrite", seed=2)).returncode, 0)
         with open(self.path("t.h5"), "rb") as opened:
             of_b = opened.read()
-        self.assert_rejected("run", "--checkpoint", kept, "--resume", "--quiet",
+        self.assert_rejected("run", "--checkpoint", saved, "--resume", "--quiet",
                      says="recorded by another run")
         with open(self.path("t.h5"), "rb") as opened:
             self.assertEqual(opened.read(), of_b)
@@ -106,14 +106,14 @@ class Overwriting(InFolder):
 
     def test_a_resumed_run_does_not_replace_files_of_another_run(self):
         self.killed()
-        kept = self.path("kept.checkpoint")
-        shutil.copy(self.path("r.json.checkpoint"), kept)
+        saved = self.path("kept.checkpoint")
+        shutil.copy(self.path("r.json.checkpoint"), saved)
         other = ["run", "--discs", 5, "--events", 2000, "--quiet"]
         for name, option in (("r.json", "--json"), ("t.h5", "--trajectory"), ("e.h5", "--log-events")):
             made = self.path("other-" + name)
             self.assertEqual(swirl(*other, option, made).returncode, 0)
             shutil.copy(made, self.path(name))
-            self.assert_rejected("run", "--checkpoint", kept, "--resume", "--quiet", says="it was left unchanged")
+            self.assert_rejected("run", "--checkpoint", saved, "--resume", "--quiet", says="it was left unchanged")
             with open(made, "rb") as wanted, open(self.path(name), "rb") as there:
                 self.assertEqual(wanted.read(), there.read())
             os.remove(self.path(name))
@@ -248,8 +248,8 @@ if what == 'quarter': cut('events', 0.25)
                 self.assert_rejected("verify", self.path("changed.h5"), says=says)
         floor = """
 import h5py, sys
-kept = h5py.File(sys.argv[1], 'r+')['parameters'].attrs
-kept[sys.argv[2]] = int(sys.argv[3])
+saved = h5py.File(sys.argv[1], 'r+')['parameters'].attrs
+saved[sys.argv[2]] = int(sys.argv[3])
 """
         self.assertEqual(swirl("run", "--body", "sphere", "--floor", "sliding", "--discs", 5, "--events", 500,
                                "--trajectory", self.path("spheres.h5"), "--quiet").returncode, 0)
@@ -328,13 +328,13 @@ class Names(InFolder):
         self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", 1000, "--out", "study", "--quiet",
                                cwd=self.folder).returncode, 0)
         os.symlink("study", self.path("link"))
-        kept = {name: Path(self.path(name)).read_bytes()
+        saved = {name: Path(self.path(name)).read_bytes()
                 for name in ("study/results/000000.json", "study/plan.json", "study/locks")}
-        for name in (*kept, "link/results/000000.json", "study/results/new.csv", "./study/../study/locks"):
+        for name in (*saved, "link/results/000000.json", "study/results/new.csv", "./study/../study/locks"):
             self.assert_rejected("collect", "study", "--csv", name, says="belongs to the sweep itself")
             self.assert_rejected("collect", "study", "--crossings", name, says="belongs to the sweep itself")
             self.assert_rejected("collect", "link", "--csv", name, says="belongs to the sweep itself")
-        for name, before in kept.items():
+        for name, before in saved.items():
             self.assertEqual(Path(self.path(name)).read_bytes(), before)
         self.assert_rejected("collect", "study", "--csv", "-", "--crossings", "-", says="standard output")
         done = swirl("collect", "study", "--csv", "study/results.csv", "--crossings", "study/N_c.csv",
@@ -350,7 +350,7 @@ class Names(InFolder):
         self.assertEqual(plan.read_text(encoding="utf-8"), "discs = 5\nevents = 1000\n")
         self.assertEqual(self.left_behind(), ["plan.toml"])
 
-    def test_a_movie_or_picture_does_not_replace_its_input(self):
+    def test_a_movie_or_image_does_not_replace_its_input(self):
         recording = shutil.copy(self.recorded(), self.path("r.gif"))
         shutil.copy(recording, self.path("r.png"))
         before = Path(recording).read_bytes()
@@ -360,7 +360,7 @@ class Names(InFolder):
         for name in ("r.gif", "r.png"):
             self.assertEqual(Path(self.path(name)).read_bytes(), before)
         says = "it also belongs to the camera images"
-        self.assert_rejected("movie", "tracks.csv", "--over", "film.mp4", "--out", "./film.mp4", says=says)
+        self.assert_rejected("movie", "tracks.csv", "--over", "video.mp4", "--out", "./video.mp4", says=says)
         numbered = ["tracks.csv", "--over", "seen/frame-%06d.png"]
         self.assert_rejected("movie", *numbered, "--frames", "seen", says=says)
         self.assert_rejected("image", *numbered, "--out", "./seen/frame-000007.png", says=says)
@@ -368,10 +368,10 @@ class Names(InFolder):
 
     def test_a_report_does_not_replace_the_tracks(self):
         os.mkdir(self.path("report"))
-        if "no camera support" in swirl("track", "film.mp4", "--out", "x.csv").stderr:
+        if "no camera support" in swirl("track", "video.mp4", "--out", "x.csv").stderr:
             self.skipTest("this build has no camera")
-        self.assert_rejected("track", "film.mp4", "--out", "report/discs.csv", "--report", "report")
-        self.assert_rejected("experiment", "film.mp4", "--out", "x", "--json", "film.mp4")
+        self.assert_rejected("track", "video.mp4", "--out", "report/discs.csv", "--report", "report")
+        self.assert_rejected("experiment", "video.mp4", "--out", "x", "--json", "video.mp4")
         self.assertEqual(self.left_behind(), ["report"])
 
     def test_a_pipe_is_not_replaced(self):

@@ -471,15 +471,15 @@ class Disk(InFolder):
     def test_a_folder_that_becomes_read_only_is_an_error(self):
         if os.geteuid() != 0:
             self.skipTest("changing to a user without write permission needs root")
-        nobody = 65534
+        other_user = 65534
         os.chmod(self.folder, 0o755)
         try:
-            subprocess.run([SWIRL, "--version"], user=nobody, capture_output=True)
+            subprocess.run([SWIRL, "--version"], user=other_user, capture_output=True)
         except PermissionError:
             self.skipTest("other users cannot execute the program")
         folder = self.path("f")
         os.mkdir(folder)
-        os.chown(folder, nobody, -1)
+        os.chown(folder, other_user, -1)
 
         def lock_all():
             for entered, _, _ in os.walk(folder):
@@ -487,12 +487,12 @@ class Disk(InFolder):
 
         run = ["run", "--discs", "24", "--events", "1e9", "--checkpoint-every", "0.1",
                "--checkpoint", folder + "/c"]
-        self.assertIn("Permission denied", self.disturbed(run, lock_all, folder + "/c", user=nobody))
+        self.assertIn("Permission denied", self.disturbed(run, lock_all, folder + "/c", user=other_user))
         self.assertEqual(os.listdir(folder), ["c"])
         os.chmod(folder, 0o755)
         sweep = ["sweep", "--discs", "5:48", "--seeds", "1000", "--events", "10000", "--out",
                  folder + "/s"]
-        self.assertIn("Permission denied", self.disturbed(sweep, lock_all, folder + "/s/plan.json", user=nobody))
+        self.assertIn("Permission denied", self.disturbed(sweep, lock_all, folder + "/s/plan.json", user=other_user))
 
     def test_a_read_only_folder_is_an_error_before_the_run(self):
         # /proc takes no files, even from root.

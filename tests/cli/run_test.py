@@ -158,6 +158,25 @@ class Report(unittest.TestCase):
         result = result_of("--mu", 0, "--discs", 12, "--periods", 20, "--path", "circle")
         self.assertAlmostEqual(result["invariant"], result["invariant_at_start"], delta=1e-8)
 
+    def test_the_report_has_six_lines_and_more_with_verbose(self):
+        call = ("run", "--discs", 28, "--events", 20000)
+        short, full = swirl(*call).stdout.splitlines(), swirl(*call, "--verbose").stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in short],
+                         ["28", "rigid", "events", "periods", "steady", "state"])
+        self.assertEqual([line.split()[0] for line in full if line not in short],
+                         ["errors", "energy", "overlap", "time"])
+
+    def test_numbers_and_nouns_agree(self):
+        self.assertIn("the first is warm-up", swirl("run", "--discs", 5, "--periods", 5, "--warmup", 1).stdout)
+        self.assertIn("no warm-up", swirl("run", "--discs", 5, "--periods", 5, "--warmup", 0).stdout)
+
+    def test_a_measurement_without_values_is_one_line(self):
+        out = swirl("run", "--discs", 5, "--events", 20000, "--measure", "rolling,slip,centre,collisions").stdout
+        self.assertRegex(out, r"(?m)^  rolling +n/a$")
+        self.assertNotIn("rolling.", out)
+        self.assertIn("slip.cluster", out)
+        self.assertNotIn("n/a ", out)
+
     def test_quiet_prints_one_line_and_all_warnings(self):
         done = swirl("run", "--events", 1000, "--quiet")
         self.assertEqual(done.stdout.count("\n"), 1)

@@ -45,13 +45,14 @@ class Simd(InFolder):
                 for result in results[1:]:
                     self.assertEqual(result, results[0])
 
-    def test_without_a_wish_it_is_the_widest(self):
+    def test_the_default_is_the_widest(self):
         for nothing in ("", "auto"):
             self.assertEqual(self.result(nothing, "--discs", 5, "--events", 1000)["simd"], widths()[-1])
 
     def test_the_report_names_the_width(self):
         for width in widths():
-            done = swirl("run", "--discs", 5, "--events", 1000, environment={"SWIRL_SIMD": width})
+            done = swirl("run", "--discs", 5, "--events", 1000, "--verbose",
+                         environment={"SWIRL_SIMD": width})
             self.assertRegex(done.stdout, rf"time .* million events/s, {width}\n")
 
     def test_a_run_continues_with_another_width(self):

@@ -106,7 +106,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(combined(yes, undecided), UNDECIDED)
         self.assertEqual(combined(no, undecided), UNDECIDED)
 
-    def test_holds_in_part_is_kept_by_every_rule(self):
+    def test_every_rule_preserves_holds_in_part(self):
         yes, no, half, undecided = Judgement(HOLDS), Judgement(FAILS), Judgement(IN_PART), Judgement(UNDECIDED, ["a"])
         self.assertEqual(every([half, yes]), IN_PART)
         self.assertEqual(every([half, no]), FAILS)

@@ -34,9 +34,9 @@ OUTPUTS = [["export", "IN/in.h5", "--to", "gsd", "--out", "o.gsd", "--quiet"],
            ["export", "IN/in.h5", "--to", "vtp", "--range", "0:3", "--out", "o.pvd", "--quiet"],
            ["image", "IN/in.h5", "--size", "64x64", "--out", "o.svg", "--quiet"],
            ["measure", "IN/in.h5", "--measure", "slip", "--json", "o.json", "--quiet"]]
-FILM = ["synthetic-video", "--discs", "16", "--container-radius", "6.5", "--scale", "12", "--width", "240",
+VIDEO_CALL = ["synthetic-video", "--discs", "16", "--container-radius", "6.5", "--scale", "12", "--width", "240",
         "--height", "240", "--frames-per-period", "40", "--length", "1.2", "--quiet", "--out"]
-FILMS = [["synthetic-video", "--discs", "3", "--frames", "4", "--width", "64", "--height", "64", "--scale", "3",
+VIDEO_CALLS = [["synthetic-video", "--discs", "3", "--frames", "4", "--width", "64", "--height", "64", "--scale", "3",
           "--quiet", "--out", "o.mp4"],
          ["track", "IN/in.mp4", "--quiet", "--out", "o.h5"],
          ["track", "IN/in.mp4", "--quiet", "--out", "o.csv"]]
@@ -57,8 +57,8 @@ def setting(call, at, error=0, **more):
 
 class Faults(unittest.TestCase):
     def setUp(self):
-        place = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
-        self._folder = tempfile.TemporaryDirectory(prefix="swirl-faults-", dir=place)
+        parent = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+        self._folder = tempfile.TemporaryDirectory(prefix="swirl-faults-", dir=parent)
         self.addCleanup(self._folder.cleanup)
         self.folder = self._folder.name
         self.work = os.path.join(self.folder, "work")
@@ -163,7 +163,7 @@ class Faults(unittest.TestCase):
                         self.assert_error_reported(done, where)
                         assert_harmless(where)
                         reported += 1
-            report(f"{arguments[0]}, {call} fails: {calls} places, {reported + right} tried, "
+            report(f"{arguments[0]}, {call} fails: {calls} calls, {reported + right} tried, "
                    f"{reported} reported, {right} correct")
 
     def fail_memory(self, call, parse_only_call, assert_correct, most):
@@ -183,7 +183,7 @@ class Faults(unittest.TestCase):
                 else:
                     self.assert_error_reported(done, where)
                     reported += 1
-        report(f"{call[0]}, new fails: {calls} places, {reported + right + unreported} tried, {reported} "
+        report(f"{call[0]}, new fails: {calls} calls, {reported + right + unreported} tried, {reported} "
                f"reported, {right} correct, {unreported} before main()")
 
     def files(self):
@@ -251,11 +251,11 @@ class Faults(unittest.TestCase):
                           "--trajectory", os.path.join(self.folder, "in.h5"))
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    def film_one(self):
+    def video_one(self):
         if shutil.which("ffmpeg") is None:
             self.skipTest("this test needs ffmpeg")
         self.empty_work_folder()
-        done = self.swirl(*FILM, os.path.join(self.folder, "in.mp4"))
+        done = self.swirl(*VIDEO_CALL, os.path.join(self.folder, "in.mp4"))
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def replace_output(self, old, new, most):
@@ -276,12 +276,12 @@ class Faults(unittest.TestCase):
             self.assertIn([], mixed, f"{new[0]} killed before change {k} of {calls}")
             done = self.swirl(*call)
             self.assertEqual((done.returncode, self.files()), (0, after), done.stderr)
-        report(f"{new[0]} --overwrite, killed before a change: {calls} places, nothing mixed")
+        report(f"{new[0]} --overwrite, killed before a change: {calls} calls, nothing mixed")
 
     def test_a_kill_does_not_mix_old_and_new_files(self):
-        self.film_one()
-        self.replace_output(FILMS[0], [*FILMS[0], "--seed", "2"], 4)
-        self.replace_output(FILMS[2], [*FILMS[2], "--frames", "40"], 4)
+        self.video_one()
+        self.replace_output(VIDEO_CALLS[0], [*VIDEO_CALLS[0], "--seed", "2"], 4)
+        self.replace_output(VIDEO_CALLS[2], [*VIDEO_CALLS[2], "--frames", "40"], 4)
 
     def test_failing_calls_while_a_recording_is_processed(self):
         self.record_one()
@@ -294,13 +294,13 @@ class Faults(unittest.TestCase):
             self.kill_output(call, 2)
 
     def test_failing_calls_while_a_video_is_made_or_tracked(self):
-        self.film_one()
-        for call in FILMS if EVERY else FILMS[:2]:
+        self.video_one()
+        for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[:2]:
             self.fail_output(call, 1)
 
     def test_video_commands_succeed_after_a_kill(self):
-        self.film_one()
-        for call in FILMS if EVERY else FILMS[1:]:
+        self.video_one()
+        for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[1:]:
             self.kill_output(call, 2)
 
     def test_failing_calls_in_a_sweep_are_reported_or_harmless(self):
@@ -319,7 +319,7 @@ class Faults(unittest.TestCase):
                 done = self.swirl(*again)
                 self.assertEqual(done.returncode, 0, f"{where}: {done.stderr}")
             assert_clean(where)
-        report(f"{call[0]}, killed before a change: {calls} places, {len(tried)} tried, all resumed")
+        report(f"{call[0]}, killed before a change: {calls} calls, {len(tried)} tried, all resumed")
 
     def test_a_killed_run_resumes_to_the_same_result(self):
         def assert_clean(where):
@@ -402,10 +402,10 @@ class Inode:
             self.apply(self.durable, change)
         self.pending = []
 
-    def after_the_cut(self, choose, kept):
+    def after_the_cut(self, choose, share):
         content = bytearray(self.durable)
         for change in self.pending:
-            if choose.random() < kept:
+            if choose.random() < share:
                 self.apply(content, change)
         return bytes(content)
 
@@ -460,8 +460,8 @@ class Disk:
         """Some of the last changes of names are lost, and any of the unsynced pages."""
         for change in self.changes[:choose.randint(0, len(self.changes))]:
             self.rename(self.durable_names, change)
-        kept = choose.choice((0.0, 0.3, 0.7, 1.0))
-        self.content = {name: inode.after_the_cut(choose, kept)
+        share = choose.choice((0.0, 0.3, 0.7, 1.0))
+        self.content = {name: inode.after_the_cut(choose, share)
                         for name, inode in self.durable_names.items()}
 
     def write(self, folder):

@@ -34,7 +34,7 @@ bool is_of_system(const void* code) {
              std::strstr(about.dli_sname, "interceptor_") != nullptr));
 }
 
-/// Whether the innermost function outside the C library belongs to the HDF5 library.
+/// True if the innermost function outside the C library belongs to the HDF5 library.
 bool library_is_to_blame(const void* crashed) {
     if (is_of_library(crashed)) return true;
     if (!is_of_system(crashed)) return false;

@@ -2,7 +2,7 @@
 
 independent_readers.py READER FILE DISCS FRAMES discs|spheres; exit code 77 where the reader is not
 installed. The numbers are those of known_frame() and known_frame_of_spheres() in scratch.hpp, written
-once more, independently.
+again, independently.
 """
 
 import importlib
@@ -65,7 +65,7 @@ REACH = RADIUS + max(0.1 * (FRAMES - 1), 0.2)
 
 
 def same(found, wanted, what):
-    """Bit for bit."""
+    """Requires bitwise identical values."""
     found, wanted = np.asarray(found), np.asarray(wanted)
     assert found.shape == wanted.shape, f"{what}: shape {found.shape} instead of {wanted.shape}"
     assert (found == wanted).all(), f"{what}: {found} instead of {wanted}"
@@ -191,7 +191,7 @@ def read_lammps():
 
 
 def read_xyz():
-    # MDAnalysis reads the plain columns; the names of the others stand in the comment.
+    # MDAnalysis reads the plain columns; the comment lists the names of the others.
     need("MDAnalysis")
     import MDAnalysis
     universe = MDAnalysis.Universe(FILE, format="XYZ", topology_format="XYZ")
@@ -288,7 +288,7 @@ def read_table():
 
 
 def product(a, b):
-    """Of quaternions in rows."""
+    """The products of quaternions in rows."""
     aw, av, bw, bv = a[:, :1], a[:, 1:], b[:, :1], b[:, 1:]
     return np.hstack([aw * bw - np.sum(av * bv, axis=1, keepdims=True),
                       aw * bv + bw * av + np.cross(av, bv)])

@@ -83,7 +83,7 @@ DEFINITIONS = (
 
 
 def names_of_its_own(text):
-    """What a file defines in its unnamed namespaces."""
+    """The names that a file defines in its unnamed namespaces."""
     code = re.sub(r'R"\((?:.|\n)*?\)"', '""', text)
     return {name
             for own in re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", code, re.S | re.M)
@@ -146,7 +146,7 @@ class Layers(unittest.TestCase):
 
     def test_files_compiled_together_define_distinct_names(self):
         # A second function of one name would be a redefinition at best; with other parameters it
-        # could be called in the place of the first without a word (cmake/program.cmake).
+        # could silently be called instead of the first (cmake/program.cmake).
         for layer in COMPILED_AT_ONCE:
             where = {}
             for file in sources(layer):

@@ -136,11 +136,11 @@ TEST(Lanes, LoadsThreeOfFourFloatsAsColumns) {
 
 // Long lists are searched in pieces of 64.
 TEST(Lanes, FindsADiscAnywhereInAList) {
-    for (const std::uint32_t room : {4u, 12u, 64u, 68u, 124u}) {
-        std::vector<std::uint32_t> list(room);
-        for (std::uint32_t slot = 0; slot < room; ++slot) list[slot] = 1000 + slot;
-        for (std::uint32_t slot = 0; slot < room; ++slot)
-            EXPECT_EQ(index_in_list(list.data(), room, 1000 + slot), slot) << "of " << room;
+    for (const std::uint32_t capacity : {4u, 12u, 64u, 68u, 124u}) {
+        std::vector<std::uint32_t> list(capacity);
+        for (std::uint32_t slot = 0; slot < capacity; ++slot) list[slot] = 1000 + slot;
+        for (std::uint32_t slot = 0; slot < capacity; ++slot)
+            EXPECT_EQ(index_in_list(list.data(), capacity, 1000 + slot), slot) << "of " << capacity;
     }
 }
 

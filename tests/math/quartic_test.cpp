@@ -30,9 +30,9 @@ class Wide {
     friend Wide operator*(const Wide& a, const Wide& b) {
         const Half product = a.high_ * b.high_;
         const Wide x = split(a.high_), y = split(b.high_);
-        const Half rest =
+        const Half remainder =
             ((x.high_ * y.high_ - product) + x.high_ * y.low_ + x.low_ * y.high_) + x.low_ * y.low_;
-        return ordered_sum(product, rest + (a.high_ * b.low_ + a.low_ * b.high_));
+        return ordered_sum(product, remainder + (a.high_ * b.low_ + a.low_ * b.high_));
     }
     friend bool operator>(const Wide& a, const Wide& b) {
         return a.high_ > b.high_ || (a.high_ == b.high_ && a.low_ > b.low_);
@@ -103,15 +103,15 @@ std::string wrong(const Quartic& f, double horizon, double grain) {
     // If f begins slightly below 0, by the rounding of a contact, the contact is where f is lower
     // by a grain.
     const double error = rounding_of(f, horizon) + 2.0 * grain + larger(-f.c0, 0.0);
-    const std::string place = " at " + std::to_string(end) + " of " + std::to_string(horizon);
-    if (end < 0.0 || end > horizon) return "outside" + place;
+    const std::string position = " at " + std::to_string(end) + " of " + std::to_string(horizon);
+    if (end < 0.0 || end > horizon) return "outside" + position;
     // The result is 0 if the two touch, or overlap by any amount, and approach.
     if (found == 0.0 && f.c0 <= 0.0 && f.c1 < 0.0) return "";
     if (found != never && std::abs(double(WideQuartic(f).value(found))) > error)
-        return "no zero" + place;
+        return "no zero" + position;
     const Wide earlier = WideQuartic(f, 2.0 * error).first_zero(0.0, end);
     return earlier == -1.0 ? ""
-                           : "one at " + std::to_string(double(earlier)) + " is before" + place;
+                           : "one at " + std::to_string(double(earlier)) + " is before" + position;
 }
 
 struct Encounters {
@@ -120,7 +120,7 @@ struct Encounters {
     Vec2 vector(double reach) { return random.in_disc(reach); }
 
     /// |s + v t + g t²|² − σ².
-    static Quartic room(const Vec2& s, const Vec2& v, const Vec2& g, double square) {
+    static Quartic clearance_quartic(const Vec2& s, const Vec2& v, const Vec2& g, double square) {
         return {dot(s, s) - square, 2.0 * dot(s, v), dot(v, v) + 2.0 * dot(s, g), 2.0 * dot(v, g),
                 dot(g, g)};
     }
@@ -129,16 +129,16 @@ struct Encounters {
 
     Quartic any() {
         const Vec2 s = vector(4.0);
-        return room(s, vector(2.0), vector(acceleration()), smaller(4.0, dot(s, s)));
+        return clearance_quartic(s, vector(2.0), vector(acceleration()), smaller(4.0, dot(s, s)));
     }
     /// The closest approach is σ, plus or minus a relative difference of 10⁻² to 10⁻¹⁶.
     Quartic grazing(double horizon) {
         const Vec2 s = vector(4.0), v = vector(2.0), g = vector(acceleration());
-        const Quartic distance = room(s, v, g, 0.0);
+        const Quartic distance = clearance_quartic(s, v, g, 0.0);
         double closest = distance.c0;
         for (int k = 1; k < 64; ++k) closest = smaller(closest, distance.value(horizon * k / 64.0));
         const double more = std::pow(10.0, -between(2.0, 16.0)) * (random.bits() % 2 ? 1.0 : -1.0);
-        return room(s, v, g, smaller(closest * (1.0 + more), distance.c0));
+        return clearance_quartic(s, v, g, smaller(closest * (1.0 + more), distance.c0));
     }
     /// They touch up to a rounding error, and separate, approach, or hardly move.
     Quartic touching() {
@@ -146,11 +146,13 @@ struct Encounters {
         const double length = square_root(dot(n, n));
         const Vec2 s{2.0 * n.x / length, 2.0 * n.y / length};
         const Vec2 along = between(-1.0, 1.0) * std::pow(10.0, -between(0.0, 12.0)) * s;
-        return room(s, along + between(-1.0, 1.0) * perpendicular(s), vector(acceleration()), 4.0);
+        return clearance_quartic(s, along + between(-1.0, 1.0) * perpendicular(s),
+                                 vector(acceleration()), 4.0);
     }
     /// A sphere inside the container.
     Quartic wall() {
-        const Quartic f = room(vector(7.6), vector(2.0), vector(acceleration()), 7.6 * 7.6);
+        const Quartic f =
+            clearance_quartic(vector(7.6), vector(2.0), vector(acceleration()), 7.6 * 7.6);
         return {-f.c0, -f.c1, -f.c2, -f.c3, -f.c4};
     }
 };

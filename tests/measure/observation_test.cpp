@@ -173,10 +173,10 @@ TEST(Observation, NewDiscsBeginNewTracks) {
         s.held_at.assign(s.size(), s.clock);
         return s;
     };
-    for (const bool told : {true, false}) {
+    for (const bool announced : {true, false}) {
         Observation observation = observation_of({"pinned", "diffusion"});
         for (int k = 0; k < 60; ++k) {
-            if (k == 30 && told) observation.begin_tracks();
+            if (k == 30 && announced) observation.begin_tracks();
             observation.sample(moving(k / 511.0, k < 30 ? 0.0 : 0.31));
         }
         observation.close_block();
@@ -186,7 +186,7 @@ TEST(Observation, NewDiscsBeginNewTracks) {
         double longest = 0.0;
         for (std::size_t r = 0; r < diffusion.rows(); ++r)
             longest = std::max(longest, diffusion.at(r, 1));
-        EXPECT_EQ(longest < 2.1 * 2.1, told) << longest;
+        EXPECT_EQ(longest < 2.1 * 2.1, announced) << longest;
     }
 }
 

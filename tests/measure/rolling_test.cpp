@@ -50,10 +50,10 @@ TEST(Rolling, CorrelationsOfAPairAreExact) {
         add_rolling(s, C + Vec2{2.05, 0.0}, u + b);
         return seen(s);
     };
-    const Rolling beside = pair({0.0, 0.5}, {0.0, 0.5}), behind = pair({0.5, 0.0}, {0.5, 0.0}),
-                  towards = pair({0.5, 0.0}, {-0.5, 0.0});
-    EXPECT_NEAR(row_of(beside, "axis_correlation").mean, 1.0, 1e-15);
-    EXPECT_TRUE(std::isnan(row_of(beside, "contact_correlation").mean));
+    const Rolling side_by_side = pair({0.0, 0.5}, {0.0, 0.5}),
+                  behind = pair({0.5, 0.0}, {0.5, 0.0}), towards = pair({0.5, 0.0}, {-0.5, 0.0});
+    EXPECT_NEAR(row_of(side_by_side, "axis_correlation").mean, 1.0, 1e-15);
+    EXPECT_TRUE(std::isnan(row_of(side_by_side, "contact_correlation").mean));
     EXPECT_NEAR(row_of(behind, "axis_correlation").mean, 1.0, 1e-15);
     EXPECT_NEAR(row_of(behind, "contact_correlation").mean, 1.0, 1e-15);
     EXPECT_NEAR(row_of(towards, "axis_correlation").mean, -1.0, 1e-15);

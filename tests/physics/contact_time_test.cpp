@@ -225,14 +225,15 @@ RC_GTEST_PROP(TimeOfWallContact, OnAnArcTheExpansionIsCorrect, ()) {
     const double tau = draw(0.0, 1.0) / segment.turn_rate, phi = draw(-0.5, 0.5);
     const double x = phi / segment.turn_rate;
     const ArcWall::Expansion f = wall.at(tau);
-    const double told =
+    const double expected =
         f.c + x * (2.0 * f.b +
                    x * (f.q + x * (f.k + x * (f.l + x * (f.m + x * (f.n + x * (f.o + x * f.p)))))));
     // The bound L assumes |s|² ≤ 2 clearance².
     const ArcWall::Expansion there = wall.at(tau + x);
     RC_PRE(larger(f.c, there.c) < wall.square());
-    const double rest = 3.1e-5 * wall.K() * std::pow(std::abs(phi), 7.0) * x * x;
-    RC_ASSERT(std::abs(there.c - told) <= rest + 1e-13 * (wall.square() + wall.K() * x * x));
+    const double tolerance = 3.1e-5 * wall.K() * std::pow(std::abs(phi), 7.0) * x * x;
+    RC_ASSERT(std::abs(there.c - expected) <=
+              tolerance + 1e-13 * (wall.square() + wall.K() * x * x));
 }
 
 // Newton's method returns a contact only if it is the first: for random discs in about two of five
@@ -395,7 +396,8 @@ RC_GTEST_PROP(TimeOfContactOnParabolas, IsTheFirstContact, ()) {
 // Eight pairs at once give the results of eight single pairs, and the bound misses no contact.
 RC_GTEST_PROP(TimeOfContactOnParabolas, EightLanesEqualEightScalars, ()) {
     const Parabola<double> i = draw_sliding_pair().i;
-    alignas(64) double x[8], y[8], vx[8], vy[8], ax[8], ay[8], time[8], rolls[8], sum[8], told[8];
+    alignas(64) double x[8], y[8], vx[8], vy[8], ax[8], ay[8], time[8], rolls[8], sum[8],
+        together[8];
     Parabola<double> j[8];
     for (int k = 0; k < 8; ++k) {
         const SlidingPair p = draw_sliding_pair();
@@ -418,11 +420,11 @@ RC_GTEST_PROP(TimeOfContactOnParabolas, EightLanesEqualEightScalars, ()) {
                                   {Eight::load(ax), Eight::load(ay)},
                                   Eight::load(time)},
                                  all(i_rolls), Eight::load(rolls), Eight::load(sum));
-    eight.wait_or_quartic().store(told);
+    eight.wait_or_quartic().store(together);
     for (int k = 0; k < 8; ++k) {
         const Encounter<double> one(i, j[k], i_rolls, rolls[k], sum[k]);
-        RC_ASSERT(same_bits(one.wait_or_quartic(), told[k]));
-        if (told[k] == never && k % 3 != 0)
+        RC_ASSERT(same_bits(one.wait_or_quartic(), together[k]));
+        if (together[k] == never && k % 3 != 0)
             RC_ASSERT(contact_on_parabolas(one.s, one.v, one.g, one.sum_of_radii, one.horizon) ==
                       never);
     }

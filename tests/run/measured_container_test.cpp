@@ -24,14 +24,14 @@ constexpr int frames = 511;
 
 InitialState container(std::size_t discs, const Surface& disc_surface,
                        const Surface& wall_surface) {
-    const auto places = place_discs(std::vector<double>(discs, 1.0), R, 3);
+    const auto positions = place_discs(std::vector<double>(discs, 1.0), R, 3);
     InitialState scene{{},
                        polygon_path(paper_amplitude, paper_period, paper_sides),
                        R,
                        disc_surface,
                        wall_surface};
     const Segment& segment = scene.path.segments.front();
-    for (const Vec2& p : *places)
+    for (const Vec2& p : *positions)
         scene.discs.push_back(
             {segment.start + p, segment.velocity, 0.0, 0.0, 0.0, 1.0, 1.0, paper_inertia});
     return scene;

@@ -18,9 +18,9 @@ double processor_seconds() {
     return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-// 511 frames per swirl are those of the paper's camera. Compressing and writing happens on a thread
-// of its own, so this is what a run is slowed by where a second core is free: an eighth to a fifth
-// on a quiet machine (docs/reference/files.md). The bound leaves room for neighbours who use the same memory.
+// The paper's camera took 511 frames per period. A separate thread compresses and writes, so with a
+// second core recording slows a run by an eighth to a fifth on a quiet machine
+// (docs/reference/files.md). The bound leaves a margin for other processes.
 TEST(RecordedRun, TheFramesOfTheCameraHardlySlowTheEngine) {
     RunConfig config;
     config.periods = 100;

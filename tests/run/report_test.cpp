@@ -57,7 +57,7 @@ TEST(Headline, GivesNoAverageWithoutAWholePeriod) {
     EXPECT_THAT(warnings(short_run), testing::ElementsAre(testing::AllOf(
                                          testing::HasSubstr("the run covers 0.16 periods"),
                                          testing::HasSubstr("hint: use more --events."))));
-    EXPECT_EQ(report(short_run).find("rigid"), std::string::npos);
+    EXPECT_EQ(report(short_run, true).find("rigid"), std::string::npos);
     for (const Estimate& e :
          {short_run.rotation.by_event, short_run.rotation.by_time,
           short_run.rotation.rigid_by_event, short_run.rotation.rigid_by_time}) {
@@ -96,7 +96,7 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     result.steady.verdict = SteadyState::Verdict::drifting;
     result.steady.change = {.before = 0.3, .after = 1.0, .size = 9.0, .max_size = 4.6};
     result.steady_spin.change = {.size = 1.0, .max_size = 4.7, .effective_samples = 10.0};
-    EXPECT_THAT(report(result),
+    EXPECT_THAT(report(result, false),
                 testing::HasSubstr("  steady      drifting; largest change 9.0 standard errors "
                                    "(limit 4.6), of the spins 1.0 (limit 4.7); 3 % of steady "
                                    "runs exceed a limit"));
@@ -126,10 +126,10 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     // Rotation and spins may be steady while the energy grows.
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
     result.steady.change = result.steady_spin.change = {.size = 1.0, .max_size = 4.6};
-    EXPECT_THAT(report(result),
+    EXPECT_THAT(report(result, false),
                 testing::HasSubstr("  steady      rotation and spins steady, energy growing; "));
     result.config.path = PathShape::circle;
-    EXPECT_THAT(report(result), testing::HasSubstr("  steady      steady; "));
+    EXPECT_THAT(report(result, false), testing::HasSubstr("  steady      steady; "));
     result.config.path = PathShape::polygon;
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::too_short;
     // On a floor the energy does not grow, because floor friction dissipates it.

@@ -278,9 +278,9 @@ TEST(SmoothedTracks, MirroredTracksGiveMirroredVelocities) {
 TEST(SmoothedTracks, UnsuitableTracksAreNotSmoothed) {
     const auto few = recorded_run(64);
     Tracks tracks = camera_tracks(few, 0.2);
-    const Vec2 place = tracks.frames[9].position[3];
+    const Vec2 position = tracks.frames[9].position[3];
     EXPECT_FALSE(smooth(tracks, scale_of(few)).done);
-    EXPECT_EQ(tracks.frames[9].position[3].x, place.x);
+    EXPECT_EQ(tracks.frames[9].position[3].x, position.x);
     EXPECT_TRUE(tracks.frames[9].velocity.empty());
 
     Tracks given = camera_tracks(laboratory(), 0.2);

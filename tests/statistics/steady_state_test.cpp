@@ -143,7 +143,7 @@ TEST(BeginningIsForgotten, AtOnceWithoutATransient) {
 TEST(WithoutTrend, StraightLineHasNoResiduals) {
     std::vector<double> line;
     for (int i = 0; i < 20; ++i) line.push_back(3.0 - 0.5 * i);
-    for (const double rest : without_trend(line)) EXPECT_NEAR(rest, 0.0, 1e-14);
+    for (const double residual : without_trend(line)) EXPECT_NEAR(residual, 0.0, 1e-14);
     EXPECT_EQ(without_trend(std::vector<double>{7.0}), std::vector<double>{0.0});
 }
 

@@ -39,7 +39,7 @@ TEST(ContainerPath, IsFoundWithItsErrors) {
     EXPECT_GE(within, tried * 8 / 10);
 }
 
-TEST(ContainerPath, DishAtRestHasNoPath) {
+TEST(ContainerPath, ContainerAtRestHasNoPath) {
     Random random(6);
     std::vector<Vec2> centres;
     std::vector<double> times;

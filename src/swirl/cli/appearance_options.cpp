@@ -17,7 +17,8 @@ std::vector<Frame> parse_frames(const std::string& name) {
     if (name == "lab") return {Frame::lab};
     if (name == "m") return {Frame::m};
     if (name == "both") return {Frame::lab, Frame::m};
-    throw UsageError(fmt::format("--frame is '{}', but it must be lab, m or both.", name));
+    throw UsageError(fmt::format("--frame is '{}', but it must be lab, m or both.{}", name,
+                                 nearest_value_hint(name, {"lab", "both"})));
 }
 
 Size parse_size(const std::string& text) {
@@ -66,12 +67,14 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     const auto coloring = coloring_named(texts.color);
     if (!coloring)
         throw UsageError(fmt::format(
-            "--color is '{}', but it must be pinned, spin, speed, slip, none or id.", texts.color));
+            "--color is '{}', but it must be pinned, spin, speed, slip, none or id.{}", texts.color,
+            nearest_value_hint(texts.color, {"pinned", "spin", "speed", "slip", "none"})));
     result.coloring = *coloring;
     const auto theme = theme_named(texts.theme);
     if (!theme)
-        throw UsageError(
-            fmt::format("--theme is '{}', but it must be dark or light.", texts.theme));
+        throw UsageError(fmt::format("--theme is '{}', but it must be dark or light.{}",
+                                     texts.theme,
+                                     nearest_value_hint(texts.theme, {"dark", "light"})));
     result.theme = *theme;
     result.size = texts.size.empty() ? otherwise : parse_size(texts.size);
     if (texts.trail_length) {

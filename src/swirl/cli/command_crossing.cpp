@@ -92,7 +92,7 @@ CrossingSearch search_with_progress(const CrossingCall& call, const SearchTask& 
     control.threads = static_cast<unsigned>(call.threads);
     double done = 0.0;
     control.progress = [&](const std::string& stage, double rate) {
-        // The number of runs is not known in advance, so the fraction approaches 1 without reaching
+        // The number of runs is unknown in advance, so the fraction approaches 1 without reaching
         // it; it is one half after this many runs.
         constexpr double half = 20.0;
         done += 1.0;
@@ -210,12 +210,14 @@ void add_crossing_command(Subcommand& subcommand) {
                           "FILE|-", output);
     subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
     subcommand.explain(
-        "Every parameter may be a list, as for swirl sweep: each combination is a search of its\n"
-        "own. A run has at least --events events and a hundred periods after the warm-up. Near\n"
-        "the crossing, further runs are made, each twice as long as the ones before, until\n"
-        "--tolerance is reached, at most eight times. Rotation rates (--rate): by_event, by_time,\n"
-        "rigid_by_event and rigid_by_time; the report gives N_c for all four. Use a small --step\n"
+        "Every parameter may be a list, as for swirl sweep: each combination is a search of its "
+        "own. A run has at least --events events and a hundred periods after the warm-up. Near "
+        "the crossing, further runs are made, each twice as long as the ones before, until "
+        "--tolerance is reached, at most eight times. Rotation rates (--rate): by_event, by_time, "
+        "rigid_by_event and rigid_by_time; the report gives N_c for all four. Use a small --step "
         "if the direction of rotation may change several times.\n");
+    subcommand.set_main_options({"--mu", "--events", "--seed", "--tolerance", "--from", "--to",
+                                 "--step", "--threads", "--json", "--csv"});
     subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",
                              "swirl crossing --mu 0.5 --tolerance 0.1",
                              "swirl crossing --mu-wall 0.5 --from 20 --json -"});

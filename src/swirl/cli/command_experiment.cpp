@@ -66,13 +66,13 @@ nlohmann::ordered_json tracking_key(const ExperimentCall& call, const std::strin
 
 /// Returns the table of tracks; reuses one from an earlier call with the same video and options.
 fs::path tracks_of(const ExperimentCall& call, const std::string& video,
-                   FilmedContainer& container) {
+                   ContainerVideo& container) {
     const fs::path folder = fs::path(call.out) / "tracks";
     make_folder(folder);
     const fs::path table = folder / (container.name + ".csv"),
                    about = folder / (container.name + ".json"),
                    image = fs::path(call.out) / fmt::format("video_{}.png", container.name);
-    container.pictures = {image.filename()};
+    container.images = {image.filename()};
     const std::string key = tracking_key(call, video).dump(2) + "\n";
     const bool reusable = video.find('%') == video.npos && fs::exists(about) && fs::exists(table) &&
                           fs::exists(image) && fs::exists(camera_file(table)) &&
@@ -95,13 +95,13 @@ fs::path tracks_of(const ExperimentCall& call, const std::string& video,
 
 #else
 
-fs::path tracks_of(const ExperimentCall&, const std::string&, FilmedContainer&) {
+fs::path tracks_of(const ExperimentCall&, const std::string&, ContainerVideo&) {
     throw_no_camera_support();
 }
 
 #endif
 
-void measure(const ExperimentCall& call, const fs::path& table, FilmedContainer& container) {
+void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& container) {
     const fs::path calibration = camera_file(table);
     if (!fs::exists(calibration))
         throw Failure(
@@ -141,8 +141,8 @@ void measure(const ExperimentCall& call, const fs::path& table, FilmedContainer&
                         {"measured", measured_json(measured.reports)}};
 }
 
-FilmedContainer measure_video(const ExperimentCall& call, const std::string& video, bool smooth) {
-    FilmedContainer container;
+ContainerVideo measure_video(const ExperimentCall& call, const std::string& video, bool smooth) {
+    ContainerVideo container;
     container.name = name_of_video(video);
     container.smooth = smooth;
     container.video = video;
@@ -197,11 +197,11 @@ void make_experiment_report(ExperimentCall& call) {
     call.settings.command = command_line();
     validate(call);
     make_folder(call.out);
-    std::vector<FilmedContainer> videos;
+    std::vector<ContainerVideo> videos;
     for (const std::string& video : call.rough) videos.push_back(measure_video(call, video, false));
     for (const std::string& video : call.smooth) videos.push_back(measure_video(call, video, true));
     const auto good = std::count_if(videos.begin(), videos.end(),
-                                    [](const FilmedContainer& video) { return video.good(); });
+                                    [](const ContainerVideo& video) { return video.good(); });
     if (good == 0)
         throw Failure(
             videos.size() == 1
@@ -261,6 +261,8 @@ void add_experiment_command(Subcommand& subcommand) {
     add("--out", call->out, "DIR", "Folder for report and figures; valid results are reused");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
     flag("--quiet", call->quiet, "No progress line and no summary");
+    subcommand.set_main_options({"--smooth", "--fps", "--spin", "--mu", "--preset", "--events",
+                                 "--seeds", "--no-simulation", "--out", "--json"});
     subcommand.set_examples(
         {"swirl experiment N24.mp4 N36.mp4 N48.mp4 --mu 0.5 --out marbles",
          "swirl experiment videos/*.mp4 --preset experiment --out marbles",

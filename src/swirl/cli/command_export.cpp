@@ -72,8 +72,9 @@ ExportOptions options_of(const ExportCall& call) {
 std::string report(const TrajectoryReader& reader, const ExportFormat& format,
                    const ExportOptions& options, const std::filesystem::path& out) {
     std::string text =
-        fmt::format("{} frames of {} discs in {}\n", exported_frames(reader.frames(), options),
-                    reader.discs(), out.string());
+        fmt::format("{} of {} in {}\n",
+                    counted(std::int64_t(exported_frames(reader.frames(), options)), "frame"),
+                    counted(std::int64_t(reader.discs()), "disc"), out.string());
     if (&format == export_format("csv")) {
         const double centre = reader.reach() * options.pixels_per_radius;
         text += fmt::format("{} pixels per unit of length, origin at pixel {}, {}\n",
@@ -86,9 +87,12 @@ std::string report(const TrajectoryReader& reader, const ExportFormat& format,
 
 void export_file(const ExportCall& call) {
     const ExportFormat* const format = export_format(call.format);
-    if (!format)
-        throw UsageError(
-            fmt::format("--to is '{}', but it must be one of {}.", call.format, formats_text()));
+    if (!format) {
+        std::vector<std::string> names;
+        for (const ExportFormat& known : export_formats()) names.emplace_back(known.name);
+        throw UsageError(fmt::format("--to is '{}', but it must be one of {}.{}", call.format,
+                                     formats_text(), nearest_value_hint(call.format, names)));
+    }
     ExportOptions options = options_of(call);
     try_reading(call.file);
     const auto reader = std::make_shared<TrajectoryReader>(call.file);
@@ -122,19 +126,19 @@ void add_export_command(Subcommand& subcommand) {
     subcommand.add_option("file", call->file, "trajectory to convert")
         ->type_name("FILE.h5")
         ->required();
-    subcommand.add_option("--to", call->format, "output format, see below")
+    subcommand.add_option("--to", call->format, "Output format, see below")
         ->type_name("FORMAT")
         ->required();
-    subcommand.add_option("--out", call->out, "output file [FILE with the ending of the format]")
+    subcommand.add_option("--out", call->out, "Output file [FILE with the ending of the format]")
         ->type_name("FILE");
-    subcommand.add_option("--scale", call->scale, "pixels per unit of length in csv [20]")
+    subcommand.add_option("--scale", call->scale, "Pixels per unit of length in csv [20]")
         ->type_name("NUMBER");
     subcommand
-        .add_option("--range", call->range, "range of frames, counted from 0, both included [all]")
+        .add_option("--range", call->range, "Range of frames, counted from 0, both included [all]")
         ->type_name("FIRST:LAST");
-    subcommand.add_option("--stride", call->stride, "distance between exported frames [1]")
+    subcommand.add_option("--stride", call->stride, "Distance between exported frames [1]")
         ->type_name("N");
-    subcommand.add_flag("--quiet", call->quiet, "print neither progress nor report");
+    subcommand.add_flag("--quiet", call->quiet, "Print neither progress nor report");
     subcommand.set_examples({"swirl export frames.h5 --to vtp",
                              "swirl export frames.h5 --to csv --scale 25 --out tracks.csv",
                              "swirl export frames.h5 --to table --range 1000:1999 --stride 10"});

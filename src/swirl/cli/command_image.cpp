@@ -60,6 +60,8 @@ void add_image_command(Subcommand& subcommand) {
     call->appearance = add_appearance_options(subcommand);
     call->source = add_source_options(subcommand);
     subcommand.explain(source_explanation);
+    subcommand.set_main_options({"--out", "--at", "--frame", "--color", "--trails", "--size",
+                                 "--discs", "--mu", "--compare", "--over"});
     subcommand.set_examples(
         {"swirl image --discs 48 --frame m --color pinned --theme light --out 48.pdf",
          "swirl image --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",

@@ -17,6 +17,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
+#include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 
@@ -129,10 +130,17 @@ Json json_of(const MeasureCall& call, const OpenedSeries& opened, const Measured
 
 std::string report_text(const SnapshotSeries& series, const MeasuredSeries& measured) {
     const Estimate &rotation = measured.rotation.by_time, &rigid = measured.rotation.rigid_by_time;
-    return fmt::format("{} {} {}: ϖ/Ω = {} by time, {} rigid; {} frames\n", measured.discs,
-                       series.frame(0).are_balls() ? "spheres" : "discs", rotation_verb(rotation),
-                       with_error(rotation.mean, rotation.error),
-                       with_error(rigid.mean, rigid.error), measured.frames) +
+    if (measured.discs == 1)
+        return fmt::format("1 {} has no rotation about its own centre of mass; {}\n",
+                           series.frame(0).are_balls() ? "sphere" : "disc",
+                           counted(std::int64_t(measured.frames), "frame")) +
+               measured_text(measured.reports);
+    return fmt::format("{} {}: ϖ/Ω = {} by time, {} rigid; {}\n",
+                       counted(std::int64_t(measured.discs),
+                               series.frame(0).are_balls() ? "sphere" : "disc"),
+                       rotation_verb(rotation), with_error(rotation.mean, rotation.error),
+                       with_error(rigid.mean, rigid.error),
+                       counted(std::int64_t(measured.frames), "frame")) +
            measured_text(measured.reports);
 }
 
@@ -195,8 +203,11 @@ void add_measure_command(Subcommand& subcommand) {
                           camera);
     subcommand.explain(
         "FILE is a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text "
-        "dump.\n"
+        "dump. "
         "--misfit also counts frames with discs outside the container.\n");
+    subcommand.set_main_options({"--measure", "--tables", "--json", "--skip", "--camera-fps",
+                                 "--scale", "--omega", "--centre", "--amplitude",
+                                 "--container-radius"});
     subcommand.set_examples(
         {"swirl measure frames.h5 --measure density,flow --tables maps",
          "swirl measure tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre 512,384 "

@@ -128,6 +128,8 @@ void add_movie_command(Subcommand& subcommand) {
     subcommand.explain(std::string(source_explanation) +
                        "With --over, the default --pace shows each camera image once. The pace of "
                        "the paper's experiment was 1.88.\n");
+    subcommand.set_main_options({"--out", "--frames", "--seconds", "--frame", "--color", "--trails",
+                                 "--size", "--discs", "--mu", "--over"});
     subcommand.set_examples(
         {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
          "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",

@@ -29,7 +29,7 @@ struct RunCall {
     std::shared_ptr<ParameterTexts> parameters;
     std::shared_ptr<RecordingCall> recording;
     std::string json, measure, tables;
-    bool quiet = false, dry_run = false;
+    bool quiet = false, verbose = false, dry_run = false;
 
     /// The options that may also be in the configuration file and in a checkpoint.
     OptionTexts output_options() {
@@ -133,7 +133,7 @@ void print_checkpoint_notes(const RunFiles& files) {
 
 RunResult run_with_progress(PreparedRun& prepared, bool quiet) {
     const RunConfig& config = prepared.config;
-    ProgressLine line(fmt::format("{} {}s", config.discs, body_word(config)), quiet);
+    ProgressLine line(counted(config.discs, body_word(config)), quiet);
     RunControl control;
     control.stop = &stop_signal();
     control.progress = [&](const RunProgress& progress) {
@@ -156,8 +156,8 @@ nlohmann::ordered_json json_of(const RunResult& result, const PreparedRun& prepa
 /// Writes the tables, the result and the report; the warnings come last.
 void write_outputs(const RunCall& call, const PreparedRun& prepared, const RunResult& result) {
     const MeasurementReports measured = prepared.observation.report();
-    std::string text =
-        call.quiet ? headline(result) + "\n" : report(result) + measured_text(measured);
+    std::string text = call.quiet ? headline(result) + "\n"
+                                  : report(result, call.verbose) + measured_text(measured);
     if (!call.tables.empty())
         for (const auto& file : write_measured_tables(measured, call.tables))
             if (!call.quiet) text += fmt::format("wrote {}\n", file.string());
@@ -230,12 +230,16 @@ void add_run_command(Subcommand& subcommand) {
     subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
                           output);
     subcommand.add_option("--measure", call->measure,
-                          "Measurements, separated by commas, or all (see below)", "LIST", output);
+                          "Measurements, separated by commas, or all (or help)", "LIST", output);
     subcommand.add_option("--tables", call->tables, "Folder for the measurements as CSV tables",
                           "DIR", output);
     subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
+    subcommand.add_flag("--verbose", call->verbose, "Also report errors, energy, overlap and time",
+                        output);
     subcommand.add_flag("--dry-run", call->dry_run, "Print the configuration file and do not run",
                         output);
+    subcommand.set_main_options({"--discs", "--mu", "--body", "--container-radius", "--events",
+                                 "--periods", "--warmup", "--seed", "--measure", "--json"});
     subcommand.set_examples({"swirl run --discs 48", "swirl run --discs 28 --mu 0.5 --json -",
                              "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100",
                              "swirl run --discs 48 --measure density,flow --tables maps",

@@ -222,9 +222,11 @@ void add_sweep_command(Subcommand& subcommand) {
                           "TIME", cluster);
     subcommand.add_option("--partition", call->job.partition, "Slurm partition", "NAME", cluster);
     subcommand.explain(
-        "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. With\n"
-        "--grow, the given values, replicas (--seeds is their new total) and measurements are\n"
+        "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. With "
+        "--grow, the given values, replicas (--seeds is their new total) and measurements are "
         "added to the sweep in DIR. Recorded runs are in DIR/trajectories.\n");
+    subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--seeds", "--out",
+                                 "--measure", "--threads", "--grow", "--status"});
     subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
                              "swirl sweep --out study --grow --discs 49:55 --seeds 16",
                              "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
@@ -283,7 +285,7 @@ void add_collect_command(Subcommand& subcommand) {
     subcommand.add_option("--crossings", call->crossings,
                           "File for a table of N_c, or - for stdout", "FILE|-");
     subcommand.explain(
-        "N_c is the number of discs at which the rotation (by time) changes its sign, for each\n"
+        "N_c is the number of discs at which the rotation (by time) changes its sign, for each "
         "combination of the other parameters.\n");
     subcommand.set_examples({"swirl collect study", "swirl collect study --crossings N_c.csv",
                              "swirl collect study --csv -"});

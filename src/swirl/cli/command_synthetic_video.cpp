@@ -1,5 +1,6 @@
 // swirl synthetic-video: a video of a run as a camera would record it, with its ground truth.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -44,8 +45,9 @@ struct SyntheticVideoCall {
 CameraSettings camera_settings(const SyntheticVideoCall& call, const RunConfig& config) {
     const auto named = camera_preset(call.preset);
     if (!named)
-        throw UsageError(fmt::format("--camera is '{}', but it must be one of {}.", call.preset,
-                                     camera_presets()));
+        throw UsageError(fmt::format("--camera is '{}', but it must be one of {}.{}", call.preset,
+                                     fmt::join(camera_presets(), ", "),
+                                     nearest_value_hint(call.preset, camera_presets())));
     CameraSettings camera = *named;
     const auto apply = [](const char* name, const auto& given, auto& into, double from, double to) {
         if (!given) return;
@@ -278,6 +280,8 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     flag("--mirrored", call->mirrored, "Mirror the image, as seen from below");
     flag("--still", call->still, "Let the camera move with the container");
     call->parameters = add_run_options(subcommand, {"events", "periods", "warmup"});
+    subcommand.set_main_options({"--out", "--length", "--frames", "--fps", "--camera", "--scale",
+                                 "--frames-per-period", "--discs", "--mu", "--seed"});
     subcommand.set_examples({"swirl synthetic-video --discs 36 --out lab.mp4",
                              "swirl synthetic-video --camera phone --discs 48 --quality 28 --out "
                              "phone.mp4",

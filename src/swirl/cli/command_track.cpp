@@ -85,7 +85,7 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
                                                      double(video.times.size() - 1)
                                                : 1.0;
     std::string text = fmt::format(
-        "{}: {} discs in {} frames of {}x{} pixels\n"
+        "{}: {} in {} frames of {}x{} pixels\n"
         "  discs       {}, {} on {} floor\n"
         "  container   radius {:.2f} pixels, {:.3f} disc radii\n"
         "  path        {}, {}\n"
@@ -97,9 +97,10 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
         "  camera      {}\n"
         "  complete    {:.2f} % of frames have all discs; {} positions filled in\n"
         "  error       {:.3f} pixels per position, from {}\n",
-        call.source.video, video.number, video.frame_count, video.width, video.height,
-        species_text(video), video.bright ? "bright" : "dark", video.bright ? "a dark" : "a bright",
-        video.container_radius, video.container_radius / video.radius, path_shape_text(video),
+        call.source.video, counted(std::int64_t(video.number), "disc"), video.frame_count,
+        video.width, video.height, species_text(video), video.bright ? "bright" : "dark",
+        video.bright ? "a dark" : "a bright", video.container_radius,
+        video.container_radius / video.radius, path_shape_text(video),
         video.path.clockwise ? "clockwise in the image" : "counter-clockwise",
         with_error(video.path.centre.x, video.path.centre_error),
         with_error(video.path.centre.y, video.path.centre_error),
@@ -262,6 +263,8 @@ void add_track_command(Subcommand& subcommand) {
                         "Measure spins from textures; adds columns to the tracks");
     subcommand.add_flag("--overwrite", call->overwrite, "Replace existing tracks");
     subcommand.add_flag("--quiet", call->quiet, "No progress line and no summary");
+    subcommand.set_main_options({"--out", "--fps", "--container-diameter", "--disc-diameter",
+                                 "--discs", "--tilt", "--overlay", "--report", "--json", "--spin"});
     subcommand.set_examples({"swirl track dish.mp4 --out tracks.csv",
                              "swirl track slow-motion.mp4 --fps 960 --out tracks.csv",
                              "swirl measure tracks.csv --measure density,flow,slip",

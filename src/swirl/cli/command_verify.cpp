@@ -19,6 +19,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/reading.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/run.hpp"
 #include "swirl/run/simd.hpp"
@@ -50,7 +51,7 @@ std::string version_of(const Json& result) {
     return by.is_string() ? by.get<std::string>() : "?";
 }
 
-/// Whether an entry describes how, when and by which program a result was made, not what it is.
+/// True if an entry describes how, when and by which program a result was made, not what it is.
 bool is_metadata(const std::string& name) {
     for (const char* other :
          {"format", "seconds", "events_per_second", "simd", "warnings", "version", "build"})
@@ -186,11 +187,13 @@ class Comparison {
                                   difference, version_note(version_)));
     }
     void report(bool quiet) const {
-        if (next_ < recorded_) fail(fmt::format("the run has only {} {}s", next_, item_));
+        if (next_ < recorded_)
+            fail(fmt::format("the run has only {}", counted(std::int64_t(next_), item_)));
         if (quiet) return;
-        print_all(complete_ ? fmt::format("bitwise identical: {} {}s\n", next_, item_)
-                            : fmt::format("bitwise identical: all {} {}s of an unfinished run\n",
-                                          next_, item_));
+        print_all(complete_
+                      ? fmt::format("bitwise identical: {}\n", counted(std::int64_t(next_), item_))
+                      : fmt::format("bitwise identical: all of an unfinished run: {}\n",
+                                    counted(std::int64_t(next_), item_)));
     }
 
   private:
@@ -329,10 +332,10 @@ void add_verify_command(Subcommand& subcommand) {
         bool quiet = false;
     };
     const auto call = std::make_shared<Verify>();
-    subcommand.add_option("file", call->file, "result (JSON), trajectory or event log (HDF5)")
+    subcommand.add_option("file", call->file, "Result (JSON), trajectory or event log (HDF5)")
         ->type_name("FILE")
         ->required();
-    subcommand.add_flag("--quiet", call->quiet, "print neither progress nor report");
+    subcommand.add_flag("--quiet", call->quiet, "Print neither progress nor report");
     subcommand.set_examples({"swirl verify result.json", "swirl verify frames.h5"});
     subcommand.callback([call] {
         if (!file_signature(call->file).starts_with('\x89'))

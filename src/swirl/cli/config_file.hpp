@@ -29,7 +29,7 @@ ConfigFile read_config_file(const std::string& file, const std::vector<std::stri
 /// Sets the texts that the command line left empty.
 void fill_empty(const ParameterTexts& from_file, const std::map<std::string, std::string*>& texts);
 
-/// Whether the argument names a configuration file, not a recording.
+/// True if the argument names a configuration file, not a recording.
 bool is_config_file(const std::string& argument);
 
 /// For commands that accept all their options in the file: sets the options that the command line

@@ -59,6 +59,9 @@ class Subcommand {
         return add(std::move(name), &target, std::move(description))->group(std::move(group));
     }
 
+    /// The options in the short help (-h), by name: about ten. Without a call, all are.
+    void set_main_options(std::vector<std::string> names) { main_options_ = std::move(names); }
+    bool is_main(const Option& option) const;
     /// Complete commands, shown at the end of the help.
     void set_examples(const std::vector<std::string>& examples);
     /// A text in the help before the examples.
@@ -69,7 +72,9 @@ class Subcommand {
 
     const std::deque<Option>& options() const { return options_; }
     std::deque<Option>& options() { return options_; }
+    /// The end of the full help.
     std::string footer() const;
+    const std::string& examples() const { return examples_; }
     void act() const { action_(); }
 
   private:
@@ -79,6 +84,7 @@ class Subcommand {
     }
 
     std::deque<Option> options_;
+    std::vector<std::string> main_options_;
     std::string explanation_, examples_;
     std::function<void()> action_;
 };

@@ -32,7 +32,7 @@ bool has_content(const fs::path& file) {
            fs::file_size(file, ignored) > 0;
 }
 
-/// Whether the recording belongs to this run and has these frame times. An event log has none, so
+/// True if the recording belongs to this run and has these frame times. An event log has none, so
 /// `frames` is empty.
 bool is_recording_of(const fs::path& file, const RunConfig& config, const std::string& frames) {
     return file_exists(file) && recorded_entry(file, "parameters") == config_json(config).dump() &&
@@ -82,7 +82,7 @@ void reject_files_of_another_run(const RunFiles& files, const std::string& json)
                         json));
 }
 
-/// Whether no information would be lost, or overwriting was requested.
+/// True if no information would be lost, or overwriting was requested.
 bool may_replace(const RunFiles& files, const std::string& json, const Json& result) {
     if (files.overwrite || files.resume || !has_content(json)) return true;
     const Json there = result_in(json);

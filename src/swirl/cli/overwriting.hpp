@@ -11,7 +11,7 @@
 
 namespace swirl {
 
-/// Whether a call with --resume has nothing left to do: the result is complete, belongs to this
+/// True if a call with --resume has nothing left to do: the result is complete, belongs to this
 /// run, has all `measured` quantities, and its recordings and tables exist. `json` may be empty or
 /// "-".
 bool is_done_already(const RunFiles& files, const std::string& json, const RunConfig& config,

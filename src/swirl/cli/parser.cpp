@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <deque>
@@ -15,6 +18,47 @@
 
 namespace swirl {
 namespace {
+
+/// The width of the terminal; a constant if the help goes to a file or a pipe.
+std::size_t help_width() {
+    constexpr std::size_t narrowest = 40, widest = 100;
+    winsize size{};
+    if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+        return widest;
+    return std::clamp<std::size_t>(size.ws_col, narrowest, widest);
+}
+
+/// The number of characters of UTF-8 text.
+std::size_t characters(std::string_view text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    }));
+}
+
+/// Breaks lines at spaces, except commands. The continuation of an indented line (a row of a list) is
+/// indented by two more.
+std::string wrapped(const std::string& text, std::size_t width) {
+    std::string result;
+    for (std::size_t from = 0; from <= text.size();) {
+        const std::size_t end = std::min(text.find('\n', from), text.size());
+        std::string line = text.substr(from, end - from);
+        const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+        const std::string margin(indent == 0 ? 0 : indent + 2, ' ');
+        const bool is_command = line.compare(indent, 6, "swirl ") == 0;  // to copy
+        while (!is_command) {
+            std::size_t at = line.size();
+            while (at != line.npos && at > indent && characters(line.substr(0, at)) > width)
+                at = line.rfind(' ', at - 1);
+            if (at == line.npos || at <= margin.size() || at == line.size()) break;
+            result += line.substr(0, at) + '\n';
+            line = margin + line.substr(line.find_first_not_of(' ', at));
+        }
+        result += line;
+        if (end < text.size()) result += '\n';
+        from = end + 1;
+    }
+    return result;
+}
 
 constexpr std::size_t column_of_descriptions = 34;
 constexpr int max_values = 100;  // of a repeated option
@@ -103,8 +147,13 @@ std::string error_text(const CLI::App& app, const CLI::ParseError& error) {
                : fmt::format("{}\nhint: {} See `{} --help`.", message.text, message.hint, command);
 }
 
-/// Shows a repeated argument as "VIDEO..." in the usage.
+/// Wraps descriptions at the width of the terminal, and shows a repeated argument as "VIDEO..." in
+/// the usage.
 class HelpFormat : public CLI::Formatter {
+    std::string make_option_desc(const CLI::Option* option) const override {
+        const std::size_t indent = std::min(column_of_descriptions, help_width() / 2);
+        return wrapped(CLI::Formatter::make_option_desc(option), help_width() - indent);
+    }
     std::string make_option_usage(const CLI::Option* option) const override {
         return option->get_expected_max() > 1 ? option->get_type_name() + "..."
                                               : CLI::Formatter::make_option_usage(option);
@@ -130,15 +179,34 @@ struct OptionAdder {
     }
 };
 
-void add_to(CLI::App& app, const Subcommand& subcommand) {
+enum class Options { all, main };
+
+void add_to(CLI::App& app, const Subcommand& subcommand, Options which) {
     for (const Option& option : subcommand.options()) {
+        if (which == Options::main && !subcommand.is_main(option)) continue;
         CLI::Option* const added = std::visit(OptionAdder{app, option}, option.target);
         if (!option.value_form.empty()) added->type_name(option.value_form);
         if (!option.help_group.empty()) added->group(option.help_group);
         if (option.is_required) added->required();
         if (!option.name.starts_with('-')) added->transform(without_mark);
     }
-    app.footer(subcommand.footer());
+}
+
+void set_help_options(CLI::App& app) {
+    app.set_help_flag("-h", "Main options");
+    app.set_help_all_flag("--help", "All options, with details");
+    app.formatter(std::make_shared<HelpFormat>());
+    app.get_formatter()->column_width(std::min(column_of_descriptions, help_width() / 2));
+}
+
+/// The answer to -h.
+std::string short_help(const CLI::App& app, const Subcommand& subcommand) {
+    CLI::App main_only(app.get_description());
+    set_help_options(main_only);
+    add_to(main_only, subcommand, Options::main);
+    const std::string& examples = subcommand.examples();
+    main_only.footer(fmt::format("All options: swirl {} --help\n\n{}", app.get_name(), examples));
+    return main_only.help("swirl " + app.get_name());
 }
 
 void note_given(const CLI::App& app, Subcommand& subcommand) {
@@ -146,8 +214,14 @@ void note_given(const CLI::App& app, Subcommand& subcommand) {
         option.is_given = app.get_option(option.name)->count() > 0;
 }
 
-/// The arguments in reverse order, as the parser expects them. Replaces underscores in names of
-/// options by hyphens, and marks words after `--`.
+/// "--mu_disc=1" and "--mu-disc=1" give the same word (plain_name()).
+std::string with_standard_name(const std::string& word) {
+    const std::size_t end = std::min(word.find('='), word.size());
+    return option_name(plain_name(word.substr(2, end - 2))) + word.substr(end);
+}
+
+/// The arguments in reverse order, as the parser expects them. Standardizes the names of options,
+/// and marks words after `--`.
 std::vector<std::string> reversed_words(int argc, char** argv) {
     std::vector<std::string> words;
     bool options_ended = false;
@@ -158,7 +232,7 @@ std::vector<std::string> reversed_words(int argc, char** argv) {
         } else if (word == "--") {
             options_ended = true;
         } else if (word.starts_with("--")) {
-            std::replace(word.begin(), std::find(word.begin(), word.end(), '='), '_', '-');
+            word = with_standard_name(word);
         }
         words.push_back(std::move(word));
     }
@@ -175,14 +249,14 @@ Call parse(int argc, char** argv) {
         "swirl");
     app.set_version_flag("--version", version());
     app.require_subcommand(0, 1);
-    app.formatter(std::make_shared<HelpFormat>());
-    app.get_formatter()->column_width(column_of_descriptions);
+    set_help_options(app);
     const auto subcommands = std::make_shared<std::deque<std::pair<CLI::App*, Subcommand>>>();
     for (const Command* command : Command::all()) {
         auto& [added, subcommand] = subcommands->emplace_back();
         added = app.add_subcommand(command->name(), command->description());
         command->add_options(subcommand);
-        add_to(*added, subcommand);
+        add_to(*added, subcommand, Options::all);
+        added->footer(wrapped(subcommand.footer(), help_width()));
     }
     app.footer(
         "Examples:\n  swirl run --discs 48\n  swirl paper --figure 5b --quick\n  swirl run --help");
@@ -190,6 +264,11 @@ Call parse(int argc, char** argv) {
         app.parse(reversed_words(argc, argv));
     } catch (const CLI::CallForVersion& version_call) {
         return {.act = {}, .text = std::string(version_call.what()) + "\n", .usage = {}};
+    } catch (const CLI::CallForHelp&) {
+        for (const auto& [added, subcommand] : *subcommands)
+            if (added->parsed())
+                return {.act = {}, .text = short_help(*added, subcommand), .usage = {}};
+        return {.act = {}, .text = app.help(), .usage = {}};
     } catch (const CLI::Success&) {
         return {.act = {}, .text = app.help(), .usage = {}};
     } catch (const CLI::ParseError& error) {

@@ -25,14 +25,14 @@ struct RecordingOption {
 constexpr const char* group = "Files";
 
 constexpr RecordingOption options[] = {
-    {"trajectory", "FILE.h5", "trajectory file to record (HDF5, H5MD)"},
-    {"frames", "N", "frames per period, at equal phases; 1 is stroboscopic [30]"},
-    {"frame_interval", "TIME", "time between frames, instead of --frames"},
-    {"frame_events", "N", "events between frames, instead of --frames"},
-    {"compression", "0..9", "deflate level of recordings; 0: none, 9: smallest [0]"},
-    {"log_events", "FILE.h5", "event log to record, with all impulses"},
-    {"checkpoint", "FILE", "checkpoint file [named after the other files of the run]"},
-    {"checkpoint_every", "SECONDS", "time between checkpoints; 0: none [60]"},
+    {"trajectory", "FILE.h5", "Trajectory file to record (HDF5, H5MD)"},
+    {"frames", "N", "Frames per period, at equal phases; 1 is stroboscopic [30]"},
+    {"frame_interval", "TIME", "Time between frames, instead of --frames"},
+    {"frame_events", "N", "Events between frames, instead of --frames"},
+    {"compression", "0..9", "Deflate level of recordings; 0: none, 9: smallest [0]"},
+    {"log_events", "FILE.h5", "Event log to record, with all impulses"},
+    {"checkpoint", "FILE", "Checkpoint file [named after the other files of the run]"},
+    {"checkpoint_every", "SECONDS", "Time between checkpoints, seconds; 0: none [60]"},
 };
 
 /// Alternative ways to set the times of frames.
@@ -96,7 +96,7 @@ std::string default_checkpoint(const RunFiles& files, const RunConfig& config,
                            config_text(config) + fmt::format("{}", fmt::join(measured, ",")))));
 }
 
-/// Whether TOML reads the text as a number that is written the same way. 007 is not valid TOML, and
+/// True if TOML reads the text as a number that is written the same way. 007 is not valid TOML, and
 /// a file named 1e5 must not become 100000.
 bool is_bare_number(const std::string& text) {
     if (const auto whole = read_whole_number(text)) return fmt::format("{}", *whole) == text;
@@ -142,15 +142,15 @@ std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand) {
             ->type_name(option.value)
             ->group(group);
     }
-    subcommand.add_flag("--resume", call->resume, "continue from the checkpoint, if it exists")
+    subcommand.add_flag("--resume", call->resume, "Continue from the checkpoint, if it exists")
         ->group(group);
     subcommand
         .add_flag("--overwrite", call->overwrite,
-                  "replace existing files; a checkpoint becomes NAME.backup")
+                  "Replace existing files; a checkpoint becomes NAME.backup")
         ->group(group);
     subcommand
         .add_flag("--keep-checkpoint", call->keep_checkpoint,
-                  "keep the final checkpoint; --resume can then extend the run")
+                  "Keep the final checkpoint; --resume can then extend the run")
         ->group(group);
     return call;
 }

@@ -1,4 +1,4 @@
-// Options for what an image or a movie shows: a run, a recording, a camera's tracks or the minimal
+// Options for the source of an image or a movie: a run, a recording, a camera's tracks or the minimal
 // model.
 #pragma once
 

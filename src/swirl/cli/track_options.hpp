@@ -25,9 +25,9 @@ double number_option(const std::string& name, const std::string& text, double ot
 /// define themselves.
 void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::string& group);
 
-/// Whether the name ends with .csv or .h5.
+/// True if the name ends with .csv or .h5.
 bool is_named_as_tracks(const std::string& file);
-/// Whether the file is HDF5 or named so, but does not hold tracks. Throws Failure if unreadable.
+/// True if the file is HDF5 or named so, but does not hold tracks. Throws Failure if unreadable.
 bool is_trajectory(const std::string& file);
 /// Reads tracks (HDF5, trackpy table or LAMMPS dump, by their first bytes) and repairs them
 /// (io/track_repair.hpp). Throws FileError.

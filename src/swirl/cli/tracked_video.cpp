@@ -267,13 +267,13 @@ TrackingSettings tracking_settings(const std::string& video, const std::optional
 }
 
 void draw_found(const TrackedVideo& video, const std::string& file, const std::string& caption,
-                const std::filesystem::path& picture) {
+                const std::filesystem::path& image) {
     StillConfig config;
     config.sources = {tracked(video.tracks, video.scale(), escaped(caption), file)};
     config.appearance.size = {720, 720};
     config.appearance.coloring = Coloring::id;
     config.at = config.sources.front().from.value_or(0.0);
-    config.out = picture.string();
+    config.out = image.string();
     make_still(config);
 }
 

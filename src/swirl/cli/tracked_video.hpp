@@ -32,9 +32,9 @@ void check_video_options(const std::optional<double>& fps,
 TrackingSettings tracking_settings(const std::string& video, const std::optional<double>& fps,
                                    const std::optional<std::int64_t>& frames, ProgressLine& line);
 
-/// Writes the first frame of the video with the discs drawn over it to `picture`.
+/// Writes the first frame of the video with the discs drawn over it to `image`.
 void draw_found(const TrackedVideo& tracked, const std::string& video, const std::string& caption,
-                const std::filesystem::path& picture);
+                const std::filesystem::path& image);
 
 /// Files of the report of one video.
 inline constexpr const char* video_report_files[] = {

@@ -33,7 +33,7 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// Whether a sphere begins to roll.
+/// True if a sphere begins to roll.
 template <NeighborSearch Search>
 SWIRL_INLINE bool is_of_floor(const PendingEvent& event) {
     return Search::Bodies::have_floor && event.partner == the_floor;

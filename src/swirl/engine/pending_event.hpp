@@ -27,7 +27,7 @@ struct PendingEvent {
     SWIRL_INLINE constexpr std::uint32_t second() const { return disc < partner ? partner : disc; }
 };
 
-/// Whether event a comes before event b at the same instant.
+/// True if event a comes before event b at the same instant.
 SWIRL_INLINE constexpr bool is_first_in_order(const PendingEvent& a, const PendingEvent& b) {
     return a.first() < b.first() || (a.first() == b.first() && a.second() < b.second());
 }

@@ -1,4 +1,4 @@
-// What an event does: a collision of two discs, a collision with the wall, a sphere that begins to
+// The effect of an event: a collision of two discs, a collision with the wall, a sphere that begins to
 // roll, or the container's next path segment. The event loop (event_loop.hpp) finds out which event
 // comes next. The collision law is in collision_law.hpp; the friction coefficients are those of
 // EngineState::disc_surface and EngineState::wall_surface.
@@ -116,7 +116,7 @@ struct Spheres {
                                            const Vec2& relative_velocity) {
         return at_contact_on_floor(surface, since_last, state.floor, separation, relative_velocity);
     }
-    /// Whether a new segment changes the spheres' motion: the floor has another velocity.
+    /// True if a new segment changes the spheres' motion: the floor has another velocity.
     SWIRL_INLINE static bool change_with_segment(const EngineState& state) {
         return state.floor.deceleration != 0.0;
     }

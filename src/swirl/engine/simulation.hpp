@@ -18,7 +18,7 @@ namespace swirl {
 struct EventCounts {
     std::uint64_t disc_disc = 0, disc_wall = 0, path_vertex = 0;
     std::uint64_t elastic_by_tc = 0;   // collisions that the TC model made elastic
-    std::uint64_t begins_to_roll = 0;  // a sphere begins to roll, or a coin comes to rest
+    std::uint64_t begins_to_roll = 0;  // a sphere begins to roll, or a coin stops
     std::uint64_t total() const { return disc_disc + disc_wall + path_vertex + begins_to_roll; }
 };
 

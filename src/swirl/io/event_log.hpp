@@ -7,7 +7,7 @@
 //     swirls     i64   whole periods before it
 //     clock      f64   time since the start of the current period
 //     kind       u8    0 disc–disc, 1 disc–wall, 2 path vertex, 3 a sphere begins to roll, or a
-//                      sphere or coin comes to rest on the floor
+//                      sphere or coin stops on the floor
 //     i, j       u32   the discs, i < j; j = i for the wall; both 0 at a path vertex
 //     normal_x, normal_y f64  unit vector from i to j, or from i outwards to the wall
 //     normal_impulse     f64  on j (on the wall) along the normal; i receives the opposite

@@ -48,7 +48,7 @@ void write_text_frames(const SnapshotSeries& series, AtomicFile& file, const Exp
     });
 }
 
-/// Whether the frames are of spheres or coins with known orientations, as in a recorded run.
+/// True if the frames are of spheres or coins with known orientations, as in a recorded run.
 bool has_spheres(const SnapshotSeries& series) {
     if (series.frames == 0) return false;
     const Snapshot first = series.frame(0);

@@ -24,7 +24,7 @@ struct SnapshotSeries {
     /// relative to the container, is larger by this value than that of the smoothed velocities.
     double missing_energy = 0.0;
 
-    /// Whether every frame has the same discs in the same order.
+    /// True if every frame has the same discs in the same order.
     bool same_discs() const { return breaks.empty(); }
 };
 

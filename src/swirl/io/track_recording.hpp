@@ -31,7 +31,7 @@ void write_track_recording(const std::filesystem::path& path, const Tracks& trac
                            const std::vector<double>& times,
                            const std::vector<TrackColumn>& columns, const Provenance& provenance);
 
-/// Whether `path` is a readable HDF5 file with tracks.
+/// True if `path` is a readable HDF5 file with tracks.
 bool is_track_recording(const std::filesystem::path& path);
 
 /// Throws FileError.

@@ -28,7 +28,7 @@ std::map<std::int64_t, Track> by_id(const Tracks& tracks) {
     return found;
 }
 
-/// Whether at most one move in ten exceeds half a radius per frame.
+/// True if at most one move in ten exceeds half a radius per frame.
 bool is_densely_sampled(const std::map<std::int64_t, Track>& tracks, std::int64_t step,
                         double radius) {
     constexpr double far_move = 0.5;  // radii

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-// Whether code for AVX2 and AVX-512 is part of this build. The sanitizer build omits it by default
+// True if code for AVX2 and AVX-512 is part of this build. The sanitizer build omits it by default
 // (SWIRL_WIDE_VECTORS in cmake/options.cmake).
 #if defined(__x86_64__) && !defined(SWIRL_BASELINE_ONLY)
 #define SWIRL_HAS_WIDE_VECTORS 1
@@ -23,7 +23,7 @@ inline constexpr const char* baseline_name = "sse2";
 inline constexpr const char* baseline_name = "baseline";
 #endif
 
-/// Whether this build has code of that width and this processor can run it.
+/// True if this build has code of that width and this processor can run it.
 inline bool has_width(Width width) {
 #if defined(SWIRL_HAS_WIDE_VECTORS)
     if (width == Width::avx512)

@@ -62,7 +62,7 @@ SWIRL_INLINE double root_between(const Value& value, const Slope& slope, double 
     return t;
 }
 
-/// Where f, which falls from `low` to `high`, reaches 0; `never` if it does not.
+/// The zero of f, which falls from `low` to `high`; `never` if f stays above 0.
 SWIRL_INLINE double fall_between(const Quartic& f, double low, double high, double grain) {
     const double top = f.value(low), bottom = f.value(high);
     if (!(bottom < top)) return never;

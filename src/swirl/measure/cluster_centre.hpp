@@ -1,4 +1,4 @@
-// Where the cluster is in the M-frame, what shape it has, and which forces act on its discs there
+// The position and shape of the cluster in the M-frame, and the forces that act on its discs there
 // (paper, main text: the centrifugal force pushes the discs towards M, the Coriolis force to the
 // left of it; the oblong shape of the cluster).
 //

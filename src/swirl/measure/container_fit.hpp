@@ -1,4 +1,4 @@
-// Whether the discs lie where hard discs in a container can: inside the wall and without overlap.
+// Test whether the discs lie where hard discs in a container can: inside the wall and without overlap.
 // This reveals errors of the scale, the radius, the centre or the phase given for a camera's
 // tracks.
 //

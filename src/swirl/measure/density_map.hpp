@@ -1,4 +1,4 @@
-// Where the discs are, in the M-frame: the paper's Figs 2b, 2c and 5c.
+// The density of discs in the M-frame: the paper's Figs 2b, 2c and 5c.
 //
 //   density of a cell = ⟨number of disc centres in it⟩ / area of the cell
 //

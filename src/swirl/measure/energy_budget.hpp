@@ -1,4 +1,4 @@
-// Where the energy comes from and where it goes, in every collision. Only collisions change the
+// The energy gained and lost in every collision. Only collisions change the
 // kinetic energy K = Σ ½ m v² + ½ I ω² (lab frame), and each does so by
 //
 //   ΔK = W − L

@@ -27,7 +27,7 @@ inline constexpr double wall_layer = 1.5;
 /// Minimum length of a long residence, in periods: 40 frames of the paper's camera.
 inline constexpr double long_residence = 40.0 / 511.0;
 
-/// Whether disc i is within so many of its radii of the wall. A layer thicker than the container
+/// True if disc i is within so many of its radii of the wall. A layer thicker than the container
 /// contains every disc.
 inline bool in_wall_layer(const MFrameView& view, std::size_t i, double radii = wall_layer) {
     const Vec2 p = view.position(i);

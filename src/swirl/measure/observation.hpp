@@ -51,7 +51,7 @@ inline constexpr int samples_per_position = 7;
 /// A row of the list, and what follows from the functions of its class.
 struct MeasurementKind {
     std::string_view name, header, description;
-    bool needs_pinned;  // has no result if it is not known which discs are pinned
+    bool needs_pinned;  // has no result if the pinned discs are unknown
     bool needs_tracks;  // the same discs in every frame
     bool needs_cells;   // Voronoi cells
     bool needs_events;  // every collision: frames are not enough

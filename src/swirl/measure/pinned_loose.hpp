@@ -52,10 +52,10 @@
 
 namespace swirl {
 
-/// For each disc of a frame, whether it is pinned. Empty if that is not known.
+/// For each disc of a frame, whether it is pinned. Empty if that is unknown.
 using PinnedFlags = std::span<const std::uint8_t>;
 
-/// False if it is not known.
+/// False if that is unknown.
 inline bool is_pinned(PinnedFlags pinned, std::size_t disc) {
     return disc < pinned.size() && pinned[disc] != 0;
 }
@@ -83,7 +83,7 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
 
     /// For each disc whether it was pinned seven frames ago; all 0 before there are enough frames.
     const std::vector<std::uint8_t>& pinned() const { return pinned_; }
-    /// Whether the present tracks are long enough for pinned() to be known.
+    /// True if the present tracks are long enough for pinned() to be known.
     bool is_known() const { return frames_ >= width; }
 
     /// θ where discs become pinned, and where they become free.

@@ -37,7 +37,7 @@ concept SamplesCells = requires(M& m, const MFrameView& view, const Voronoi& cel
 };
 
 /// sample(view, pinned): at every sample, with the frame of seven samples ago and the discs that
-/// were pinned then. Which discs are pinned is not known sooner.
+/// were pinned then. It takes seven samples to determine which discs are pinned.
 template <class M>
 concept SamplesPinned = requires(M& m, const MFrameView& view, PinnedFlags pinned) {
     m.sample(view, pinned);
@@ -107,7 +107,7 @@ concept ClosesBlocks = requires(M& m) {
 };
 
 /// close_event_block(duration): at the end of every period, for the events in it. It is not called
-/// if no event was ever sampled: then even "no collisions" is not known.
+/// if no event was ever sampled: then even "no collisions" would be an assumption.
 template <class M>
 concept ClosesEventBlocks = requires(M& m, double duration) {
     m.close_event_block(duration);

@@ -60,7 +60,7 @@ class Slip : public ReportedAverages<Slip> {
 
     explicit Slip(int every = 64) : every_(every) {}
 
-    /// `pinned`: for each disc whether it is pinned; empty if that is not known.
+    /// `pinned`: for each disc whether it is pinned; empty if that is unknown.
     void sample(const MFrameView& view, PinnedFlags pinned = {});
     void sample_residences(const LongResidences& residences);
 

@@ -73,7 +73,7 @@ class SpinFrustration : public ReportedAverages<SpinFrustration> {
 
     explicit SpinFrustration(double gap = 0.1, int every = 64) : gap_(gap), every_(every) {}
 
-    /// `pinned`: for each disc whether it is pinned; empty if that is not known.
+    /// `pinned`: for each disc whether it is pinned; empty if that is unknown.
     void sample(const MFrameView& view, PinnedFlags pinned = {});
     void sample_residences(const LongResidences& residences);
     /// A collision, for the share that sticks and the spins of strong contacts.
@@ -120,7 +120,7 @@ class SpinFrustration : public ReportedAverages<SpinFrustration> {
         wall_sticking_;
     TouchingPairs touching_;
     std::vector<std::vector<std::uint32_t>> neighbours_;
-    // Of the discs in the wall layer, until it is known which of them were resident then.
+    // Samples of discs in the wall layer, until it is known which of them were resident then.
     std::vector<Spin> pending_spins_;
     std::vector<SpinPair> pending_pairs_;
     double pending_time_ = 0.0;

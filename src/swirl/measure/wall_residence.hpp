@@ -65,7 +65,7 @@ class WallResidences {
     Estimate share(std::size_t layer = standard, std::size_t duration = standard) const {
         return averages_[layer][duration].share.estimate();
     }
-    /// Of the residences that have ended, in periods.
+    /// The mean duration of the residences that have ended, in periods.
     Estimate length() const { return length_.estimate(); }
 
     template <class Visitor>

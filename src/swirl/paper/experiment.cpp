@@ -18,6 +18,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parallel_for.hpp"
+#include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/statistics/replicates.hpp"
@@ -50,17 +51,17 @@ const std::vector<std::string>& numbers_against_n() {
     return names;
 }
 
-double of_camera(const FilmedContainer& video, const char* name) {
+double of_camera(const ContainerVideo& video, const char* name) {
     return number(at(video.found, {"camera", name}));
 }
-std::int64_t discs_of(const FilmedContainer& video) {
+std::int64_t discs_of(const ContainerVideo& video) {
     const Json& discs = at(video.found, {"discs"});
     return discs.is_number_integer() ? discs.get<std::int64_t>() : 0;
 }
-double frames_per_swirl(const FilmedContainer& video) {
+double frames_per_period(const ContainerVideo& video) {
     return 2.0 * pi / of_camera(video, "omega") * of_camera(video, "camera-fps");
 }
-double position_error(const FilmedContainer& video) {
+double position_error(const ContainerVideo& video) {
     const double error = number(at(video.found, {"quality", "position_error"}));
     return std::isfinite(error) ? error : 0.0;
 }
@@ -77,7 +78,7 @@ struct Counterpart {
 
 class Experiment {
   public:
-    Experiment(const std::vector<FilmedContainer>& videos, const ExperimentSettings& settings)
+    Experiment(const std::vector<ContainerVideo>& videos, const ExperimentSettings& settings)
         : videos_(videos), settings_(settings) {
         radius_ = median_of("container-radius");
         amplitude_ = median_of("amplitude");
@@ -94,14 +95,14 @@ class Experiment {
   private:
     double median_of(const char* name) const {
         std::vector<double> values;
-        for (const FilmedContainer& video : videos_)
+        for (const ContainerVideo& video : videos_)
             if (video.good()) values.push_back(of_camera(video, name));
         if (values.empty()) return not_available;
         std::sort(values.begin(), values.end());
         return values[values.size() / 2];
     }
     /// The median of all videos, if this video agrees with it: they show the same container.
-    double shared(const FilmedContainer& video, const char* name, double median) const {
+    double shared(const ContainerVideo& video, const char* name, double median) const {
         const double measured = of_camera(video, name);
         return std::abs(measured - median) <= same_container * median ? median : measured;
     }
@@ -119,10 +120,10 @@ class Experiment {
     fs::path write_points() const;
     fs::path write_profiles() const;
     fs::path write_maps(std::size_t video) const;
-    void add_video_findings(const FilmedContainer& video, const Json& simulated,
+    void add_video_findings(const ContainerVideo& video, const Json& simulated,
                             std::vector<std::string>& findings) const;
 
-    const std::vector<FilmedContainer>& videos_;
+    const std::vector<ContainerVideo>& videos_;
     const ExperimentSettings& settings_;
     double radius_, amplitude_;
     std::vector<Counterpart> counterparts_;
@@ -130,7 +131,7 @@ class Experiment {
 };
 
 /// The configuration of a video, overridden by the parameters in the settings.
-RunConfig config_of(const FilmedContainer& video, const ExperimentSettings& settings, double radius,
+RunConfig config_of(const ContainerVideo& video, const ExperimentSettings& settings, double radius,
                     double amplitude) {
     ParameterTexts texts{{"events", "5e5"}, {"path", "circle"}};
     texts = overridden(texts, settings.parameters);
@@ -156,13 +157,13 @@ RunConfig config_of(const FilmedContainer& video, const ExperimentSettings& sett
 }
 
 void Experiment::add_counterpart(std::size_t k) {
-    const FilmedContainer& video = videos_[k];
+    const ContainerVideo& video = videos_[k];
     Counterpart made{video.smooth,
                      config_of(video, settings_, shared(video, "container-radius", radius_),
                                shared(video, "amplitude", amplitude_)),
                      {},
                      {}};
-    made.sampling.frames_per_period = std::max(4, int(std::lround(frames_per_swirl(video))));
+    made.sampling.frames_per_period = std::max(4, int(std::lround(frames_per_period(video))));
     made.sampling.position_error =
         std::round(1e4 * position_error(video) / of_camera(video, "scale")) * 1e-4;
     const std::string what =
@@ -240,7 +241,7 @@ void Experiment::simulate(const PaperControl& control, ExperimentResult& result)
 /// Calls visit(source, surface, name, discs, result) for every video and every simulation.
 template <class Visit>
 void Experiment::each_side(Visit&& visit) const {
-    for (const FilmedContainer& video : videos_)
+    for (const ContainerVideo& video : videos_)
         if (video.good())
             visit("video", kind_of(video.smooth), video.name, discs_of(video), video.result);
     for (const Counterpart& c : counterparts_)
@@ -297,7 +298,7 @@ fs::path Experiment::write_videos() const {
                  "simulated_error",
                  "failed"});
     for (std::size_t k = 0; k < videos_.size(); ++k) {
-        const FilmedContainer& video = videos_[k];
+        const ContainerVideo& video = videos_[k];
         const auto found = [&](std::initializer_list<std::string_view> path) {
             return number(at(video.found, path));
         };
@@ -309,7 +310,7 @@ fs::path Experiment::write_videos() const {
                    whole(at(video.found, {"discs"})),
                    whole(at(video.found, {"frames"})),
                    number(at(video.result, {"periods"})),
-                   frames_per_swirl(video),
+                   frames_per_period(video),
                    of_camera(video, "scale"),
                    of_camera(video, "container-radius"),
                    of_camera(video, "amplitude"),
@@ -403,7 +404,7 @@ std::vector<fs::path> Experiment::write_tables() const {
     return files;
 }
 
-void Experiment::add_video_findings(const FilmedContainer& video, const Json& simulation,
+void Experiment::add_video_findings(const ContainerVideo& video, const Json& simulation,
                                     std::vector<std::string>& findings) const {
     if (!video.good()) {
         findings.push_back(fmt::format("{} could not be used: {}", video.name,
@@ -411,7 +412,8 @@ void Experiment::add_video_findings(const FilmedContainer& video, const Json& si
         return;
     }
     const RotationPoint seen = rotation_point(double(discs_of(video)), video.result, "by_time");
-    std::string text = fmt::format("{}: {} discs, ϖ/Ω = {} by time", video.name, discs_of(video),
+    std::string text = fmt::format("{}: {}, ϖ/Ω = {} by time", video.name,
+                                   counted(std::int64_t(discs_of(video)), "disc"),
                                    with_error(seen.mean, seen.error));
     if (failed(simulation)) {
         text += fmt::format("; its simulation failed: {}", simulation["failed"].get<std::string>());
@@ -459,17 +461,16 @@ std::vector<std::string> Experiment::findings() const {
     }
     for (std::size_t k = 0; k < videos_.size(); ++k)
         add_video_findings(videos_[k], simulated(k), findings);
-    const bool spins =
-        std::any_of(videos_.begin(), videos_.end(), [](const FilmedContainer& video) {
-            return std::isfinite(
-                number(at(video.result, {"measured", "frustration", "wall_spin", "mean"})));
-        });
+    const bool spins = std::any_of(videos_.begin(), videos_.end(), [](const ContainerVideo& video) {
+        return std::isfinite(
+            number(at(video.result, {"measured", "frustration", "wall_spin", "mean"})));
+    });
     if (!spins)
         findings.push_back(
             "No video has the spins of its discs, so Figure 4b shows only the simulation. --spin "
             "measures spins if the discs have a texture.");
     if (std::none_of(videos_.begin(), videos_.end(),
-                     [](const FilmedContainer& f) { return f.smooth; }))
+                     [](const ContainerVideo& f) { return f.smooth; }))
         findings.push_back(
             "All videos have discs of the same roughness, so there is no Figure 4c. --smooth takes "
             "videos of smoother discs.");
@@ -482,9 +483,9 @@ std::vector<std::string> Experiment::findings() const {
 Json Experiment::json() const {
     Json videos = Json::array();
     for (std::size_t k = 0; k < videos_.size(); ++k) {
-        const FilmedContainer& video = videos_[k];
-        Json pictures = Json::array();
-        for (const fs::path& picture : video.pictures) pictures.push_back(picture.string());
+        const ContainerVideo& video = videos_[k];
+        Json images = Json::array();
+        for (const fs::path& image : video.images) images.push_back(image.string());
         videos.push_back({{"name", video.name},
                           {"surface", kind_of(video.smooth)},
                           {"video", video.video},
@@ -492,7 +493,7 @@ Json Experiment::json() const {
                           {"simulation", simulated(k)},
                           {"found", video.found},
                           {"remarks", video.remarks},
-                          {"images", pictures}});
+                          {"images", images}});
     }
     return {{"command", settings_.command}, {"version", version()},
             {"build", build_description()}, {"seeds", settings_.seeds},
@@ -515,7 +516,7 @@ void check(const ExperimentSettings& settings) {
     resolve({{"mu", settings.smooth_mu}});
 }
 
-ExperimentResult make_experiment(const std::vector<FilmedContainer>& videos,
+ExperimentResult make_experiment(const std::vector<ContainerVideo>& videos,
                                  const ExperimentSettings& settings, const PaperControl& control) {
     ExperimentResult result;
     Experiment experiment(videos, settings);

@@ -13,14 +13,14 @@
 
 namespace swirl {
 
-struct FilmedContainer {
+struct ContainerVideo {
     std::string name;  // of its files and in the report
     bool smooth = false;
     std::string video;                 // path
     Json result;                       // as of a run, or {"failed": reason}
     Json found;                        // what tracking found: path, species, quality
     std::vector<std::string> remarks;  // sentences
-    std::vector<fs::path> pictures;    // images of the video with the detected discs
+    std::vector<fs::path> images;      // images of the video with the detected discs
 
     bool good() const { return !result.contains("failed"); }
 };
@@ -48,7 +48,7 @@ struct ExperimentResult {
 /// Throws UsageError before any work if the parameters are invalid, Failure, and Interrupted;
 /// finished runs are stored in OUT/parts.
 void check(const ExperimentSettings& settings);
-ExperimentResult make_experiment(const std::vector<FilmedContainer>& videos,
+ExperimentResult make_experiment(const std::vector<ContainerVideo>& videos,
                                  const ExperimentSettings& settings, const PaperControl& control);
 
 }  // namespace swirl

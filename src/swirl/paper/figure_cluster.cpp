@@ -129,7 +129,7 @@ static FigurePlan plan_figure_4c(const PaperSettings& settings) {
     return plan_against_n(settings, "4c", {smooth, rough}, {}, true);
 }
 
-/// Motion in the M-frame with both frictions, and with one of them absent, at a low and a high N.
+/// Motion in the M-frame with friction at wall and discs, or at one of them, at a low and a high N.
 /// The runs without disc friction are in the steady state; the paper's 10^6 events cover the
 /// transient. Two numbers of discs do not determine a crossing.
 static FigurePlan plan_figure_states(const PaperSettings& settings) {
@@ -185,7 +185,7 @@ void write_sensitivity(const std::vector<std::int64_t>& numbers, const std::vect
     outcome.write(*table, "3a_sensitivity", out);
 }
 
-/// Where discs pin and depin at one N, by residences and by the SI's criterion.
+/// The positions at which discs pin and depin at one N, by residences and by the SI's criterion.
 void add_pinning_findings(std::vector<std::string>& findings, std::int64_t discs,
                           const Json& measured) {
     const auto mean = [&](const char* criterion, const char* name) {
@@ -314,15 +314,14 @@ static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
 }
 
 std::vector<PaperFigure> figures_of_the_cluster() {
-    return {
-        {"1b", "rotation against N, and the pancake line", plan_figure_1b},
-        {"3a", "angular velocity against the angular position", plan_figure_3a},
-        {"3b", "angular velocity relative to that of the wall", plan_figure_3b},
-        {"pinning", "where discs pin and depin, by two criteria", plan_figure_pinning},
-        {"4a", "slip parameter of the pinned discs, smooth and rough", plan_figure_4a},
-        {"4b", "spin of the pinned discs at the wall, and frustration", plan_figure_4b},
-        {"4c", "rotation against N, smooth and rough", plan_figure_4c},
-        {"states", "motion in the M-frame, with one of the frictions absent", plan_figure_states}};
+    return {{"1b", "rotation against N, and the pancake line", plan_figure_1b},
+            {"3a", "angular velocity against the angular position", plan_figure_3a},
+            {"3b", "angular velocity relative to that of the wall", plan_figure_3b},
+            {"pinning", "where discs pin and depin, by two criteria", plan_figure_pinning},
+            {"4a", "slip parameter of the pinned discs, smooth and rough", plan_figure_4a},
+            {"4b", "spin of the pinned discs at the wall, and frustration", plan_figure_4b},
+            {"4c", "rotation against N, smooth and rough", plan_figure_4c},
+            {"states", "motion in the M-frame, without disc or wall friction", plan_figure_states}};
 }
 
 }  // namespace swirl

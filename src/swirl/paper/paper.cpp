@@ -90,12 +90,13 @@ RunConfig paper_run(const PaperSettings& settings) {
 }  // namespace
 
 const PaperFigure& paper_figure(const std::string& name) {
-    std::string known;
+    std::vector<std::string> known;
     for (const PaperFigure& figure : paper_figures()) {
         if (figure.name == name) return figure;
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", figure.name);
+        known.emplace_back(figure.name);
     }
-    throw UsageError(fmt::format("--figure is '{}', but it must be one of: {}.", name, known));
+    throw UsageError(fmt::format("--figure is '{}', but it must be one of: {}.{}", name,
+                                 fmt::join(known, ", "), nearest_value_hint(name, known)));
 }
 
 // In the paper's container 480 at N = 28 and 3400 at N = 48. For small N the vertices of the path
@@ -105,7 +106,7 @@ double expected_events_per_period(const RunConfig& config) {
                                     config.radius /
                                     (config.container_radius * config.container_radius);
     // A sphere begins to roll after most collisions, and after every vertex. Discs with only one of
-    // the two frictions come to rotate with what they touch, and collide gently and often (measured
+    // disc and wall friction end up rolling on their partners, and collide gently and often (measured
     // at N = 11 … 48: 11 to 30 times as often without wall friction, 2.5 to 15 without disc
     // friction).
     const double factor = config.floor                                     ? 3.0

@@ -69,7 +69,7 @@ struct PaperPoint {
                const std::function<PaperTask(std::uint64_t seed)>& run);
 };
 
-/// What a figure produces once its tasks are done.
+/// The results of a figure, once its tasks are done.
 struct FigureOutcome {
     std::vector<std::string> findings;  // sentences to print
     std::vector<fs::path> files;

@@ -22,7 +22,7 @@ std::string name_of(const Friction& friction, std::int64_t discs) {
     return fmt::format("{}_N{}", friction.name, discs);
 }
 
-/// Without friction at the wall a period has so many events that a quick run of fixed events covers
+/// Without friction at the wall a period has many events, so a quick run of fixed events covers
 /// a few periods only. Such runs get a length in periods, so that there is something to average.
 RunConfig config_of_a_point(const PaperSettings& settings, const Friction& friction,
                             std::int64_t discs) {

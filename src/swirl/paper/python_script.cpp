@@ -126,7 +126,7 @@ std::string last_message(std::string text) {
     return text.substr(begin);
 }
 
-/// Whether a folder has the scripts, and its owner is root or that of the program. Scripts that
+/// True if a folder has the scripts, and its owner is root or that of the program. Scripts that
 /// another user has put next to a copied program are not run.
 bool has_scripts_of_owner(const fs::path& folder, const fs::path& program) {
     struct stat of_program {

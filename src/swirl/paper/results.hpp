@@ -13,7 +13,7 @@
 
 namespace swirl {
 
-/// Whether this is the result of a run that failed.
+/// True if this is the result of a run that failed.
 bool failed(const Json& result);
 
 /// result["a"]["b"]…, or null if it does not exist, as in the result of a failed run.

@@ -27,7 +27,7 @@ Nodes inside(const Nodes& nodes, const std::string& name) {
 
 bool is_run(const Json& result) { return at(result, {"rotation"}).is_object(); }
 
-/// Whether a run ended before its warm-up, or soon after it.
+/// True if a run ended before its warm-up, or soon after it.
 bool too_short_to_average(const Json& run) {
     const Json& warmup = at(run, {"config", "warmup"});
     const Json& periods = at(run, {"rotation", "by_event", "blocks"});

@@ -8,7 +8,7 @@
 //     s + d,   d = u τ + ((φ − sin φ) V − (1 − cos φ) W)/Ω.
 //
 // The contact is at the root of f(τ) = |s|² − clearance² + (2s + d)·d, which is negative inside.
-// What is added to f(0) vanishes with d. So a short flight along the wall keeps its digits, however
+// The terms added to f(0) vanish with d. So a short flight along the wall keeps its digits, however
 // fast the container is.
 //
 // Near any time f is c + 2b δ + q δ² + k δ³ + l δ⁴ + m δ⁵ + n δ⁶ + o δ⁷ + p δ⁸ and so on. Let g and
@@ -116,7 +116,7 @@ struct WallContact {
     bool is_later;
 };
 
-/// Whether the disc stays inside from the start until τ = h, where it is at the wall and f rises
+/// True if the disc stays inside from the start until τ = h, where it is at the wall and f rises
 /// with slope `slope`. Let x = τ/h. The cubic with f's values and slopes at both ends is
 ///
 ///     (1 − x) (f(0) (1 − x) (1 + 2x) + f'(0) h x (1 − x) − f'(h) h x²),

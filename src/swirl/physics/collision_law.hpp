@@ -156,7 +156,7 @@ struct Approach {
     Components tangential_mass;
 };
 
-// Where discs and spheres differ.
+// The parts that differ between discs and spheres.
 namespace law {
 
 template <class Components>

@@ -1,5 +1,5 @@
 // When two bodies touch. Everything here depends only on the stored states of the two (position,
-// velocity, and the time at which they hold), never on when the question is asked. So the order of
+// velocity, and the time at which they hold), never on the time of the call. So the order of
 // predictions, the neighbour search, and a run resumed from a file cannot change a result.
 //
 // Both bodies move uniformly. Let s be their separation and v its rate of change, at the later of

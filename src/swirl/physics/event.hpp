@@ -10,7 +10,7 @@
 namespace swirl {
 
 /// The paper's three kinds of event (SI "Overview"), and a fourth one on a floor: a sphere stops
-/// sliding and rolls, rolling resistance stops a sphere, or a coin comes to rest.
+/// sliding and rolls, rolling resistance stops a sphere, or a coin stops.
 enum class EventKind : std::uint8_t { disc_disc, disc_wall, path_vertex, begins_to_roll };
 
 struct Event {

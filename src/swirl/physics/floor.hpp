@@ -30,8 +30,8 @@
 // ĉ; its ratio to the torque of sliding is μ_r/μ_f.
 //
 // A coin is a disc that lies flat on the floor, without a lever arm that could turn it over. It
-// slips with c = v − u, so everything is as above without rotation: dc/dt = −μ_f g ĉ. It comes to
-// rest on the floor, v = u, after |c| / (μ_f g). This is the same kind of event as for a sphere
+// slips with c = v − u, so everything is as above without rotation: dc/dt = −μ_f g ĉ. It stops
+// on the floor, v = u, after |c| / (μ_f g). This is the same kind of event as for a sphere
 // that begins to roll. Then the coin moves with the floor until the segment ends. The floor's
 // effect on the spin of a coin is neglected. (Friction also acts at its rim, and hinders sliding
 // less while the coin spins.)
@@ -87,7 +87,7 @@ struct FloorMotion {
     Vec2 acceleration{0.0, 0.0};
     Vec2 spin_rate{0.0, 0.0};  // (dω_x/dt, dω_y/dt)
     /// The time when sliding ends: a sphere begins to roll, a coin rests on the floor. Or the time
-    /// when a rolling sphere that slows down has come to rest. `never` if neither happens.
+    /// when a rolling sphere that slows down has stopped. `never` if neither happens.
     double begins_to_roll = never;
     bool slows_down = false;        // it rolls, against a resistance
     Vec2 floor_velocity{0.0, 0.0};  // over which it rolls

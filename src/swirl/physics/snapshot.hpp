@@ -32,8 +32,8 @@ struct Snapshot {
     std::vector<double> radius, mass, inertia;
     // For spheres (empty for discs): the other two spins, and the acceleration by the floor.
     std::vector<double> spin_x, spin_y, ax, ay;
-    // The orientation of each sphere at its time `held_at`. An observer who wants to follow
-    // orientations starts with one quaternion per sphere; otherwise the column is empty.
+    // The orientation of each sphere at its time `held_at`. To follow
+    // orientations, an observer starts with one quaternion per sphere; otherwise the column is empty.
     std::vector<Quaternion> turned;
     bool on_floor = false;  // friction against the floor acts on the centre of mass
     bool lie_flat = false;  // coins: they have the columns of spheres, but only one spin
@@ -62,7 +62,7 @@ struct Snapshot {
     Quaternion quaternion(std::size_t i, double t) const {
         return turned_for(turned[i], t - held_at[i], {spin_x[i], spin_y[i]}, spin[i], spin_rate(i));
     }
-    /// Whether the sphere rolls or rests on the floor: then it has exactly these spins (floor.hpp).
+    /// True if the sphere rolls or rests on the floor: then it has exactly these spins (floor.hpp).
     bool rolls(std::size_t i) const {
         const Vec2 over_floor = Vec2{vx[i], vy[i]} - container_velocity;
         const Vec2 rolling = spin_of_rolling(over_floor, radius[i]);

@@ -87,10 +87,9 @@ std::optional<CameraSettings> camera_preset(const std::string& name) {
     return std::nullopt;
 }
 
-std::string camera_presets() {
-    std::string names;
-    for (const Preset& preset : presets())
-        names += (names.empty() ? "" : ", ") + std::string(preset.name);
+std::vector<std::string> camera_presets() {
+    std::vector<std::string> names;
+    for (const Preset& preset : presets()) names.emplace_back(preset.name);
     return names;
 }
 

@@ -67,7 +67,7 @@ struct CameraSettings {
 /// Settings by name; nothing for any other name.
 std::optional<CameraSettings> camera_preset(const std::string& name);
 /// The names, separated by commas.
-std::string camera_presets();
+std::vector<std::string> camera_presets();
 
 class CameraView {
   public:

@@ -327,7 +327,7 @@ class FrameTable {
     std::vector<double> times_;
 };
 
-/// Where the camera's pixels are in the plane of the discs.
+/// The position of the camera's pixels in the plane of the discs.
 Backdrop backdrop_position(const TrackScale& scale, bool y_down) {
     const double unit = 1.0 / scale.pixels_per_radius;
     Backdrop backdrop;

@@ -1,4 +1,4 @@
-// Sources of what images and movies show: the states of a container at arbitrary times, asked for
+// Sources of images and movies: the states of a container at arbitrary times, asked for
 // in order. They come from the engine, from a recording, or from the minimal model of one rolling
 // ball.
 #pragma once
@@ -28,7 +28,7 @@ using BackdropPlayback = std::function<Backdrop(double periods)>;
 struct FrameSource {
     /// Starts a pass. Passes are independent of each other.
     std::function<Playback()> open;
-    std::vector<Vec2> path;  // of C in the lab frame; empty if it is not known
+    std::vector<Vec2> path;  // of C in the lab frame; empty if it is unknown
     double container_radius = 0.0, amplitude = 0.0, period = 0.0;
     std::string caption;                  // "48 discs"
     std::vector<std::string> parameters;  // for the list of parameters (render/label.hpp)

@@ -272,7 +272,7 @@ void draw_angles(const Canvas& canvas, const View& view, const SceneStyle& style
         const double theta = k * pi / 4.0;
         const Vec2 u{std::cos(theta), -std::sin(theta)};
         const double reach = wall + 0.5 * size * std::abs(u.x);
-        if (k == 6 && style.points) continue;  // the letter M stands at the bottom
+        if (k == 6 && style.points) continue;  // the letter M is at the bottom
         draw_label(canvas, std::to_string(45 * k) + "°",
                    {view.centre.x + reach * u.x, view.centre.y + reach * u.y + 0.35 * size}, label);
     }

@@ -52,7 +52,7 @@ struct SceneContent {
     const Snapshot& now;
     /// Vertices of the closed path of C in the lab frame. S is the origin.
     std::span<const Vec2> path = {};
-    /// For each disc 1 (pinned) or 0 (loose). Empty if it is not known.
+    /// For each disc 1 (pinned) or 0 (loose). Empty if that is unknown.
     std::span<const std::uint8_t> pinned = {};
     /// Earlier instants for trails, oldest first.
     std::span<const Snapshot* const> past = {};

@@ -30,10 +30,10 @@ struct Moment {
 };
 
 /// Determines at each time which discs are pinned. The criterion needs seven later frames
-/// (measure/pinned_loose.hpp), so this reads the source in a separate pass, ahead of what is shown.
+/// (measure/pinned_loose.hpp), so this reads the source in a separate pass, ahead of the shown frames.
 class PinnedPlayback {
   public:
-    /// `first` is the first time that will be asked for, in periods.
+    /// `first` is the first requested time, in periods.
     PinnedPlayback(const FrameSource& source, double first);
     /// For each disc 1 (pinned) or 0. Times must not decrease.
     const std::vector<std::uint8_t>& at(double periods);
@@ -50,8 +50,7 @@ class PinnedPlayback {
 
 class SourcePlayer {
   public:
-    /// `trail_length` is in periods; 0: no trails. `start` is the first time that will be asked
-    /// for.
+    /// `trail_length` is in periods; 0: no trails. `start` is the first requested time.
     SourcePlayer(const FrameSource& source, double trail_length, bool needs_pinned, double start);
     /// Times must not decrease.
     Moment at(double periods);

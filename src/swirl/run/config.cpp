@@ -59,9 +59,10 @@ std::optional<std::string> problem_with_area(const RunConfig& c) {
                         count * c.mixture->radius * c.mixture->radius;
     if (area <= R * R) return {};
     return fmt::format(
-        "{} {}s do not fit into a container of radius {}: together they would cover {:.0f} % of "
+        "{} {} not fit into a container of radius {}: together they would cover {:.0f} % of "
         "it.{}",
-        c.discs, body_word(c), R, 100.0 * area / (R * R), hint_on_capacity(c));
+        counted(c.discs, body_word(c)), c.discs == 1 ? "does" : "do", R, 100.0 * area / (R * R),
+        hint_on_capacity(c));
 }
 
 /// In radii of the smallest disc. The centres of Verlet skins are stored in single precision. The
@@ -87,8 +88,9 @@ std::optional<std::string> problem_with_size(const RunConfig& c) {
     const double maximum = max_discs_in_container(c.radius, R);
     if (static_cast<double>(c.discs) <= maximum) return {};
     return fmt::format(
-        "{} {}s do not fit into a container of radius {}: no arrangement holds more than {:.0f}.{}",
-        c.discs, body_word(c), R, maximum, hint_on_capacity(c));
+        "{} {} not fit into a container of radius {}: no arrangement holds more than {:.0f}.{}",
+        counted(c.discs, body_word(c)), c.discs == 1 ? "does" : "do", R, maximum,
+        hint_on_capacity(c));
 }
 
 std::optional<std::string> problem_without_floor(const RunConfig& c) {
@@ -225,8 +227,8 @@ std::string no_placement_message(const RunConfig& c) {
                         "placement may fail.",
                         max_discs_in_container(c.radius, c.container_radius));
     return fmt::format(
-        "{} {}s of radius {} could not be placed in a container of radius {} without overlap.{}{}",
-        c.discs, body_word(c), radii, c.container_radius, bound, hint_on_capacity(c));
+        "{} of radius {} could not be placed in a container of radius {} without overlap.{}{}",
+        counted(c.discs, body_word(c)), radii, c.container_radius, bound, hint_on_capacity(c));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class CoreRun {
     /// Completed fraction of the run, 0 … 1.
     double fraction() const;
     double periods() const;
-    /// Whether the warm-up is over, so that samples count.
+    /// True if the warm-up is over, so that samples count.
     bool is_warm() const { return warm_; }
     /// Whole periods and events of the warm-up; 0 before it is over.
     std::int64_t warmup() const { return result_.warmup; }

@@ -29,7 +29,7 @@ struct MeasuringControl {
     std::function<void(std::uint64_t frame, std::uint64_t frames)> progress;
 };
 
-/// Whether the same discs are seen in enough frames in a row to determine which are pinned.
+/// True if the same discs are seen in enough frames in a row to determine which are pinned.
 bool holds_tracks(const SnapshotSeries& series);
 
 /// The measurements among `names` that frames allow: none that needs every collision, and, without
@@ -41,7 +41,7 @@ std::vector<std::string> measurable(const std::vector<std::string>& names, bool 
 MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<std::string>& names,
                               double skip = 0.0, const MeasuringControl& control = {});
 
-/// Whether the frame rate is near that for which the criteria for pinned discs were made.
+/// True if the frame rate is near that for which the criteria for pinned discs were made.
 bool fits_criteria(double frames_per_period);
 
 }  // namespace swirl

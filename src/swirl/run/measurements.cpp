@@ -1,8 +1,10 @@
 #include "swirl/run/measurements.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "swirl/io/table.hpp"
 #include "swirl/run/failure.hpp"
@@ -17,13 +19,12 @@ namespace fs = std::filesystem;
 
 const MeasurementKind& require_measurement(std::string_view name) {
     if (const MeasurementKind* kind = find_measurement(name)) return *kind;
-    std::string known;
-    for (const MeasurementKind& kind : measurement_kinds())
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", kind.name);
-    throw UsageError(
-        fmt::format("--measure has '{}' in its list, but each must be one of: {}.\nhint: 'all' "
-                    "selects every measurement.",
-                    name, known));
+    std::vector<std::string> known;
+    for (const MeasurementKind& kind : measurement_kinds()) known.emplace_back(kind.name);
+    const std::string hint = nearest_value_hint(name, known);
+    throw UsageError(fmt::format("--measure has '{}' in its list, but each must be one of: {}.{}",
+                                 name, fmt::join(known, ", "),
+                                 hint.empty() ? "\nhint: 'all' selects every measurement." : hint));
 }
 
 /// Rows and tables without data: names, units, descriptions.
@@ -38,7 +39,7 @@ std::string full_name(const std::string& measurement, std::string_view name) {
 }
 
 std::string in_unit(std::string_view value, std::string_view unit) {
-    return unit == "1" ? std::string(value) : fmt::format("{} {}", value, unit);
+    return unit == "1" || value == "n/a" ? std::string(value) : fmt::format("{} {}", value, unit);
 }
 
 /// "theta (°), pressure (m v²/r²), …". Columns of errors are omitted.
@@ -77,6 +78,8 @@ Estimate estimate_in(const Json& value) {
             .effective_samples = number(value.value("effective_samples", Json())),
             .blocks = value.value("blocks", std::size_t{0})};
 }
+
+bool has_value(const ReportRow& row) { return !std::isnan(row.estimate.mean); }
 
 fs::path write_table(const ReportTable& table, const fs::path& file) {
     std::vector<std::string> heads;
@@ -193,15 +196,28 @@ std::vector<MeasuredNumber> measured_numbers(const Json& measured) {
 
 std::string measured_text(const MeasurementReports& reports) {
     std::string numbers, tables;
+    const auto line = [&](const std::string& name, const std::string& value) {
+        numbers += fmt::format("  {:<38}{}\n", name, value);
+    };
+    std::size_t rows = 0, missing = 0;
+    for (const auto& [name, report] : reports)
+        for (const ReportRow& row : report.rows) {
+            ++rows;
+            missing += has_value(row) ? 0 : 1;
+        }
+    const bool most_are_missing = 2 * missing > rows;
     for (const auto& [name, report] : reports) {
+        const bool any = std::any_of(report.rows.begin(), report.rows.end(), has_value);
+        if (!any && !report.rows.empty() && !most_are_missing) line(name, "n/a");
         for (const ReportRow& row : report.rows)
-            numbers +=
-                fmt::format("  {:<38}{}\n", full_name(name, row.name),
-                            in_unit(with_error(row.estimate.mean, row.estimate.error), row.unit));
+            if (has_value(row) || (any && !most_are_missing))
+                line(full_name(name, row.name),
+                     in_unit(with_error(row.estimate.mean, row.estimate.error), row.unit));
         for (const ReportTable& table : report.tables)
             tables += fmt::format("  {:<38}table of {} rows\n", full_name(name, table.name),
                                   table.rows());
     }
+    if (most_are_missing) line("n/a", fmt::format("{} of {} averages", missing, rows));
     return numbers + tables;
 }
 

@@ -1,4 +1,4 @@
-// What is measured in a run (measure/observation.hpp), for people and for other programs: reads
+// The measurements of a run (measure/observation.hpp), for people and for other programs: reads
 // lists of names, and writes reports as JSON, as CSV, as text and as the tables of
 // docs/reference/measurements.md. All of it visits the rows and tables of the reports and knows no
 // measurement by name.
@@ -55,10 +55,11 @@ struct MeasuredNumber {
 };
 /// Every row in the JSON of measured_json().
 std::vector<MeasuredNumber> measured_numbers(const nlohmann::ordered_json& measured);
-/// Whether this is the JSON of a row that is a direction.
+/// True if this is the JSON of a row that is a direction.
 bool is_direction(const nlohmann::ordered_json& row);
 
-/// One line for every row and every table.
+/// One line for every row and every table. Missing values are summarized: a measurement without any
+/// value is one line, and if most values are missing, one line counts them.
 std::string measured_text(const MeasurementReports& reports);
 
 /// The files that write_measured_tables() writes for these measurements.

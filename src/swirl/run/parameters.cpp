@@ -22,6 +22,12 @@ struct Overloaded : Cases... {
         fmt::format("{} is '{}', but it must be {}.", option_name(name), text, allowed));
 }
 
+[[noreturn]] void reject_choice(std::string_view name, std::string_view text,
+                                const std::vector<std::string>& choices, const char* allowed) {
+    throw_usage_error(fmt::format("{} is '{}', but it must be {}.{}", option_name(name), text,
+                                  allowed, nearest_value_hint(text, choices)));
+}
+
 double number_from(std::string_view name, std::string_view text) {
     const auto value = read_number(text);
     if (!value) reject_text(name, text, "a finite number, for example 0.5 or 1e3");
@@ -179,7 +185,7 @@ void read_mu(std::string_view text, const ParameterTexts&, RunConfig& config) {
 }
 
 void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "experiment") reject_text("preset", text, "experiment");
+    if (text != "experiment") reject_choice("preset", text, {"experiment"}, "experiment");
     config.body = Shape::sphere;
     config.floor = true;
     config.mu_disc = config.mu_wall = experiment_friction;
@@ -192,7 +198,8 @@ void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config
 }
 
 void read_body(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "disc" && text != "sphere") reject_text("body", text, "disc or sphere");
+    if (text != "disc" && text != "sphere")
+        reject_choice("body", text, {"disc", "sphere"}, "disc or sphere");
     config.body = text == "sphere" ? Shape::sphere : Shape::disc;
 }
 /// Results of discs omit the type.
@@ -222,8 +229,8 @@ void read_inertia(std::string_view text, const ParameterTexts& given, RunConfig&
         }
     const auto value = read_number(text);
     if (!value)
-        reject_text(
-            "inertia", text,
+        reject_choice(
+            "inertia", text, {std::begin(inertia_names), std::end(inertia_names)},
             "a number above 0, or paper (10 m r^2), ring (m r^2), solid (m r^2 / 2), sphere (2/5 m "
             "r^2) or shell (2/3 m r^2)");
     config.inertia = *value;
@@ -297,7 +304,8 @@ ParameterValue write_speed(const RunConfig& config) { return container_speed(con
 ParameterValue write_omega(const RunConfig& config) { return config.omega(); }
 
 void read_path(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "polygon" && text != "circle") reject_text("path", text, "polygon or circle");
+    if (text != "polygon" && text != "circle")
+        reject_choice("path", text, {"polygon", "circle"}, "polygon or circle");
     config.path = text == "circle" ? PathShape::circle : PathShape::polygon;
 }
 

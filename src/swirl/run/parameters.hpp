@@ -89,7 +89,7 @@ struct RunConfig {
     bool conserves_energy() const {
         return mu_disc == 0.0 && mu_wall == 0.0 && restitution == 1.0 && !floor;
     }
-    /// Whether the contact duration has an effect (physics/collision_law.hpp).
+    /// True if the contact duration has an effect (physics/collision_law.hpp).
     bool uses_contact_duration() const { return restitution != 1.0 || floor; }
 };
 
@@ -121,7 +121,7 @@ ParameterFormatter format_inertia, format_mixture;
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
 enum class ReadingOrder { first, second, last };
 
-/// Whether a parameter is part of a written configuration.
+/// True if a parameter is part of a written configuration.
 enum class WrittenIf {
     always,       // null if it is not set
     set,          // omitted if it is not set
@@ -170,7 +170,7 @@ struct Parameter {
 
     /// False for parameters that are only written.
     bool is_settable() const { return read != nullptr || member.index() != 0; }
-    /// Whether a configuration with this value does not contain the parameter.
+    /// True if a configuration with this value does not contain the parameter.
     bool is_omitted(const ParameterValue& value) const {
         return written != WrittenIf::always && std::holds_alternative<std::monostate>(value);
     }
@@ -241,7 +241,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "I",
      .unit = "mass · length²",
      .form = "NUMBER|paper|ring|solid|sphere|shell",
-     .description = "Moment of inertia of one particle, a number or a name",
+     .description = "Moment of inertia of one particle, number or name",
      .details = "paper = 10 m r^2, ring = m r^2, solid (disc) = m r^2 / 2, sphere = 2/5 m r^2 "
                 "(the default for spheres), shell = 2/3 m r^2.",
      .group = parameter_group::particles,
@@ -390,7 +390,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "T",
      .unit = "time",
      .form = "NUMBER",
-     .description = "Duration of one turn of the container along its path",
+     .description = "Duration of one turn of the path",
      .group = parameter_group::container,
      .member = &RunConfig::period,
      .range = parameter_range::positive,
@@ -455,7 +455,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
     {.name = "warmup",
      .unit = "periods",
      .form = "PERIODS|auto",
-     .description = "Periods at the start that averages exclude, or auto",
+     .description = "Initial periods to exclude, or auto",
      .details = "auto determines them by MSER-5 and Geweke's test of rotation and spins; at most "
                 "half of the run.",
      .group = parameter_group::run,
@@ -464,7 +464,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .slider = {0, 200, 1},
      .read = read_warmup,
      .write = write_warmup,
-     .default_text = "20, at most a fifth of the run"},
+     .default_text = "20, at most 1/5 of run"},
     {.name = "seed",
      .form = "NUMBER",
      .description = "Seed of the initial positions and velocities",

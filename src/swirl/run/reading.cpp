@@ -58,6 +58,10 @@ std::optional<std::int64_t> read_whole_number(std::string_view text) {
 std::string plain_name(std::string_view name) {
     std::string plain(name);
     std::replace(plain.begin(), plain.end(), '-', '_');
+    constexpr std::string_view spellings[][2] = {{"colour", "color"}, {"center", "centre"}};
+    for (const auto& [other, own] : spellings)
+        if (const auto at = plain.find(other); at != plain.npos)
+            plain.replace(at, other.size(), own);
     return plain;
 }
 
@@ -65,6 +69,10 @@ std::string option_name(std::string_view name) {
     std::string option(name);
     std::replace(option.begin(), option.end(), '_', '-');
     return "--" + option;
+}
+
+std::string counted(std::int64_t number, std::string_view noun) {
+    return std::to_string(number) + " " + std::string(noun) + (number == 1 ? "" : "s");
 }
 
 std::optional<std::string> nearest_name(std::string_view unknown,
@@ -77,7 +85,15 @@ std::optional<std::string> nearest_name(std::string_view unknown,
         minimum = distance;
         best = name;
     }
+    const auto begins = [&](const std::string& name) { return name.starts_with(unknown); };
+    if (!best && std::count_if(names.begin(), names.end(), begins) == 1)
+        best = *std::find_if(names.begin(), names.end(), begins);
     return best;
+}
+
+std::string nearest_value_hint(std::string_view text, const std::vector<std::string>& names) {
+    const auto nearest = nearest_name(text, names);
+    return nearest ? "\nhint: did you mean '" + *nearest + "'?" : "";
 }
 
 }  // namespace swirl

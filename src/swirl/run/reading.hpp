@@ -1,7 +1,8 @@
-// Reads numbers and names from text, in the same way for options, configuration files and tables.
+// Reads numbers and names from text, in the same way for options, configuration files and tables; and
+// writes some.
 //
 // A name has underscores in files and in code (mu_disc), and hyphens as an option (--mu-disc). Both
-// spellings are accepted everywhere.
+// spellings are accepted everywhere, and so are colour and color, centre and center.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +17,20 @@ namespace swirl {
 std::optional<double> read_number(std::string_view text);
 std::optional<std::int64_t> read_whole_number(std::string_view text);
 
-/// "mu_disc" for both spellings.
+/// "mu_disc" for both spellings; "color" and "centre" for British and American ones.
 std::string plain_name(std::string_view name);
 /// "--mu-disc"
 std::string option_name(std::string_view name);
 
+/// "1 disc", "48 discs"
+std::string counted(std::int64_t number, std::string_view noun);
+
 /// The name with the smallest edit distance to `unknown`, if that is at most a third of its length,
-/// or 2.
+/// or 2; otherwise the only name that begins with `unknown`.
 std::optional<std::string> nearest_name(std::string_view unknown,
                                         const std::vector<std::string>& names);
+
+/// "\nhint: did you mean 'disc'?" for the nearest name; "" if none is near.
+std::string nearest_value_hint(std::string_view text, const std::vector<std::string>& names);
 
 }  // namespace swirl

@@ -105,7 +105,7 @@ Json take_length(Json& identity) {
     return length;
 }
 
-/// Whether the runs differ in length only. A recording in the checkpoint's run may be dropped here.
+/// True if the runs differ in length only. A recording in the checkpoint's run may be dropped here.
 bool differs_only_in_length(Json there, Json here) {
     if (take_length(there) == take_length(here)) return false;
     for (const char* recording : {"frames", "event_log"})

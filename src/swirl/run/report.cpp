@@ -111,6 +111,14 @@ std::string steady_text(const RunResult& r) {
         100.0 * (false_alarm_rate(rotation) + false_alarm_rate(spin)));
 }
 
+std::string periods_text(const RunResult& r) {
+    if (r.warmup == 0) return fmt::format("{:.1f}; no warm-up", r.periods);
+    const std::string first =
+        r.warmup == 1 ? "the first is" : fmt::format("the first {} are", r.warmup);
+    return fmt::format("{:.1f}; {} warm-up{} and excluded from the averages", r.periods, first,
+                       r.config.warmup_found ? " (found automatically)" : "");
+}
+
 /// The events at which a particle changes its motion on the floor; empty if there are none.
 std::string floor_events_text(const RunResult& r) {
     if (r.events.begins_to_roll == 0) return "";
@@ -192,7 +200,7 @@ std::string steady_state_found(const RunResult& r) {
     return text;
 }
 
-std::string report(const RunResult& r) {
+std::string report(const RunResult& r, bool verbose) {
     std::string text = headline(r) + "\n";
     const auto line = [&](std::string_view name, const std::string& value) {
         text += fmt::format("  {:<12}{}\n", name, value);
@@ -200,24 +208,26 @@ std::string report(const RunResult& r) {
     if (r.config.discs > 1 && r.has_whole_period()) {
         line("rigid", fmt::format("{} by event, {} by time", with_error(r.rotation.rigid_by_event),
                                   with_error(r.rotation.rigid_by_time)));
-        line("errors",
-             fmt::format("from {} blocks of whole periods, {:.0f} of them independent",
-                         r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
+        if (verbose)
+            line("errors",
+                 fmt::format("from {} blocks of whole periods, {:.0f} of them independent",
+                             r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
     }
     const char* const body = body_word(r.config);
     line("events", fmt::format("{}: {} {}–{}, {} {}–wall, {} vertices of the path{}",
                                with_commas(r.events.total()), with_commas(r.events.disc_disc), body,
                                body, with_commas(r.events.disc_wall), body,
                                with_commas(r.events.path_vertex), floor_events_text(r)));
-    line("periods",
-         fmt::format("{:.1f}; the first {} are warm-up{} and excluded from the averages", r.periods,
-                     r.warmup, r.config.warmup_found ? " (found automatically)" : ""));
+    line("periods", periods_text(r));
     line("steady", steady_text(r));
-    line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
-    line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
+    if (verbose) {
+        line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
+        line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
+    }
     line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));
-    line("time", fmt::format("{:.2f} s, {:.2f} million events/s, {}", r.seconds,
-                             r.events_per_second() / 1e6, r.simd));
+    if (verbose)
+        line("time", fmt::format("{:.2f} s, {:.2f} million events/s, {}", r.seconds,
+                                 r.events_per_second() / 1e6, r.simd));
     return text;
 }
 

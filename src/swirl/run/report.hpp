@@ -27,8 +27,9 @@ const char* verdict(SteadyState::Verdict verdict);
 /// Empty if there are none.
 std::string steady_state_found(const RunResult& result);
 
-/// The headline and a few lines of details, without the warnings.
-std::string report(const RunResult& result);
+/// The headline and a few lines of details, without the warnings. `verbose` adds lines on errors,
+/// energy, overlap and computing time.
+std::string report(const RunResult& result, bool verbose);
 
 /// Reasons to distrust the numbers: stopped early, not steady, energy growing without bound. A
 /// warning may have a second line "hint: …". Empty if there are none.

@@ -38,7 +38,7 @@ struct RunControl {
     /// of the saved state.
     Observation* observation = nullptr;
 
-    /// Whether to integrate the orientation of each sphere (Snapshot::turned).
+    /// Integrate the orientation of each sphere (Snapshot::turned).
     bool orientations = false;
 
     /// The state() of a run with the same configuration and the same measurements. The run continues
@@ -82,7 +82,7 @@ class Run {
     }
 
     bool complete() const { return run_.complete(); }
-    /// Whether the warm-up is over and averages include the present state.
+    /// True if the warm-up is over and averages include the present state.
     bool is_warm() const { return run_.is_warm(); }
     /// A run resumed from a shorter run has the trajectory of an uninterrupted run of the same
     /// length, but its averages may start later. Returns the reason if they would differ.

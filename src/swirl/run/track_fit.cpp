@@ -174,7 +174,7 @@ Vec2 in_image(const Vec2& position, const TrackScale& scale, bool y_down) {
             scale.swirl_centre.y + scale.pixels_per_radius * y};
 }
 
-/// What the frames of a series show, before it is compared with the parameters.
+/// Statistics of the frames of a series, before it is compared with the parameters.
 struct Survey {
     std::vector<double> gaps, pairs, radii;  // of each frame with discs
     FittingPhase fitting;

@@ -1,4 +1,4 @@
-// Whether a camera's tracks fit the container with the given parameters
+// Test whether a camera's tracks fit the container with the given parameters
 // (measure/container_fit.hpp).
 #pragma once
 

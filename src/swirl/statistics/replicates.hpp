@@ -60,7 +60,7 @@ struct Ensemble {
     bool disagree = false;  // the seeds scatter more than their blocks can explain
 };
 
-/// Whether χ² is above chance by the three standard deviations that count as certain.
+/// True if χ² is above chance by the three standard deviations that count as certain.
 inline bool beyond_chance(double chi_square, double freedom) {
     const double ninth = 2.0 / (9.0 * freedom);  // Wilson and Hilferty 1931
     const double root = 1.0 - ninth + 3.0 * std::sqrt(ninth);
@@ -120,7 +120,7 @@ inline Ensemble ensemble(std::span<const Estimate> given, std::span<const double
         const Estimate& run = runs[i];
         const double own = std::pow(w[i] * run.error / total, 2), off = run.mean - mean;
         within += own;
-        // If the number of samples behind an error is not known, the error counts as exact.
+        // If the number of samples behind an error is unknown, the error counts as exact.
         if (run.effective_samples > 0.0)
             uncertain += own * own / std::max(run.effective_samples - 1.0, 1.0);
         if (off != 0.0) chi_square += std::pow(off / run.error, 2);

@@ -1,4 +1,4 @@
-// Whether a run has reached a steady state, from the blocks of one of its averages
+// Test whether a run has reached a steady state, from the blocks of one of its averages
 // (block_average.hpp). Three tests use all the blocks of the average:
 //
 // Change. A step at block k divides the series where it reduces the sum of squares most, but not
@@ -80,7 +80,7 @@ struct TwoStates {
     bool found() const { return separation >= 0.85 && changes >= 2 && shortest_visit >= 5.0; }
 };
 
-/// Whether a run is independent of its initial state and stays in one state.
+/// True if a run is independent of its initial state and stays in one state.
 struct SteadyState {
     enum class Verdict : std::uint8_t {
         steady,
@@ -294,7 +294,7 @@ inline std::size_t mser5_truncation(std::span<const double> blocks) {
     return 5 * best;
 }
 
-/// Whether the blocks so far are a sufficient warm-up. Called while a run continues.
+/// True if the blocks so far are a sufficient warm-up. Called while a run continues.
 inline bool beginning_is_forgotten(std::span<const double> blocks) {
     constexpr double max_drift = 4.0, max_trend = 2.0;
     if (blocks.size() < min_blocks_of_a_steady_state) return false;

@@ -6,7 +6,7 @@
 
 namespace swirl {
 
-/// Of a normal distribution, 95 % lies within ± this many standard deviations.
+/// 95 % of a normal distribution lies within ± this many standard deviations.
 inline constexpr double normal_95 = 1.959963984540054;
 
 /// The quantile of Student's t with `freedom` degrees of freedom that has the same probability as

@@ -1,4 +1,4 @@
-// Where a curve ϖ(N) changes sign, with a confidence interval. N_c is the last change from rotation
+// The N at which a curve ϖ(N) changes sign, with a confidence interval. N_c is the last change from rotation
 // to counterrotation.
 //
 // Signs. The sign of a point is certain if its mean is more than three errors from zero. Otherwise
@@ -56,7 +56,7 @@ struct SignChange {
     double lower = not_available, upper = not_available;  // 95 %, or the bracket of a coarse table
     std::vector<double> between = {};                     // undetermined points in the bracket
 
-    /// Whether every N of the bracket has a point, so that N_c is known.
+    /// True if every N of the bracket has a point, so that N_c is known.
     bool resolved() const { return discs == discs; }
 };
 

@@ -181,7 +181,7 @@ std::vector<Quantity> quantities_of(const std::vector<PointResult>& results) {
     return quantities;
 }
 
-/// Whether the length in periods is a parameter, so that it needs no further column.
+/// True if the length in periods is a parameter, so that it needs no further column.
 bool gives_periods(const SweepPlan& plan) {
     return std::any_of(plan.axes.begin(), plan.axes.end(),
                        [](const SweepAxis& axis) { return axis.name == "periods"; });

@@ -113,7 +113,7 @@ std::uint64_t identity_of(const ParameterTexts& texts) {
     return checksum(config_text(config));
 }
 
-/// Whether two values of an axis give different runs for some value of another axis.
+/// True if two values of an axis give different runs for some value of another axis.
 bool differ_elsewhere(const SweepPlan& plan, const SweepAxis& axis, const std::string& one,
                       const std::string& two) {
     for (const SweepAxis& other : plan.axes) {

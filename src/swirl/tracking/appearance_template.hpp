@@ -72,7 +72,7 @@ class AppearanceTemplate {
     double score(const Excess& excess, const Vec2& centre, std::size_t species,
                  const std::vector<NearCircle>& others, int stride) const;
     double soft() const { return soft_; }
-    /// Whether a disc with that centre lies within the container.
+    /// True if a disc with that centre lies within the container.
     bool inside(const Excess& excess, const Vec2& centre, std::size_t species) const;
     double excess_at(const Excess& excess, const Vec2& position) const;
 

@@ -140,7 +140,7 @@ class RimSurvey {
         }
     }
 
-    /// Whether the centres go round a circle. They must cover a part of it, since a short arc fits
+    /// True if the centres go round a circle. They must cover a part of it, since a short arc fits
     /// many circles.
     bool moves(const RimCandidate& c) const {
         constexpr double min_reach = 0.7;  // of the path's radius: an arc of 40 degrees
@@ -167,7 +167,7 @@ class RimSurvey {
             best.radius / shrink_, no_circle_hint));
     }
 
-    /// Whether most frames show another circle of the rim's size next to it.
+    /// True if most frames show another circle of the rim's size next to it.
     bool second_container(const ContainerRim& rim) const {
         constexpr std::size_t max_circles = 6;
         constexpr double min_distance = 1.7;  // radii: two containers do not overlap

@@ -110,7 +110,7 @@ void Lens::combine_distortions() {
     // sizes alone; k is not 0, by both.
     constexpr double contradicts = 3.0, supports = 1.5, stands_out = 4.0, both_stand_out = 3.0;
     constexpr double max_k_error = 0.01, min_k = 0.002,
-                     max_k = 0.3;  // of a correction worth making
+                     max_k = 0.3;  // limits of a correction
     const double hidden =
         inverse_focal_length * half_height * inverse_focal_length * half_height / 8.0;
     const double by_sizes = size_k + hidden;

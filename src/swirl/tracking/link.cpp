@@ -23,7 +23,7 @@ constexpr int predictions = 6;           // uniform in three frames, at rest in 
 constexpr double unsure_penalty = 0.25;  // of the squared gate
 constexpr double forgetting = 0.25;      // weight of the latest error of a prediction
 
-/// Whether a pair of this cost may be assigned. The bound keeps sums of costs finite.
+/// True if a pair of this cost may be assigned. The bound keeps sums of costs finite.
 bool is_allowed(double cost) { return std::abs(cost) <= 1e100; }
 
 struct Track {
@@ -67,7 +67,7 @@ class Linker {
                 const std::vector<Vec2>& expected, std::vector<int>& of) const;
     void resume_lost(const std::vector<DetectedDisc>& discs, const std::vector<Vec2>& expected,
                      std::vector<int>& of);
-    /// Whether there are as many sure detections as discs; then the others are not discs.
+    /// True if there are as many sure detections as discs; then the others are not discs.
     bool all_are_sure(const std::vector<DetectedDisc>& discs, std::size_t species) const {
         if (settings_.numbers.empty()) return false;
         const auto sure = static_cast<std::size_t>(

@@ -474,7 +474,7 @@ class TemplateSearch {
     double sum_of_radii(const Particle& a, const Particle& b) const {
         return appearance_.species[a.species].radius + appearance_.species[b.species].radius;
     }
-    /// Whether an accepted particle is nearer than this fraction of the sum of radii.
+    /// True if an accepted particle is nearer than this fraction of the sum of radii.
     bool overlaps(const Particle& particle, double distance) const {
         return std::any_of(accepted_.begin(), accepted_.end(), [&](const Particle& t) {
             return length(t.centre - particle.centre) < distance * sum_of_radii(t, particle);

@@ -22,7 +22,7 @@ for body in discs spheres; do
     # The state after 20 periods, and the result of 40.
     $run --measure slip --json $body.20.json --checkpoint $body.checkpoint --keep-checkpoint
     $run --measure slip --periods 40 --json $body.40.json
-    # A run that was stopped in the middle, with its unfinished recordings, and what it comes to.
+    # A run that was stopped in the middle, with its unfinished recordings, and its result.
     long="$run --events 4e6 --frame-events 200000"
     $long --json ${body}_whole.json --trajectory ${body}_whole.h5
     timeout --signal INT 0.7 $long --json ${body}_stopped.json --trajectory ${body}_stopped.h5 \

@@ -44,7 +44,7 @@ PathExtent extent_of(const ContainerPath& path) {
 
 /// The minimum is a disc's diameter with a margin for rounding, so that discs in cells that do not
 /// touch cannot collide. It also limits the number of cells per disc, for the sake of memory. The
-/// target gives so many discs per cell that nine cells just fit into one vector; in a dilute system
+/// target fills cells so that the discs of nine cells just fit into one vector; in a dilute system
 /// one cell in four million then overflows.
 CellWidths cell_widths(const InitialState& scene, const RadiusRange& radii) {
     constexpr double target_per_cell = 0.6, cells_per_disc = 16.0, cells_at_least = 64.0;
@@ -70,7 +70,7 @@ bool cells_are_possible(const InitialState& scene) {
                        [](const Segment& segment) { return segment.turn_rate == 0.0; });
 }
 
-/// Whether the system is so dilute that neighbour lists would not last. The criterion is a packing
+/// True if the system is so dilute that neighbour lists would not last. The criterion is a packing
 /// fraction, for unequal discs its geometric mean with that of equal discs of the mean radius. It
 /// is increased for the candidates that cells give each prediction: with n discs in a cell, 9n. In
 /// a moving container discs gather, and then lists last; so the limit is lower there. The numbers

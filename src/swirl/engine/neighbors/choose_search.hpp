@@ -11,7 +11,7 @@ namespace swirl {
 
 /// Spheres or coins: bodies that a floor can accelerate.
 inline bool are_spheres(const InitialState& scene) { return scene.shape != Shape::disc; }
-/// Whether the container never moves.
+/// True if the container never moves.
 bool container_rests(const InitialState& scene);
 
 struct RadiusRange {

@@ -125,7 +125,7 @@ static void begin_comoving_frame(VerletListsState& state, double t) {
     renew_comoving_frame(state, motion_in_frame(state, t), t);
 }
 
-/// Whether the discs have left the frame, so that lists would be rebuilt without end. With a fast
+/// True if the discs have left the frame, so that lists would be rebuilt without end. With a fast
 /// container all discs follow it long before the next segment begins.
 static bool frame_is_left_behind(const VerletListsState& state, double t) {
     const MotionInFrame motion = motion_in_frame(state, t);
@@ -141,13 +141,13 @@ inline constexpr double max_lag = 0.02;
 inline constexpr std::uint32_t discs_per_event_at_test = 4;
 static bool renew_frame_if_left(VerletListsState& state, double t) {
     const ComovingFrame& frame = state.comoving_frame;
-    const bool may_stay =
+    const bool may_remain =
         magnitude(frame.turn_rate) * (state.interval_end - frame.origin.time) < max_turn;
     const std::uint64_t since = state.disc_disc + state.disc_wall - state.collisions_at_frame_test;
-    if (may_stay && discs_per_event_at_test * since < state.size) return false;
+    if (may_remain && discs_per_event_at_test * since < state.size) return false;
     const MotionInFrame motion = motion_in_frame(state, t);
     state.collisions_at_frame_test += since;
-    if (may_stay && motion.lag < max_lag * motion.random) return false;
+    if (may_remain && motion.lag < max_lag * motion.random) return false;
     renew_comoving_frame(state, motion, t);
     return true;
 }

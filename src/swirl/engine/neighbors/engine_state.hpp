@@ -46,7 +46,7 @@ struct Species {
     double inverse_mass, inverse_inertia;
 };
 
-/// What only a disc's own events read: the partner of its pending event, and its angle. In the
+/// The data that only a disc's own events read: the partner of its pending event, and its angle. In the
 /// search with Verlet lists the disc's neighbour list follows in memory (verlet_skin.hpp).
 struct ColdDisc {
     std::uint32_t partner;             // a disc; the disc itself for the wall; or a mark, see below
@@ -137,7 +137,7 @@ struct EngineState {
     SWIRL_INLINE std::uint32_t disc_or_sentinel(std::uint32_t partner) const {
         return partner < size ? partner : size;
     }
-    /// Whether a pending event happens: its partner has not collided since the prediction. A wall
+    /// True if a pending event happens: its partner has not collided since the prediction. A wall
     /// contact always happens. A disc that leaves its skin is not an event.
     SWIRL_INLINE bool is_valid(const PendingEvent& event) const {
         if (event.is_with_wall()) return true;

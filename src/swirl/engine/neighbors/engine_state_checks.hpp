@@ -45,7 +45,7 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
                                                   next.second() == first.second());
 }
 
-/// Whether two discs overlap at time t by more than rounding errors. These are the errors that an
+/// True if two discs overlap at time t by more than rounding errors. These are the errors that an
 /// earlier contact left, and the errors of a contact that was predicted not to happen.
 [[maybe_unused]] static bool overlap(const EngineState& state, const HotDisc& i, const HotDisc& k,
                                      double t) {
@@ -55,7 +55,7 @@ SWIRL_INLINE bool is_time_to_check(const EngineState& state) {
         larger(state.largest_rounding, rounding_of_contact(i.flight(), k.flight(), contact, t));
     return square_root(dot(s, s)) < contact * (1.0 - allowed_rounding) - rounding;
 }
-/// Whether a disc extends beyond the wall at time t by more than rounding errors.
+/// True if a disc extends beyond the wall at time t by more than rounding errors.
 [[maybe_unused]] static bool is_outside(const EngineState& state, const HotDisc& disc, double t) {
     const Segment& segment = state.segments[state.segment];
     const Vec2 s = disc.flight().position_at(t) - segment.position_at(t);

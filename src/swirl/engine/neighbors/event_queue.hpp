@@ -32,7 +32,7 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-// ---- Prefetching: with many discs, most of what an event needs is far away in memory.
+// ---- Prefetching: with many discs, most data that an event needs are far away in memory.
 
 SWIRL_INLINE void prefetch(const void* p) { __builtin_prefetch(p, 1, 3); }
 

@@ -1,4 +1,4 @@
-// What the event loop (event_loop.hpp) requires from a neighbour search. A search answers one
+// The functions that the event loop (event_loop.hpp) requires from a neighbour search. A search answers one
 // question: which event comes next? It decides how fast the answer comes, never what it is. To add
 // a search, write a struct that satisfies NeighborSearch, give it a state (search_states.hpp), set
 // that up (search_setup.cpp), and add its loop to EventLoops.

@@ -87,8 +87,8 @@ void add_contents(DiscGrid& grid, const VerletListsState& state, AlignedMemory& 
 /// cell holds three discs. Skins of discs in cells that do not touch must never overlap. That is,
 /// |X_i − X_k| < 2 (largest radius + largest skin radius) = the width.
 double list_cell_width(double area, std::uint32_t size, double largest_radius) {
-    // Where the discs of a dilute system have gathered, cells wider than for seven discs would
-    // overflow.
+    // The discs of a dilute system may gather. Cells wider than for seven discs would overflow
+    // there.
     const double for_one = square_root(area / size), for_seven = 4.4 * largest_radius;
     const double width = smaller(square_root(3.0) * for_one, larger(for_seven, for_one));
     return larger(2.6 * largest_radius, width);

@@ -220,7 +220,7 @@ struct VerletListsState : ListsOrCellsState {
     SWIRL_INLINE ListTail& tail(std::uint32_t i) const { return tails[tail_index[i]]; }
 };
 
-/// Where a disc is in the grid of LinkedCellsState.
+/// The position of a disc in the grid of LinkedCellsState.
 struct CellPosition {
     float X, Y;               // centre of its cell, in the co-moving frame
     std::uint32_t near_wall;  // its index in LinkedCellsState::near_wall, if it is there

@@ -72,7 +72,7 @@ struct EightTimes {
 }
 
 /// The earliest contact with the first `count` of eight spheres, or `first` if that comes before.
-/// Of simultaneous contacts the one with the smaller partner comes first (pending_event.hpp).
+/// If contacts are simultaneous, the one with the smaller partner comes first (pending_event.hpp).
 SWIRL_INLINE PendingEvent earlier_contact(const EngineState& state, const EightTimes& mine,
                                           const EightOthers& others, int count,
                                           PendingEvent first) {

@@ -48,7 +48,7 @@ SWIRL_INLINE double inner_skin_radius(const Skin& skin) {
 /// the origin of the frame.
 inline constexpr double rounding_of_centre = 0x1p-22;
 
-/// Whether the skin is so narrow that the disc may be outside after this rounding.
+/// True if the skin is so narrow that the disc may be outside after this rounding.
 SWIRL_INLINE bool is_lost_in_rounding(const Skin& skin) {
     const double distance = magnitude(double(skin.X)) + magnitude(double(skin.Y));
     return skin.radius < rounding_of_centre * distance;
