@@ -78,7 +78,7 @@ def pinned_grows(study):
 
 def pinned_earlier(study):
     rows, choices = one_row_per_discs(study), by_choice(study)
-    shifts = [upstream_shift(c, "becoming_pinned") for c in choices.values()]
+    shifts = [upstream_shift(c, "pinning") for c in choices.values()]
     return agreed([above(shift, LEAST_ADVANCE) for shift in shifts]), (
         f"Residences at the wall begin at θ = {ends(rows, 'residence_begin')} (degrees). This angle moves upstream "
         f"by {number(upstream_shift(rows, 'residence_begin'))}° (earlier: more than {LEAST_ADVANCE:.0f}°), and by "
@@ -92,7 +92,7 @@ def resultants(rows, name):
 
 def free_fixed(study):
     rows, choices = one_row_per_discs(study), by_choice(study)
-    spreads = [spread(c, "becoming_free") for c in choices.values()]
+    spreads = [spread(c, "depinning") for c in choices.values()]
     same = [below(s, SAME_ANGLE) for s in spreads]
     return agreed(same), (
         f"Residences at the wall end at θ = {ends(rows, 'residence_end')} (degrees; resultant length "

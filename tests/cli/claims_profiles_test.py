@@ -158,7 +158,7 @@ class Profiles(HandMadeTables):
         self.assertEqual(judged(0.8, 0.4, 0.4), FAILS)
         self.assertEqual(judged(0.8, 0.4, 0.47), UNDECIDED)
 
-    def residences(self, *choices, name="becoming_free", error=1.0):
+    def residences(self, *choices, name="depinning", error=1.0):
         """For each choice of the layer an angle or share at N = 24, 36 and 48."""
         numbers = (24, 36, 48)
         self.table("3a", [
@@ -200,7 +200,7 @@ class Profiles(HandMadeTables):
 
     def test_earlier_pinning_is_at_a_larger_angle_for_every_layer(self):
         def judged(*choices, error=1.0):
-            self.residences(*choices, name="becoming_pinned", error=error)
+            self.residences(*choices, name="pinning", error=error)
             return residence.pinned_earlier(self.study)[0]
         upstream, downstream, a_little = (200, 250, 300), (300, 250, 200), (200, 202, 205)
         self.assertEqual(judged(upstream, upstream), HOLDS)

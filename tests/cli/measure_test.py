@@ -74,7 +74,7 @@ class MeasureTest(InFolder):
         for name in ("cluster", "pinned_region", "cluster_perimeter"):
             self.assertAlmostEqual(found["measured"]["slip"][name]["mean"] /
                                    exact["measured"]["slip"][name]["mean"], 1.0, delta=tolerance)
-        for name, delta in (("becoming_pinned", 3.0), ("becoming_free", 3.0)):
+        for name, delta in (("pinning", 3.0), ("depinning", 3.0)):
             self.assertAlmostEqual(found["measured"]["pinned"][name]["mean"],
                                    exact["measured"]["pinned"][name]["mean"], delta=delta)
         # A collision between two frames is averaged: some energy is always lost, never gained.

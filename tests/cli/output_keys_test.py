@@ -46,7 +46,7 @@ class OutputKeys(InFolder):
         result = result_of("--discs", 8, "--events", "2e4", "--measure", "pinned")
         self.assert_documented(keys(result), "JSON of `swirl run`")
         rows = result["measured"]["pinned"]
-        self.assert_documented(keys(rows["becoming_pinned"]), "JSON of `swirl run`")
+        self.assert_documented(keys(rows["pinning"]), "JSON of `swirl run`")
 
     def test_crossing(self):
         found = json.loads(self.call("crossing", "--from", 36, "--to", 42, "--step", 3, "--events", "2e4",

@@ -14,7 +14,9 @@ from program import SOURCE, InFolder, swirl
 BODIES = ("discs", "spheres")
 
 # Rows and tables of measurements that were renamed after these files were written (CHANGELOG.md).
-RENAMED = {"slip": {"stays": "resident"}, "pinned": {"places": "positions"}}
+RENAMED = {"slip": {"stays": "resident"}, "pinned": {"places": "positions", "becoming_pinned": "pinning", "becoming_free": "depinning",
+                      "becoming_pinned_by_collisions": "pinning_by_collisions",
+                      "becoming_free_by_collisions": "depinning_by_collisions"}}
 
 
 def with_present_names(result):
@@ -22,6 +24,10 @@ def with_present_names(result):
     measured = {measurement: {RENAMED.get(measurement, {}).get(name, name): value
                               for name, value in rows.items()}
                 for measurement, rows in result["measured"].items()}
+    if "positions" in measured.get("pinned", {}):
+        columns = {"pinned": "pinning", "free": "depinning"}
+        measured["pinned"]["positions"] = {columns.get(name, name): values for name, values
+                                           in measured["pinned"]["positions"].items()}
     return {**result, "measured": measured}
 
 

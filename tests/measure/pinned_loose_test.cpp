@@ -51,8 +51,8 @@ TEST(PinnedLoose, ADiscThatMovesWithTheWallIsPinned) {
         EXPECT_EQ(pinning.pinned().at(0), k >= 21 ? 1 : 0) << k;
     }
     pinning.close_block();
-    EXPECT_EQ(pinning.becoming_free().count(), 0.0);
-    EXPECT_EQ(pinning.becoming_pinned().count(), 0.0);
+    EXPECT_EQ(pinning.depinning().count(), 0.0);
+    EXPECT_EQ(pinning.pinning().count(), 0.0);
     EXPECT_NEAR(pinning.share().mean, 39.0 / 46.0, 1e-15);
 }
 
@@ -74,10 +74,10 @@ TEST(PinnedLoose, FindsTheAnglesOfAKnownCycle) {
         if (k % frames == frames - 1) pinning.close_block();
     }
     // Its direction is 10° off only some time after it left the wall.
-    EXPECT_NEAR(pinning.becoming_free().angle().mean, 52.0 * degree, 10.0 * degree);
-    EXPECT_GT(pinning.becoming_free().concentration(), 0.99);
+    EXPECT_NEAR(pinning.depinning().angle().mean, 52.0 * degree, 10.0 * degree);
+    EXPECT_GT(pinning.depinning().concentration(), 0.99);
     // The only sharp turn of the cycle.
-    EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 240.0 * degree, 2.0 * degree);
+    EXPECT_NEAR(pinning.pinning().angle().mean, 240.0 * degree, 2.0 * degree);
     // It reaches 240° from below: all turns are in the two slices next to it.
     EXPECT_EQ(pinning.pinned_positions().share(23) + pinning.pinned_positions().share(24), 1.0);
     EXPECT_GT(pinning.free_positions().share(4) + pinning.free_positions().share(5), 0.99);
@@ -118,7 +118,7 @@ TEST(PinnedLoose, BriefDeviationIsNotBecomingFree) {
     }
     pinning.close_block();
     EXPECT_TRUE(ever_loose);
-    EXPECT_EQ(pinning.becoming_free().count(), 0.0);
+    EXPECT_EQ(pinning.depinning().count(), 0.0);
 }
 
 TEST(PinnedLoose, UnevenTimesBreakTheTracks) {
@@ -161,8 +161,8 @@ TEST(PinnedLoose, MergedRunsHaveTheAnglesOfBoth) {
         }
     }
     first.merge(second);
-    EXPECT_EQ(first.becoming_free().count(), 2.0 * whole.becoming_free().count());
-    EXPECT_NEAR(first.becoming_free().angle().mean, whole.becoming_free().angle().mean, 1e-14);
+    EXPECT_EQ(first.depinning().count(), 2.0 * whole.depinning().count());
+    EXPECT_NEAR(first.depinning().angle().mean, whole.depinning().angle().mean, 1e-14);
     EXPECT_NEAR(first.share().mean, whole.share().mean, 1e-15);
 }
 
@@ -188,11 +188,11 @@ TEST(PinnedByCollisions, LongestFlightOfAPeriodCounts) {
     pinning.sample_event(collision_at(EventKind::path_vertex, 0, 0), at(0.31, 0.0));
     hit(0.34, 0.65);
     pinning.close_block();
-    EXPECT_EQ(pinning.becoming_free().count(), 1.0);
-    EXPECT_NEAR(pinning.becoming_free().angle().mean, 0.25 * 2.0 * pi, 1e-14);
-    EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 0.70 * 2.0 * pi, 1e-14);
+    EXPECT_EQ(pinning.depinning().count(), 1.0);
+    EXPECT_NEAR(pinning.depinning().angle().mean, 0.25 * 2.0 * pi, 1e-14);
+    EXPECT_NEAR(pinning.pinning().angle().mean, 0.70 * 2.0 * pi, 1e-14);
     pinning.close_block();  // a period without a collision adds nothing
-    EXPECT_EQ(pinning.becoming_free().count(), 1.0);
+    EXPECT_EQ(pinning.depinning().count(), 1.0);
 }
 
 TEST(PinnedByCollisions, BothPartnersCountAndFlightsContinueAcrossPeriods) {
@@ -209,8 +209,8 @@ TEST(PinnedByCollisions, BothPartnersCountAndFlightsContinueAcrossPeriods) {
     add_disc(t, g.lab_position({0.0, 3.0}), {0.0, 0.0});
     pinning.sample_event(collision_at(EventKind::disc_disc, 0, 1), t);
     pinning.close_block();
-    EXPECT_EQ(pinning.becoming_pinned().count(), 2.0);
-    EXPECT_NEAR(pinning.becoming_pinned().angle().mean, 0.5 * pi, 1e-14);
+    EXPECT_EQ(pinning.pinning().count(), 2.0);
+    EXPECT_NEAR(pinning.pinning().angle().mean, 0.5 * pi, 1e-14);
 }
 
 }  // namespace

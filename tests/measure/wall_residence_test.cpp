@@ -32,10 +32,10 @@ TEST(WallResidences, BeginAndEndWhereTheDiscEntersAndLeaves) {
         if (k % samples == samples - 1) residences.close_block();
     }
     const double a_sample = 360.0 / samples;
-    EXPECT_NEAR(residences.becoming_pinned().angle().mean * degrees_per_radian, 240.0, a_sample);
-    EXPECT_NEAR(residences.becoming_free().angle().mean * degrees_per_radian, 120.0, a_sample);
-    EXPECT_NEAR(residences.becoming_free().concentration(), 1.0, 1e-9);
-    EXPECT_EQ(residences.becoming_free().count(), 10.0);
+    EXPECT_NEAR(residences.pinning().angle().mean * degrees_per_radian, 240.0, a_sample);
+    EXPECT_NEAR(residences.depinning().angle().mean * degrees_per_radian, 120.0, a_sample);
+    EXPECT_NEAR(residences.depinning().concentration(), 1.0, 1e-9);
+    EXPECT_EQ(residences.depinning().count(), 10.0);
     // The whole residence counts, from its first sample on: 120° of 360°.
     EXPECT_NEAR(residences.share().mean, 1.0 / 3.0, 1.0 / samples);
     EXPECT_NEAR(residences.length().mean, 1.0 / 3.0, 2.0 / samples);
@@ -47,9 +47,9 @@ TEST(WallResidences, ShortOnesDoNotCount) {
     for (int k = 0; k < 3 * samples; ++k)
         residences.sample(at_sample(k, {rounds(k, 200.0, 180.0)}));
     residences.close_block();
-    EXPECT_EQ(residences.becoming_free().count(), 0.0);
+    EXPECT_EQ(residences.depinning().count(), 0.0);
     EXPECT_EQ(residences.share().mean, 0.0);
-    EXPECT_EQ(residences.becoming_free(WallResidences::standard, 0).count(), 3.0);
+    EXPECT_EQ(residences.depinning(WallResidences::standard, 0).count(), 3.0);
     EXPECT_NEAR(residences.share(WallResidences::standard, 0).mean, 20.0 / 360.0, 1.5 / samples);
 }
 
@@ -62,8 +62,8 @@ TEST(WallResidences, MinimumLengthIsInclusive) {
             residences.sample(at_sample(k, {{0.0, at_wall ? 7.6 : 3.0}}));
         }
         residences.close_block();
-        EXPECT_EQ(residences.becoming_free().count(), length == 41 ? 1.0 : 0.0);
-        EXPECT_EQ(residences.becoming_pinned().count(), length == 41 ? 1.0 : 0.0);
+        EXPECT_EQ(residences.depinning().count(), length == 41 ? 1.0 : 0.0);
+        EXPECT_EQ(residences.pinning().count(), length == 41 ? 1.0 : 0.0);
         EXPECT_NEAR(residences.share().mean, length == 41 ? 41.0 / 200.0 : 0.0, 1e-15);
     }
 }
@@ -83,8 +83,8 @@ TEST(WallResidences, OneThatBeganBeforeTheFirstSampleHasNoBeginning) {
     for (int k = 0; k < 200; ++k)
         residences.sample(at_sample(k, {(k < 100 ? 7.6 : 3.0) * unit_circle(0.25)}));
     residences.close_block();
-    EXPECT_EQ(residences.becoming_pinned().count(), 0.0);
-    EXPECT_EQ(residences.becoming_free().count(), 1.0);
+    EXPECT_EQ(residences.pinning().count(), 0.0);
+    EXPECT_EQ(residences.depinning().count(), 1.0);
     EXPECT_NEAR(residences.share().mean, 0.5, 1e-12);
 }
 
@@ -94,7 +94,7 @@ TEST(WallResidences, ChangeOfTheNumberOfDiscsRestarts) {
     for (int k = 30; k < 60; ++k) residences.sample(at_sample(k, {{0.0, 7.6}, {0.0, 0.0}}));
     for (int k = 60; k < 70; ++k) residences.sample(at_sample(k, {{0.0, 0.0}, {3.0, 0.0}}));
     residences.close_block();
-    EXPECT_EQ(residences.becoming_free().count(), 0.0);  // 30 samples each time
+    EXPECT_EQ(residences.depinning().count(), 0.0);  // 30 samples each time
 }
 
 TEST(WallResidences, MergedEqualsOneLongRun) {
@@ -110,7 +110,7 @@ TEST(WallResidences, MergedEqualsOneLongRun) {
     }
     a.merge(b);
     EXPECT_NEAR(a.share().mean, both.share().mean, 1e-12);
-    EXPECT_EQ(a.becoming_free().count(), both.becoming_free().count());
+    EXPECT_EQ(a.depinning().count(), both.depinning().count());
 }
 
 }  // namespace

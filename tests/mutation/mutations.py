@@ -139,8 +139,8 @@ MUTATIONS = [
      "uneven frames count as even ones"),
     (PINNED, "if (time - last.time > longest_[disc].duration)", "if (true)",
      "the last flight instead of the longest"),
-    (PINNED, "becoming_free_.add(flight.begin);\n            becoming_pinned_.add(flight.end);",
-     "becoming_free_.add(flight.end);\n            becoming_pinned_.add(flight.begin);",
+    (PINNED, "depinning_.add(flight.begin);\n            pinning_.add(flight.end);",
+     "depinning_.add(flight.end);\n            pinning_.add(flight.begin);",
      "begin and end of a flight are exchanged"),
     # Residences at the wall.
     (RESIDENCES, "pinned[d] += lasted - step < required ? residence.samples : 1.0;", "pinned[d] += 1.0;",

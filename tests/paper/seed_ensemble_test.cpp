@@ -107,22 +107,22 @@ TEST(SeedEnsemble, CombinesMeasuredAveragesTablesCountsAndDirections) {
         json["count"] = count;
         return json;
     };
-    a["measured"] = {{"pinned", {{"becoming_free", direction(350.0, 10)}}},
+    a["measured"] = {{"pinned", {{"depinning", direction(350.0, 10)}}},
                      {"profile",
                       {{"theta", {2.5, 7.5}},
                        {"visits", {10, 20}},
                        {"varpi_m", {-1.0, nullptr}},
                        {"varpi_m_error", {0.1, nullptr}}}}};
-    b["measured"] = {{"pinned", {{"becoming_free", direction(10.0, 30)}}},
+    b["measured"] = {{"pinned", {{"depinning", direction(10.0, 30)}}},
                      {"profile",
                       {{"theta", {2.5, 7.5}},
                        {"visits", {1, 2}},
                        {"varpi_m", {-1.1, -2.0}},
                        {"varpi_m_error", {0.1, 0.3}}}}};
     const Json all = seed_ensemble({a, b})["measured"];
-    const double angle = number(all["pinned"]["becoming_free"]["mean"]);
+    const double angle = number(all["pinned"]["depinning"]["mean"]);
     EXPECT_NEAR(std::remainder(angle, 360.0), 0.0, 1e-9);
-    EXPECT_EQ(all["pinned"]["becoming_free"]["count"], 40.0);
+    EXPECT_EQ(all["pinned"]["depinning"]["count"], 40.0);
     EXPECT_EQ(all["profile"]["theta"], Json({2.5, 7.5}));
     EXPECT_EQ(all["profile"]["visits"], Json({11.0, 22.0}));
     EXPECT_NEAR(number(all["profile"]["varpi_m"][0]), -1.05, 1e-12);

@@ -72,7 +72,7 @@ Tracks camera_tracks(const std::vector<Snapshot>& frames, double noise) {
 }
 
 struct Found {
-    Estimate temperature, becoming_pinned, becoming_free;
+    Estimate temperature, pinning, depinning;
     Estimate squared_path;  // relative to the container, in 1/73 of a period
     Estimate speed;         // of the profile, mean over its slices
 };
@@ -124,7 +124,7 @@ void expect_same_angle(const Estimate& found, const Estimate& exact) {
 TEST(SmoothedTracks, FiniteDifferencesBiasPinningAndTemperature) {
     const Found exact = exactly(laboratory());
     const Found raw = found_in(series_of(camera_tracks(laboratory(), 0.2), scale_of(laboratory())));
-    EXPECT_GT(raw.becoming_pinned.mean - exact.becoming_pinned.mean, 20.0);
+    EXPECT_GT(raw.pinning.mean - exact.pinning.mean, 20.0);
     EXPECT_GT(raw.temperature.mean, 1.3 * exact.temperature.mean);
 }
 
@@ -132,8 +132,8 @@ TEST(SmoothedTracks, RecoversAnglesOfPinningWithinTheirErrors) {
     const Found exact = exactly(laboratory());
     for (const double noise : {0.0, 0.1, 0.2}) {
         const Found found = smoothed(laboratory(), noise);
-        expect_same_angle(found.becoming_pinned, exact.becoming_pinned);
-        expect_same_angle(found.becoming_free, exact.becoming_free);
+        expect_same_angle(found.pinning, exact.pinning);
+        expect_same_angle(found.depinning, exact.depinning);
     }
 }
 
@@ -174,8 +174,8 @@ std::string line_of(const char* how, double noise, const Found& found) {
                    : std::string("n/a");
     };
     return fmt::format("| {:.1f} | {} | {} | {} | {} | {} | {} |\n", noise, how,
-                       text(found.temperature, 3), text(found.becoming_pinned, 1),
-                       text(found.becoming_free, 1), text(found.squared_path, 4),
+                       text(found.temperature, 3), text(found.pinning, 1),
+                       text(found.depinning, 1), text(found.squared_path, 4),
                        text(found.speed, 3));
 }
 

@@ -152,12 +152,12 @@ void PinnedLoose::apply_criteria(const MFrameView& view) {
         pinned_now += is_pinned_[i];
         if (freed_[i] != 0.0) {
             const Vec2 position{left_x_[i], left_y_[i]};
-            becoming_free_.add(position);
+            depinning_.add(position);
             free_positions_.add(position);
         }
         if (turned_sharply_[i] != 0.0) {
             const Vec2 position{x[i], y[i]};
-            becoming_pinned_.add(position);
+            pinning_.add(position);
             pinned_positions_.add(position);
         }
     }
@@ -194,13 +194,13 @@ void PinnedByCollisions::collide(std::size_t disc, double time, const Vec2& posi
 void PinnedByCollisions::close_block() {
     for (Flight& flight : longest_) {
         if (flight.duration > 0.0) {
-            becoming_free_.add(flight.begin);
-            becoming_pinned_.add(flight.end);
+            depinning_.add(flight.begin);
+            pinning_.add(flight.end);
         }
         flight = {};
     }
-    becoming_pinned_.close_block();
-    becoming_free_.close_block();
+    pinning_.close_block();
+    depinning_.close_block();
 }
 
 }  // namespace swirl

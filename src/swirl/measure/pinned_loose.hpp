@@ -68,7 +68,7 @@ struct PinningCriteria {
 class PinnedLoose : public BlockAverages<PinnedLoose> {
   public:
     static auto averages(auto& s) {
-        return std::tie(s.becoming_pinned_, s.becoming_free_, s.share_);
+        return std::tie(s.pinning_, s.depinning_, s.share_);
     }
 
     static constexpr int half_width = 7;
@@ -86,9 +86,9 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
     /// True if the present tracks are long enough for pinned() to be known.
     bool is_known() const { return frames_ >= width; }
 
-    /// θ where discs become pinned, and where they become free.
-    const CircularMean& becoming_pinned() const { return becoming_pinned_; }
-    const CircularMean& becoming_free() const { return becoming_free_; }
+    /// θ where discs pin, and where they depin.
+    const CircularMean& pinning() const { return pinning_; }
+    const CircularMean& depinning() const { return depinning_; }
     const DirectionHistogram& pinned_positions() const { return pinned_positions_; }
     const DirectionHistogram& free_positions() const { return free_positions_; }
     /// The share of the discs that is pinned.
@@ -139,7 +139,7 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
     std::vector<double> is_pinned_;        // 0 or 1
     std::vector<double> freed_, turned_sharply_;  // 0 or 1, at this frame
     std::vector<std::uint8_t> pinned_;
-    CircularMean becoming_pinned_, becoming_free_;
+    CircularMean pinning_, depinning_;
     BlockMean share_;
     DirectionHistogram pinned_positions_, free_positions_;
 };
@@ -149,31 +149,31 @@ class PinnedByCollisions {
     void sample_event(const Event& event, const Snapshot& after);
     /// At the end of every period: now the longest flights are known.
     void close_block();
-    const CircularMean& becoming_pinned() const { return becoming_pinned_; }
-    const CircularMean& becoming_free() const { return becoming_free_; }
+    const CircularMean& pinning() const { return pinning_; }
+    const CircularMean& depinning() const { return depinning_; }
 
     /// The results from collisions, next to those from the tracks of the same discs.
     template <class Visitor>
     void report(Visitor&& visit, const PinnedLoose& by_tracks) const {
-        visit(direction_row("becoming_pinned", "θ where discs become pinned, by tracks",
-                            by_tracks.becoming_pinned()));
-        visit(direction_row("becoming_free", "θ where discs become free, by tracks",
-                            by_tracks.becoming_free()));
-        visit(direction_row("becoming_pinned_by_collisions",
-                            "θ where discs become pinned, by collisions", becoming_pinned()));
-        visit(direction_row("becoming_free_by_collisions",
-                            "θ where discs become free, by collisions", becoming_free()));
+        visit(direction_row("pinning", "θ where discs pin, by tracks",
+                            by_tracks.pinning()));
+        visit(direction_row("depinning", "θ where discs depin, by tracks",
+                            by_tracks.depinning()));
+        visit(direction_row("pinning_by_collisions",
+                            "θ where discs pin, by collisions", pinning()));
+        visit(direction_row("depinning_by_collisions",
+                            "θ where discs depin, by collisions", depinning()));
         visit(ReportRow{"share", "1", "share of the discs that is pinned", by_tracks.share()});
-        visit(positions_table("distribution over θ of becoming pinned and becoming free, by tracks",
+        visit(positions_table("distribution over θ of pinning and depinning, by tracks",
                               by_tracks.pinned_positions(), by_tracks.free_positions()));
     }
     void merge(const PinnedByCollisions& other) {
-        becoming_pinned_.merge(other.becoming_pinned_);
-        becoming_free_.merge(other.becoming_free_);
+        pinning_.merge(other.pinning_);
+        depinning_.merge(other.depinning_);
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(last_, longest_, becoming_pinned_, becoming_free_);
+        visit(last_, longest_, pinning_, depinning_);
     }
     bool is_consistent() const { return last_.size() == longest_.size(); }
 
@@ -191,7 +191,7 @@ class PinnedByCollisions {
 
     std::vector<Collision> last_;  // of every disc
     std::vector<Flight> longest_;  // of every disc in this period
-    CircularMean becoming_pinned_, becoming_free_;
+    CircularMean pinning_, depinning_;
 };
 
 }  // namespace swirl

@@ -3,7 +3,7 @@
 //
 // The SI's criterion for "pinned" (pinned_loose.hpp) asks whether a disc flies along the wall, not
 // whether it is near it. So discs that fly parallel to the wall far inside count as pinned. The
-// positions where they become free have two maxima, and the mean position moves with N as the
+// positions where they depin have two maxima, and the mean position moves with N as the
 // weights of the two do. Here:
 //
 //   layer            r > R − 1.5 a: the centre is within one and a half of the disc's radii of the
@@ -53,11 +53,11 @@ class WallResidences {
     void sample(const MFrameView& view);
     void close_block();
 
-    const CircularMean& becoming_pinned(std::size_t layer = standard,
+    const CircularMean& pinning(std::size_t layer = standard,
                                         std::size_t duration = standard) const {
         return averages_[layer][duration].begin;
     }
-    const CircularMean& becoming_free(std::size_t layer = standard,
+    const CircularMean& depinning(std::size_t layer = standard,
                                       std::size_t duration = standard) const {
         return averages_[layer][duration].end;
     }
@@ -70,18 +70,18 @@ class WallResidences {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(direction_row("becoming_pinned", "θ where residences in the wall layer begin",
-                            becoming_pinned()));
-        visit(direction_row("becoming_free", "θ where they end", becoming_free()));
+        visit(direction_row("pinning", "θ where residences in the wall layer begin",
+                            pinning()));
+        visit(direction_row("depinning", "θ where they end", depinning()));
         visit(ReportRow{"share", "1", "share of the discs that is on such a residence", share()});
         visit(ReportRow{"length", "T", "length of a residence, in periods", length()});
         ReportTable sensitivity{"sensitivity",
                                 "the same for other layers and minimum lengths of a residence",
                                 {{"layer", "r"},
                                  {"min_length", "T"},
-                                 {"becoming_pinned", "°", with_error_column},
+                                 {"pinning", "°", with_error_column},
                                  {"pinned_concentration", "1"},
-                                 {"becoming_free", "°", with_error_column},
+                                 {"depinning", "°", with_error_column},
                                  {"free_concentration", "1"},
                                  {"share", "1", with_error_column}}};
         for (std::size_t l = 0; l < layers.size(); ++l)
@@ -92,7 +92,7 @@ class WallResidences {
                                 a.end.concentration(), a.share.estimate());
             }
         visit(std::move(sensitivity));
-        visit(positions_table("distribution over θ of becoming pinned and becoming free", begins_,
+        visit(positions_table("distribution over θ of pinning and depinning", begins_,
                               ends_));
     }
     void merge(const WallResidences& other);

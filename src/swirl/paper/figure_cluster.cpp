@@ -192,17 +192,17 @@ void add_pinning_findings(std::vector<std::string>& findings, std::int64_t discs
         return mean_in_words(measured[criterion][name]);
     };
     const auto resultant = [&](const char* criterion) {
-        return number(measured[criterion]["becoming_free"]["concentration"]);
+        return number(measured[criterion]["depinning"]["concentration"]);
     };
     findings.push_back(fmt::format(
         "N = {}, residences in the wall layer: they begin at θ = {}° and end at {}° (resultant "
         "{:.2f}); {} of the discs reside there.",
-        discs, mean("residence", "becoming_pinned"), mean("residence", "becoming_free"),
+        discs, mean("residence", "pinning"), mean("residence", "depinning"),
         resultant("residence"), mean("residence", "share")));
     findings.push_back(fmt::format(
         "N = {}, the SI's criterion: discs pin at θ = {}° and depin at {}° (resultant {:.2f}: the "
         "mean of directions that nearly cancel has little meaning); {} of the discs are pinned.",
-        discs, mean("pinned", "becoming_pinned"), mean("pinned", "becoming_free"),
+        discs, mean("pinned", "pinning"), mean("pinned", "depinning"),
         resultant("pinned"), mean("pinned", "share")));
 }
 
@@ -212,13 +212,13 @@ const std::vector<std::string> profile_columns{
     "distance_error", "speed",      "speed_error"};
 /// Angles by the SI's criterion, by collisions, and by residences in the wall layer.
 const std::vector<std::string> pinning_angles{
-    "pinned.becoming_pinned=pinning",
-    "pinned.becoming_free=depinning",
-    "pinned.becoming_pinned_by_collisions=pinning_by_collisions",
-    "pinned.becoming_free_by_collisions=depinning_by_collisions",
+    "pinned.pinning",
+    "pinned.depinning",
+    "pinned.pinning_by_collisions",
+    "pinned.depinning_by_collisions",
     "pinned.share",
-    "residence.becoming_pinned=residence_begin",
-    "residence.becoming_free=residence_end",
+    "residence.pinning=residence_begin",
+    "residence.depinning=residence_end",
     "residence.share=residence_share",
     "residence.length=residence_length"};
 
@@ -255,7 +255,7 @@ FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name)
                 add_numbers(row, pinning_angles, results[k]);
                 for (const char* criterion : {"pinned", "residence"})
                     row.emplace_back(
-                        number(at(measured, {criterion, "becoming_free", "concentration"})));
+                        number(at(measured, {criterion, "depinning", "concentration"})));
                 table.add(std::move(row));
             }
             if (k == 0 || k + 1 == numbers.size())
@@ -297,8 +297,8 @@ static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
                 std::vector<Table::Cell> row = first_cells(numbers[k], results[k]);
                 row.emplace_back(number(theta[r]));
                 for (const std::string criterion : {"pinned", "residence"})
-                    for (const std::string event : {"pinned", "free"}) {
-                        const Json& mean = measured[criterion]["becoming_" + event];
+                    for (const std::string event : {"pinning", "depinning"}) {
+                        const Json& mean = measured[criterion][event];
                         row.emplace_back(number(measured[criterion]["positions"][event][r]));
                         add_mean(row, mean);
                         row.emplace_back(number(at(mean, {"concentration"})));
