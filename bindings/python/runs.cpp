@@ -118,7 +118,7 @@ py::tuple run_once(const py::dict& given, const std::vector<std::string>& measur
     const MeasurementReports reports = observation.report();
     if (!reports.empty()) json["measured"] = measured_json(reports);
     return py::make_tuple(json.dump(2), reports_in_python(reports), monitor.error().object(),
-                          headline(result), report(result) + warning_lines(result));
+                          headline(result), report(result, true) + warning_lines(result));
 }
 
 /// Means, errors and effective samples of each column. Rows are blocks.
