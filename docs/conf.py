@@ -20,7 +20,7 @@ root_doc = "docs/index"
 extensions = ["myst_parser"]
 include_patterns = ["*.md", "docs/*.md", "docs/**/*.md", "bench/*.md", "bench/**/*.md", "src/**/README.md",
                     "examples/*.md"]
-exclude_patterns = ["build", "out", "web", ".git", ".github", "bindings", "tests", "**/node_modules"]
+exclude_patterns = ["build", "out", "web", ".git", ".github", "bindings", "**/node_modules"]
 # A heading of the third level directly below the first is no error.
 suppress_warnings = ["myst.header"]
 
@@ -68,6 +68,9 @@ def math_svg(formula):
     """The formula as SVG by matplotlib, since MathJax would need a network."""
     from matplotlib import rc_context
     from matplotlib.mathtext import math_to_image
+    formula = " ".join(formula.split())
+    # mathtext needs braces for the arguments of fonts and fractions.
+    formula = re.sub(r"\\(mathbf|mathrm|mathcal)\s+([A-Za-z])", r"\\\1{\2}", formula)
     formula = re.sub(r"\\text\{([^}]*)\}", lambda text: f"\\mathrm{{{text[1]}}}".replace(" ", r"\ "), formula)
     formula = re.sub(r"\\(ge|le)(?![a-z])", r"\\\1q", formula)  # names that matplotlib has
     image = BytesIO()

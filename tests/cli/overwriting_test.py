@@ -386,7 +386,7 @@ class Names(InFolder):
         for place in (self.path("pipe"), self.folder):
             done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn("is there and is no file", done.stderr)
+            self.assertIn("which exists and is not a file", done.stderr)
         self.assertEqual(self.left_behind(), ["pipe", "t.h5"])
 
 

@@ -218,8 +218,7 @@ TEST(MeasuredContainer, SlowPinnedDiscsBehaveAsInThePaper) {
               0.7 * row_of(few.frustration, "pinned_wall_spin").mean);
     // More of the discs are pinned, and they are earlier in their clockwise cycle (larger θ).
     EXPECT_GT(many.tracks.share().mean, 2.0 * few.tracks.share().mean);
-    EXPECT_GT(many.tracks.pinning().angle().mean,
-              few.tracks.pinning().angle().mean + 0.5);
+    EXPECT_GT(many.tracks.pinning().angle().mean, few.tracks.pinning().angle().mean + 0.5);
     // The differences are far larger than the errors from the blocks of periods.
     const auto apart = [](const Estimate& a, const Estimate& b) {
         return std::abs(a.mean - b.mean) / std::hypot(a.error, b.error);
@@ -229,8 +228,7 @@ TEST(MeasuredContainer, SlowPinnedDiscsBehaveAsInThePaper) {
                     row_of(many.frustration, "pinned_wall_spin")),
               10.0);
     EXPECT_GT(apart(few.tracks.share(), many.tracks.share()), 10.0);
-    EXPECT_GT(apart(few.tracks.pinning().angle(), many.tracks.pinning().angle()),
-              10.0);
+    EXPECT_GT(apart(few.tracks.pinning().angle(), many.tracks.pinning().angle()), 10.0);
     // More contacts are frustrated at larger N.
     EXPECT_GT(apart(row_of(few.frustration, "triangles"), row_of(many.frustration, "triangles")),
               10.0);

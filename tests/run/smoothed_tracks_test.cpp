@@ -174,9 +174,8 @@ std::string line_of(const char* how, double noise, const Found& found) {
                    : std::string("n/a");
     };
     return fmt::format("| {:.1f} | {} | {} | {} | {} | {} | {} |\n", noise, how,
-                       text(found.temperature, 3), text(found.pinning, 1),
-                       text(found.depinning, 1), text(found.squared_path, 4),
-                       text(found.speed, 3));
+                       text(found.temperature, 3), text(found.pinning, 1), text(found.depinning, 1),
+                       text(found.squared_path, 4), text(found.speed, 3));
 }
 
 // The table of docs/explanation/tracking_accuracy.md, from the first row on.

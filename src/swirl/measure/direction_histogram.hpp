@@ -45,7 +45,8 @@ class DirectionHistogram {
 /// The table of the positions where discs become pinned and free.
 inline ReportTable positions_table(const char* description, const DirectionHistogram& pinned,
                                    const DirectionHistogram& free) {
-    ReportTable table{"positions", description, {{"theta", "°"}, {"pinning", "1"}, {"depinning", "1"}}};
+    ReportTable table{
+        "positions", description, {{"theta", "°"}, {"pinning", "1"}, {"depinning", "1"}}};
     for (std::size_t k = 0; k < DirectionHistogram::slices; ++k)
         table.add(360.0 * (static_cast<double>(k) + 0.5) / DirectionHistogram::slices,
                   pinned.share(k), free.share(k));

@@ -67,9 +67,7 @@ struct PinningCriteria {
 
 class PinnedLoose : public BlockAverages<PinnedLoose> {
   public:
-    static auto averages(auto& s) {
-        return std::tie(s.pinning_, s.depinning_, s.share_);
-    }
+    static auto averages(auto& s) { return std::tie(s.pinning_, s.depinning_, s.share_); }
 
     static constexpr int half_width = 7;
     static constexpr int width = 2 * half_width + 1;
@@ -155,14 +153,12 @@ class PinnedByCollisions {
     /// The results from collisions, next to those from the tracks of the same discs.
     template <class Visitor>
     void report(Visitor&& visit, const PinnedLoose& by_tracks) const {
-        visit(direction_row("pinning", "θ where discs pin, by tracks",
-                            by_tracks.pinning()));
-        visit(direction_row("depinning", "θ where discs depin, by tracks",
-                            by_tracks.depinning()));
-        visit(direction_row("pinning_by_collisions",
-                            "θ where discs pin, by collisions", pinning()));
-        visit(direction_row("depinning_by_collisions",
-                            "θ where discs depin, by collisions", depinning()));
+        visit(direction_row("pinning", "θ where discs pin, by tracks", by_tracks.pinning()));
+        visit(direction_row("depinning", "θ where discs depin, by tracks", by_tracks.depinning()));
+        visit(
+            direction_row("pinning_by_collisions", "θ where discs pin, by collisions", pinning()));
+        visit(direction_row("depinning_by_collisions", "θ where discs depin, by collisions",
+                            depinning()));
         visit(ReportRow{"share", "1", "share of the discs that is pinned", by_tracks.share()});
         visit(positions_table("distribution over θ of pinning and depinning, by tracks",
                               by_tracks.pinned_positions(), by_tracks.free_positions()));

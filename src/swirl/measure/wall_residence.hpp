@@ -54,11 +54,11 @@ class WallResidences {
     void close_block();
 
     const CircularMean& pinning(std::size_t layer = standard,
-                                        std::size_t duration = standard) const {
+                                std::size_t duration = standard) const {
         return averages_[layer][duration].begin;
     }
     const CircularMean& depinning(std::size_t layer = standard,
-                                      std::size_t duration = standard) const {
+                                  std::size_t duration = standard) const {
         return averages_[layer][duration].end;
     }
     /// The share of the discs that is pinned.
@@ -70,8 +70,7 @@ class WallResidences {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(direction_row("pinning", "θ where residences in the wall layer begin",
-                            pinning()));
+        visit(direction_row("pinning", "θ where residences in the wall layer begin", pinning()));
         visit(direction_row("depinning", "θ where they end", depinning()));
         visit(ReportRow{"share", "1", "share of the discs that is on such a residence", share()});
         visit(ReportRow{"length", "T", "length of a residence, in periods", length()});
@@ -92,8 +91,7 @@ class WallResidences {
                                 a.end.concentration(), a.share.estimate());
             }
         visit(std::move(sensitivity));
-        visit(positions_table("distribution over θ of pinning and depinning", begins_,
-                              ends_));
+        visit(positions_table("distribution over θ of pinning and depinning", begins_, ends_));
     }
     void merge(const WallResidences& other);
     template <class Visitor>

@@ -197,13 +197,13 @@ void add_pinning_findings(std::vector<std::string>& findings, std::int64_t discs
     findings.push_back(fmt::format(
         "N = {}, residences in the wall layer: they begin at θ = {}° and end at {}° (resultant "
         "{:.2f}); {} of the discs reside there.",
-        discs, mean("residence", "pinning"), mean("residence", "depinning"),
-        resultant("residence"), mean("residence", "share")));
+        discs, mean("residence", "pinning"), mean("residence", "depinning"), resultant("residence"),
+        mean("residence", "share")));
     findings.push_back(fmt::format(
         "N = {}, the SI's criterion: discs pin at θ = {}° and depin at {}° (resultant {:.2f}: the "
         "mean of directions that nearly cancel has little meaning); {} of the discs are pinned.",
-        discs, mean("pinned", "pinning"), mean("pinned", "depinning"),
-        resultant("pinned"), mean("pinned", "share")));
+        discs, mean("pinned", "pinning"), mean("pinned", "depinning"), resultant("pinned"),
+        mean("pinned", "share")));
 }
 
 const std::vector<std::string> profile_columns{
@@ -211,16 +211,15 @@ const std::vector<std::string> profile_columns{
     "wall",           "normalised", "normalised_error", "distance",
     "distance_error", "speed",      "speed_error"};
 /// Angles by the SI's criterion, by collisions, and by residences in the wall layer.
-const std::vector<std::string> pinning_angles{
-    "pinned.pinning",
-    "pinned.depinning",
-    "pinned.pinning_by_collisions",
-    "pinned.depinning_by_collisions",
-    "pinned.share",
-    "residence.pinning=residence_begin",
-    "residence.depinning=residence_end",
-    "residence.share=residence_share",
-    "residence.length=residence_length"};
+const std::vector<std::string> pinning_angles{"pinned.pinning",
+                                              "pinned.depinning",
+                                              "pinned.pinning_by_collisions",
+                                              "pinned.depinning_by_collisions",
+                                              "pinned.share",
+                                              "residence.pinning=residence_begin",
+                                              "residence.depinning=residence_end",
+                                              "residence.share=residence_share",
+                                              "residence.length=residence_length"};
 
 FigurePlan plan_measured(const PaperSettings& settings, const std::string& name,
                          const std::vector<std::int64_t>& numbers) {
