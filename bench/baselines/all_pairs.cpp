@@ -2,7 +2,7 @@
 
 namespace swirl {
 
-AllPairsSearch all_pairs_search(Width width) {
+AllPairsSearch all_pairs_search([[maybe_unused]] Width width) {
 #if defined(SWIRL_HAS_WIDE_VECTORS)
     width = width_meant(width);
     if (width == Width::avx512) return all_pairs_search_avx512;

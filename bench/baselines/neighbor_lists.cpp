@@ -40,7 +40,7 @@ bool is_well_inside(const Vec2& apart, double clearance) {
     return dot(apart, apart) * rounding_margin < clearance * clearance;
 }
 
-ListSearch list_search(Width width) {
+ListSearch list_search([[maybe_unused]] Width width) {
 #if defined(SWIRL_HAS_WIDE_VECTORS)
     width = width_meant(width);
     if (width == Width::avx512) return list_search_avx512;
