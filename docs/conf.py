@@ -75,7 +75,7 @@ def math_svg(formula):
     formula = re.sub(r"\\(ge|le)(?![a-z])", r"\\\1q", formula)  # names that matplotlib has
     image = BytesIO()
     with rc_context({"svg.fonttype": "path", "mathtext.fontset": "cm", "svg.hashsalt": "swirl"}):
-        math_to_image(f"${formula.strip()}$", image, dpi=72, format="svg")
+        math_to_image(f"${formula}$", image, dpi=72, format="svg")
     text = image.getvalue().decode()
     return f'<span role="img" aria-label="{escape(formula)}" class="formula">{text[text.index("<svg"):]}</span>'
 
@@ -86,8 +86,7 @@ def visit_math(self, node):
 
 
 def visit_math_block(self, node):
-    formula = " ".join(node.astext().split())
-    self.body.append(f'<div class="formula-block">{math_svg(formula)}</div>')
+    self.body.append(f'<div class="formula-block">{math_svg(node.astext())}</div>')
     raise nodes.SkipNode
 
 

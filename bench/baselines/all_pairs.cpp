@@ -2,9 +2,9 @@
 
 namespace swirl {
 
-AllPairsSearch all_pairs_search([[maybe_unused]] Width width) {
-#if defined(SWIRL_HAS_WIDE_VECTORS)
+AllPairsSearch all_pairs_search(Width width) {
     width = width_meant(width);
+#if defined(SWIRL_HAS_WIDE_VECTORS)
     if (width == Width::avx512) return all_pairs_search_avx512;
     if (width == Width::avx2) return all_pairs_search_avx2;
 #endif

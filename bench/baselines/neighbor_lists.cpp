@@ -40,9 +40,9 @@ bool is_well_inside(const Vec2& apart, double clearance) {
     return dot(apart, apart) * rounding_margin < clearance * clearance;
 }
 
-ListSearch list_search([[maybe_unused]] Width width) {
-#if defined(SWIRL_HAS_WIDE_VECTORS)
+ListSearch list_search(Width width) {
     width = width_meant(width);
+#if defined(SWIRL_HAS_WIDE_VECTORS)
     if (width == Width::avx512) return list_search_avx512;
     if (width == Width::avx2) return list_search_avx2;
 #endif

@@ -5,11 +5,10 @@ import resource
 import signal
 import struct
 import subprocess
-import tempfile
 import time
 import unittest
 
-SWIRL = os.environ["SWIRL"]
+from program import SWIRL, InFolder
 
 
 def swirl(*arguments):
@@ -21,15 +20,7 @@ def contents(path):
         return file.read()
 
 
-class ImageTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class ImageTest(InFolder):
     def test_every_format_is_reproducible(self):
         for ending, signature in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
             both = []

@@ -8,12 +8,11 @@ import shutil
 import signal
 import struct
 import subprocess
-import tempfile
 import time
 import unittest
 
-SWIRL = os.environ["SWIRL"]
-SOURCE = os.environ["SWIRL_SOURCE"]
+from program import SOURCE, SWIRL, InFolder
+
 # One message, and an optional hint on a second line.
 ONE_ERROR = r"\A[^\n]+\.\n(hint: [^\n]+\.\n)?\Z"
 
@@ -59,15 +58,7 @@ def png_size(path):
     return struct.unpack(">II", head[16:24])
 
 
-class MovieTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
+class MovieTest(InFolder):
     def assert_usage_error(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertRegex(result.stderr, ONE_ERROR)

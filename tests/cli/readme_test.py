@@ -91,8 +91,6 @@ class Readme(InFolder):
                 words = words[:words.index("&&")] if "&&" in words else words
                 if not words or words[0] in ("lab", "site", "python"):  # scripts
                     continue
-                if call == "checkpoint":  # the first word of a file, not a call
-                    continue
                 if words[0] not in helps:
                     helps[words[0]] = swirl(words[0], "--help").stdout
                     self.assertIn(f"Usage: swirl {words[0]} ", helps[words[0]], f"{name}: {call}")
