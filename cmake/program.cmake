@@ -35,13 +35,18 @@ set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer
 swirl_layer(run -O1 PUBLIC swirl_io)
 swirl_layer(render -O2 PUBLIC swirl_run PkgConfig::cairo)
 swirl_layer(study -O1 PUBLIC swirl_run Threads::Threads)
-swirl_layer(paper -O1 PUBLIC swirl_study swirl_render)
+# `swirl paper` and `swirl experiment`. Without this layer they are listed in the help, and report what
+# is missing.
+option(SWIRL_PAPER "Build `swirl paper` and `swirl experiment`" ON)
+if(SWIRL_PAPER)
+  swirl_layer(paper -O1 PUBLIC swirl_study swirl_render)
+endif()
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/figures ${PROJECT_BINARY_DIR}/share/swirl/figures SYMBOLIC)
 # The layer `tracking` is built if OpenCV is found (section [camera] of `packages`). Otherwise `swirl
-# track` reports what is missing.
-option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON)
+# track` reports what is missing. Its report uses the layer `paper`.
+cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON SWIRL_PAPER OFF)
 # Debian's package with the CMake files of OpenCV depends on all of OpenCV, so they are not used.
 find_path(opencv_include opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
 find_library(opencv_core_library opencv_core)
@@ -65,7 +70,15 @@ set_source_files_properties(src/swirl/run/version.cpp PROPERTIES COMPILE_DEFINIT
 # The command line: one file per subcommand.
 file(GLOB app_sources CONFIGURE_DEPENDS src/swirl/cli/*.cpp)
 add_executable(swirl ${app_sources})
-target_link_libraries(swirl PRIVATE swirl_paper CLI11::CLI11)
+target_link_libraries(swirl PRIVATE swirl_study swirl_render CLI11::CLI11)
+if(SWIRL_PAPER)
+  target_link_libraries(swirl PRIVATE swirl_paper)
+  # Outside the batches, so that adding this part later compiles nothing else of the command line again.
+  set_source_files_properties(src/swirl/cli/command_paper.cpp src/swirl/cli/command_experiment.cpp
+    PROPERTIES COMPILE_DEFINITIONS SWIRL_PAPER=1)
+endif()
+set_source_files_properties(src/swirl/cli/command_paper.cpp src/swirl/cli/command_experiment.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 if(SWIRL_CAMERA)
   target_link_libraries(swirl PRIVATE swirl_tracking)
   target_compile_definitions(swirl PRIVATE SWIRL_CAMERA=1)

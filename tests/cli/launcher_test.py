@@ -14,8 +14,9 @@ CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
 file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
 add_executable(swirl ${sources})
+option(SWIRL_PAPER "" ON)
 option(SWIRL_CAMERA "" ON)
-target_compile_definitions(swirl PRIVATE CAMERA="${SWIRL_CAMERA}")
+target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_PAPER},${SWIRL_CAMERA}")
 """
 PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
  "binaryDir": "${sourceDir}/build/release"}]}"""
@@ -24,7 +25,7 @@ PROGRAM = """#include <cstdio>
 #include <cstring>
 #include <unistd.h>
 int main(int argc, char** argv) {
-    if (argc > 2 && std::strcmp(argv[2], "camera") == 0) std::puts(CAMERA);
+    if (argc > 2 && std::strcmp(argv[2], "parts") == 0) std::puts(PARTS);
     if (std::getenv("SWIRL_PARSE_ONLY")) return argc > 2 && std::strcmp(argv[2], "--wrong") == 0 ? 2 : 0;
     std::printf("%s %d\\n", "WORD", int(getpid()));
     std::fflush(stdout);
@@ -179,22 +180,40 @@ class Launcher(InFolder):
                                    text=True)
         self.assertEqual(process.stdout.readline().split(), ["first", str(process.pid)])
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=20)
+        process.communicate(timeout=150)
         self.assertEqual(process.returncode, -signal.SIGTERM)
 
-    def test_camera_support_is_built_on_first_use_and_stays(self):
-        def camera(subcommand):
-            done = self.call(subcommand, "camera")
-            return done.stdout.split()[0], "building" in done.stderr
-        # The small program ends with exit code 0 for the words "run" and "track".
-        self.assertEqual(camera("run"), ("OFF", True))
-        self.assertEqual(camera("run"), ("OFF", False))
-        self.assertEqual(camera("track"), ("ON", True))
-        self.assertEqual(camera("track"), ("ON", False))
-        self.assertEqual(camera("run"), ("ON", False))
+    def parts(self, subcommand, *arguments):
+        """The built parts of the program, paper and camera, and whether the call built anything."""
+        # The small program ends with exit code 0 for the name of a subcommand.
+        done = self.call(subcommand, *(arguments or ("parts",)))
+        return done.stdout.split()[:1], "building" in done.stderr
+
+    def test_each_part_is_built_on_first_use_and_stays(self):
+        for subcommand, parts, builds in (
+                ("run", "OFF,OFF", True), ("run", "OFF,OFF", False), ("movie", "OFF,OFF", False),
+                ("synthetic-video", "OFF,OFF", False), ("paper", "ON,OFF", True),
+                ("paper", "ON,OFF", False), ("run", "ON,OFF", False), ("track", "ON,ON", True),
+                ("track", "ON,ON", False), ("paper", "ON,ON", False), ("experiment", "ON,ON", False),
+                ("run", "ON,ON", False)):
+            with self.subTest(subcommand, parts=parts):
+                self.assertEqual(self.parts(subcommand), ([parts], builds))
         self.write_program("second")
-        self.assertEqual(camera("run")[0], "ON")
+        self.assertEqual(self.parts("run")[0], ["ON,ON"])
         self.assertEqual(self.word(), "second")
+
+    def test_help_and_a_wrong_call_add_no_part(self):
+        self.assertEqual(self.parts("run"), (["OFF,OFF"], True))
+        self.write("docs/reference/commands.md", "## swirl paper\n```text\nFigures: 1b\n```\n")
+        # A program without the figures does not know their names, so the help is that of the docs.
+        self.assertEqual(self.call("paper", "--help").stdout, "Figures: 1b\n")
+        for subcommand in ("paper", "track", "experiment"):
+            with self.subTest(subcommand):
+                self.assertEqual(self.parts(subcommand, "--wrong"), ([], False))
+                self.assertEqual(self.parts(subcommand, "--help")[1], False)
+                self.assertEqual(self.parts("run"), (["OFF,OFF"], False))
+        self.assertEqual(self.parts("paper"), (["ON,OFF"], True))
+        self.assertEqual(self.call("paper", "--help").stdout.split()[0], "first")
 
     def test_works_through_a_link(self):
         os.symlink(self.path("swirl"), self.path("link"))
@@ -263,8 +282,8 @@ exit 100
             done = self.call_with_stand_ins(command, "--wrong")
             self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
             self.assertFalse(os.path.exists(self.path("asked")))
-        done = self.call_with_stand_ins("track", "camera")
-        self.assertEqual(done.stdout.split()[:2], ["ON", "first"], done.stderr)
+        done = self.call_with_stand_ins("track", "parts")
+        self.assertEqual(done.stdout.split()[:2], ["ON,ON", "first"], done.stderr)
         self.assertTrue(os.path.exists(self.path("asked")))
 
     def test_help_installs_and_builds_nothing(self):

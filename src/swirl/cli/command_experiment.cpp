@@ -8,6 +8,7 @@
 
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
@@ -40,6 +41,12 @@ struct ExperimentCall {
     std::optional<std::int64_t> frames;
     bool spin = false, no_simulation = false, quiet = false;
 };
+
+#ifndef SWIRL_PAPER
+
+void make_experiment_report(const ExperimentCall&) { throw_no_paper_support("experiment"); }
+
+#else
 
 std::string name_of_video(const std::string& video) {
     fs::path path = video;
@@ -228,6 +235,8 @@ void make_experiment_report(ExperimentCall& call) {
             fmt::format("{} of {} videos could not be used; the report lists the reasons.",
                         videos.size() - std::size_t(good), videos.size()));
 }
+
+#endif  // SWIRL_PAPER
 
 void add_experiment_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExperimentCall>();

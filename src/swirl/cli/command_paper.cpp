@@ -4,6 +4,7 @@
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/stop_signal.hpp"
@@ -22,6 +23,14 @@ struct PaperCall {
     std::vector<std::string> figures;
     bool quiet = false, movies = false;
 };
+
+#ifndef SWIRL_PAPER
+
+void make_paper(const PaperCall&) { throw_no_paper_support("paper"); }
+
+std::string figure_list() { return "Figures: `./swirl paper --help` lists them."; }
+
+#else
 
 void make_movies(const PaperCall& call) {
     PaperMoviesSettings settings;
@@ -116,6 +125,8 @@ std::string figure_list() {
         text += fmt::format("\n  {:<19} {}", figure.name, figure.description);
     return text;
 }
+
+#endif  // SWIRL_PAPER
 
 void add_paper_command(Subcommand& subcommand) {
     const auto call = std::make_shared<PaperCall>();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "swirl/cli/commands.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/stop_signal.hpp"

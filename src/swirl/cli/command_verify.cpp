@@ -346,7 +346,7 @@ void add_verify_command(Subcommand& subcommand) {
     });
 }
 
-const Command verify_command(42, "verify",
+const Command verify_command(43, "verify",
                              "Repeat the run of a result or recording and compare all bits.",
                              add_verify_command);
 

@@ -26,13 +26,6 @@
 
 namespace swirl {
 
-void throw_no_camera_support() {
-    throw Failure(
-        "this build has no camera support (OpenCV was not found, or SWIRL_CAMERA is OFF).\n"
-        "hint: install libopencv-core-dev and libopencv-imgproc-dev and rebuild; ./swirl track "
-        "does both.");
-}
-
 void check_video_options(const std::optional<double>& fps,
                          const std::optional<std::int64_t>& frames) {
     if (fps && !(*fps > 0.0))

@@ -21,9 +21,6 @@ struct VideoSource {
     std::optional<double> container_diameter, disc_diameter;  // millimetres
 };
 
-/// Throws Failure: this build has no OpenCV.
-[[noreturn]] void throw_no_camera_support();
-
 /// Throws UsageError unless --fps and --frames are above 0.
 void check_video_options(const std::optional<double>& fps,
                          const std::optional<std::int64_t>& frames);

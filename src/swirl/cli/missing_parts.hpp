@@ -1,0 +1,23 @@
+// Errors of the subcommands that belong to a part of the program that this build does not contain.
+// ./swirl builds each part when it is first called (CONTRIBUTING.md, Build time).
+#pragma once
+
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+
+[[noreturn]] inline void throw_no_camera_support() {
+    throw Failure(
+        "this build has no camera support (OpenCV was not found, or SWIRL_CAMERA is OFF).\n"
+        "hint: install libopencv-core-dev and libopencv-imgproc-dev and rebuild; ./swirl track "
+        "does both.");
+}
+
+/// `command` is the subcommand that was called.
+[[noreturn]] inline void throw_no_paper_support(const char* command) {
+    throw Failure(std::string("this build cannot make the paper's figures (SWIRL_PAPER is OFF).\n"
+                              "hint: ./swirl ") +
+                  command + " builds what is missing; so does cmake with -DSWIRL_PAPER=ON.");
+}
+
+}  // namespace swirl
