@@ -43,7 +43,7 @@ class SiteNames(InFolder):
             os.remove(self.path("count"))
         settings = {"AT": "0", "WHEN": "", "SIGNAL": "", **more}
         return subprocess.run([self.path("web/site.sh"), "--out", self.site], capture_output=True, text=True,
-                              timeout=60, env={**os.environ, **settings, "PAGE": page,
+                              timeout=150, env={**os.environ, **settings, "PAGE": page,
                                                "COUNT": self.path("count"), "SWIRL": self.path("bin/swirl"),
                                                "SWIRL_PYTHON": "false",
                                                "PATH": self.path("bin") + ":" + os.environ["PATH"]})
@@ -79,7 +79,7 @@ class SiteNames(InFolder):
         self.assertEqual(self.make("old").returncode, 0)
         other = self.site + ".a1B2c3.partial"
         os.mkdir(other)
-        with subprocess.Popen(["flock", os.path.join(other, "lock"), "sleep", "60"]) as holder:
+        with subprocess.Popen(["flock", "--no-fork", os.path.join(other, "lock"), "sleep", "60"]) as holder:
             while not os.path.exists(os.path.join(other, "lock")):
                 self.assertIsNone(holder.poll())
             self.assertEqual(self.make("new").returncode, 0)
