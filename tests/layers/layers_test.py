@@ -147,9 +147,12 @@ class Layers(unittest.TestCase):
     def test_files_compiled_together_define_distinct_names(self):
         # A second function of one name would be a redefinition at best; with other parameters it
         # could silently be called instead of the first (cmake/program.cmake).
-        for layer in COMPILED_AT_ONCE:
+        bindings = os.path.join(SOURCE, "bindings", "python")
+        for layer, files in (
+                *((layer, sources(layer)) for layer in COMPILED_AT_ONCE),
+                ("python", [os.path.join(bindings, name) for name in sorted(os.listdir(bindings))])):
             where = {}
-            for file in sources(layer):
+            for file in files:
                 if file.endswith(".cpp"):
                     for name in names_of_its_own(text_of(file)):
                         where.setdefault(name, set()).add(os.path.basename(file))
