@@ -46,7 +46,7 @@ class Catalogue(HandMadeTables):
         self.rotation("5b", "no-wall", [(20, 0.9), (40, 0.02)])
         done = subprocess.run(["/usr/bin/python3", "-B",
                                os.path.join(SOURCE, "figures", "judge_claims.py"), self.folder],
-                              capture_output=True, text=True, timeout=60)
+                              capture_output=True, text=True, timeout=150)
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(os.path.join(self.folder, "verdicts.json"), encoding="utf-8") as file:
             found = json.load(file)

@@ -50,7 +50,7 @@ class Hints(InFolder):
         self.addCleanup(process.kill)
         first = process.stderr.read(1)  # of the progress line: the sweep is running
         process.terminate()
-        said = first + process.communicate(timeout=60)[1]
+        said = first + process.communicate(timeout=150)[1]
         self.assertEqual(process.returncode, 130, said)
         command = re.search(r"\nhint: run `(.*)` to continue", said, re.DOTALL)[1]
         status = self.in_shell(command + " --status")

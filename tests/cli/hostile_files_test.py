@@ -45,7 +45,7 @@ f.close()
         return copy
 
     def expect_error(self, saying, *call):
-        done = swirl(*call, timeout=60)
+        done = swirl(*call, timeout=150)
         self.assertEqual(done.returncode, 1, (call, done.stdout, done.stderr))
         self.assertIn(saying, done.stderr, call)
         return done
@@ -83,7 +83,7 @@ f.close()
                 for step in range(2):
                     dump.write(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n1\n"
                                f"ITEM: ATOMS {' '.join(row)}\n{' '.join(row.values())}\n")
-            done = swirl("measure", self.path("d.dump"), "--omega", 1, "--container-radius", 8, timeout=60)
+            done = swirl("measure", self.path("d.dump"), "--omega", 1, "--container-radius", 8, timeout=150)
             self.assertEqual(done.returncode, 1, (column, done.stdout, done.stderr))
 
     def test_an_impossible_initial_state_of_an_event_log_is_rejected(self):
@@ -149,17 +149,17 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
             started = subprocess.Popen(call, stderr=subprocess.PIPE, text=True)
             time.sleep(1)  # longer than the run
             started.send_signal(signal_sent)
-            _, errors = started.communicate(timeout=60)
+            _, errors = started.communicate(timeout=150)
             self.assertEqual(started.returncode, 130)
             self.assertIn("waiting for a reader", errors)
         started = subprocess.Popen(call, stderr=subprocess.PIPE, text=True)
         with open(self.path("pipe")) as pipe:
             self.assertEqual(json.load(pipe)["events"]["total"], 2000)
-        started.communicate(timeout=60)
+        started.communicate(timeout=150)
         self.assertEqual(started.returncode, 0)
 
     def test_an_endless_configuration_is_rejected(self):
-        done = swirl("run", "/dev/zero", timeout=60)
+        done = swirl("run", "/dev/zero", timeout=150)
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("longer than 1048576 bytes", done.stderr)
 

@@ -76,7 +76,7 @@ class ImageTest(InFolder):
             self.assertEqual(result.returncode, 1)
             self.assertIn("no/such/folder", result.stderr)
             limited = subprocess.run([SWIRL, *call, self.path("y." + ending)], capture_output=True, text=True,
-                                     timeout=60, preexec_fn=lambda: resource.setrlimit(
+                                     timeout=150, preexec_fn=lambda: resource.setrlimit(
                                          resource.RLIMIT_FSIZE, (100, 100)))
             self.assertEqual(limited.returncode, 1, limited.stderr)
             self.assertIn("File too large", limited.stderr)
@@ -93,12 +93,12 @@ class ImageTest(InFolder):
         call = [SWIRL, "paper", "--movies", "--quick", "--quiet", "--out", self.folder]
         # Stop after some movies and damage one of them: only that one is made again.
         process = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        parts, deadline = self.path("parts"), time.time() + 60
+        parts, deadline = self.path("parts"), time.time() + 150
         while time.time() < deadline and not (os.path.isdir(parts)
                                               and len(os.listdir(parts)) >= 2):
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=150)
         self.assertEqual(process.returncode, 130, errors)
         self.assertIn("the same call makes the others", errors)
         self.assertNotIn("movies.html", os.listdir(self.folder))

@@ -21,7 +21,7 @@ class Memory(unittest.TestCase):
         page = made_of_the_web(type(self), LAB, "laboratory.html")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "memory.mjs"), page,
                                CHROMIUM, str(MINUTES)], capture_output=True, text=True,
-                              timeout=60 * MINUTES + 300)
+                              timeout=150 * MINUTES + 300)
         print(done.stdout)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 

@@ -212,7 +212,7 @@ class MovieTest(InFolder):
         second = subprocess.Popen([SWIRL, "movie", *call])
         self.addCleanup(second.wait)
         self.addCleanup(second.kill)
-        deadline = time.time() + 30
+        deadline = time.time() + 150
         while not (os.path.exists(out + ".partial") and os.path.getsize(out + ".partial") > 50_000):
             self.assertIsNone(second.poll())
             self.assertLess(time.time(), deadline)
@@ -222,7 +222,7 @@ class MovieTest(InFolder):
             self.assertLess(time.time(), deadline)
             time.sleep(0.01)
         self.assertIsNone(second.poll(), "the second movie ended before the first encoder woke up")
-        self.assertEqual(second.wait(timeout=60), 0)
+        self.assertEqual(second.wait(timeout=150), 0)
         self.assertEqual(probe(out, "stream=nb_read_frames"), "1200")
 
     def test_missing_ffmpeg_is_an_error_with_a_hint(self):
@@ -247,7 +247,7 @@ class MovieTest(InFolder):
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0)
         # The palette of a GIF depends on all frames, so its file is empty until the end.
         min_size = 0 if name.endswith(".gif") else 1
-        deadline = time.time() + 60
+        deadline = time.time() + 150
         while time.time() < deadline and not (os.path.exists(out + ".partial")
                                               and os.path.getsize(out + ".partial") >= min_size):
             time.sleep(0.05)
@@ -255,7 +255,7 @@ class MovieTest(InFolder):
         # Two signals in a row, as timeout(1) sends them.
         os.killpg(process.pid, signal.SIGINT)
         os.killpg(process.pid, signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=150)
         self.assertEqual(process.returncode, 130, errors)
         self.assertRegex(errors, r"stopped after \d+ of 20000 frames")
         frames = int(errors.split("stopped after ")[1].split()[0])

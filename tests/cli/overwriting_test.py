@@ -141,7 +141,7 @@ class Overwriting(InFolder):
             plan["config"]["events"] = 1000000000
             json.dump(plan, opened)
         process.send_signal(signal.SIGINT)
-        self.assertIn("r.json.second", process.communicate(timeout=60)[1])
+        self.assertIn("r.json.second", process.communicate(timeout=150)[1])
         self.assertTrue(without_time(self.path("r.json"))["complete"])
         self.assertFalse(without_time(self.path("r.json.second"))["complete"])
 
@@ -151,7 +151,7 @@ class Overwriting(InFolder):
                                        cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             time.sleep(0.5)
             process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(timeout=60), 130)
+            self.assertEqual(process.wait(timeout=150), 130)
         self.assertEqual(len(self.left_behind()), 2, self.left_behind())
         self.assertFalse([name for name in self.left_behind() if "backup" in name])
 
@@ -384,7 +384,7 @@ class Names(InFolder):
             self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode), call)
         laboratory = [os.path.join(SOURCE, "web", "lab.sh"), "--out"]
         for place in (self.path("pipe"), self.folder):
-            done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=60)
+            done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=150)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("which exists and is not a file", done.stderr)
         self.assertEqual(self.left_behind(), ["pipe", "t.h5"])

@@ -92,7 +92,7 @@ class Everywhere(InFolder):
         process = subprocess.Popen(call, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=20), 130)
+        self.assertEqual(process.wait(timeout=150), 130)
         for name, option in GIVEN.items():
             with self.subTest(name):
                 shutil.copy(self.path("kept"), self.path("copy"))

@@ -104,7 +104,7 @@ SlurmdParameters=config_overrides
 
     def run(self, *command):
         return subprocess.run(command, env=self.environment, capture_output=True, text=True,
-                              timeout=60)
+                              timeout=150)
 
     def start(self):
         munge = f"{self.folder}/munge"

@@ -16,7 +16,7 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
 ONE_ERROR = r"\Aerror: [^\n]+\.\n(hint: [^\n]+\n)?\Z"
 
 
-def swirl(*arguments, timeout=100, **more):
+def swirl(*arguments, timeout=150, **more):
     """Runs the program to its end. Returns an object with returncode, stdout and stderr (text)."""
     environment = dict(os.environ, NO_COLOR="1", **more.pop("environment", {}))
     return subprocess.run([SWIRL, *map(str, arguments)], capture_output=True, text=True,

@@ -202,7 +202,7 @@ class Stopping(InFolder):
         for how in (signal.SIGINT, signal.SIGTERM):
             process = self.start("--json", self.path(how.name))
             process.send_signal(how)
-            _, errors = process.communicate(timeout=20)
+            _, errors = process.communicate(timeout=150)
             self.assertEqual(process.returncode, 130)
             self.assertIn("warning: incomplete", errors)
             self.assertIn("error: stopped before the end", errors)

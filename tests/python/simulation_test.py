@@ -478,7 +478,7 @@ print("leaving")
 def test_python_exits_while_threads_work():
     for _ in range(3):
         done = subprocess.run([sys.executable, "-B", "-c", LEAVING], capture_output=True, text=True,
-                              timeout=60)
+                              timeout=150)
         assert (done.returncode, done.stdout, done.stderr) == (0, "leaving\n", "")
 
 

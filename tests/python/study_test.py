@@ -87,7 +87,7 @@ except KeyboardInterrupt:
     print("stopped", swirl.collect({str(tmp_path / "s")!r}).attrs["runs"]["planned"])
 """
     done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True,
-                          timeout=60)
+                          timeout=150)
     assert done.stdout.split() == ["stopped", "4"], done.stderr
     status = command("sweep", "--out", tmp_path / "s", "--status")
     assert "4 runs done, 0 running, 0 failed" in status.stdout
