@@ -34,6 +34,8 @@ FIGURES = {
 
 
 class Figures(InFolder):
+    in_memory = True
+
     def test_tables_and_drawings(self):
         out = self.path("out")
         done = swirl("paper", "--figure", *FIGURES, "--quick", "--events", 30_000, "--out", out)

@@ -13,6 +13,8 @@ SWEEP = ["--discs", "2:3", "--events", "200"]
 
 
 class Hints(InFolder):
+    in_memory = True
+
     def call(self, *words):
         return swirl(*words, cwd=self.folder)
 

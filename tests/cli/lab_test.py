@@ -18,7 +18,7 @@ import tempfile
 import unittest
 import zlib
 
-from program import SOURCE, made_of_the_web, swirl
+from program import SOURCE, made_of_the_web, main, slow, swirl
 
 LAB = os.path.join(SOURCE, "web", "lab.sh")
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -445,6 +445,7 @@ class Laboratory(unittest.TestCase):
             packed = gzip.compress(opened.read(), 9)
         self.assertLessEqual(len(packed), 400_000)
 
+    @slow("it watches the page for ten seconds; test_the_page_in_a_browser requires motion too")
     def test_it_keeps_running(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
@@ -484,4 +485,4 @@ class Laboratory(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

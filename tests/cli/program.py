@@ -12,6 +12,25 @@ SWIRL = os.environ.get("SWIRL", "build/tests/swirl")
 SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__)))))
 
+# A script called with --all runs complete, as in the suite `slow` (tests/CMakeLists.txt). Without it, it omits
+# tests that take long and whose code the others cover too.
+ALL = "--all" in sys.argv
+
+
+def slow(reason):
+    """Decorator: the test belongs to the suite `slow`, for this reason."""
+    return unittest.skipUnless(ALL, "in the suite slow: " + reason)
+
+
+def some(cases, count):
+    """All cases with --all, else the first ones."""
+    return list(cases)[:None if ALL else count]
+
+
+def main():
+    unittest.main(argv=[argument for argument in sys.argv if argument != "--all"])
+
+
 # The output of a failed call: one error message, and a hint if there is a remedy.
 ONE_ERROR = r"\Aerror: [^\n]+\.\n(hint: [^\n]+\n)?\Z"
 
@@ -54,6 +73,11 @@ def made_of_the_web(test_class, script, name, **more):
     return output
 
 
+def folder_in_memory():
+    """The parent for temporary folders in memory. None, the usual parent, if the system has none."""
+    return "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+
+
 class InFolder(unittest.TestCase):
     """A test with an empty temporary folder, self.folder. With in_memory it is in /dev/shm if possible: the
     files after a kill are the same, and no call waits for the disk."""
@@ -61,8 +85,8 @@ class InFolder(unittest.TestCase):
     in_memory = False
 
     def setUp(self):
-        parent = "/dev/shm" if self.in_memory and os.access("/dev/shm", os.W_OK) else None
-        self._folder = tempfile.TemporaryDirectory(prefix="swirl-test-", dir=parent)
+        self._folder = tempfile.TemporaryDirectory(
+            prefix="swirl-test-", dir=folder_in_memory() if self.in_memory else None)
         self.folder = self._folder.name
         self.addCleanup(self._folder.cleanup)
 

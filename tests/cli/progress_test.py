@@ -7,10 +7,10 @@ import subprocess
 import time
 import unittest
 
-from program import SWIRL
+from program import SWIRL, main, slow
 
 
-def on_a_terminal(*arguments, seconds=20, **environment):
+def on_a_terminal(*arguments, seconds=150, **environment):
     """The output of the program to stderr on a terminal."""
     master, slave = pty.openpty()
     clean = {k: v for k, v in os.environ.items() if k != "NO_COLOR"}
@@ -34,7 +34,7 @@ def on_a_terminal(*arguments, seconds=20, **environment):
         text += got
         if text.count(b"\r") > 6:
             process.terminate()
-    process.wait(timeout=20)
+    process.wait(timeout=150)
     os.close(master)
     return text.decode()
 
@@ -64,14 +64,15 @@ class Terminal(unittest.TestCase):
 
 
 class LogFile(unittest.TestCase):
+    @slow("it waits for ten seconds")
     def test_gets_an_occasional_line(self):
         process = subprocess.Popen([SWIRL, *LONG], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
         line = process.stderr.readline()  # after ten seconds
         process.terminate()
-        process.communicate(timeout=20)
+        process.communicate(timeout=150)
         self.assertRegex(line, r"^48 discs: \d+ %, [\d.]+ (thousand|million) events/s, .* left\n$")
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

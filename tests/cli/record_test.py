@@ -7,9 +7,8 @@ import shutil
 import signal
 import subprocess
 import time
-import unittest
 
-from program import SWIRL, InFolder, swirl, without_time
+from program import ALL, SWIRL, InFolder, main, swirl, without_time
 
 RUN = ["run", "--discs", "24", "--events", "100000", "--warmup", "5", "--seed", "3", "--frames", "120",
        "--checkpoint-every", "0.01", "--compression", "0", "--measure", "radial,pinned"]
@@ -70,18 +69,20 @@ for file in sys.argv[1:]:
             return hits
         self.fail("the run was never completed")
 
-    def test_a_run_killed_fifty_times_ends_with_the_same_result(self):
+    def test_a_run_killed_many_times_ends_with_the_same_result(self):
         begin = time.monotonic()
         whole = self.reference()
         # Kill times cover nearly the whole run, on machines of any speed.
         longest = 0.9 * (time.monotonic() - begin)
         wanted = self.data_of(self.path("whole/t.h5"), self.path("whole/e.h5"))
         choose = random.Random(1)
-        hits, folders = 0, []
-        while hits < 50:
+        # Each kill restarts the program. Ten meet every phase of the run but the renames, which
+        # tests/faults covers one by one.
+        hits, kills, folders = 0, 50 if ALL else 10, []
+        while hits < kills:
             folder = self.path(f"killed{len(folders)}")
             folders.append(folder)
-            hits += self.kill_until_done(folder, 50 - hits, choose, longest)
+            hits += self.kill_until_done(folder, kills - hits, choose, longest)
             self.assertEqual(without_time(os.path.join(folder, "r.json")), whole)
             left = [f for f in os.listdir(folder) if not f.endswith(".partial")]
             self.assertEqual(sorted(left), ["e.h5", "r.json", "t.h5"])
@@ -146,7 +147,7 @@ f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
         for call in (["measure"], ["movie", "--out", self.path("m.mp4")],
                      ["image", "--out", self.path("p.png")], ["verify"], ["export", "--to", "xyz"],
                      ["track", "--out", self.path("t.csv")]):
-            done = swirl(call[0], self.path("pipe"), *call[1:], timeout=10)
+            done = swirl(call[0], self.path("pipe"), *call[1:], timeout=150)
             self.assertIn(done.returncode, (1, 2), call)
             self.assertIn("regular file", done.stderr)
 
@@ -158,7 +159,7 @@ f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
         while process.poll() is None and not os.path.exists(checkpoint):
             time.sleep(0.001)
         process.send_signal(how)
-        errors = process.communicate(timeout=60)[1]
+        errors = process.communicate(timeout=150)[1]
         return process.returncode, errors
 
     def test_a_checkpoint_resumes_with_another_vector_width(self):
@@ -314,10 +315,10 @@ time_t time(time_t* to) {
         long = [a if a != "100000" else "2e6" for a in arguments]
         process = subprocess.Popen([SWIRL, *long], env={**os.environ, **environment},
                                    stderr=subprocess.DEVNULL)
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 150
         while not os.path.exists(folder + "/r.json.checkpoint"):
             self.assertIsNone(process.poll(), "the run was over without a checkpoint")
-            self.assertLess(time.monotonic(), deadline, "no checkpoint within a minute")
+            self.assertLess(time.monotonic(), deadline, "no checkpoint")
             time.sleep(0.001)
         process.kill()
         process.wait()
@@ -326,7 +327,7 @@ time_t time(time_t* to) {
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(without_time(folder + "/r.json"), undisturbed)
         with open(folder + "/r.json") as opened:
-            self.assertTrue(0 < json.load(opened)["seconds"] < 100)
+            self.assertTrue(0 < json.load(opened)["seconds"] < 1e5)
 
     def test_a_sweep_ignores_jumps_and_file_dates(self):
         environment = self.jumping()
@@ -397,7 +398,7 @@ class Disk(InFolder):
             self.assertIsNone(process.poll(), "over without a checkpoint")
             time.sleep(0.001)
         self.fill(disk)
-        errors = process.communicate(timeout=60)[1]
+        errors = process.communicate(timeout=150)[1]
         self.assertEqual(process.returncode, 1, errors)
         self.assertIn("No space left on device", errors)
         self.assertEqual(errors.count("\n"), 1)
@@ -408,7 +409,7 @@ class Disk(InFolder):
                                    stderr=subprocess.PIPE, text=True)
         time.sleep(0.2)
         process.send_signal(signal.SIGTERM)
-        errors = process.communicate(timeout=60)[1]
+        errors = process.communicate(timeout=150)[1]
         self.assertEqual(process.returncode, 130, errors)
         self.assertIn("--resume to continue", errors)
 
@@ -448,7 +449,7 @@ class Disk(InFolder):
             self.assertIsNone(process.poll(), process.stderr)
             time.sleep(0.001)
         what()
-        errors = process.communicate(timeout=60)[1]
+        errors = process.communicate(timeout=150)[1]
         self.assertEqual(process.returncode, 1, errors)
         self.assertEqual(errors.count("\n"), 1, errors)
         return errors
@@ -496,10 +497,10 @@ class Disk(InFolder):
 
     def test_a_read_only_folder_is_an_error_before_the_run(self):
         # /proc takes no files, even from root.
-        done = swirl("run", "--events", "1e12", "--trajectory", "/proc/t.h5", timeout=20)
+        done = swirl("run", "--events", "1e12", "--trajectory", "/proc/t.h5", timeout=150)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("\n"), 1)
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

@@ -145,8 +145,9 @@ class Faults(unittest.TestCase):
                 if not line.startswith(("warning: ", "hint: "))]
         self.assertTrue("".join(errors).startswith("error: "), f"{where}: {done.stderr}")
 
-    def fail_each(self, arguments, assert_correct, most, assert_harmless=lambda where: None):
-        for call in CALLS:
+    def fail_each(self, arguments, assert_correct, most, assert_harmless=lambda where: None,
+                  kinds=CALLS):
+        for call in kinds:
             calls, reported, right = self.count(call, arguments), 0, 0
             for error, ever in ((errno.ENOSPC, "0"), (errno.EIO, "1"), (errno.EIO, "0"))[
                     :3 if EVERY else 2]:
@@ -205,7 +206,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return call, self.files()
 
-    def fail_output(self, call, most):
+    def fail_output(self, call, most, kinds=CALLS):
         """System calls fail one by one: an error is reported, and no published file has wrong content."""
         call, wanted = self.output(call)
 
@@ -217,7 +218,7 @@ class Faults(unittest.TestCase):
             for name, found in self.files().items():
                 self.assertEqual(found, wanted.get(name), f"{where}: {name}")
 
-        self.fail_each(call, assert_whole, most, assert_nothing_else)
+        self.fail_each(call, assert_whole, most, assert_nothing_else, kinds)
 
     def kill_output(self, call, most):
         call, wanted = self.output(call)
@@ -235,15 +236,15 @@ class Faults(unittest.TestCase):
 
     def test_failing_calls_in_a_run_are_reported_or_harmless(self):
         self.undisturbed()
-        self.fail_each(self.run_call, self.assert_correct, 5)
+        self.fail_each(self.run_call, self.assert_correct, 3)
 
     def test_failing_allocations_in_a_run_are_reported_or_harmless(self):
         self.undisturbed()
-        self.fail_memory(self.run_call, [*self.run_call, "--dry-run"], self.assert_correct, 15)
+        self.fail_memory(self.run_call, [*self.run_call, "--dry-run"], self.assert_correct, 9)
 
     def test_failing_allocations_in_a_sweep_are_reported_or_harmless(self):
         self.undisturbed_sweep()
-        self.fail_memory(self.sweep_call, ["--version"], self.assert_correct_sweep, 8)
+        self.fail_memory(self.sweep_call, ["--version"], self.assert_correct_sweep, 6)
 
     def record_one(self):
         self.empty_work_folder()
@@ -281,7 +282,7 @@ class Faults(unittest.TestCase):
     def test_a_kill_does_not_mix_old_and_new_files(self):
         self.video_one()
         self.replace_output(VIDEO_CALLS[0], [*VIDEO_CALLS[0], "--seed", "2"], 4)
-        self.replace_output(VIDEO_CALLS[2], [*VIDEO_CALLS[2], "--frames", "40"], 4)
+        self.replace_output(VIDEO_CALLS[2], [*VIDEO_CALLS[2], "--frames", "40"], 2)
 
     def test_failing_calls_while_a_recording_is_processed(self):
         self.record_one()
@@ -294,18 +295,20 @@ class Faults(unittest.TestCase):
             self.kill_output(call, 2)
 
     def test_failing_calls_while_a_video_is_made_or_tracked(self):
+        # Each call decodes or encodes a video. The sample has the kinds of calls that change files; the
+        # reading ones are those of the other commands.
         self.video_one()
         for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[:2]:
-            self.fail_output(call, 1)
+            self.fail_output(call, 1, CALLS if EVERY else ("pwrite", "rename"))
 
     def test_video_commands_succeed_after_a_kill(self):
         self.video_one()
         for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[1:]:
-            self.kill_output(call, 2)
+            self.kill_output(call, 1)
 
     def test_failing_calls_in_a_sweep_are_reported_or_harmless(self):
         self.undisturbed_sweep()
-        self.fail_each(self.sweep_call, self.assert_correct_sweep, 3)
+        self.fail_each(self.sweep_call, self.assert_correct_sweep, 2)
 
     def kill_each(self, call, again, assert_clean, most, is_complete=lambda: False):
         """Kills the command before each of its changes of a file, and calls it again."""
@@ -328,7 +331,7 @@ class Faults(unittest.TestCase):
             self.assertEqual([n for n in left if n.endswith((".partial", ".journal"))], [], where)
 
         self.undisturbed()
-        self.kill_each(self.run_call, [*self.run_call, "--resume"], assert_clean, 20)
+        self.kill_each(self.run_call, [*self.run_call, "--resume"], assert_clean, 10)
 
     def test_a_killed_sweep_continues_to_the_same_result(self):
         def assert_clean(where):
@@ -337,7 +340,7 @@ class Faults(unittest.TestCase):
                              + glob.glob(os.path.join(self.work, "s/checkpoints/*")), [], where)
 
         self.undisturbed_sweep()
-        self.kill_each(self.sweep_call, self.sweep_call, assert_clean, 8)
+        self.kill_each(self.sweep_call, self.sweep_call, assert_clean, 5)
 
     def cut_power(self, call, again, assert_correct, few, max_rejected):
         """Cuts the power at random times and calls the command again: it resumes, or reports an error."""
@@ -363,12 +366,12 @@ class Faults(unittest.TestCase):
 
     def test_after_a_power_cut_the_run_resumes_to_the_same_result_or_is_rejected(self):
         self.undisturbed()
-        self.cut_power(self.run_call, [*self.run_call, "--resume"], self.assert_correct, 20,
-                       lambda cuts: cuts / 10)
+        self.cut_power(self.run_call, [*self.run_call, "--resume"], self.assert_correct, 10,
+                       lambda cuts: max(2, cuts / 10))
 
     def test_after_a_power_cut_the_sweep_continues_to_the_same_result_or_is_rejected(self):
         self.undisturbed_sweep()
-        self.cut_power(self.sweep_call, self.sweep_call, self.assert_correct_sweep, 8,
+        self.cut_power(self.sweep_call, self.sweep_call, self.assert_correct_sweep, 5,
                        lambda cuts: max(2, cuts / 10))
 
 
