@@ -144,9 +144,9 @@ InitialState rotating(InitialState scene, double angular_velocity) {
     }
     return scene;
 }
-// The co-moving frame turns with the cluster and stretches distances: with the second angular
-// velocity by a fiftieth per segment, so that it begins again after ten. With the third it would
-// turn too far within a segment, so it does not turn.
+// The co-moving frame turns with the cluster and stretches distances. With the second angular
+// velocity they grow by a fiftieth per segment, so the frame is set up again after ten segments.
+// With the third, the frame would turn too far within a segment, so it does not turn.
 TEST_P(EngineEqualsReference, WithListsInARotatingCluster) {
     const int events = sanitized ? 1500 : 6000;
     const InitialState pack = state_of({unit_disc()}, 41, 8.0, still_path(1.0), 0.0, 0.0, 0.1);

@@ -3,6 +3,8 @@
 #include <csignal>
 #include <limits>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "io/scratch.hpp"
 #include "swirl/io/atomic_file.hpp"
@@ -403,6 +405,13 @@ TEST(Export, EveryFormatCanStartAtALaterFrame) {
                                  "f.particles.types)\"");
     if (ran.output.find("ModuleNotFound") != std::string::npos) GTEST_SKIP() << ran.output;
     EXPECT_EQ(ran.output, "2 1.0 ['D1', 'D2']\n");
+}
+
+// Without --out, the ending gives the name. An export must not replace that of another format.
+TEST(Export, FormatsHaveDifferentEndings) {
+    std::set<std::string> endings;
+    for (const ExportFormat& format : export_formats())
+        EXPECT_TRUE(endings.insert(format.ending).second) << format.name;
 }
 
 TEST(Export, UnknownFormatIsNotFound) { EXPECT_FALSE(export_format("netcdf")); }

@@ -8,6 +8,8 @@ import sys
 
 import pytest
 
+import swirl
+
 from scenes import SOURCE
 
 PAGES = ("docs/tutorials/python.md", "docs/how-to/own_measurement.md")
@@ -24,6 +26,19 @@ def test_code_runs(page, tmp_path):
     assert code.count("swirl.") > 0
     done = subprocess.run([sys.executable, "-B", "-c", code], capture_output=True, text=True, cwd=tmp_path,
                           env={**os.environ, "MPLBACKEND": "Agg"})
+    assert done.returncode == 0, done.stderr
+
+
+def test_recordings_are_read_as_shown(tmp_path):
+    """The block is the same on both pages."""
+    how_to, reference = (re.findall(r"^```python\n(.*?)^```$", text_of(page), re.M | re.S)
+                         for page in ("docs/how-to/export.md", "docs/reference/files.md"))
+    assert how_to == reference and len(how_to) == 1
+    for module in ("h5py", "MDAnalysis", "xarray"):
+        pytest.importorskip(module)
+    swirl.run(discs=48, periods=2, trajectory=str(tmp_path / "frames.h5"))
+    done = subprocess.run([sys.executable, "-B", "-W", "ignore", "-c", how_to[0]], capture_output=True,
+                          text=True, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
 
 

@@ -95,8 +95,8 @@ std::string another(const Parameter& p) {
     return "7";
 }
 
-// The identity of a resumed run and the seeds of a sweep use the JSON, so it must distinguish runs by
-// every parameter.
+// The identity of a resumed run and the seeds of a sweep use the JSON, so it must distinguish runs
+// by every parameter.
 TEST(RunParameters, EveryParameterSurvivesTheJson) {
     const std::string paper = config_json({}).dump();
     for (const Parameter& p : run_parameters) {
@@ -213,7 +213,8 @@ TEST(RunParameters, FloorParametersAreRejectedWithoutAFloor) {
                 testing::HasSubstr("there is no floor"));
     EXPECT_EQ(error_of({{"preset", "experiment"}, {"floor", "none"}}), "");
 }
-// Measured at N = 36: ϖ is unchanged up to 100 times the experiment's 0.3, and not at 3000 times.
+// Measured at N = 36: ϖ is unchanged up to 100 times the experiment's 0.3. At 3000 times it
+// differs.
 TEST(RunParameters, TooLargeFloorFrictionIsRejected) {
     EXPECT_EQ(error_of({{"preset", "experiment"}, {"floor_friction", "100"}}), "");
     EXPECT_THAT(error_of({{"preset", "experiment"}, {"floor_friction", "1000"}}),

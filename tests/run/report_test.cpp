@@ -30,6 +30,7 @@ double events_per_period(RunConfig config) {
 }
 
 TEST(WithError, PrintsMissingValues) {
+    EXPECT_EQ(with_error(2.0 * 3.14159265, 4e-15), "6.28");  // rounding errors
     EXPECT_EQ(with_error(nan, 0.1), "n/a");
     EXPECT_EQ(with_error(-0.25, nan), "−0.25");
 }

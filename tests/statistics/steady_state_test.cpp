@@ -120,8 +120,8 @@ TEST(BeginningIsForgotten, OnlyAfterATransientHasEnded) {
             if (t % 10 == 0 && beginning_is_forgotten(blocks)) forgotten = blocks.size();
         }
         early += forgotten > 0 && forgotten < 120 ? 1 : 0;  // still 13 % to go
-        // MSER-5 sees the transient until it vanishes in the noise after some 300 blocks, and then
-        // cuts off less than half.
+        // MSER-5 detects the transient until it vanishes in the noise after some 300 blocks. It
+        // then cuts off less than half.
         late += forgotten == 0 || forgotten > 900 ? 1 : 0;
     }
     EXPECT_EQ(early, 0);

@@ -35,7 +35,7 @@ TEST(ContainerPath, IsFoundWithItsErrors) {
             ++tried;
             within += std::abs(found->omega - truth.omega) < 2.0 * found->omega_error;
         }
-    // Two standard errors hold 95 of 100.
+    // The expected fraction within two standard errors is 95 %.
     EXPECT_GE(within, tried * 8 / 10);
 }
 

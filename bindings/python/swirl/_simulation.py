@@ -70,10 +70,10 @@ class Simulation:
     def step(self, count: int = 1) -> npt.NDArray[np.void]:
         """Executes `count` events and returns them as a structured array with one row per event.
 
-        Columns: whole_periods and clock (the time since the last whole period), time, kind
-        (EventKind), i and j (the discs; j = i at the wall), normal_x and normal_y (unit vector from i
-        to j, or to the wall), normal_impulse and tangential_impulse (on j or on the wall), overlap (a
-        rounding error). After Ctrl-C the simulation is at the last executed event.
+        Columns of time: whole_periods, clock (the time since the last whole period) and time. Columns
+        of the contact: kind (EventKind), i and j (the discs; j = i at the wall), normal_x and normal_y
+        (unit vector from i to j, or to the wall), and overlap (a rounding error). Columns of the
+        impulse on j or on the wall: normal_impulse and tangential_impulse. After Ctrl-C the simulation is at the last executed event.
         """
         return self._engine.step(_whole("count", count))
 

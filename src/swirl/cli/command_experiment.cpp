@@ -282,7 +282,7 @@ void add_experiment_command(Subcommand& subcommand) {
 }
 
 const Command experiment_command(42, "experiment",
-                                 "Compare videos with simulations in the paper's figures.",
+                                 "Compare videos with simulations in the paper's figures",
                                  add_experiment_command);
 
 }  // namespace

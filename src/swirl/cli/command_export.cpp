@@ -77,11 +77,9 @@ std::string report(const TrajectoryReader& reader, const ExportFormat& format,
                     counted(std::int64_t(reader.discs()), "disc"), out.string());
     if (&format == export_format("csv")) {
         const double centre = reader.reach() * options.pixels_per_radius;
-        text += fmt::format("{} pixels per unit of length, origin at pixel {}, {}\n",
+        text += fmt::format("{} pixels per unit of length, origin at pixel {:.12g}, {:.12g}\n",
                             options.pixels_per_radius, centre, centre);
     }
-    if (!reader.complete())
-        text += "the trajectory is not complete; all existing frames were used\n";
     return text;
 }
 
@@ -118,12 +116,15 @@ void export_file(const ExportCall& call) {
     };
     export_series(series_of(reader), *format, out, options);
     line.clear();
+    if (!reader->complete())
+        print_warning(
+            fmt::format("'{}' is not complete; the existing frames were used.", call.file));
     if (!call.quiet) print_all(report(*reader, *format, options, out));
 }
 
 void add_export_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExportCall>();
-    subcommand.add_option("file", call->file, "trajectory to convert")
+    subcommand.add_option("file", call->file, "Trajectory to convert")
         ->type_name("FILE.h5")
         ->required();
     subcommand.add_option("--to", call->format, "Output format, see below")
@@ -150,7 +151,7 @@ void add_export_command(Subcommand& subcommand) {
 }
 
 const Command export_command(
-    40, "export", "Convert a trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD or pandas.",
+    40, "export", "Convert a trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD or pandas",
     add_export_command);
 
 }  // namespace

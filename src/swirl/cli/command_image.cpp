@@ -72,7 +72,7 @@ void add_image_command(Subcommand& subcommand) {
     });
 }
 
-const Command image_command(61, "image", "Draw the container at one instant.", add_image_command);
+const Command image_command(61, "image", "Draw the container at one instant", add_image_command);
 
 }  // namespace
 }  // namespace swirl

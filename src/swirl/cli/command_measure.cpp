@@ -1,5 +1,5 @@
-// swirl measure: the measurements of a run on recorded frames: of swirl, of a camera (trackpy), or of
-// another program (LAMMPS).
+// swirl measure: the measurements of a run on recorded frames: of swirl, of a camera (trackpy), or
+// of another program (LAMMPS).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,7 +84,7 @@ std::string remark_on_pinned(const std::vector<std::string>& names,
         return find_measurement(name)->needs_pinned;
     });
     const double frames_per_period = measured.frames_per_period();
-    if (!needs_pinned || fits_criteria(frames_per_period)) return "";
+    if (!needs_pinned || frames_per_period == 0.0 || fits_criteria(frames_per_period)) return "";
     return fmt::format(
         "there are {:.0f} frames per period, but the criteria for pinned discs assume {}.",
         frames_per_period, samples_per_period);

@@ -144,7 +144,7 @@ void add_movie_command(Subcommand& subcommand) {
     });
 }
 
-const Command movie_command(60, "movie", "Make a movie in the lab frame or the M-frame.",
+const Command movie_command(60, "movie", "Make a movie in the lab frame or the M-frame",
                             add_movie_command);
 
 }  // namespace

@@ -163,7 +163,7 @@ void add_paper_command(Subcommand& subcommand) {
     });
 }
 
-const Command paper_command(20, "paper", "Make the paper's figures from simulation.",
+const Command paper_command(20, "paper", "Make the paper's figures from simulation",
                             add_paper_command);
 
 }  // namespace

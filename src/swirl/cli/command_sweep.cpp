@@ -211,7 +211,7 @@ void add_sweep_command(Subcommand& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "No progress and no report", group);
     subcommand.add_option("--part", call->part, "Part of the points to run, such as 2/10",
                           "PART/PARTS", cluster);
-    subcommand.add_flag("--rest", call->rest, "Then run points that no other process works on",
+    subcommand.add_flag("--rest", call->rest, "After the part, run points that no process works on",
                         cluster);
     subcommand.add_flag("--slurm", call->slurm, "Submit a Slurm job array instead of running here",
                         cluster);

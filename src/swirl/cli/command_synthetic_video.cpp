@@ -290,7 +290,7 @@ void add_synthetic_video_command(Subcommand& subcommand) {
 }
 
 const Command synthetic_video_command(71, "synthetic-video",
-                                      "Make a video of a run with known ground truth.",
+                                      "Make a video of a run with known ground truth",
                                       add_synthetic_video_command);
 
 }  // namespace

@@ -273,7 +273,7 @@ void add_track_command(Subcommand& subcommand) {
     subcommand.callback([call] { track(*call); });
 }
 
-const Command track_command(40, "track", "Track the discs in a video of a swirled container.",
+const Command track_command(40, "track", "Track the discs in a video of a swirled container",
                             add_track_command);
 
 }  // namespace

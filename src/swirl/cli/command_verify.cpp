@@ -347,7 +347,7 @@ void add_verify_command(Subcommand& subcommand) {
 }
 
 const Command verify_command(43, "verify",
-                             "Repeat the run of a result or recording and compare all bits.",
+                             "Repeat the run of a result or recording and compare bitwise",
                              add_verify_command);
 
 }  // namespace

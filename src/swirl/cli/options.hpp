@@ -1,5 +1,5 @@
-// A subcommand as data: its options, its help and its action. Only parser.cpp depends on the library
-// that parses arguments.
+// A subcommand as data: its options, its help and its action. Only parser.cpp depends on the
+// library that parses arguments.
 #pragma once
 
 #include <cstdint>

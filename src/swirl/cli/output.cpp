@@ -72,7 +72,7 @@ constexpr int poll_interval_ms = 200;
     throw Failure(fmt::format("'{}' could not be written: {}.", file.string(), last_error()));
 }
 
-/// Ends the wait for a reader, which may never come.
+/// Lets the user stop the wait for a reader of a pipe, which has no limit.
 void throw_if_stopped(const std::filesystem::path& file) {
     if (stop_signal().load())
         throw Interrupted(

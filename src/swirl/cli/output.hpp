@@ -22,8 +22,8 @@ void reject_same_files(const std::vector<std::filesystem::path>& files);
 /// or Failure.
 void write_output(const std::filesystem::path& file, const std::string& text);
 
-/// Creates the folder if it does not exist. Throws Failure if it cannot be written to, or UsageError
-/// if its name looks like an option.
+/// Creates the folder if it does not exist. Throws Failure if it cannot be written to, or
+/// UsageError if its name looks like an option.
 void make_folder(const std::filesystem::path& folder);
 
 /// Write "error: TEXT", "warning: TEXT" or "note: TEXT" to standard error. A text may have a second

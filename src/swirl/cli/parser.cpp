@@ -35,8 +35,8 @@ std::size_t characters(std::string_view text) {
     }));
 }
 
-/// Breaks lines at spaces, except commands. The continuation of an indented line (a row of a list) is
-/// indented by two more.
+/// Breaks lines at spaces, except commands. The continuation of an indented line (a row of a list)
+/// is indented by two more.
 std::string wrapped(const std::string& text, std::size_t width) {
     std::string result;
     for (std::size_t from = 0; from <= text.size();) {
@@ -79,9 +79,9 @@ std::string nearest_name_hint(const CLI::App& app, const std::string& unknown) {
     return nearest ? "did you mean " + *nearest + "?" : "";
 }
 
-/// The parser does not end options at `--` once a subcommand has all its files. Each later word that
-/// starts with a dash therefore gets this mark, which no argument can contain. Positional arguments
-/// remove it.
+/// The parser does not end options at `--` once a subcommand has all its files. Each later word
+/// that starts with a dash therefore gets this mark, which no argument can contain. Positional
+/// arguments remove it.
 constexpr char not_an_option = '\0';
 
 std::string without_mark(std::string word) {

@@ -178,7 +178,9 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
     files.resume = call.resume;
     if (call.resume && call.overwrite)
         throw UsageError(
-            "--resume continues a run and --overwrite starts it again.\nhint: give one of them.");
+            "--resume and --overwrite exclude each other.\nhint: --resume continues a run, "
+            "--overwrite "
+            "starts it again; give one of them.");
     files.checkpoint_every = number(call, "checkpoint_every", files.checkpoint_every, 0.0,
                                     "a number of seconds, or 0 for no checkpoints");
     files.checkpoint = text_of(call, "checkpoint");

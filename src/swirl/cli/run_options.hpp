@@ -9,9 +9,10 @@
 
 namespace swirl {
 
-/// Adds an option for each of run_parameters except those in `excluded`. After parsing, the returned
-/// texts hold the given values; resolve() makes the configuration. `defaults` replace the defaults
-/// of the table in the help; the caller must combine them with the given values (overridden()).
+/// Adds an option for each of run_parameters except those in `excluded`. After parsing, the
+/// returned texts hold the given values; resolve() makes the configuration. `defaults` replace the
+/// defaults of the table in the help; the caller must combine them with the given values
+/// (overridden()).
 std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
                                                 const std::vector<std::string>& excluded = {},
                                                 const ParameterTexts& defaults = {});

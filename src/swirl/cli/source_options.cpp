@@ -169,7 +169,7 @@ void print_source_warnings(const std::vector<FrameSource>& sources, const Appear
         if (appearance.coloring == Coloring::pinned && frames > 0.0 && !fits_criteria(frames))
             fmt::print(stderr,
                        "warning: the recording has {:.0f} frames per period, but the criteria for "
-                       "pinned discs are made for {}.\n",
+                       "pinned discs assume {}.\n",
                        frames, samples_per_period);
     }
 }

@@ -1,5 +1,5 @@
-// Options for the source of an image or a movie: a run, a recording, a camera's tracks or the minimal
-// model.
+// Options for the source of an image or a movie: a run, a recording, a camera's tracks or the
+// minimal model.
 #pragma once
 
 #include <memory>

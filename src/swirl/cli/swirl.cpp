@@ -1,5 +1,5 @@
-// The program: parses the arguments, calls the subcommand, and turns exceptions into an error message
-// and an exit code: 0 success, 1 failure, 2 usage error, 130 stopped by a signal.
+// The program: parses the arguments, calls the subcommand, and turns exceptions into an error
+// message and an exit code: 0 success, 1 failure, 2 usage error, 130 stopped by a signal.
 #include <fcntl.h>
 
 #include <csignal>

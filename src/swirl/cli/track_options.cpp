@@ -192,8 +192,9 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
         if (text->empty())
             throw UsageError(fmt::format(
                 "'{}' has no calibration next to it (a .camera.json file), so --{} is required.\n"
-                "hint: also give --camera-fps, --scale, --centre, --amplitude and --phase if they "
-                "are not 1, 1, 0,0, 0 and 0.",
+                "hint: also check the defaults --camera-fps 1, --scale 1, --centre 0,0, "
+                "--amplitude 0 "
+                "and --phase 0.",
                 file, name));
     TrackScale scale;
     scale.frames_per_time = parse_number(texts, "camera-fps");

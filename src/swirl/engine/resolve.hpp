@@ -1,7 +1,7 @@
-// The effect of an event: a collision of two discs, a collision with the wall, a sphere that begins to
-// roll, or the container's next path segment. The event loop (event_loop.hpp) finds out which event
-// comes next. The collision law is in collision_law.hpp; the friction coefficients are those of
-// EngineState::disc_surface and EngineState::wall_surface.
+// The effect of an event: a collision of two discs, a collision with the wall, a sphere that begins
+// to roll, or the container's next path segment. The event loop (event_loop.hpp) finds out which
+// event comes next. The collision law is in collision_law.hpp; the friction coefficients are those
+// of EngineState::disc_surface and EngineState::wall_surface.
 #pragma once
 
 #include "swirl/engine/collision_checks.hpp"

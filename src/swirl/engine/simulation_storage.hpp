@@ -1,4 +1,5 @@
-// The data of a Simulation: its arrays, the state of its neighbour search, and the event loop for it.
+// The data of a Simulation: its arrays, the state of its neighbour search, and the event loop for
+// it.
 #pragma once
 
 #include <variant>

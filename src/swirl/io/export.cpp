@@ -470,7 +470,8 @@ constexpr std::array formats{
     ExportFormat{"xyz", ".xyz", "extended XYZ: OVITO, ASE", write_single_file<write_xyz>},
     ExportFormat{"vtp", ".pvd", "ParaView, VTK", write_vtp},
     ExportFormat{"csv", ".csv", "pixels, as in trackpy", write_single_file<write_csv>},
-    ExportFormat{"table", ".csv", "CSV with all quantities", write_single_file<write_table>},
+    // Not the ending of csv: both formats of one trajectory have different default names.
+    ExportFormat{"table", ".table.csv", "CSV with all quantities", write_single_file<write_table>},
     ExportFormat{"gsd", ".gsd", "HOOMD", write_single_file<write_gsd>},
 };
 

@@ -22,8 +22,9 @@
 //               each coordinate. `missing_energy` is this excess; add it to any mean of squared
 //               velocities.
 //
-// The standard errors are those of the smoother with the kicks as found, for a disc in flight. At a
-// collision the velocity jumps within one frame, and the error is a part of the jump.
+// The standard errors are those of the smoother for a disc in flight; they take the kicks that were
+// found as given. At a collision the velocity jumps within one frame, and the error is a part of
+// the jump.
 //
 // Units: pixels, and pixels per unit of time for velocities, as in TrackFrame. Limits: below
 // `min_frames_per_period` a disc collides about once per frame, which cannot be

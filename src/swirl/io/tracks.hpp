@@ -10,11 +10,11 @@
 // one-sided at the ends of a track. They miss a fraction (ΩΔt)²/6 of a circular motion. A disc that
 // is in neither neighbouring frame gets velocity 0. track_smoothing.hpp gives better velocities.
 //
-// Units of the result: length in disc radii, speed AΩ of the container = 1 (docs/explanation/physics.md), so
-// the period is 2πA. For a container at rest (amplitude 0), time keeps the unit of
-// `frames_per_time`. Masses are as given, otherwise 1. Amplitude, period and phase give the
-// position of the container; the centre of its path is the origin. Tracks have no orientation (NaN)
-// and, unless the file gives it, no spin (NaN).
+// Units of the result: length in disc radii, speed AΩ of the container = 1
+// (docs/explanation/physics.md), so the period is 2πA. For a container at rest (amplitude 0), time
+// keeps the unit of `frames_per_time`. Masses are as given, otherwise 1. Amplitude, period and
+// phase give the position of the container; the centre of its path is the origin. Tracks have no
+// orientation (NaN) and, unless the file gives it, no spin (NaN).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Test whether the discs lie where hard discs in a container can: inside the wall and without overlap.
-// This reveals errors of the scale, the radius, the centre or the phase given for a camera's
-// tracks.
+// Test whether the discs lie where hard discs in a container can: inside the wall and without
+// overlap. This reveals errors of the scale, the radius, the centre or the phase given for a
+// camera's tracks.
 //
 //   wall gap       R − max_i (|r_i − C| + r_i)              below 0: a disc protrudes
 //   closest pair   min_{i<j} |r_i − r_j| / (r_i + r_j)      below 1: two discs overlap

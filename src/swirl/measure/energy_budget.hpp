@@ -82,9 +82,10 @@ class EnergyBudget : public ReportedAverages<EnergyBudget, MergedAverages> {
     /// The change of K that the collisions account for.
     double accounted() const { return total_work() - total_loss(); }
 
-    /// How far the budget is from closing. Between the first events of any two blocks, K changes in
-    /// the snapshots, and by what the collisions account for. This is the largest difference of the
-    /// two, relative to the total work or loss. Rounding makes it some 10⁻¹⁴ in 10⁵ events.
+    /// How far the budget is from closing. Between the first events of any two blocks, the change
+    /// of K follows from the snapshots, and also from the collisions. This is the largest
+    /// difference of the two, relative to the total work or loss. Rounding makes it some 10⁻¹⁴ in
+    /// 10⁵ events.
     double unaccounted_share() const;
 
     template <class Visitor>

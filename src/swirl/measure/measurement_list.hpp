@@ -1,6 +1,6 @@
 // All measurements, one row each: the name, the header with the definition, and one line of
-// description. The command line, JSON, CSV and docs/reference/measurements.md are generated from this list.
-// sampling.hpp lists the functions that a measurement can have and when they are called.
+// description. The command line, JSON, CSV and docs/reference/measurements.md are generated from
+// this list. sampling.hpp lists the functions that a measurement can have and when they are called.
 #pragma once
 
 #include <tuple>
@@ -78,7 +78,7 @@ inline constexpr std::tuple measurement_list{
     measurement_in_container<WallStress>("wall", "wall_stress.hpp",
         "pressure on the wall and traction along it as functions of θ"),
     measurement<DiffusionLags>("diffusion", "diffusion.hpp",
-        "squared displacement and rotation of a disc as functions of the lag"),
+        "squared displacement and rotation of a disc as functions of the time lag"),
     measurement<EnergyBudget>("energy", "energy_budget.hpp",
         "energy budget: work of wall and floor, losses in friction and collisions"),
     measurement<Rolling>("rolling", "rolling.hpp",

@@ -9,8 +9,8 @@
 // the documentation visit the rows; none of them knows a measurement by its name. Rows and columns
 // do not depend on the data: a measurement without samples reports the same ones, with NaN.
 //
-// Units are those of docs/explanation/physics.md: r the radius of a disc, m its mass, v the speed of the
-// container, Ω = 2π/T; ° for angles, 1 for none.
+// Units are those of docs/explanation/physics.md: r the radius of a disc, m its mass, v the speed
+// of the container, Ω = 2π/T; ° for angles, 1 for none.
 #pragma once
 
 #include <cstddef>

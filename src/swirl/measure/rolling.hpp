@@ -24,7 +24,7 @@
 //
 // Touching: gap below 0.1 of the mean radius. Units as stated. Errors: from blocks of periods.
 // Limits: NaN for discs, which do not roll; without a floor every sphere slips, and c has no
-// meaning. From recorded frames, everything is known but the results from collisions.
+// meaning. Recorded frames give all results except those that need collisions.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,8 @@
 // Spheres that roll: the paper's experiment, which its simulation does not describe
-// (docs/explanation/spheres.md). Solid spheres on a floor in the experiment's dish: ϖ(N) for friction
-// coefficients between those of smooth and rough plastic, where its sign changes, the effect of
-// each ingredient of the model, and measurements of the pinned spheres and of the rolling.
+// (docs/explanation/spheres.md). Solid spheres on a floor in the experiment's dish: ϖ(N) for
+// friction coefficients between those of smooth and rough plastic, where its sign changes, the
+// effect of each ingredient of the model, and measurements of the pinned spheres and of the
+// rolling.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -370,8 +371,8 @@ static FigurePlan plan_figure_spheres_map(const PaperSettings& settings) {
 
 /// "When there are only a few marbles in the container, they form a line that rolls along the
 /// container wall at the frequency of the circular translations" (main text). More than five need
-/// hundreds of periods to form it (docs/explanation/spheres.md), and such a line collides with the wall tens of
-/// thousands of times in a period.
+/// hundreds of periods to form it (docs/explanation/spheres.md), and such a line collides with the
+/// wall tens of thousands of times in a period.
 static FigurePlan plan_figure_spheres_few(const PaperSettings& settings) {
     FigurePlan plan;
     CurveFigure figure{"spheres_few", {}, {{"", {}}}};

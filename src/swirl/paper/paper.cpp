@@ -106,9 +106,9 @@ double expected_events_per_period(const RunConfig& config) {
                                     config.radius /
                                     (config.container_radius * config.container_radius);
     // A sphere begins to roll after most collisions, and after every vertex. Discs with only one of
-    // disc and wall friction end up rolling on their partners, and collide gently and often (measured
-    // at N = 11 … 48: 11 to 30 times as often without wall friction, 2.5 to 15 without disc
-    // friction).
+    // disc and wall friction end up rolling on their partners, and collide gently and often
+    // (measured at N = 11 … 48: 11 to 30 times as often without wall friction, 2.5 to 15 without
+    // disc friction).
     const double factor = config.floor                                     ? 3.0
                           : config.mu_wall == 0.0 && config.mu_disc != 0.0 ? 20.0
                           : config.mu_disc == 0.0 && config.mu_wall != 0.0 ? 8.0

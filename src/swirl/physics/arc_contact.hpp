@@ -72,8 +72,8 @@ class ArcWall {
         const Vec2 turned = turn.sine * W - turn.versine * V_;
         return expand(d, u_ - turned, V_ + turned);
     }
-    /// How far inside: −f. A disc that is not approaching counts as 2⁻⁵² clearance² inside at
-    /// least, as in time_to_leave.
+    /// How far inside: −f. For a disc that is not approaching, the result is at least
+    /// 2⁻⁵² clearance², as in time_to_leave.
     SWIRL_INLINE double gap(const Expansion& f) const {
         return larger(-f.c, f.b > 0.0 ? 0.0 : 0x1p-52 * square_);
     }

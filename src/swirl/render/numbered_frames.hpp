@@ -29,7 +29,7 @@ class NumberedFrames {
 
     /// Numbers must not decrease. Throws DrawFailure if there is no such image.
     std::shared_ptr<const Image> image(std::int64_t number);
-    /// True if the file name(number) is readable. It does not tell whether a video is long enough.
+    /// True if the file name(number) is readable. It does not check whether a video is long enough.
     bool has_file(std::int64_t number) const;
     /// The name of the image file with this number, or of the video.
     std::string name(std::int64_t number) const;

@@ -30,7 +30,8 @@ struct Moment {
 };
 
 /// Determines at each time which discs are pinned. The criterion needs seven later frames
-/// (measure/pinned_loose.hpp), so this reads the source in a separate pass, ahead of the shown frames.
+/// (measure/pinned_loose.hpp), so this reads the source in a separate pass, ahead of the shown
+/// frames.
 class PinnedPlayback {
   public:
     /// `first` is the first requested time, in periods.

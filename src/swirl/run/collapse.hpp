@@ -1,8 +1,8 @@
-// Test whether a run still makes progress. A collapse is infinitely many collisions in a finite time, by
-// restitution or, with e = 1, by friction alone (docs/explanation/physics.md). The criterion is the number of
-// events in a fraction of a period. So it acts at the same event on every machine, whatever its
-// speed. A disc in the paper's container has about 70 events per period; one with a contact
-// duration has at most T/t_c.
+// Test whether a run still makes progress. A collapse is infinitely many collisions in a finite
+// time, by restitution or, with e = 1, by friction alone (docs/explanation/physics.md). The
+// criterion is the number of events in a fraction of a period. So it acts at the same event on
+// every machine, whatever its speed. A disc in the paper's container has about 70 events per
+// period; one with a contact duration has at most T/t_c.
 #pragma once
 
 #include <algorithm>

@@ -107,9 +107,9 @@ std::optional<std::string> problem_without_floor(const RunConfig& c) {
 }
 
 /// A contact within the contact duration is delayed: the particles separate with half of the speed
-/// that the floor's friction removes in that time (docs/explanation/spheres.md). This separation speed must be
-/// small compared with the speed of the container. A ratio of 0.3 changes ϖ by less than one
-/// standard error; a ratio of 3 suppresses the counterrotation.
+/// that the floor's friction removes in that time (docs/explanation/spheres.md). This separation
+/// speed must be small compared with the speed of the container. A ratio of 0.3 changes ϖ by less
+/// than one standard error; a ratio of 3 suppresses the counterrotation.
 std::optional<std::string> problem_with_floor_friction(const RunConfig& c) {
     constexpr double max_ratio = 0.5;
     const double speed = c.amplitude * c.omega();
@@ -246,8 +246,8 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     if (!centres) throw_usage_error(no_placement_message(c));
 
     InitialState state = without_discs(c, make_path(c));
-    // A tenth of the container's speed for the paper's parameters. It does not depend on that speed,
-    // because the discs must also move in a container at rest.
+    // A tenth of the container's speed for the paper's parameters. It does not depend on that
+    // speed, because the discs must also move in a container at rest.
     const double max_initial_speed = 0.02 * c.container_radius * c.omega();
     const double inertia_factor = c.inertia / (c.mass * c.radius * c.radius);
     const Segment& segment = state.path.segments.front();

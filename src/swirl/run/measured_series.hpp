@@ -21,7 +21,10 @@ struct MeasuredSeries {
     std::size_t discs = 0;     // maximum over the frames
     double periods = 0.0;
 
-    double frames_per_period() const { return periods > 0.0 ? double(frames) / periods : 0.0; }
+    /// 0 for a single frame.
+    double frames_per_period() const {
+        return periods > 0.0 && frames > 1 ? double(frames - 1) / periods : 0.0;
+    }
 };
 
 struct MeasuringControl {

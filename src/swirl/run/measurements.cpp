@@ -9,6 +9,7 @@
 #include "swirl/io/table.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 
 namespace swirl {
@@ -214,8 +215,8 @@ std::string measured_text(const MeasurementReports& reports) {
                 line(full_name(name, row.name),
                      in_unit(with_error(row.estimate.mean, row.estimate.error), row.unit));
         for (const ReportTable& table : report.tables)
-            tables += fmt::format("  {:<38}table of {} rows\n", full_name(name, table.name),
-                                  table.rows());
+            tables += fmt::format("  {:<38}table of {}\n", full_name(name, table.name),
+                                  counted(std::int64_t(table.rows()), "row"));
     }
     if (most_are_missing) line("n/a", fmt::format("{} of {} averages", missing, rows));
     return numbers + tables;

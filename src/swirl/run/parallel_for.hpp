@@ -1,5 +1,5 @@
-// Independent tasks on all cores. Results must not depend on which thread runs a task: each task has
-// its own seed and its own place in the output.
+// Independent tasks on all cores. Results must not depend on which thread runs a task: each task
+// has its own seed and its own place in the output.
 #pragma once
 
 #include <cstddef>

@@ -2,11 +2,12 @@
 //
 // The table is the only description of a parameter. The command line, configuration files, JSON,
 // the identity of a resumed run, the axes and seeds of a sweep, --dry-run, error messages and
-// docs/reference/parameters.md all use it. A new parameter needs a member of RunConfig and a row, both here,
-// and its use in the engine (config.cpp).
+// docs/reference/parameters.md all use it. A new parameter needs a member of RunConfig and a row,
+// both here, and its use in the engine (config.cpp).
 //
 // The defaults are the values of the paper (Lee et al. 2019, SI "Simulation parameters").
-// Units: length = disc radius, mass = disc mass, speed of the container = 1 (docs/explanation/physics.md).
+// Units: length = disc radius, mass = disc mass, speed of the container = 1
+// (docs/explanation/physics.md).
 #pragma once
 
 #include <array>

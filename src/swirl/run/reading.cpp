@@ -33,8 +33,8 @@ std::optional<double> read_number(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), last, value);
     if (error != std::errc() || end != last || !std::isfinite(value)) return {};
 #else
-    // clang's library for WebAssembly has from_chars() only for integers. strtod() accepts more than
-    // a number: leading spaces, a plus sign, hexadecimal digits.
+    // clang's library for WebAssembly has from_chars() only for integers. strtod() accepts more
+    // than a number: leading spaces, a plus sign, hexadecimal digits.
     if (text.empty() || text.find_first_not_of("0123456789.eE+-") != text.npos || text[0] == '+')
         return {};
     const std::string copy(text);

@@ -1,5 +1,5 @@
-// Reads numbers and names from text, in the same way for options, configuration files and tables; and
-// writes some.
+// Reads numbers and names from text, in the same way for options, configuration files and tables;
+// and writes some.
 //
 // A name has underscores in files and in code (mu_disc), and hyphens as an option (--mu-disc). Both
 // spellings are accepted everywhere, and so are colour and color, centre and center.

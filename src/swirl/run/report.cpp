@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "swirl/run/config.hpp"
+#include "swirl/run/reading.hpp"
 
 namespace swirl {
 namespace {
@@ -26,14 +27,14 @@ std::string energy_warning(const RunResult& r) {
     const double per_period = r.periods > 0.0 ? growth / r.periods : 0.0;
     if (r.config.path == PathShape::circle)
         return fmt::format(
-            "without friction, K − ΩL is conserved on the circle: it was {:.6g} at the start and "
-            "changed by {:.1e}.",
+            "without friction, K − ΩL (kinetic energy K, angular momentum L) is conserved on the "
+            "circle: it was {:.6g} at the start and changed by {:.1e}.",
             r.invariant_at_start, growth);
     return fmt::format(
         "without friction, the energy grows without bound on the polygon: from {:.4g} to {:.4g} in "
-        "{:.1f} periods, by a factor of {:.1f}. K − ΩL, which is conserved on a circle (--path "
-        "circle), grew by {:.4g}, or {:.3g} per period. Quantities that depend on the speed of the "
-        "discs have no steady state.",
+        "{:.1f} periods, by a factor of {:.1f}. K − ΩL (kinetic energy K, angular momentum L), "
+        "which is conserved on a circle (--path circle), grew by {:.4g}, or {:.3g} per period. "
+        "Quantities that depend on the speed of the discs have no steady state.",
         r.energy_at_start, r.energy, r.periods, r.energy / r.energy_at_start, growth, per_period);
 }
 
@@ -67,17 +68,24 @@ std::string not_steady_warning(const RunResult& r) {
                            : "\nhint: use a longer --warmup and a longer run.");
 }
 
+/// "the first 20 are"
+std::string first_periods(std::int64_t count) {
+    return count == 1 ? "the first is" : fmt::format("the first {} are", count);
+}
+
 std::string no_period_warning(const RunResult& r) {
+    const char* const hint =
+        r.config.periods ? "\nhint: use more --periods." : "\nhint: use more --events.";
     return fmt::format("the run covers {:.2f} periods{}; averages are over whole periods.{}",
                        r.periods,
-                       r.warmup > 0 ? fmt::format(", of which {} are warm-up", r.warmup) : "",
-                       r.complete ? "\nhint: use more --events." : "");
+                       r.warmup > 0 ? fmt::format(", and {} warm-up", first_periods(r.warmup)) : "",
+                       r.complete ? hint : "");
 }
 
 std::string too_short_warning(const RunResult& r) {
-    return fmt::format(
-        "steady state not verified: {} periods after the warm-up; the test needs {}.",
-        r.rotation.by_event.blocks, min_blocks_of_a_steady_state);
+    return fmt::format("steady state not verified: {} after the warm-up; the test needs {}.",
+                       counted(std::int64_t(r.rotation.by_event.blocks), "period"),
+                       min_blocks_of_a_steady_state);
 }
 
 /// In disc radii. Rounding errors of positions are about 10⁻¹⁴ in the experiment's container and at
@@ -98,6 +106,7 @@ std::string sinking_warning(const RunResult& r) {
 }
 
 std::string steady_text(const RunResult& r) {
+    if (r.config.discs == 1) return "n/a";  // the test is on the rotation about the centre of mass
     const bool only_energy_grows =
         r.steady_state() == SteadyState::Verdict::steady && energy_grows_without_bound(r.config);
     const std::string text =
@@ -113,9 +122,8 @@ std::string steady_text(const RunResult& r) {
 
 std::string periods_text(const RunResult& r) {
     if (r.warmup == 0) return fmt::format("{:.1f}; no warm-up", r.periods);
-    const std::string first =
-        r.warmup == 1 ? "the first is" : fmt::format("the first {} are", r.warmup);
-    return fmt::format("{:.1f}; {} warm-up{} and excluded from the averages", r.periods, first,
+    return fmt::format("{:.1f}; {} warm-up{} and excluded from the averages", r.periods,
+                       first_periods(r.warmup),
                        r.config.warmup_found ? " (found automatically)" : "");
 }
 
@@ -143,7 +151,9 @@ std::string with_commas(std::uint64_t number) {
 
 std::string with_error(double mean, double error) {
     if (std::isnan(mean)) return "n/a";
-    if (std::isnan(error) || error <= 0.0) return with_minus(fmt::format("{:.3g}", mean));
+    // A constant has an error of rounding only.
+    if (std::isnan(error) || error <= 1e-14 * std::fabs(mean))
+        return with_minus(fmt::format("{:.3g}", mean));
     if (error < 1e-9) return with_minus(fmt::format("{:.2g} ± {:.1g}", mean, error));
     // Two digits for an error that begins with 1, one for any other.
     const double exponent = std::floor(std::log10(error));

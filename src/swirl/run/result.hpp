@@ -44,7 +44,8 @@ struct RunResult {
         return Verdict::steady;
     }
     /// Calls visit(group, row) for every number that each run has. JSON, the page and
-    /// docs/reference/measurements.md use it; a group is an object in JSON, rows without group are plain keys.
+    /// docs/reference/measurements.md use it; a group is an object in JSON, rows without group are
+    /// plain keys.
     template <class Visitor>
     void report(Visitor&& visit) const {
         const auto number = [&](const char* group, const char* name, const char* unit,

@@ -11,6 +11,7 @@
 #include "swirl/io/state_archive.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/reading.hpp"
 #include "swirl/run/simd.hpp"
 
 namespace swirl {
@@ -120,9 +121,10 @@ std::optional<std::string> Run::problem_with_length(const RunConfig& shorter) co
                              : double(run_.warmup_events().total()) / double(shorter.events);
     if (config_.warmup_found ? share < 0.5 : run_.warmup() >= default_warmup) return {};
     return fmt::format(
-        "its warm-up was only {} periods because it was short, and a longer run has a longer "
-        "warm-up; start again, or use --warmup in both calls",
-        run_.warmup());
+        "its warm-up was shortened to {}, and a longer run has a longer warm-up.\nhint: start "
+        "again, "
+        "or use --warmup in both calls",
+        counted(run_.warmup(), "period"));
 }
 
 double Run::seconds() const {

@@ -1,5 +1,5 @@
-// One simulation from its seed to its averages. Figures, sweeps and the search for a crossing consist
-// of runs.
+// One simulation from its seed to its averages. Figures, sweeps and the search for a crossing
+// consist of runs.
 #pragma once
 
 #include <atomic>
@@ -34,15 +34,15 @@ struct RunControl {
     /// Called at most once per `progress_interval` (run.cpp).
     std::function<void(const RunProgress&)> progress;
 
-    /// Further measurements, from the end of the warm-up on. Must outlive the run. Its data are part
-    /// of the saved state.
+    /// Further measurements, from the end of the warm-up on. Must outlive the run. Its data are
+    /// part of the saved state.
     Observation* observation = nullptr;
 
     /// Integrate the orientation of each sphere (Snapshot::turned).
     bool orientations = false;
 
-    /// The state() of a run with the same configuration and the same measurements. The run continues
-    /// from it, bitwise identical; `observation` must be empty at that point.
+    /// The state() of a run with the same configuration and the same measurements. The run
+    /// continues from it, bitwise identical; `observation` must be empty at that point.
     std::optional<std::string> resume;
 };
 
@@ -64,8 +64,8 @@ class Run {
     /// state of such a run.
     explicit Run(const RunConfig& config, RunControl control = {});
 
-    /// Finds the next event. Returns false at the end of the run, or if `stop` is set. Throws Failure
-    /// in a collapse (run/collapse.hpp).
+    /// Finds the next event. Returns false at the end of the run, or if `stop` is set. Throws
+    /// Failure in a collapse (run/collapse.hpp).
     bool next_event();
     /// Advances the snapshot to the next of these times; false if there is none before the event.
     bool next_sample(SampleTimes& times) { return run_.next_sample(times); }

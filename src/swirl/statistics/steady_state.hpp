@@ -209,7 +209,7 @@ inline double false_alarm_rate(const MeanChange& change) {
                                               : 0.015;
 }
 
-/// The two classes of these values that differ most.
+/// Divides the values at the threshold that leaves the least variance within the two classes.
 inline TwoStates two_classes(std::span<const double> values) {
     TwoStates states;
     std::vector<double> sorted(values.begin(), values.end());

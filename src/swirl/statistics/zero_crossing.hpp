@@ -1,5 +1,5 @@
-// The N at which a curve ϖ(N) changes sign, with a confidence interval. N_c is the last change from rotation
-// to counterrotation.
+// The N at which a curve ϖ(N) changes sign, with a confidence interval. N_c is the last change from
+// rotation to counterrotation.
 //
 // Signs. The sign of a point is certain if its mean is more than three errors from zero. Otherwise
 // it is undetermined; such points are listed (`undetermined`), because the curve may change sign

@@ -113,8 +113,8 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
     return result;
 }
 
-/// Indices of the combinations of parameters in the order of the table: that of the values as given.
-/// If the plan has grown, axes of numbers are sorted.
+/// Indices of the combinations of parameters in the order of the table: that of the values as
+/// given. If the plan has grown, axes of numbers are sorted.
 std::vector<std::size_t> rows_of(const SweepPlan& plan) {
     std::vector<std::size_t> rows{0};
     for (const SweepAxis& axis : plan.axes) {

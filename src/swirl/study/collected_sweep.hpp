@@ -37,9 +37,9 @@ CollectedSweep collect_sweep(const std::filesystem::path& folder, const SweepPla
 /// Reasons to distrust the table, as warnings.
 std::vector<std::string> warnings(const CollectedSweep& collected);
 
-/// The sign changes of the rotation in a collected sweep (statistics/zero_crossing.hpp), by time and
-/// by the other rates: a row for each combination of the parameters other than the number of discs.
-/// Throws UsageError if the number of discs is not a parameter of the sweep.
+/// The sign changes of the rotation in a collected sweep (statistics/zero_crossing.hpp), by time
+/// and by the other rates: a row for each combination of the parameters other than the number of
+/// discs. Throws UsageError if the number of discs is not a parameter of the sweep.
 Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected);
 
 }  // namespace swirl

@@ -122,8 +122,9 @@ std::string verdict_report(const CrossingSettings& settings, const CrossingSearc
         case Crossing::Verdict::crosses:
             return crossing_sentence(settings, search);
         case Crossing::Verdict::always_rotates:
-            return fmt::format("No crossing: the {}s always rotate; {}, {:.0f} errors above zero.",
-                               body, evidence(search, lowest), lowest.mean / lowest.error);
+            return fmt::format(
+                "No crossing: the {}s always rotate; {}, {:.0f} standard errors above zero.", body,
+                evidence(search, lowest), lowest.mean / lowest.error);
         case Crossing::Verdict::always_counterrotates:
             return fmt::format("No crossing: the {}s always counterrotate; {}.", body,
                                evidence(search, lowest));

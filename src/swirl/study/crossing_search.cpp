@@ -100,8 +100,8 @@ class Searcher {
         }
     }
 
-    /// The number without runs that is nearest to the middle of a bracket. Numbers at which all runs
-    /// failed do not end the search in their bracket.
+    /// The number without runs that is nearest to the middle of a bracket. Numbers at which all
+    /// runs failed do not end the search in their bracket.
     std::optional<std::int64_t> next_number_in(const SignChange& change) const {
         const auto left = std::int64_t(change.before), right = std::int64_t(change.after);
         std::optional<std::int64_t> nearest;

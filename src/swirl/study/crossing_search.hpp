@@ -19,9 +19,9 @@
 // certain signs. If the bracket ends at the end of the range, with an undetermined sign, the
 // replicates differ, and N_c agrees within its error.
 //
-// A failed run (a collapse by friction, docs/explanation/physics.md) is excluded, counted and reported. A number
-// of discs at which every run failed has no point. If it lies in a bracket, N_c is not determined,
-// and the bracket is reported.
+// A failed run (a collapse by friction, docs/explanation/physics.md) is excluded, counted and
+// reported. A number of discs at which every run failed has no point. If it lies in a bracket, N_c
+// is not determined, and the bracket is reported.
 //
 // Runs at one number of discs are combined with their periods as weights. The error is the one
 // within and between them (statistics/replicates.hpp). The runs made depend on their results and
@@ -99,8 +99,8 @@ void validate_range(const CrossingSettings& settings);
 /// Throws UsageError if the range is empty, the discs do not fit, or another setting is invalid.
 void validate(const CrossingSettings& settings);
 
-/// Validates the settings and searches. Throws Interrupted when stopped. The result has no points if
-/// every run failed.
+/// Validates the settings and searches. Throws Interrupted when stopped. The result has no points
+/// if every run failed.
 CrossingSearch search_crossing(const CrossingSettings& settings,
                                const CrossingControl& control = {});
 

@@ -1,5 +1,5 @@
-// A sweep on a cluster with Slurm: a job array whose tasks share the folder. Each task runs its part
-// of the points, then all points that no other task has locked. A task that dies or runs twice
+// A sweep on a cluster with Slurm: a job array whose tasks share the folder. Each task runs its
+// part of the points, then all points that no other task has locked. A task that dies or runs twice
 // therefore does no harm, and other tasks run the points of a failed node.
 #pragma once
 

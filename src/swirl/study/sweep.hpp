@@ -26,8 +26,8 @@ struct SweepStatus {
 };
 SweepStatus sweep_status(const std::filesystem::path& folder, const SweepPlan& plan);
 
-/// The points that this process works on: those with number ≡ part − 1 modulo parts. With `rest`, it
-/// then works on the others that no process has locked.
+/// The points that this process works on: those with number ≡ part − 1 modulo parts. With `rest`,
+/// it then works on the others that no process has locked.
 struct SweepShare {
     std::size_t part = 1, parts = 1;
     bool rest = false;

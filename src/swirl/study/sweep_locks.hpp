@@ -1,5 +1,5 @@
-// Locks of sweep points. While a process works on a point, it holds a lock on the point's byte of the
-// file DIR/locks. All points share one file because some file systems create and remove files
+// Locks of sweep points. While a process works on a point, it holds a lock on the point's byte of
+// the file DIR/locks. All points share one file because some file systems create and remove files
 // slowly. The locks only save work: a point done twice does no harm.
 #pragma once
 

@@ -27,8 +27,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t max_points = 10'000'000;
 
-/// Calls visit(index) in order for the product indices, in the whole plan, of the points that a stage
-/// adds to the stage before it.
+/// Calls visit(index) in order for the product indices, in the whole plan, of the points that a
+/// stage adds to the stage before it.
 template <class Visit>
 void for_each_new_index(const SweepPlan& plan, const SweepStage& stage, const SweepStage* before,
                         const Visit& visit) {
@@ -316,7 +316,7 @@ SweepPlan read_plan(const fs::path& folder) {
                                         file.string(), axis.name));
     if (const double count = number_of_runs(plan); !(count >= 1.0 && count <= double(max_points)))
         throw FileError(
-            fmt::format("'{}' is damaged: it asks for {:.3g} runs with {} replicas of "
+            fmt::format("'{}' is damaged: it plans {:.3g} runs with {} replicas of "
                         "each point, but from 1 to {} runs are possible.",
                         file.string(), count, plan.replicas, max_points));
     reject_shrinking(file, plan);

@@ -7,8 +7,8 @@
 //
 // Order. Points are numbered with the parameters in the order of `swirl run --help`; the last one
 // and then the replica vary fastest. The seed of a point is computed from its resolved parameters,
-// its replica and the seed of the plan. It does not depend on the number of the point, on threads or
-// machines, or on the other points of the sweep.
+// its replica and the seed of the plan. It does not depend on the number of the point, on threads
+// or machines, or on the other points of the sweep.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ struct SweepPlan {
     int frames = 0;                    // per period, of the trajectory of every run; 0: none
     int generation = 1;                // increases with every addition of measurements
     std::vector<SweepStage> before = {};
-    /// For each point, its index in the product of the axes, with the replica varying fastest. Empty
-    /// if the index is the number of the point. Follows from the other members.
+    /// For each point, its index in the product of the axes, with the replica varying fastest.
+    /// Empty if the index is the number of the point. Follows from the other members.
     std::vector<std::size_t> product_indices = {};
 
     std::size_t points() const;
@@ -73,8 +73,8 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
 
 /// The plan of a folder; throws FileError if there is none.
 SweepPlan read_plan(const std::filesystem::path& folder);
-/// Creates the folder and writes the plan. Throws Failure if the folder holds a plan other than this
-/// one and the one that it has grown from.
+/// Creates the folder and writes the plan. Throws Failure if the folder holds a plan other than
+/// this one and the one that it has grown from.
 void write_plan(const std::filesystem::path& folder, const SweepPlan& plan,
                 const SweepPlan* grown_from = nullptr);
 

@@ -71,10 +71,10 @@ bool cells_are_possible(const InitialState& scene) {
 }
 
 /// True if the system is so dilute that neighbour lists would not last. The criterion is a packing
-/// fraction, for unequal discs its geometric mean with that of equal discs of the mean radius. It
-/// is increased for the candidates that cells give each prediction: with n discs in a cell, 9n. In
-/// a moving container discs gather, and then lists last; so the limit is lower there. The numbers
-/// were measured (bench/NOTES.md).
+/// fraction, for unequal discs its geometric mean with that of equal discs of the mean radius. A
+/// factor accounts for the candidates that each prediction tests in a cell search, which are 9n
+/// with n discs in a cell. In a moving container discs gather, and then lists last; so the limit is
+/// lower there. The numbers were measured (bench/NOTES.md).
 bool is_dilute(const InitialState& scene, const RadiusRange& radii) {
     double sum = 0.0, squares = 0.0;
     for (const Disc& d : scene.discs) {

@@ -46,8 +46,8 @@ struct Species {
     double inverse_mass, inverse_inertia;
 };
 
-/// The data that only a disc's own events read: the partner of its pending event, and its angle. In the
-/// search with Verlet lists the disc's neighbour list follows in memory (verlet_skin.hpp).
+/// The data that only a disc's own events read: the partner of its pending event, and its angle. In
+/// the search with Verlet lists the disc's neighbour list follows in memory (verlet_skin.hpp).
 struct ColdDisc {
     std::uint32_t partner;             // a disc; the disc itself for the wall; or a mark, see below
     std::uint32_t partner_collisions;  // the partner's HotDisc::collisions at the prediction

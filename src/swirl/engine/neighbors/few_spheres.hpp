@@ -191,8 +191,8 @@ struct FewSpheres {
         few_spheres::update_first(state, event.disc);
         few_spheres::find_next<G>(state);
     }
-    /// The earliest event of the remaining spheres is found here, before the spheres that now
-    /// collide have been predicted. It is mostly the next event.
+    /// Also finds the earliest event of the remaining spheres, before the spheres that now collide
+    /// have been predicted. Mostly it is the next event.
     SWIRL_INLINE static PendingEvent remove(FewSpheresState& state, const PendingEvent& event) {
         SphereColumns& columns = state.columns;
         few_spheres::remove(columns, event.disc);

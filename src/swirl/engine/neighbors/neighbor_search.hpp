@@ -1,7 +1,7 @@
-// The functions that the event loop (event_loop.hpp) requires from a neighbour search. A search answers one
-// question: which event comes next? It decides how fast the answer comes, never what it is. To add
-// a search, write a struct that satisfies NeighborSearch, give it a state (search_states.hpp), set
-// that up (search_setup.cpp), and add its loop to EventLoops.
+// The functions that the event loop (event_loop.hpp) requires from a neighbour search. A search
+// answers one question: which event comes next? It decides how fast the answer comes, never what it
+// is. To add a search, write a struct that satisfies NeighborSearch, give it a state
+// (search_states.hpp), set that up (search_setup.cpp), and add its loop to EventLoops.
 #pragma once
 
 #include <concepts>

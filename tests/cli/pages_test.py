@@ -1,0 +1,213 @@
+"""Every command in a block of the README and of docs/ is valid, and works.
+
+The default suite parses each call of swirl as it is shown, and runs it where that takes little time or
+SHORTER makes it so. Each page is a folder of its own, so a command finds the files of the commands before
+it. The suite `slow` (--all) runs the blocks of each page as they are, with bash.
+"""
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+import unittest
+
+from program import SOURCE, SWIRL, InFolder, swirl
+
+CALL = re.compile(r"(?:^|[\s;&|])(?:\./|build/release/)?swirl ([^&|\n]+)", re.M)
+
+# Lines without a call of swirl that no test runs, and why.
+NOT_RUN = (
+    (r"cmake |cpack |ninja |ctest |apt |cd build/|\./check|bench/|build/release/bench/|taskset ",
+     "builds, installs or measures; ./check, tests/library and tests/bench do the same"),
+    (r"python3 tests/mutation/", "takes hours; the suite slow runs it"),
+    (r"/usr/bin/python3 figures/|ffmpeg |'\[0\]trim", "draws from the output of a long command"),
+    (r"for |done$|grep ", "the shell around a call"),
+)
+# Subcommands of the launcher script, with tests of their own (launcher, lab, site, python.*).
+LAUNCHER = ("lab", "site", "python")
+# More options for a short run, by subcommand. The others take seconds or more, or need a video.
+SHORTER = {
+    "run": ["--events", "3000"],
+    "crossing": ["--events", "3000", "--from", "34", "--to", "42", "--tolerance", "5"],
+    "sweep": ["--threads", "2"],
+    "movie": ["--seconds", "0.1", "--fps", "10", "--size", "320x180"],
+    "image": [], "collect": [], "export": [], "measure": [], "verify": [],
+}
+# Replaced in a call, so that it is short: (as shown, shorter).
+SHORTENED = (
+    ("--events 1e9", "--events 3000"), ("--events 1e6", "--events 3000"),
+    ("--periods 400", "--periods 8 --warmup 1"),
+    ("--periods 200", "--periods 4 --warmup 1"), ("--periods 150", "--periods 2"),
+    ("--periods 100", "--periods 8"), ("periods = 300", "periods = 1"), ("seeds = 8", "seeds = 1"),
+    ('discs = "5:48"', 'discs = "46:48"'), ("mu = [0.1, 0.5, 1]", "mu = [0.5, 1]"),
+    ("--range 1000:1999", "--range 100:199"),
+)
+# Calls that only the suite slow runs, or that no machine but the reader's can run.
+PARSED = (
+    ("--slurm", "needs a cluster (cluster_test)"),
+    ("/shared/", "the folder of a cluster"),
+    ("--camera-fps", "tracks of the reader's camera"),
+    ("--mu 0.2:0.2:1", "six searches"),
+    ("--checkpoint long.checkpoint", "continues a run that was stopped"),
+    ("--compare", "writes a picture of the documentation"),
+)
+
+
+def pages():
+    names = ["README.md"]
+    for folder, _, files in os.walk(os.path.join(SOURCE, "docs")):
+        names += [os.path.relpath(os.path.join(folder, file), SOURCE) for file in files if file.endswith(".md")]
+    return sorted(names)
+
+
+def text_of(page):
+    with open(os.path.join(SOURCE, page), encoding="utf-8") as file:
+        return file.read()
+
+
+def blocks(text):
+    """(language, content) of the blocks with commands and configurations. Of a console, the commands."""
+    for _, kind, content in re.findall(r"^( *)```(sh|bash|console|toml)\n(.*?)^ *```$", text, re.M | re.S):
+        if kind == "console":
+            content = "\n".join(re.findall(r"^\$ (.*)$", content, re.M))
+        yield kind, content
+
+
+def calls(content):
+    """The words of each call of swirl in a block."""
+    joined = content.replace("\\\n", " ")
+    for call in CALL.findall(joined):
+        words = shlex.split(call, comments=True)
+        if words and words[0] not in LAUNCHER:
+            yield words
+
+
+def shortened(words):
+    """The words of a shorter call, or None if it is too long for the default suite."""
+    call = shlex.join(words)
+    if words[0] not in SHORTER or any(part in call for part, _ in PARSED):
+        return None
+    for shown, shorter in SHORTENED:
+        call = call.replace(shown, shorter)
+    words = shlex.split(call)
+    more = SHORTER[words[0]]
+    if "--periods" in words or "--help" in words or words[0] == "run" and "--events" in words:
+        more = []
+    return words + [word for option, value in zip(more[::2], more[1::2]) if option not in words
+                    for word in (option, value)]
+
+
+# Videos of the reader, which the suite slow replaces with synthetic ones: name and number of discs.
+VIDEOS = {"dish.mp4": 24, "N24.mp4": 24, "N36.mp4": 36, "N48.mp4": 48,
+          "rough/a.mp4": 40, "s36.mp4": 36, "s48.mp4": 48}
+
+
+def can_run(content):
+    """False for blocks that need a cluster, a file of the reader, hours, or the launcher script."""
+    return bool(list(calls(content))) and not any(
+        part in content for part in ("--slurm", "/shared/", "--camera-fps", "long.checkpoint", "--events 1e9",
+                                     *(f"swirl {name}" for name in LAUNCHER), "./check", "cmake "))
+
+
+def missing_input(words, folder):
+    """A video or a recording that a shortened call reads and that only a long call writes."""
+    return any(re.search(r"\.(mp4|csv|h5|json|toml)$", word) and not os.path.exists(os.path.join(folder, word))
+               for option, word in zip(words, words[1:]) if not option.startswith("--") or option == "--over")
+
+
+class Pages(InFolder):
+    def test_every_line_of_a_block_is_a_call_or_excluded_with_a_reason(self):
+        calls_found = 0
+        for page in pages():
+            for kind, content in blocks(text_of(page)):
+                if kind == "toml":
+                    continue
+                for line in content.replace("\\\n", " ").splitlines():
+                    found = bool(CALL.search(line))
+                    calls_found += found
+                    excluded = any(re.match(rf"\s*(?:{pattern})", line) for pattern, _ in NOT_RUN)
+                    self.assertTrue(found or excluded or not line.strip(), f"{page}: {line}")
+        self.assertGreater(calls_found, 80)
+
+    def test_every_call_is_valid(self):
+        for page in pages():
+            for _, content in blocks(text_of(page)):
+                for words in calls(content):
+                    with self.subTest(page=page, call=shlex.join(words)):
+                        done = swirl(*words, environment={"SWIRL_PARSE_ONLY": "1"})
+                        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_misspelt_option_is_found(self):
+        content = "./swirl run --disks 48        # a comment\nswirl movie --colour id --oout a.mp4 && ./swirl lab\n"
+        for words in calls(content):
+            self.assertEqual(swirl(*words, environment={"SWIRL_PARSE_ONLY": "1"}).returncode, 2, words)
+        self.assertEqual(len(list(calls(content))), 2)
+
+    def test_short_calls_work(self):
+        ran = 0
+        for page in pages():
+            folder = self.path(page.replace("/", "-"))
+            os.makedirs(folder)
+            for kind, content in blocks(text_of(page)):
+                if kind == "toml":
+                    for shown, shorter in SHORTENED:
+                        content = content.replace(shown, shorter)
+                    with open(os.path.join(folder, "plan.toml"), "w", encoding="utf-8") as file:
+                        file.write(content)
+                    continue
+                for words in map(shortened, calls(content)):
+                    if words is None or missing_input(words, folder):
+                        continue
+                    with self.subTest(page=page, call=shlex.join(words)):
+                        done = swirl(*words, cwd=folder)
+                        self.assertEqual(done.returncode, 0, done.stderr)
+                        ran += 1
+        self.assertGreater(ran, 40)
+
+
+class PagesAsShown(InFolder):
+    """The blocks with calls of swirl, in the order of their page, with bash. For the suite slow: the whole
+    paper alone takes minutes."""
+
+    def prepare(self, folder, text):
+        """The program under test at the names that the pages use, the sources that they read, and the
+        reader's videos."""
+        os.makedirs(os.path.join(folder, "build/release"))
+        for name in ("swirl", "build/release/swirl"):
+            os.symlink(os.path.abspath(SWIRL), os.path.join(folder, name))
+        os.symlink(os.path.join(SOURCE, "figures"), os.path.join(folder, "figures"))
+        os.makedirs(os.path.join(folder, "docs/images"))
+        os.makedirs(os.path.join(folder, "rough"))
+        for name, discs in VIDEOS.items():
+            if re.search(rf"(?<!out ){name.replace('a.mp4', '')}", text):
+                done = swirl("synthetic-video", "--discs", discs, "--camera", "phone", "--length", 2,
+                             "--out", name, cwd=folder, timeout=900)
+                self.assertEqual(done.returncode, 0, done.stderr)
+        if "swirl movie run.h5" in text:
+            done = swirl("run", "--periods", 45, "--frames", 60, "--trajectory", "run.h5", cwd=folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_blocks_work(self):
+        for page in pages():
+            folder = self.path(page.replace("/", "-"))
+            self.prepare(folder, text_of(page))
+            for kind, content in blocks(text_of(page)):
+                if kind == "toml":
+                    with open(os.path.join(folder, "plan.toml"), "w", encoding="utf-8") as file:
+                        file.write(content)
+                elif can_run(content):
+                    with self.subTest(page=page, block=content):
+                        done = subprocess.run(
+                            ["bash", "-e", "-o", "pipefail", "-c", content], cwd=folder, text=True,
+                            capture_output=True, stdin=subprocess.DEVNULL,
+                            env={**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"]})
+                        self.assertEqual(done.returncode, 0, done.stderr[-2000:])
+
+
+if __name__ == "__main__":
+    if "--all" in sys.argv:
+        sys.argv.remove("--all")
+    else:
+        del PagesAsShown
+    unittest.main()
