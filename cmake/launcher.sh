@@ -171,25 +171,43 @@ changed_since() {
     [ -n "$changed" ]
 }
 
-# One build at a time. The lock is a symbolic link that names the process which builds: a link is
-# created in one step or not at all. The lock of a process that ended without removing it is removed.
-lock_build() {
-    build_lock=$home/build/.building
+# A lock is a symbolic link that names the process which has it: a link is created in one step or not at
+# all.
+is_running() { # also a process of another user, on Linux without ps, too
+    kill -0 "$1" 2>/dev/null || [ -d "/proc/$1" ] || ps -p "$1" >/dev/null 2>&1
+}
+is_locked() {
+    owner=$(readlink "$1" 2>/dev/null) && is_running "$owner"
+}
+
+# Waits for the lock $1 and takes it. The lock of a process that ended without removing it is removed.
+take_lock() {
     failed=0
-    until ln -s $$ "$build_lock" 2>/dev/null; do
-        builder=$(readlink "$build_lock") || builder=
-        if [ -z "$builder" ]; then
+    until ln -s $$ "$1" 2>/dev/null; do
+        owner=$(readlink "$1") || owner=
+        if [ -z "$owner" ]; then
             failed=$((failed + 1))
-            [ $failed -lt 100 ] || give_up "cannot create the lock '$build_lock'."
-        elif kill -0 "$builder" 2>/dev/null || [ -d "/proc/$builder" ]; then
+            [ $failed -lt 100 ] || give_up "cannot create the lock '$1'."
+        elif is_running "$owner"; then
             sleep 1
-        elif mv "$build_lock" "$build_lock.$$" 2>/dev/null; then
+        elif mv "$1" "$1.$$" 2>/dev/null; then
             # Another process may have replaced the lock in between.
-            if [ "$(readlink "$build_lock.$$")" = "$builder" ]; then rm "$build_lock.$$"; else mv "$build_lock.$$" "$build_lock"; fi
+            if [ "$(readlink "$1.$$")" = "$owner" ]; then rm "$1.$$"; else mv "$1.$$" "$1"; fi
         fi
     done
 }
+
+# One build at a time.
+lock_build() { take_lock "$home/build/.building"; }
 unlock_build() { rm -f "$home/build/.building"; }
+
+# Renames a file or folder. Never moves it into an existing folder.
+rename() { ! [ -d "$2" ] && mv -f "$1" "$2"; }
+
+# The Python that has the packages of the file `packages`: on Debian its own, elsewhere the first on PATH.
+system_python() {
+    if command -v dpkg-query >/dev/null; then echo /usr/bin/python3; else command -v python3; fi
+}
 
 # Reports the progress of the build with the log $1 every ten seconds. Ends with this shell.
 report_progress() {

@@ -57,18 +57,25 @@ if [ -n "$out" ] && [ -e "$out" ] && ! [ -f "$out" ]; then
 fi
 
 page=$home/build/lab/index.html
+is_page_built() {
+    [ -e "$page" ] || return 1
+    newer=$(cd "$home" && find src/swirl/math src/swirl/physics src/swirl/engine src/swirl/statistics \
+        src/swirl/measure src/swirl/io src/swirl/run bindings/wasm web -path web/node_modules -prune -o \
+        -path web/generated -prune -o -newer "$page" -type f -print 2>/dev/null | head -n 1)
+    [ -z "$newer" ]
+}
 build_page() {
     mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to the build folder $home/build."
-    # Opened for reading, since a page that is up to date may belong to another user.
+    # A page that is up to date may belong to another user, so the lock is taken only for a build.
     lock=$home/build/.lab.lock
-    [ -e "$lock" ] || true 2>/dev/null >"$lock" || give_up "cannot write to the build folder $home/build."
-    exec 9<"$lock"
-    flock 9
-    # shellcheck disable=SC2086
-    changed=$(cd "$home" && find src/swirl/math src/swirl/physics src/swirl/engine src/swirl/statistics src/swirl/measure src/swirl/run bindings/wasm web \
-        -path web/node_modules -prune -o -path web/generated -prune -o -newer "$page" -type f -print \
-        -quit 2>/dev/null || true)
-    if [ -e "$page" ] && [ -z "$changed" ]; then return 0; fi
+    while is_locked "$lock"; do sleep 1; done
+    ! is_page_built || return 0
+    [ -w "$home/build" ] || give_up "cannot write to the build folder $home/build."
+    take_lock "$lock"
+    trap 'rm -f "$lock"' EXIT
+    trap 'exit 130' INT
+    trap 'exit 143' HUP TERM
+    ! is_page_built || return 0 # by another process
     require_writable "$home/build/lab.log" "$home/build/lab" "$home/build/wasm" "$home/web/generated"
     install_packages lab || exit 1
     command -v npm >/dev/null || install_packages npm || exit 1
@@ -88,15 +95,16 @@ build_page() {
     fi
 }
 build_page
-exec 9>&-
+rm -f "${lock:-}"
+trap - EXIT INT HUP TERM
 
 if [ -n "$out" ]; then
-    temporary=$(mktemp --suffix=.partial "$out.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
+    temporary=$(mktemp "$out.partial.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
     trap 'rm -f "$temporary"' EXIT
     trap 'exit 130' INT
     trap 'exit 143' HUP TERM
     chmod "$(printf %o $((0666 & ~0$(umask))))" "$temporary"
-    cp "$page" "$temporary" 2>/dev/null && sync "$temporary" && mv -T "$temporary" "$out" ||
+    cp "$page" "$temporary" 2>/dev/null && sync "$temporary" && rename "$temporary" "$out" ||
         give_up "'$out' cannot be written."
     [ -n "$quiet" ] || say "wrote $out"
     exit 0

@@ -52,18 +52,18 @@ fi
 # remains without a lock. If the kill came between the two renames at the end, the old site is in it and
 # is moved back.
 out=${out%"${out##*[!/]}"} # without trailing slashes
-for left in "$out".??????.partial; do
-    [ -e "$left/lock" ] && flock --nonblock "$left/lock" true || continue
-    [ -e "$out" ] || ! [ -e "$left/before" ] || mv -T "$left/before" "$out"
+lock=lock.$(uname -n) # a process is known on its machine only
+for left in "$out".partial.??????; do
+    [ -h "$left/$lock" ] && ! is_locked "$left/$lock" || continue
+    [ -e "$out" ] || ! [ -e "$left/before" ] || rename "$left/before" "$out"
     rm -rf "$left"
 done
 mkdir -p "$(dirname "$out")" 2>/dev/null &&
-    temporary=$(mktemp -d --suffix=.partial "$out.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
+    temporary=$(mktemp -d "$out.partial.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
 trap 'rm -rf "$temporary"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' HUP TERM
-exec 8>"$temporary/lock"
-flock 8
+ln -s $$ "$temporary/$lock"
 site=$temporary/site
 source=$temporary/source
 log=$temporary/log
@@ -89,7 +89,7 @@ elif ! "$python" "$home/web/notebooks.py" "$temporary/notebooks" "$home"/example
     give_up "the notebooks of examples/ could not be executed (see above)."
 fi
 # Pages of another Sphinx or theme are another site, so these are Debian's.
-if ! /usr/bin/python3 -B "$home/web/site.py" "$home" "$source" "$temporary/gallery" "$temporary/notebooks" >"$log" 2>&1 ||
+if ! "$(system_python)" -B "$home/web/site.py" "$home" "$source" "$temporary/gallery" "$temporary/notebooks" >"$log" 2>&1 ||
     ! sphinx-build -q -W --keep-going -c "$source/docs" -d "$temporary/doctrees" "$source" "$site" >"$log" 2>&1; then
     tail -n 20 "$log" >&2
     give_up "the site could not be built (see above)."
@@ -97,7 +97,7 @@ fi
 "$home/web/lab.sh" --quiet --out "$site/lab.html"
 # Sphinx copies the images of the pages, but no movies.
 for movie in "$temporary"/gallery/*.mp4; do
-    [ ! -e "$movie" ] || install -D -m 644 "$movie" "$site/gallery/${movie##*/}"
+    [ ! -e "$movie" ] || { mkdir -p "$site/gallery" && cp "$movie" "$site/gallery"; }
 done
 [ -z "$report" ] || cp -R "$report" "$site/report"
 [ -e "$site/index.html" ] || cat >"$site/index.html" <<'HTML'
@@ -113,10 +113,10 @@ pages=$(find "$site" -name '*.html' | wc -l)
 touch "$site/.swirl-site"
 trap '' INT HUP TERM # both renames or none
 if [ -e "$out" ]; then
-    mv -T "$out" "$temporary/before" || give_up "'$out' cannot be replaced."
+    rename "$out" "$temporary/before" || give_up "'$out' cannot be replaced."
 fi
-mv -T "$site" "$out" || {
-    ! [ -e "$temporary/before" ] || mv -T "$temporary/before" "$out"
+rename "$site" "$out" || {
+    ! [ -e "$temporary/before" ] || rename "$temporary/before" "$out"
     give_up "'$out' cannot be written."
 }
 say "wrote $out/index.html ($pages pages)"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs Debian's python3 with the module `swirl` on its path. Builds the module first if it is out of
+# Runs the system's python3 with the module `swirl` on its path. Builds the module first if it is out of
 # date.
 set -eu
 home=$(dirname "$(dirname "$(dirname "$(readlink -f "$0")")")")
@@ -10,4 +10,4 @@ long="three minutes or so"
 build release "build python" bindings/python swirl_python
 # An empty entry would be the current folder, whose files could replace modules.
 others=$(printf %s "${PYTHONPATH-}" | sed -e 's/::*/:/g' -e 's/^://' -e 's/:$//')
-PYTHONPATH=$home/build/release/python${others:+:$others} exec /usr/bin/python3 "$@"
+PYTHONPATH=$home/build/release/python${others:+:$others} exec "$(system_python)" "$@"

@@ -1,8 +1,8 @@
-# Homebrew formula. Not tested: swirl does not yet build on macOS. `url` and `sha256` are placeholders.
+# Homebrew formula. Not tested: no build on macOS was tried. `url` and `sha256` are placeholders.
 class Swirl < Formula
   desc "Exact event-driven simulation of discs and spheres in a swirled container"
   homepage "https://doi.org/10.1103/PhysRevE.100.012903"
-  url "https://example.org/swirl-0.1.0.tar.gz"
+  url "https://example.org/swirl-1.0.0.tar.gz"
   sha256 "0000000000000000000000000000000000000000000000000000000000000000"
   license "MIT"
 

@@ -6,17 +6,17 @@ class Swirl(CMakePackage):
     """Exact event-driven simulation of discs and spheres in a swirled container."""
 
     homepage = "https://doi.org/10.1103/PhysRevE.100.012903"
-    url = "https://example.org/swirl-0.1.0.tar.gz"
+    url = "https://example.org/swirl-1.0.0.tar.gz"
 
     license("MIT")
 
-    version("0.1.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
+    version("1.0.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
 
     variant("program", default=True, description="Build the program in addition to the library")
     variant("camera", default=False, when="+program", description="Build `swirl track` (OpenCV)")
 
     depends_on("cxx", type="build")
-    depends_on("cmake@3.25:", type="build")
+    depends_on("cmake@3.22:", type="build")
     with when("+program"):
         depends_on("pkgconfig", type="build")
         depends_on("cli11", type="build")

@@ -77,14 +77,15 @@ class SiteNames(InFolder):
 
     def test_a_site_in_progress_of_another_call_is_not_touched(self):
         self.assertEqual(self.make("old").returncode, 0)
-        other = self.site + ".a1B2c3.partial"
+        other = self.site + ".partial.a1B2c3"
         os.mkdir(other)
-        with subprocess.Popen(["flock", "--no-fork", os.path.join(other, "lock"), "sleep", "60"]) as holder:
-            while not os.path.exists(os.path.join(other, "lock")):
-                self.assertIsNone(holder.poll())
+        with subprocess.Popen(["sleep", "60"]) as holder:
+            os.symlink(str(holder.pid), os.path.join(other, "lock." + os.uname().nodename))
             self.assertEqual(self.make("new").returncode, 0)
-            self.assertEqual(sorted(os.listdir(self.path("out"))), ["site", "site.a1B2c3.partial"])
+            self.assertEqual(sorted(os.listdir(self.path("out"))), ["site", "site.partial.a1B2c3"])
             holder.terminate()
+        self.assertEqual(self.make("new").returncode, 0)
+        self.assertEqual(os.listdir(self.path("out")), ["site"])
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import unittest
 
 SOURCE = os.environ["SWIRL_SOURCE"]
 
-PROJECT = """cmake_minimum_required(VERSION 3.25)
+PROJECT = """cmake_minimum_required(VERSION 3.22)
 project(other LANGUAGES CXX)
 enable_testing()
 add_subdirectory({source} swirl EXCLUDE_FROM_ALL)

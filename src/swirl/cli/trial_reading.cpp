@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +16,7 @@
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/event_log.hpp"
+#include "swirl/io/system_calls.hpp"
 #include "swirl/io/track_recording.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/run/failure.hpp"
@@ -34,7 +34,7 @@ void read_all_of_log(const std::string& file) {
 
 /// Runs in the child. Its exit status is 0 even if the file is rejected: only a crash matters.
 [[noreturn]] void read_and_exit(const std::string& file) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    system::end_with_parent();
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     for (const int crash : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(crash, SIG_DFL);
@@ -68,7 +68,7 @@ void try_reading(const std::string& file) {
     stop_signal();
     // Only the child holds the write end, and never writes: poll() reports when the child ends.
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
+    if (!system::open_pipe(ends))
         throw Failure(fmt::format(
             "no pipe could be created to read the file in a child process: {}.", system_reason()));
     const pid_t child = fork();

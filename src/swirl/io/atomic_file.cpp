@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,6 +15,7 @@
 #include <utility>
 
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/system_calls.hpp"
 
 namespace swirl {
 namespace {
@@ -27,7 +27,7 @@ constexpr std::size_t temporary_suffix_size = 1 + random_digits + partial_suffix
 /// Hexadecimal digits that differ between all processes on all machines that share a folder.
 std::string random_name() {
     std::uint64_t bits = 0;
-    if (::getrandom(&bits, sizeof bits, 0) != sizeof bits)
+    if (!system::random_bytes(&bits, sizeof bits))
         throw FileError(fmt::format("the system gave no random number: {}.", system_reason()));
     return fmt::format("{:016x}", bits);
 }
@@ -40,22 +40,6 @@ std::string target_of(const std::string& name) {
     const bool is_temporary =
         name[end] == '.' && digits.find_first_not_of("0123456789abcdef") == digits.npos;
     return is_temporary ? name.substr(0, end) : "";
-}
-
-/// Renames without replacing. On failure returns false with errno set, EEXIST if the new name is
-/// taken. Not every file system supports RENAME_NOREPLACE, or hard links. With neither, a
-/// concurrent writer can slip in between the test and the rename.
-bool rename_to_new_name(const std::filesystem::path& from, const std::filesystem::path& to) {
-    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
-        return true;
-    if (errno != EINVAL && errno != ENOSYS) return false;
-    if (::link(from.c_str(), to.c_str()) == 0) return ::unlink(from.c_str()) == 0;
-    if (errno == EEXIST) return false;
-    if (::access(to.c_str(), F_OK) == 0) {
-        errno = EEXIST;
-        return false;
-    }
-    return ::rename(from.c_str(), to.c_str()) == 0;
 }
 
 constexpr std::size_t buffer_size = 1 << 20;
@@ -88,7 +72,8 @@ void sync_folder_of(const std::filesystem::path& path) {
     const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     // Some file systems do not support this, and report EINVAL or ENOTSUP.
-    const bool done = handle >= 0 && (::fsync(handle) == 0 || errno == EINVAL || errno == ENOTSUP);
+    const bool done =
+        handle >= 0 && (system::sync_file(handle) || errno == EINVAL || errno == ENOTSUP);
     const std::string reason = system_reason();
     if (handle >= 0) ::close(handle);
     if (!done)
@@ -107,7 +92,7 @@ void FilesystemSync::fail() {
 }
 
 void FilesystemSync::sync() {
-    if (::syncfs(handle_) != 0) fail();
+    if (!system::sync_filesystem(handle_)) fail();
 }
 
 void require_replaceable(const std::filesystem::path& path) {
@@ -181,7 +166,7 @@ void AtomicFile::replace(std::uint64_t offset, std::string_view bytes) {
 
 void AtomicFile::finish() {
     flush_buffer();
-    if (::fsync(file_) != 0) fail();
+    if (!system::sync_file(file_)) fail();
     publish();
     sync_folder_of(path_);
 }
@@ -193,8 +178,8 @@ void AtomicFile::publish() {
 
 bool AtomicFile::finish_as_new() {
     flush_buffer();
-    if (::fsync(file_) != 0) fail();
-    if (!rename_to_new_name(temporary_, path_)) {
+    if (!system::sync_file(file_)) fail();
+    if (!system::rename_to_new_name(temporary_, path_)) {
         if (errno != EEXIST) fail();
         return false;
     }

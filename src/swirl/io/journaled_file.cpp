@@ -14,6 +14,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/system_calls.hpp"
 
 namespace swirl {
 namespace {
@@ -86,7 +87,7 @@ void JournaledFile::start_empty() {
     if (::access(journal_path_.c_str(), F_OK) == 0) {
         open_journal();
         empty_journal();
-        if (::fdatasync(journal_) != 0) fail("could not be emptied");
+        if (!system::sync_file_data(journal_)) fail("could not be emptied");
     }
     if (::ftruncate(file_, 0) != 0) fail("could not be emptied");
 }
@@ -164,13 +165,11 @@ void JournaledFile::read(std::uint64_t offset, void* bytes, std::size_t size) {
 void JournaledFile::write_to_disk(std::uint64_t offset, const void* bytes, std::size_t size) {
     if (!write_at(file_, offset, {static_cast<const char*>(bytes), size}))
         fail("could not be written");
-#ifdef __linux__
     // Starts writing to the disk early, so that a commit has little left to write.
     constexpr std::uint64_t writeback_size = 8 * 1024 * 1024;
     if ((bytes_since_writeback_ += size) < writeback_size) return;
-    ::sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);
+    system::start_writeback(file_);
     bytes_since_writeback_ = 0;
-#endif
 }
 
 /// Pending pages are whole pages, so the committed size is rounded up to a page.
@@ -205,7 +204,7 @@ void JournaledFile::resize(std::uint64_t size) {
 }
 
 void JournaledFile::sync() {
-    if (::fdatasync(file_) != 0) fail("could not be synced to the disk");
+    if (!system::sync_file_data(file_)) fail("could not be synced to the disk");
 }
 
 void JournaledFile::open_journal() {
@@ -233,7 +232,8 @@ void JournaledFile::write_journal() {
     journal_is_needed_ = true;
     if (!write_at(journal_, 0, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}))
         fail("could not be written");
-    if (::fdatasync(journal_) != 0) fail("has a journal that could not be synced to the disk");
+    if (!system::sync_file_data(journal_))
+        fail("has a journal that could not be synced to the disk");
 }
 
 void JournaledFile::empty_journal() {
@@ -265,7 +265,8 @@ void JournaledFile::publish(const std::filesystem::path& path) {
     // A journal that reappears after a power cut must not be applied to the next file of this name,
     // so its emptying is synced before it is removed.
     open_journal();
-    if (::fdatasync(journal_) != 0) fail("has a journal that could not be synced to the disk");
+    if (!system::sync_file_data(journal_))
+        fail("has a journal that could not be synced to the disk");
     ::unlink(journal_path_.c_str());
     close_if_open(journal_);
     rename_durably(path_, path);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -14,6 +13,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/range_checks.hpp"
+#include "swirl/io/read_number.hpp"
 #include "swirl/io/track_repair.hpp"
 #include "swirl/math/unit_circle.hpp"
 
@@ -58,11 +58,9 @@ class Lines {
     double number(std::string_view text) const {
         while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
         while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-        double value;
-        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-            error(fmt::format("'{}' is not a finite number", text));
-        return value;
+        const auto value = read_number(text);
+        if (!value) error(fmt::format("'{}' is not a finite number", text));
+        return *value;
     }
     std::int64_t integer(std::string_view text) const {
         const double value = number(text);  // pandas writes frame 3 as 3.0 if a column has gaps

@@ -14,9 +14,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
-
-extern char** environ;
 
 namespace swirl {
 namespace {
@@ -65,7 +64,8 @@ pid_t start(const std::vector<std::string>& words, int output) {
     for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
     pid_t child = 0;
-    const int error = posix_spawn(&child, argv[0], &actions, &attributes, argv.data(), environ);
+    const int error =
+        posix_spawn(&child, argv[0], &actions, &attributes, argv.data(), system::environment());
     posix_spawn_file_actions_destroy(&actions);
     posix_spawnattr_destroy(&attributes);
     if (error == 0) return child;
@@ -88,7 +88,7 @@ bool read_output(int end, std::string& output) {
 /// `grace`.
 ProcessResult run_program(const std::vector<std::string>& words, const std::atomic<bool>* stop) {
     int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
+    if (!system::open_pipe(ends))
         throw Failure(
             fmt::format("a pipe cannot be opened: {}.", std::generic_category().message(errno)));
     ProcessResult result{0, ""};
@@ -143,8 +143,7 @@ bool has_scripts_of_owner(const fs::path& folder, const fs::path& program) {
 fs::path figures_folder() {
     if (const char* const given = std::getenv("SWIRL_FIGURES"); given && *given)
         return fs::absolute(given);
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    const fs::path program = system::program_file();
     for (const char* const where : {"../share/swirl/figures", "share/swirl/figures"})
         if (const fs::path folder = (program.parent_path() / where).lexically_normal();
             has_scripts_of_owner(folder, program))

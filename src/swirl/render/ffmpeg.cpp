@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,9 +12,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "swirl/io/system_calls.hpp"
 #include "swirl/render/canvas.hpp"
-
-extern char** environ;
 
 namespace swirl {
 
@@ -42,9 +40,9 @@ void set_up_process(posix_spawnattr_t& attributes) {
 Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string& missing,
                const std::string& output) {
     // A socket instead of a pipe: writing to a dead reader gives an error instead of a signal.
-    std::array<int, 2> ends{};
-    errors_ = ::memfd_create("ffmpeg-stderr", MFD_CLOEXEC);
-    if (errors_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    int ends[2];
+    errors_ = system::open_unnamed_file();
+    if (errors_ < 0 || !system::open_socket_pair(ends)) {
         const int error = errno;
         if (errors_ >= 0) ::close(errors_);
         throw_cannot_start(error);
@@ -77,8 +75,8 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
     std::vector<char*> pointers{name.data()};
     for (std::string& argument : arguments) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
-    const int error =
-        ::posix_spawnp(&process_, "ffmpeg", &files, &attributes, pointers.data(), environ);
+    const int error = ::posix_spawnp(&process_, "ffmpeg", &files, &attributes, pointers.data(),
+                                     system::environment());
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
     ::close(ends[1]);

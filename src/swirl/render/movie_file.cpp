@@ -15,6 +15,8 @@
 #include <iterator>
 #include <vector>
 
+#include "swirl/io/system_calls.hpp"
+
 namespace swirl {
 
 namespace {
@@ -174,7 +176,7 @@ void MovieWriter::fail(int status) {
 
 void MovieWriter::write(std::span<const std::uint8_t> frame) {
     while (!frame.empty()) {
-        const ssize_t sent = ::send(ffmpeg_->socket(), frame.data(), frame.size(), MSG_NOSIGNAL);
+        const ssize_t sent = system::send(ffmpeg_->socket(), frame.data(), frame.size());
         if (sent > 0) {
             frame = frame.subspan(static_cast<std::size_t>(sent));
         } else if (sent < 0 && errno != EINTR) {
@@ -197,8 +199,8 @@ void MovieWriter::finish() {
     const bool empty = ::fstat(lock_, &about) != 0 || about.st_size == 0;
     if (!success || disk_problem || empty) fail(status);
     finished_ = true;
-    // Only after fsync() is it certain that all bytes reached the disk.
-    if (::fsync(lock_) == 0 && std::rename(temporary_.c_str(), path_.c_str()) == 0) return;
+    // Only after sync_file() is it certain that all bytes reached the disk.
+    if (system::sync_file(lock_) && std::rename(temporary_.c_str(), path_.c_str()) == 0) return;
     const std::string reason = std::strerror(errno);
     ::unlink(temporary_.c_str());
     throw DrawFailure(fmt::format("cannot write the movie '{}': {}.", path_, reason));

@@ -1,7 +1,5 @@
 #include "swirl/run/parallel_for.hpp"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -9,15 +7,14 @@
 #include <thread>
 #include <vector>
 
+#include "swirl/io/system_calls.hpp"
+
 namespace swirl {
 
 unsigned available_cores() {
     // Not hardware_concurrency(): a batch system may grant fewer cores than the machine has.
-    cpu_set_t allowed;
-    CPU_ZERO(&allowed);
-    if (sched_getaffinity(0, sizeof allowed, &allowed) == 0)
-        return static_cast<unsigned>(std::max(1, CPU_COUNT(&allowed)));
-    return std::max(1u, std::thread::hardware_concurrency());
+    const unsigned granted = system::granted_cores();
+    return std::max(1u, granted > 0 ? granted : std::thread::hardware_concurrency());
 }
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work,

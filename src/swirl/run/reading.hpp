@@ -11,10 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "swirl/io/read_number.hpp"
+
 namespace swirl {
 
-/// A finite number ("0.5", "1e6"), or a whole number that fits into 64 bits; nothing otherwise.
-std::optional<double> read_number(std::string_view text);
+/// A whole number that fits into 64 bits ("12", "1e6"); nothing otherwise.
 std::optional<std::int64_t> read_whole_number(std::string_view text);
 
 /// "mu_disc" for both spellings; "color" and "centre" for British and American ones.

@@ -7,7 +7,7 @@
 
 namespace swirl {
 
-/// "0.1.0 (0123456789ab)": version and commit.
+/// "1.0.0 (0123456789ab)": version and commit.
 std::string version();
 /// Compiler, its version, and the flags that affect the results.
 std::string build_description();

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/shell_word.hpp"
 
@@ -76,8 +77,7 @@ fs::path absolute_folder(const fs::path& folder) { return fs::absolute(folder).l
 
 std::string slurm_script(const SlurmJob& job, const fs::path& folder) {
     const fs::path sweep = absolute_folder(folder);
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    const fs::path program = system::program_file();
     validate_characters("--time", job.time, ":-", "a time for sbatch, for example 2:00:00 or 1-12");
     validate_characters("--partition", job.partition, "_-.,", "the name of a partition");
     std::string text = "#!/bin/bash\n#SBATCH --job-name=swirl\n";

@@ -1,0 +1,29 @@
+#include "swirl/io/read_number.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace swirl {
+
+std::optional<double> read_number(std::string_view text) {
+    double value = 0.0;
+#if defined(__cpp_lib_to_chars)
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value);
+    if (error != std::errc() || end != last || !std::isfinite(value)) return {};
+#else
+    // libc++ has from_chars() only for integers before version 20. strtod() accepts more than a
+    // number: leading spaces, a plus sign, hexadecimal digits.
+    if (text.empty() || text.find_first_not_of("0123456789.eE+-") != text.npos || text[0] == '+')
+        return {};
+    const std::string copy(text);
+    char* end = nullptr;
+    value = std::strtod(copy.c_str(), &end);
+    if (end != copy.c_str() + copy.size() || !std::isfinite(value)) return {};
+#endif
+    return value;
+}
+
+}  // namespace swirl

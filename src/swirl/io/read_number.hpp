@@ -1,0 +1,12 @@
+// Reads a number from text, in the same way for options, configuration files and tables.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace swirl {
+
+/// A finite number ("0.5", "1e6"); nothing otherwise.
+std::optional<double> read_number(std::string_view text);
+
+}  // namespace swirl

@@ -1,0 +1,3 @@
+/* macOS declares getentropy() here, Linux in <unistd.h>. */
+#pragma once
+#include <unistd.h>
