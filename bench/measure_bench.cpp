@@ -10,7 +10,9 @@
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/angular_profile.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/collision_angles.hpp"
 #include "swirl/measure/collision_rates.hpp"
+#include "swirl/measure/contact_network.hpp"
 #include "swirl/measure/density_map.hpp"
 #include "swirl/measure/diffusion.hpp"
 #include "swirl/measure/energy_budget.hpp"
@@ -18,10 +20,13 @@
 #include "swirl/measure/granular_temperature.hpp"
 #include "swirl/measure/hexatic_order.hpp"
 #include "swirl/measure/local_packing.hpp"
+#include "swirl/measure/pair_correlation.hpp"
 #include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/radial_density.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
+#include "swirl/measure/velocity_correlation.hpp"
+#include "swirl/measure/velocity_distribution.hpp"
 #include "swirl/measure/wall_stress.hpp"
 
 namespace swirl {
@@ -128,6 +133,10 @@ void granular_temperature(benchmark::State& state) { view_and(state, GranularTem
 void pinned_loose(benchmark::State& state) { view_and(state, PinnedLoose()); }
 void slip(benchmark::State& state) { view_and(state, Slip()); }
 void spin_frustration(benchmark::State& state) { view_and(state, SpinFrustration()); }
+void pair_correlation(benchmark::State& state) { view_and(state, PairCorrelation(R)); }
+void velocity_correlation(benchmark::State& state) { view_and(state, VelocityCorrelation(R)); }
+void velocity_distribution(benchmark::State& state) { view_and(state, VelocityDistribution()); }
+void contact_network(benchmark::State& state) { view_and(state, ContactNetwork()); }
 BENCHMARK(density_map);
 BENCHMARK(flow_map);
 BENCHMARK(angular_profile);
@@ -136,6 +145,18 @@ BENCHMARK(granular_temperature);
 BENCHMARK(pinned_loose);
 BENCHMARK(slip);
 BENCHMARK(spin_frustration);
+BENCHMARK(pair_correlation);
+BENCHMARK(velocity_correlation);
+BENCHMARK(velocity_distribution);
+BENCHMARK(contact_network);
+
+void collision_angles(benchmark::State& state) {
+    CollisionAngles angles;
+    periods(state, {{},
+                    [&](const Snapshot& s, const Event& event) { angles.sample_event(event, s); },
+                    [&] { angles.close_event_block(paper_period); }});
+}
+BENCHMARK(collision_angles);
 
 void collisions(benchmark::State& state) {
     CollisionRates rates;

@@ -1,4 +1,4 @@
-// swirl.sweep(), swirl.crossing() and swirl.map(): many runs, planned and executed by swirl/study.
+// swirl.sweep(), swirl.crossing(), swirl.parameter_map() and swirl.map(): many runs, planned and executed by swirl/study.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -12,6 +12,8 @@
 #include "swirl/run/measurements.hpp"
 #include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/crossing_search.hpp"
+#include "swirl/study/map.hpp"
+#include "swirl/study/map_plan.hpp"
 #include "swirl/study/sweep.hpp"
 
 namespace swirl::python {
@@ -130,6 +132,54 @@ py::tuple crossing(const py::dict& given, std::int64_t minimum, std::int64_t max
                           crossing_report(settings, search));
 }
 
+MapAxisText axis_of(const py::dict& axis) {
+    const ParameterTexts texts = lists_of(axis);
+    if (texts.empty()) return {};
+    return {texts.begin()->first, texts.begin()->second};
+}
+
+void write_map_plan(const std::string& folder, const py::dict& x, const py::dict& y,
+                    const std::string& of, const std::string& rate, double level,
+                    std::optional<double> change, double tolerance, std::int64_t steps,
+                    std::int64_t seeds, std::int64_t minimum, std::int64_t maximum,
+                    const py::dict& given) {
+    MapSettings settings{.x = axis_of(x),
+                         .y = axis_of(y),
+                         .of = of,
+                         .rate = rate,
+                         .level = level,
+                         .change = change,
+                         .tolerance = tolerance};
+    settings.steps = steps;
+    settings.max_runs = seeds;
+    settings.from = minimum;
+    settings.to = maximum;
+    settings.parameters = texts_of(given);
+    const SweepPlan plan = make_map_plan(settings);
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+        throw Failure(fmt::format("cannot create the folder '{}': {}.", folder, failed.message()));
+    write_plan(folder, plan);
+}
+
+/// The table as CSV, and the report.
+py::tuple make_map(const std::string& folder, unsigned threads, const ProgressCallback& callback) {
+    const SweepPlan plan = read_plan(folder);
+    SweepShare share;
+    share.threads = threads;
+    std::atomic<bool> stop = false;
+    LatestProgress<std::size_t, std::size_t, std::uint64_t> latest;
+    MapControl control;
+    control.stop = &stop;
+    control.progress = [&](std::size_t decided, std::size_t sites, double, double,
+                           std::uint64_t events) { latest.report(decided, sites, events); };
+    const MapOutcome outcome = interruptible(
+        stop, [&] { return run_map(folder, plan, share, control); },
+        [&] { latest.forward_to(callback); });
+    return py::make_tuple(map_table(plan, outcome.state).csv(), map_summary(plan, outcome.state));
+}
+
 }  // namespace
 
 void bind_studies(py::module_& module) {
@@ -161,6 +211,8 @@ void bind_studies(py::module_& module) {
     module.def("sweep", &sweep);
     module.def("collect", &collect);
     module.def("crossing", &crossing);
+    module.def("write_map_plan", &write_map_plan);
+    module.def("make_map", &make_map);
 }
 
 }  // namespace swirl::python

@@ -31,6 +31,7 @@ SHORTER = {
     "run": ["--events", "3000"],
     "crossing": ["--events", "3000", "--from", "34", "--to", "42", "--tolerance", "5"],
     "sweep": ["--threads", "2"],
+    "map": ["--steps", "3", "--periods", "3", "--seeds", "2", "--from", "34", "--to", "36", "--no-figure"],
     "movie": ["--seconds", "0.1", "--fps", "10", "--size", "320x180"],
     "image": [], "collect": [], "export": [], "measure": [], "verify": [],
 }

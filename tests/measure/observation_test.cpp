@@ -56,7 +56,7 @@ TEST(Observation, NeedsFollowFromTheFunctionsOfTheClass) {
     EXPECT_EQ(pinned, (Names{"pinned", "slip", "frustration"}));
     EXPECT_EQ(tracks, (Names{"pinned", "slip", "frustration", "diffusion"}));
     EXPECT_EQ(cells, (Names{"order", "packing"}));
-    EXPECT_EQ(events, (Names{"collisions", "wall", "energy"}));
+    EXPECT_EQ(events, (Names{"collisions", "wall", "energy", "collision_angles"}));
 }
 
 TEST(Observation, UsesEveryFrameAndEvery32ndEvent) {

@@ -118,6 +118,33 @@ def test_invalid_crossings_are_rejected(wrong, kind):
         swirl.crossing(**wrong)
 
 
+def test_parameter_map_equals_that_of_the_command_line(tmp_path):
+    reported = []
+    ours = swirl.parameter_map(tmp_path / "ours", x=("mu", [0, 0.5, 1]), y="discs=4:40", steps=5, level=0.5, seeds=4,
+                               periods=12, progress=lambda *numbers: reported.append(numbers))
+    done = command("map", "--x", "mu=0,0.5,1", "--y", "discs=4:40", "--steps", 5, "--level", 0.5, "--seeds", 4,
+                   "--periods", 12, "--out", tmp_path / "theirs", "--no-figure", "--quiet")
+    assert done.returncode == 0, done.stderr
+    theirs = pandas.read_csv(tmp_path / "theirs/map.csv", float_precision="round_trip")
+    pandas.testing.assert_frame_equal(ours, theirs, check_exact=True)
+    assert "points needed" in ours.attrs["summary"] and all(len(numbers) == 3 for numbers in reported)
+    # Each continues the map of the other.
+    again = swirl.parameter_map(tmp_path / "theirs")
+    pandas.testing.assert_frame_equal(ours, again, check_exact=True)
+
+
+@pytest.mark.parametrize("wrong, kind", [
+    (dict(), ValueError), (dict(seeds=3), ValueError), (dict(x="mu"), TypeError), (dict(x=("mu", 1, 2)), TypeError), (dict(x="mu=1:0"), ValueError),
+    (dict(x="mu=0:1", y="mu=0:1"), ValueError), (dict(x="mu=0:1", of="slip"), ValueError),
+    (dict(x="mu=0:1", steps=1), ValueError), (dict(x="mu=0:1", seeds=0), ValueError),
+    (dict(x="mu=0:1", discs=[3, 4]), TypeError), (dict(x="mu=0:1", of="N_c", discs=30), ValueError),
+])
+def test_invalid_maps_are_rejected(wrong, kind, tmp_path):
+    with pytest.raises(kind):
+        swirl.parameter_map(tmp_path / "map", **wrong)
+    assert not os.path.exists(tmp_path / "map")
+
+
 def test_map_has_the_seeds_of_a_sweep(tmp_path):
     reported = []
     results = swirl.map(discs=[5, 9], mu=[0.1, 1], events=4000, seeds=2, measure=["slip"],

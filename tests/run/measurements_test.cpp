@@ -145,7 +145,9 @@ TEST(Measurements, ListOfAllHasEveryMeasurement) {
     EXPECT_THAT(everything(),
                 ElementsAre("density", "flow", "profile", "pinned", "residence", "centre", "slip",
                             "frustration", "radial", "temperature", "order", "packing",
-                            "collisions", "wall", "diffusion", "energy", "rolling"));
+                            "collisions", "wall", "diffusion", "energy", "rolling",
+                            "pair_correlation", "velocity_correlation", "velocity_distribution",
+                            "contact_network", "collision_angles"));
 }
 
 TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {

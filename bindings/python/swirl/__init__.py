@@ -18,7 +18,7 @@ from ._recordings import Analysis, Recording, Tracks, Trajectory, analyse
 from ._results import ArrayEstimate, Estimate, EventCounts, Measured, Result, Rotation, Table
 from ._runs import Interrupted, Parameter, measurements, parameters, run
 from ._simulation import EventKind, Simulation, load
-from ._study import Crossing, SweepWarning, collect, crossing, sweep
+from ._study import Crossing, SweepWarning, collect, crossing, parameter_map, sweep
 from ._study import map_runs as map
 
 __version__ = _version().split()[0]
@@ -27,5 +27,6 @@ __all__ = [
     "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
     "FileError", "Frames", "Interrupted", "Measured", "Parameter", "Recording", "Result", "Rotation",
     "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "analyse", "collect",
-    "crossing", "load", "map", "measurements", "parameters", "plot", "run", "samples_per_period", "sweep",
+    "crossing", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
+    "samples_per_period", "sweep",
 ]

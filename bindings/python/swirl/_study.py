@@ -161,6 +161,54 @@ def crossing(*, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.3,
                     found["by_rate"], found["points"], sentence, found)
 
 
+Axis = Union[str, tuple[str, Values]]  # "mu=0:1", ("mu", "0:1") or ("mu", [0, 0.5, 1])
+
+
+def _axis(name: str, axis: Optional[Axis]) -> dict[str, Values]:
+    if axis is None:
+        return {}
+    if isinstance(axis, str):
+        parameter, equals, values = axis.partition("=")
+        if parameter and equals and values:
+            return {parameter: values}
+    elif isinstance(axis, tuple) and len(axis) == 2 and isinstance(axis[0], str):
+        return {axis[0]: axis[1]}
+    raise TypeError(f"{name} is {axis!r}, but it must be a text such as 'mu=0:1' or a pair such as "
+                    "('mu', [0, 0.5, 1]).")
+
+
+def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y: Optional[Axis] = None,
+                  of: str = "by_time", steps: int = 16, level: float = 0.0,
+                  change: Optional[float] = None, seeds: int = 16, tolerance: float = 0.5,
+                  rate: str = "by_time", min_discs: int = 5, max_discs: int = 48, threads: int = 0,
+                  progress: Optional[Callable[[int, int, int], object]] = None,
+                  **parameters: Any) -> Any:
+    import pandas
+    if out is None:
+        with tempfile.TemporaryDirectory(prefix="swirl-map-") as folder:
+            return parameter_map(folder, x=x, y=y, of=of, steps=steps, level=level, change=change,
+                                 seeds=seeds, tolerance=tolerance, rate=rate, min_discs=min_discs,
+                                 max_discs=max_discs, threads=threads, progress=progress, **parameters)
+    folder = os.fspath(out)
+    _count("threads", threads, 0)
+    given = {name: value for name, value in parameters.items() if value is not None}
+    if x is not None or y is not None or given:
+        _engine.write_map_plan(folder, _axis("x", x), _axis("y", y), of, rate, float(level), change,
+                               float(tolerance), _count("steps", steps, 2), _count("seeds", seeds, 1),
+                               _count("min_discs", min_discs, 1), _count("max_discs", max_discs, 1),
+                               given)
+    elif (of, steps, level, change, seeds, tolerance, rate, min_discs, max_discs) != (
+            "by_time", 16, 0.0, None, 16, 0.5, "by_time", 5, 48):
+        raise ValueError("options of the map are given, but x is not.\nhint: give all options of the map, "
+                         "or only out to continue it.")
+    elif not os.path.exists(os.path.join(folder, "plan.json")):
+        raise ValueError("x is missing.\nhint: give an axis, such as x='mu=0:1'.")
+    csv, summary = _engine.make_map(folder, threads, progress)
+    table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip", dtype={"verdict": str})
+    table.attrs["summary"] = summary
+    return table
+
+
 def map_runs(*, seeds: int = 1, measure: Optional[Measure] = None, threads: int = 0,
              progress: Union[bool, Callable[[int, int], object], None] = None,
              **parameters: Values) -> list[Result]:
@@ -229,6 +277,21 @@ min_discs, max_discs: range of the search. tolerance: target standard error of N
     rate that decides: by_event, by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
     [one per core]. progress: True to print, or a function of (current stage, events per second).
     events [2e5]: length of the first runs.
+""")
+with_parameters(parameter_map, """Maps a quantity over one or two parameters, with runs where it changes its sign: `swirl map`.
+
+    table = swirl.parameter_map("map", x="mu=0:1", y=("amplitude", "0.5:4"))
+    curve = swirl.parameter_map(x=("mu", [0.2, 0.5, 1]), of="N_c")
+
+Returns a pandas DataFrame with a row for each computed point: the axes, the quantity and its standard error,
+the verdict, the periods and the numbers of runs. `table.attrs["summary"]` is the report.
+
+out: folder of the map, in the format of the command line. A repeated call completes it, and without
+    further arguments continues it. x, y: axes; a range "0:1" has `steps` values. of: N_c, a rotation rate,
+    or a number of a measurement, such as "slip.cluster". level: the map is fine where the quantity crosses
+    it. change: and where neighbours differ by more [never; N_c 2]. seeds: maximum number of runs at a point.
+tolerance, rate, min_discs, max_discs: for N_c, as in swirl.crossing(). threads: simultaneous runs [one per
+    core]. progress: a function of (decided points, known points, events). periods [120]: length of each run.
 """)
 with_parameters(map_runs, f"""Runs all combinations of parameter lists on all cores and returns the complete results.
 

@@ -12,6 +12,7 @@
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
+#include "swirl/cli/sweep_options.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/shell_word.hpp"
@@ -27,24 +28,12 @@ namespace fs = std::filesystem;
 
 struct SweepCall {
     std::shared_ptr<ParameterTexts> parameters;
-    std::string config_file, out, seeds, measure, frames, part, threads, nodes, cpus;
-    SlurmJob job;
-    bool status = false, slurm = false, rest = false, dry_run = false, quiet = false;
-    bool grow = false;
+    std::string config_file, out, seeds, measure, frames;
+    ShareOptions sharing;
+    bool status = false, dry_run = false, quiet = false, grow = false;
 };
 
-constexpr std::int64_t max_replicas = 1'000'000, max_frames = 1'000'000, max_parts = 1'000'000;
-constexpr std::int64_t max_nodes = 100'000, max_cores = 4096;
-
-std::int64_t whole_number(const char* name, const std::string& text, std::int64_t default_value,
-                          std::int64_t maximum) {
-    if (text.empty()) return default_value;
-    const auto value = read_whole_number(text);
-    if (!value || *value < 1 || *value > maximum)
-        throw UsageError(fmt::format("--{} is '{}', but it must be a whole number from 1 to {}.",
-                                     name, text, maximum));
-    return *value;
-}
+constexpr std::int64_t max_replicas = 1'000'000, max_frames = 1'000'000;
 
 void apply_config_file(SweepCall& call) {
     const std::map<std::string, std::string*> others{
@@ -97,24 +86,6 @@ PlanOfCall plan_of(SweepCall& call) {
     if (!call.measure.empty()) plan.measure = read_measurement_list(call.measure);
     plan.frames = static_cast<int>(whole_number("frames", call.frames, 0, max_frames));
     return {plan};
-}
-
-SweepShare share_of(const SweepCall& call) {
-    SweepShare share;
-    share.rest = call.rest;
-    share.threads = static_cast<unsigned>(whole_number("threads", call.threads, 0, max_cores));
-    if (call.part.empty()) return share;
-    const std::size_t slash = call.part.find('/');
-    const auto part = read_whole_number(std::string_view(call.part).substr(0, slash));
-    const auto parts = slash == std::string::npos
-                           ? std::nullopt
-                           : read_whole_number(std::string_view(call.part).substr(slash + 1));
-    if (!part || !parts || *part < 1 || *parts < *part || *parts > max_parts)
-        throw UsageError(
-            fmt::format("--part is '{}', but it must be PART/PARTS, for example 2/10.", call.part));
-    share.part = static_cast<std::size_t>(*part);
-    share.parts = static_cast<std::size_t>(*parts);
-    return share;
 }
 
 void print_status(const SweepCall& call, const SweepPlan& plan) {
@@ -170,15 +141,14 @@ SweepOutcome run_with_progress(const SweepCall& call, const SweepPlan& plan,
 void sweep(SweepCall& call) {
     if (call.status) return print_status(call, read_plan(call.out));
     const auto [plan, grown_from] = plan_of(call);
-    const SweepShare share = share_of(call);
-    call.job.nodes = static_cast<int>(whole_number("nodes", call.nodes, 1, max_nodes));
-    call.job.cpus = static_cast<int>(whole_number("cpus", call.cpus, 0, max_cores));
+    const SweepShare share = call.sharing.share();
+    const SlurmJob job = call.sharing.slurm_job();
     if (call.dry_run) return print_all(plan_text(plan));
     // Made first: it rejects options that Slurm cannot take before anything is written.
-    const std::string script = call.slurm ? slurm_script(call.job, call.out) : "";
+    const std::string script = call.sharing.slurm ? slurm_script(job, call.out) : "";
     make_folder(call.out);
     write_plan(call.out, plan, grown_from ? &*grown_from : nullptr);
-    if (!call.slurm) return print_outcome(call, plan, run_with_progress(call, plan, share));
+    if (!call.sharing.slurm) return print_outcome(call, plan, run_with_progress(call, plan, share));
     print_all(
         fmt::format("Submitted as job {}; for its progress run `swirl sweep --out {} "
                     "--status`.\n",
@@ -187,7 +157,7 @@ void sweep(SweepCall& call) {
 
 void add_sweep_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SweepCall>();
-    const char *const group = "Sweep", *const cluster = "Cluster";
+    const char* const group = "Sweep";
     subcommand.add_option("plan", call->config_file, "TOML file with parameters and lists of them",
                           "PLAN.toml");
     call->parameters = add_run_options(subcommand);
@@ -201,26 +171,14 @@ void add_sweep_command(Subcommand& subcommand) {
                           group);
     subcommand.add_option("--frames", call->frames, "Recorded frames per period of each run [none]",
                           "N", group);
-    subcommand.add_option("--threads", call->threads, "Number of simultaneous runs [one per core]",
-                          "N", group);
+    add_threads_option(subcommand, call->sharing, group);
     subcommand.add_flag("--grow", call->grow, "Extend an existing sweep; finished runs are kept",
                         group);
     subcommand.add_flag("--status", call->status, "Print the numbers of runs done and failed",
                         group);
     subcommand.add_flag("--dry-run", call->dry_run, "Print the plan and do not run", group);
     subcommand.add_flag("--quiet", call->quiet, "No progress and no report", group);
-    subcommand.add_option("--part", call->part, "Part of the points to run, such as 2/10",
-                          "PART/PARTS", cluster);
-    subcommand.add_flag("--rest", call->rest, "After the part, run points that no process works on",
-                        cluster);
-    subcommand.add_flag("--slurm", call->slurm, "Submit a Slurm job array instead of running here",
-                        cluster);
-    subcommand.add_option("--nodes", call->nodes, "Number of tasks of the array, one node each [1]",
-                          "N", cluster);
-    subcommand.add_option("--cpus", call->cpus, "Cores per task [the whole node]", "N", cluster);
-    subcommand.add_option("--time", call->job.time, "Time limit of a task, in the format of sbatch",
-                          "TIME", cluster);
-    subcommand.add_option("--partition", call->job.partition, "Slurm partition", "NAME", cluster);
+    add_cluster_options(subcommand, call->sharing, true);
     subcommand.explain(
         "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. With "
         "--grow, the given values, replicas (--seeds is their new total) and measurements are "
@@ -271,7 +229,7 @@ void collect(const CollectCall& call) {
     if (file != "-" && call.crossings != "-")
         print_all(fmt::format("{} of {} runs in {}{}\n", s.done, s.points, file,
                               crossings.empty() ? "" : ", crossings in " + call.crossings));
-    if (s.done < s.points)
+    if (s.done < s.points && !plan.map)  // a map does not need all points
         print_warning(fmt::format("{} of {} runs are not done yet and missing from the table.",
                                   s.points - s.done, s.points));
     for (const std::string& warning : warnings(collected)) print_warning(warning);

@@ -15,11 +15,11 @@
 #include "swirl/io/table.hpp"
 #include "swirl/io/track_recording.hpp"
 #include "swirl/math/unit_circle.hpp"
-#include "swirl/paper/python_script.hpp"
 #include "swirl/render/label.hpp"
 #include "swirl/render/still.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/study/python_script.hpp"
 #include "swirl/tracking/spin.hpp"
 #include "swirl/tracking/tracking.hpp"
 #endif

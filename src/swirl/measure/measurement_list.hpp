@@ -7,7 +7,9 @@
 
 #include "swirl/measure/angular_profile.hpp"
 #include "swirl/measure/cluster_centre.hpp"
+#include "swirl/measure/collision_angles.hpp"
 #include "swirl/measure/collision_rates.hpp"
+#include "swirl/measure/contact_network.hpp"
 #include "swirl/measure/density_map.hpp"
 #include "swirl/measure/diffusion.hpp"
 #include "swirl/measure/energy_budget.hpp"
@@ -15,12 +17,15 @@
 #include "swirl/measure/granular_temperature.hpp"
 #include "swirl/measure/hexatic_order.hpp"
 #include "swirl/measure/local_packing.hpp"
+#include "swirl/measure/pair_correlation.hpp"
 #include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/radial_density.hpp"
 #include "swirl/measure/rolling.hpp"
 #include "swirl/measure/sampling.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
+#include "swirl/measure/velocity_correlation.hpp"
+#include "swirl/measure/velocity_distribution.hpp"
 #include "swirl/measure/wall_residence.hpp"
 #include "swirl/measure/wall_stress.hpp"
 
@@ -83,6 +88,16 @@ inline constexpr std::tuple measurement_list{
         "energy budget: work of wall and floor, losses in friction and collisions"),
     measurement<Rolling>("rolling", "rolling.hpp",
         "for spheres: rolling and sliding on the floor, vertical friction, frustration"),
+    measurement_in_container<PairCorrelation>("pair_correlation", "pair_correlation.hpp",
+        "pair correlation function g(r), and its value at contact"),
+    measurement_in_container<VelocityCorrelation>("velocity_correlation", "velocity_correlation.hpp",
+        "correlation of velocities and of spins against the distance"),
+    measurement<VelocityDistribution>("velocity_distribution", "velocity_distribution.hpp",
+        "distribution of speeds and of spins, and its kurtosis"),
+    measurement<ContactNetwork>("contact_network", "contact_network.hpp",
+        "contacts of a disc, rattlers, connected groups, loops"),
+    measurement<CollisionAngles>("collision_angles", "collision_angles.hpp",
+        "head-on or grazing: impact parameters and directions of the collisions"),
 };
 // clang-format on
 

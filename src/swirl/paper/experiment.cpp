@@ -11,7 +11,6 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/paper/curves.hpp"
-#include "swirl/paper/python_script.hpp"
 #include "swirl/paper/result_store.hpp"
 #include "swirl/paper/seed_ensemble.hpp"
 #include "swirl/run/camera_sampled_run.hpp"
@@ -22,6 +21,7 @@
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/statistics/replicates.hpp"
+#include "swirl/study/python_script.hpp"
 
 namespace swirl {
 namespace {

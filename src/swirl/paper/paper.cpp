@@ -13,7 +13,6 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
-#include "swirl/paper/python_script.hpp"
 #include "swirl/paper/result_store.hpp"
 #include "swirl/paper/results.hpp"
 #include "swirl/paper/seed_ensemble.hpp"
@@ -22,6 +21,7 @@
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/study/python_script.hpp"
 
 namespace swirl {
 

@@ -115,7 +115,7 @@ std::vector<std::string> read_measurement_list(std::string_view list) {
 std::string measurement_list_text() {
     std::string text;
     for (const MeasurementKind& kind : measurement_kinds())
-        text += fmt::format("  {:<14}{}\n", kind.name, kind.description);
+        text += fmt::format("  {:<22} {}\n", kind.name, kind.description);
     return text;
 }
 

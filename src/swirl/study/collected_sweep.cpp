@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/run/failure.hpp"
@@ -18,100 +16,13 @@
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/crossing_search.hpp"
 #include "swirl/study/disagreement.hpp"
+#include "swirl/study/point_result.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-constexpr const char* remove_and_repeat = "remove it and run `swirl sweep` again.";
-
-struct PointResult {
-    bool exists = false, has_whole_period = true;
-    /// The four rotation rates, then the measured numbers.
-    std::vector<MeasuredNumber> quantities;
-    double energy = 0.0, periods = 0.0;
-    std::string state_hash, verdict, version;
-
-    /// Looks at `expected_index` first, where the quantity nearly always is.
-    Estimate quantity(std::size_t expected_index, const std::string& name) const {
-        if (expected_index < quantities.size() && quantities[expected_index].name == name)
-            return quantities[expected_index].estimate;
-        for (const MeasuredNumber& other : quantities)
-            if (other.name == name) return other.estimate;
-        return {.mean = not_available, .error = not_available};
-    }
-};
-
-/// JSON parser callback: skips the parts of a result that the table does not use, because building
-/// them would take most of the time.
-bool is_needed(int depth, Json::parse_event_t event, Json& parsed) {
-    if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
-    static constexpr std::string_view parts[] = {"format",   "version",    "point",       "replica",
-                                                 "config",   "state_hash", "periods",     "energy",
-                                                 "rotation", "measured",   "steady_state"};
-    const auto& key = parsed.get_ref<const std::string&>();
-    if (depth == 3) return key != "blocks";  // of a rotation rate
-    return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
-}
-
-/// Detects a result that was copied to another point or into another sweep.
-void reject_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
-                                    std::size_t point) {
-    const bool belongs = json.at("point") == point && json.at("replica") == plan.replica(point) &&
-                         json.at("config").at("seed") == plan.config(point).seed;
-    if (!belongs)
-        throw FileError(fmt::format("'{}' is not the result of point {} of this sweep.\nhint: {}",
-                                    file.string(), point, remove_and_repeat));
-}
-
-PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
-    const fs::path file = result_file(folder, plan, point);
-    const Json json = Json::parse(read_regular_file(file), is_needed, false);
-    if (json.is_discarded() || !json.is_object())
-        throw FileError(
-            fmt::format("'{}' is damaged.\nhint: {}", file.string(), remove_and_repeat));
-    PointResult result;
-    result.exists = true;
-    result.quantities.reserve(rotation_rates.size());
-    const auto number = [](const Json& value) {
-        return value.is_null() ? not_available : value.get<double>();  // throws for a text
-    };
-    try {
-        if (json.value("format", 0) != result_format)
-            throw FileError(fmt::format(
-                "'{}' is in format {} of swirl {}, but this program reads format {}.\nhint: "
-                "collect with the program that wrote it, or remove it and run `swirl sweep` again.",
-                file.string(), json.value("format", 0), json.value("version", std::string("?")),
-                result_format));
-        reject_result_of_another_point(file, json, plan, point);
-        for (const auto& [name, words] : rotation_rates) {
-            const Json& rate = json.at("rotation").at(name);
-            result.quantities.push_back(
-                {name, Estimate{.mean = number(rate.at("mean")),
-                                .error = number(rate.at("error")),
-                                .effective_samples = number(rate.at("effective_samples"))}});
-        }
-        if (const auto measured = json.find("measured"); measured != json.end())
-            for (auto& quantity : measured_numbers(*measured))
-                result.quantities.push_back(std::move(quantity));
-        // A single disc has no rotation.
-        result.has_whole_period = json.at("config").at("discs") == 1 ||
-                                  !std::isnan(result.quantities.front().estimate.mean);
-        result.energy = number(json.at("energy"));
-        result.periods = number(json.at("periods"));
-        result.state_hash = json.at("state_hash").get<std::string>();
-        result.version = json.at("version").get<std::string>();
-        result.verdict = json.at("steady_state").at("verdict").get<std::string>();
-    } catch (const nlohmann::json::exception&) {
-        throw FileError(fmt::format(
-            "'{}' lacks a part of a result, or has a text instead of a number.\nhint: {}",
-            file.string(), remove_and_repeat));
-    }
-    return result;
-}
 
 /// Indices of the combinations of parameters in the order of the table: that of the values as
 /// given. If the plan has grown, axes of numbers are sorted.
@@ -133,12 +44,6 @@ std::vector<std::size_t> rows_of(const SweepPlan& plan) {
         rows = std::move(longer);
     }
     return rows;
-}
-
-Table::Cell cell_of(const std::string& text) {
-    if (const auto whole = read_whole_number(text)) return *whole;
-    if (const auto number = read_number(text)) return *number;
-    return text;
 }
 
 /// Steady if all replicas are, otherwise the worst verdict.
@@ -247,6 +152,12 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
 }
 
 }  // namespace
+
+Table::Cell cell_of(const std::string& text) {
+    if (const auto whole = read_whole_number(text)) return *whole;
+    if (const auto number = read_number(text)) return *number;
+    return text;
+}
 
 CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     const std::vector<PointResult> results = read_results(folder, plan);

@@ -34,6 +34,9 @@ struct CollectedSweep {
 /// FileError for a damaged result and for one of another version.
 CollectedSweep collect_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
 
+/// The value of a parameter in a table: a number if the text is one.
+Table::Cell cell_of(const std::string& text);
+
 /// Reasons to distrust the table, as warnings.
 std::vector<std::string> warnings(const CollectedSweep& collected);
 

@@ -75,7 +75,7 @@ fs::path absolute_folder(const fs::path& folder) { return fs::absolute(folder).l
 
 }  // namespace
 
-std::string slurm_script(const SlurmJob& job, const fs::path& folder) {
+std::string slurm_script(const SlurmJob& job, const fs::path& folder, const char* command) {
     const fs::path sweep = absolute_folder(folder);
     const fs::path program = system::program_file();
     validate_characters("--time", job.time, ":-", "a time for sbatch, for example 2:00:00 or 1-12");
@@ -91,8 +91,11 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder) {
     text += "#SBATCH --requeue\n#SBATCH --signal=TERM@60\n";
     text += fmt::format("#SBATCH --output={}/%A_%a.log\"\n#SBATCH --open-mode=append\n",
                         sbatch_path(sweep / "log"));
-    text += fmt::format("exec {} sweep --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --rest",
-                        shell_word(program.string()), shell_word(sweep.string()), job.nodes);
+    text +=
+        fmt::format("exec {} {} --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\"",
+                    shell_word(program.string()), command, shell_word(sweep.string()), job.nodes);
+    // A task of a map makes the runs of the others in any case.
+    if (std::strcmp(command, "sweep") == 0) text += " --rest";
     text += job.cpus > 0 ? fmt::format(" --threads {}\n", job.cpus) : std::string("\n");
     return text;
 }

@@ -51,9 +51,14 @@ class SweepWorker {
         std::vector<std::size_t> own, others;
         const std::vector<bool> done =
             numbered_files(part_of_sweep(folder_, "results", plan_), ".json", plan_.points());
-        for (std::size_t point = 0; point < plan_.points(); ++point)
+        const auto add = [&](std::size_t point) {
             if (!done[point])
                 (point % share_.parts == share_.part - 1 ? own : others).push_back(point);
+        };
+        if (share_.only)
+            for (const std::size_t point : *share_.only) add(point);
+        else
+            for (std::size_t point = 0; point < plan_.points(); ++point) add(point);
         total_ = double(own.size() + (share_.rest ? others.size() : 0));
         work_on(own);
         if (share_.rest) work_on(others);
@@ -193,6 +198,11 @@ SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
 
 SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
                        const SweepControl& control) {
+    if (plan.map && !share.only)
+        throw UsageError(
+            fmt::format("'{0}' holds a map, which does not need all points.\nhint: "
+                        "run `swirl map --out {1}`.",
+                        folder.string(), shell_word(folder.string())));
     for (const fs::path& part : {folder, part_of_sweep(folder, "results", plan),
                                  folder / "failures", part_of_sweep(folder, "checkpoints", plan)})
         remove_leftovers(part);

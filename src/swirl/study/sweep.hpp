@@ -15,7 +15,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "swirl/study/sweep_plan.hpp"
 
@@ -32,6 +34,8 @@ struct SweepShare {
     std::size_t part = 1, parts = 1;
     bool rest = false;
     unsigned threads = 0;  // 0: one per core
+    /// Only these points, in this order; all if there is no list.
+    std::optional<std::vector<std::size_t>> only = {};
 };
 
 struct SweepOutcome {

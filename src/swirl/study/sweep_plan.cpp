@@ -184,7 +184,28 @@ Json plan_json(const SweepPlan& plan) {
     if (plan.generation > 1) json["generation"] = plan.generation;
     for (const SweepStage& stage : plan.before)
         json["before"].push_back({{"values", stage.values}, {"replicas", stage.replicas}});
+    if (plan.map) {
+        const MapTarget& m = *plan.map;
+        json["map"] = {{"x", m.x},
+                       {"y", m.y},
+                       {"of", m.of},
+                       {"rate", m.rate},
+                       {"level", m.level},
+                       {"change", m.change},
+                       {"tolerance", m.tolerance}};
+    }
     return json;
+}
+
+/// Throws the exception of the JSON library for a missing part.
+MapTarget map_target_of(const Json& json) {
+    return {.x = json.at("x"),
+            .y = json.at("y"),
+            .of = json.at("of"),
+            .rate = json.at("rate"),
+            .level = json.at("level"),
+            .change = json.at("change"),
+            .tolerance = json.at("tolerance")};
 }
 
 }  // namespace
@@ -254,6 +275,9 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
 
 SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
                 const std::vector<std::string>& measure) {
+    if (plan.map)
+        throw UsageError(
+            "an adaptive map cannot grow.\nhint: start another map with further values.");
     SweepPlan larger = plan;
     for (const auto& [given, text] : more) {
         const std::string name = plain_name(given);
@@ -306,6 +330,7 @@ SweepPlan read_plan(const fs::path& folder) {
         for (const Json& stage : json.value("before", Json::array()))
             plan.before.push_back({stage.at("values").get<std::vector<std::size_t>>(),
                                    stage.at("replicas").get<std::int64_t>()});
+        if (const auto map = json.find("map"); map != json.end()) plan.map = map_target_of(*map);
     } catch (const nlohmann::json::exception&) {
         throw FileError(
             fmt::format("'{}' is damaged: it is not the plan of a sweep.", file.string()));

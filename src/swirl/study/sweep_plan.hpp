@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,19 @@ struct SweepStage {
     bool operator==(const SweepStage&) const = default;
 };
 
+/// What an adaptive map asks for. Of the product of the axes it needs the points that map_search.hpp
+/// names; `replicas` is the maximum at one point.
+struct MapTarget {
+    std::string x, y = {};         // axes; y is empty for a curve
+    std::string of = "by_time";    // a rotation rate, a measured number, or N_c
+    std::string rate = "by_time";  // rotation rate whose sign change is N_c
+    double level = 0.0;            // the map is refined where the quantity crosses it
+    double change = 0.0;           // and where neighbours differ by more than this; 0: nowhere
+    double tolerance = 0.5;        // target standard error of N_c
+    bool operator==(const MapTarget&) const = default;
+    bool is_of_crossing() const { return of == "N_c"; }
+};
+
 struct SweepPlan {
     std::vector<SweepAxis> axes;  // the given parameters, in the order of the table
     std::int64_t replicas = 1;
@@ -41,6 +55,7 @@ struct SweepPlan {
     int frames = 0;                    // per period, of the trajectory of every run; 0: none
     int generation = 1;                // increases with every addition of measurements
     std::vector<SweepStage> before = {};
+    std::optional<MapTarget> map = {};  // only for an adaptive map
     /// For each point, its index in the product of the axes, with the replica varying fastest.
     /// Empty if the index is the number of the point. Follows from the other members.
     std::vector<std::size_t> product_indices = {};

@@ -1,4 +1,4 @@
-#include "swirl/paper/python_script.hpp"
+#include "swirl/study/python_script.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,0 +1,265 @@
+// swirl map: a quantity as a function of one or two parameters.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "swirl/cli/commands.hpp"
+#include "swirl/cli/config_file.hpp"
+#include "swirl/cli/output.hpp"
+#include "swirl/cli/progress_line.hpp"
+#include "swirl/cli/run_options.hpp"
+#include "swirl/cli/stop_signal.hpp"
+#include "swirl/cli/sweep_options.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/shell_word.hpp"
+#include "swirl/study/map.hpp"
+#include "swirl/study/map_plan.hpp"
+#include "swirl/study/python_script.hpp"
+#include "swirl/study/sweep_folder.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+
+const ParameterTexts map_defaults{{"periods", default_map_periods}, {"events", ""}};
+
+struct MapCall {
+    std::shared_ptr<ParameterTexts> parameters;
+    MapSettings settings;
+    std::string config_file, x, y, out, table;
+    ShareOptions sharing;
+    bool status = false, dry_run = false, no_figure = false, quiet = false;
+
+    fs::path table_file() const {
+        return table.empty() ? fs::path(out) / "map.csv" : fs::path(table);
+    }
+    /// One of several processes leaves table and figure to the call that has no part.
+    bool is_part() const { return !sharing.part.empty(); }
+};
+
+SweepPlan existing_map_plan(const MapCall& call) {
+    std::error_code ignored;
+    if (!fs::exists(fs::path(call.out) / "plan.json", ignored))
+        throw UsageError(
+            "missing required option --x NAME=VALUES.\nhint: give, for example, --x mu=0:1.");
+    SweepPlan plan = read_plan(call.out);
+    if (!plan.map)
+        throw UsageError(
+            fmt::format("'{}' holds a sweep, not a map.\nhint: run `swirl sweep --out {}`.",
+                        call.out, shell_word(call.out)));
+    return plan;
+}
+
+/// Without axes the map in the folder continues, and its plan cannot change.
+void reject_without_axes(const Subcommand& subcommand, const MapCall& call) {
+    if (!call.x.empty() || !call.y.empty()) return;
+    for (const Option& option : subcommand.options())
+        for (const char* name : {"--of", "--steps", "--level", "--change", "--seeds", "--from",
+                                 "--to", "--rate", "--tolerance"})
+            if (option.name == name && option.is_given)
+                throw UsageError(
+                    fmt::format("{} is given, but --x is not.\nhint: give all options of "
+                                "the map, or only --out to continue it.",
+                                name));
+}
+
+SweepPlan map_plan_of(MapCall& call) {
+    if (call.x.empty() && call.y.empty() && call.parameters->empty())
+        return existing_map_plan(call);
+    MapSettings& settings = call.settings;
+    if (!call.x.empty()) settings.x = read_map_axis("--x", call.x);
+    if (!call.y.empty()) settings.y = read_map_axis("--y", call.y);
+    settings.parameters = *call.parameters;
+    return make_map_plan(settings);
+}
+
+void reject_wrong_table(const MapCall& call) {
+    const fs::path file = call.table_file();
+    if (file == "-") return;
+    reject_same_files({call.config_file, file});
+    if (belongs_to_sweep(call.out, canonical_name(file)))
+        throw UsageError(
+            fmt::format("'{}' belongs to the map itself.\nhint: use another name.", file.string()));
+    if (file.extension() != ".csv" && !call.no_figure)
+        throw UsageError(
+            fmt::format("--csv is '{}', but the name must end in .csv, because the figure "
+                        "gets the same name.\nhint: use --no-figure for another name.",
+                        file.string()));
+}
+
+MapOutcome run_map_with_progress(const MapCall& call, const SweepPlan& plan,
+                                 const SweepShare& share) {
+    ProgressLine line("map", call.quiet);
+    MapControl control;
+    control.stop = &stop_signal();
+    control.progress = [&](std::size_t decided, std::size_t sites, double done, double runs,
+                           std::uint64_t events) {
+        // More sites may follow, and an undecided one may need more runs.
+        const auto all = static_cast<double>(sites), now = static_cast<double>(decided);
+        const double step = runs > 0.0 ? done / runs : 0.0;
+        line.show_events(all > 0.0 ? (now + 0.5 * (all - now) * step) / all : 0.0, events);
+    };
+    return run_map(call.out, plan, share, control);
+}
+
+/// The table, and the figure next to it. Returns the names of the files.
+std::string write_map_files(const MapCall& call, const SweepPlan& plan, const MapState& state) {
+    const std::string table = map_table(plan, state).csv();
+    const fs::path file = call.table_file();
+    if (file == "-") {
+        print_all(table);
+        return "";
+    }
+    write_output(file, table);
+    if (call.no_figure || state.sites.size() < 2) return file.string();
+    run_python_script("parameter_map.py",
+                      {file.string(), "--level", fmt::format("{}", plan.map->level)},
+                      &stop_signal());
+    const auto with = [&](const char* ending) {
+        return fs::path(file).replace_extension(ending).string();
+    };
+    return fmt::format("{}, {} and {}", file.string(), with(".png"), with(".pdf"));
+}
+
+void warn_about(const MapState& state) {
+    std::size_t unclear = 0, failed = 0;
+    for (const MapSite& s : state.sites) {
+        unclear += s.verdict == "undetermined" || s.verdict == "undecided" ? 1 : 0;
+        failed += s.failed > 0 ? 1 : 0;
+    }
+    if (unclear > 0)
+        print_warning(
+            fmt::format("{} of {} points are undetermined with all runs allowed.\nhint: use a "
+                        "larger --seeds or longer runs in another folder.",
+                        unclear, state.sites.size()));
+    if (failed > 0)
+        print_warning(fmt::format("runs failed at {} of {} points (column failed).", failed,
+                                  state.sites.size()));
+}
+
+void report_map(const MapCall& call, const SweepPlan& plan, const MapOutcome& outcome) {
+    if (outcome.stopped)
+        throw Interrupted(
+            fmt::format("stopped before the end.\nhint: run `swirl map --out {}` to continue.",
+                        shell_word(call.out)));
+    std::string text = map_summary(plan, outcome.state);
+    if (!call.is_part()) {
+        const std::string files = write_map_files(call, plan, outcome.state);
+        if (!files.empty()) text += "; wrote " + files;
+    }
+    if (!call.quiet && call.table != "-") print_all(text + "\n");
+    warn_about(outcome.state);
+    const bool nothing = std::all_of(outcome.state.sites.begin(), outcome.state.sites.end(),
+                                     [](const MapSite& s) { return s.runs == 0; });
+    if (nothing)
+        throw Failure(fmt::format("every run failed.\nhint: see the errors in '{}'.",
+                                  (fs::path(call.out) / "failures").string()));
+}
+
+void print_map_status(const MapCall& call, const SweepPlan& plan) {
+    const MapState state = read_map(call.out, plan);
+    std::string text = map_summary(plan, state) +
+                       fmt::format("; {} runs to do in this step, {} running\n",
+                                   state.missing.size(), sweep_status(call.out, plan).running);
+    if (const auto job = slurm_status(call.out)) text += *job + "\n";
+    print_all(text);
+}
+
+std::string map_plan_text(const SweepPlan& plan) {
+    std::string text =
+        fmt::format("map of {}, at most {} runs at a point:\n", plan.map->of, plan.replicas);
+    for (const SweepAxis& axis : plan.axes)
+        text += fmt::format("  {}: {}\n", axis.name, fmt::join(axis.values, " "));
+    return text;
+}
+
+void make_map(MapCall& call) {
+    if (call.status) return print_map_status(call, existing_map_plan(call));
+    const SweepPlan plan = map_plan_of(call);
+    const SweepShare share = call.sharing.share();
+    const SlurmJob job = call.sharing.slurm_job();
+    if (call.dry_run) return print_all(map_plan_text(plan));
+    reject_wrong_table(call);
+    const std::string script = call.sharing.slurm ? slurm_script(job, call.out, "map") : "";
+    make_folder(call.out);
+    if (!call.table.empty() && call.table != "-") reject_unwritable(call.table);
+    write_plan(call.out, plan);
+    if (!call.sharing.slurm)
+        return report_map(call, plan, run_map_with_progress(call, plan, share));
+    print_all(
+        fmt::format("Submitted as job {}; for its progress run `swirl map --out {} --status`, and "
+                    "for table and figure `swirl map --out {}`.\n",
+                    submit(script, call.out), shell_word(call.out), shell_word(call.out)));
+}
+
+void add_map_options(Subcommand& subcommand, MapCall& call) {
+    const char *const map = "Map", *const crossing = "N_c";
+    MapSettings& s = call.settings;
+    subcommand.add_option("--x", call.x, "Axis along x, such as mu=0:1", "NAME=VALUES", map);
+    subcommand.add_option("--y", call.y, "Axis along y; without it, a curve", "NAME=VALUES", map);
+    subcommand.add_option("--of", s.of, "Quantity: N_c, a rotation rate, or slip.cluster [by_time]",
+                          "NAME", map);
+    subcommand
+        .add_option("--out", call.out, "Folder of the map; a repeated call completes it", "DIR",
+                    map)
+        ->required();
+    subcommand.add_option("--steps", s.steps, "Number of values of a range FROM:TO [16]", "N", map);
+    subcommand.add_option("--level", s.level, "Refine where the quantity crosses this [0]",
+                          "NUMBER", map);
+    subcommand.add_option("--change", s.change,
+                          "Refine where neighbours differ by more [never; N_c 2]", "NUMBER", map);
+    subcommand.add_option("--seeds", s.max_runs, "Maximum number of runs at a point [16]", "N",
+                          map);
+    add_threads_option(subcommand, call.sharing, map);
+    subcommand.add_option("--csv", call.table, "File for the table, or - for stdout [DIR/map.csv]",
+                          "FILE|-", map);
+    subcommand.add_flag("--no-figure", call.no_figure, "Do not draw the map", map);
+    subcommand.add_flag("--status", call.status, "Print the numbers of points and runs", map);
+    subcommand.add_flag("--dry-run", call.dry_run, "Print the plan and do not run", map);
+    subcommand.add_flag("--quiet", call.quiet, "No progress and no report", map);
+    subcommand.add_option("--from", s.from, "Smallest number of discs [5]", "N", crossing);
+    subcommand.add_option("--to", s.to, "Largest number of discs [48]", "N", crossing);
+    subcommand.add_option("--rate", s.rate, "Rotation rate that changes its sign at N_c [by_time]",
+                          "NAME", crossing);
+    subcommand.add_option("--tolerance", s.tolerance, "Target standard error of N_c [0.5]",
+                          "NUMBER", crossing);
+    add_cluster_options(subcommand, call.sharing, false);
+}
+
+void add_map_command(Subcommand& subcommand) {
+    const auto call = std::make_shared<MapCall>();
+    subcommand.add_option("config", call->config_file,
+                          "TOML file with options; the command line overrides it", "FILE.toml");
+    call->parameters = add_run_options(subcommand, {"seed"}, map_defaults);
+    add_map_options(subcommand, *call);
+    subcommand.explain(
+        "An axis has the values FROM:TO (--steps of them), FROM:STEP:TO, or a list. First a coarse "
+        "grid "
+        "is computed, then the cells in which the quantity crosses --level or is undetermined. A "
+        "point "
+        "gets two runs, and more near the level: their number doubles until its sign is certain. "
+        "The "
+        "figure shows the level with its 95 % band. With --of N_c, each point is a search for the "
+        "number of discs at which the rotation changes its sign.\n");
+    subcommand.set_main_options({"--discs", "--mu", "--periods", "--x", "--y", "--of", "--out",
+                                 "--steps", "--seeds", "--threads", "--status"});
+    subcommand.set_examples({"swirl map --x mu=0:1 --y amplitude=0.5:4 --out map",
+                             "swirl map --x mu=0:1 --y discs=20:48 --of rigid_by_time --out map",
+                             "swirl map --x mu=0.1:1 --of N_c --out N_c",
+                             "swirl map --x mu=0.1:1 --y amplitude=1:3 --of N_c --out N_c_map",
+                             "swirl map --x discs=10:48 --of slip.cluster --level 0.8 --out slip"});
+    subcommand.callback([call, &subcommand] {
+        if (!call->config_file.empty())
+            take_config_file(subcommand, call->config_file, *call->parameters, Lists::rejected,
+                             "map");
+        reject_without_axes(subcommand, *call);
+        make_map(*call);
+    });
+}
+
+const Command map_command(32, "map", "Map a quantity over one or two parameters", add_map_command);
+
+}  // namespace
+}  // namespace swirl

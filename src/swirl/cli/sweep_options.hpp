@@ -1,0 +1,33 @@
+// Options of swirl sweep and swirl map: how the runs are shared between processes and machines.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "swirl/cli/options.hpp"
+#include "swirl/study/slurm.hpp"
+#include "swirl/study/sweep.hpp"
+
+namespace swirl {
+
+struct ShareOptions {
+    std::string part, threads, nodes, cpus;
+    SlurmJob job;
+    bool slurm = false, rest = false;
+
+    /// Throws UsageError.
+    SweepShare share() const;
+    /// The Slurm job with its numbers of nodes and cores. Throws UsageError.
+    SlurmJob slurm_job() const;
+};
+
+/// --threads, in the given group.
+void add_threads_option(Subcommand& subcommand, ShareOptions& options, const char* group);
+/// --part, --slurm and so on. Without `with_rest` the rest always follows.
+void add_cluster_options(Subcommand& subcommand, ShareOptions& options, bool with_rest);
+
+/// The value of --NAME, from 1 to `maximum`; the default if the text is empty. Throws UsageError.
+std::int64_t whole_number(const char* name, const std::string& text, std::int64_t default_value,
+                          std::int64_t maximum);
+
+}  // namespace swirl

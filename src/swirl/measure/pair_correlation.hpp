@@ -1,0 +1,108 @@
+// How much more often two discs are at a distance r than independent discs would be: the pair
+// correlation function g(r).
+//
+//   g(r)       ⟨pairs with a distance in the bin⟩ / (½ N(N − 1) (F(r₂) − F(r₁)))
+//   F(r)       probability that two independent points in the circle of radius a are closer than r:
+//              with s = r/a, F = 1 + (2/π)(s² − 1) arccos(s/2) − (s/π)(1 + s²/2) √(1 − s²/4)
+//              (Solomon, Geometric Probability, 1978, ch. 2)
+//   g_inner(r) ⟨partners in the bin of a disc of the inner circle⟩ / (ρ π (r₂² − r₁²))
+//   ρ          ⟨discs in the inner circle⟩ / its area
+//   contact    g_inner extrapolated to touching discs
+//
+// a = R − (mean radius of a disc): the centres cannot be closer to the wall. So g has no edge effect;
+// it is 1 for independent discs in the whole container, and Σ g (F(r₂) − F(r₁)) over all distances is
+// 1. Where the discs form a cluster, g is above 1 at short distances for this reason alone. g_inner
+// takes reference discs in the inner circle of radius R/2 about C only, and their partners anywhere.
+// It is that of the bulk, without the layers that a wall causes, if the density is uniform.
+//
+// Contact. With the gap h = r − R_i − R_j, three cells of width δ = 0.1 × (mean radius) have the
+// averages g_1, g_2, g_3 of g_inner. The parabola with these averages has the value
+// (11 g_1 − 7 g_2 + 2 g_3)/6 at h = 0. The gas of elastic hard discs at the packing fraction φ has
+// g(σ) = (1 − 7φ/16)/(1 − φ)² (Henderson 1975, doi:10.1080/00268977500102511).
+//
+// By default only every 64th sample is used: neighbouring samples hardly differ. Units: none. Errors:
+// from blocks of periods; that of ρ is added to those of g_inner. Limits: bins that reach out of the
+// circles (r > 2a for g, r > R/2 − (mean radius) for g_inner) and fewer than two discs give NaN.
+// Distances are at most 20. Overlapping discs (a camera's errors) do not count at contact. If the radii differ, a and the inner circle are those of the mean radius,
+// and g shows the distances of all species.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "swirl/measure/cell_averages.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/pair_distances.hpp"
+
+namespace swirl {
+
+/// Probability that two independent points, uniform in a circle of radius 1, are closer than s.
+double closer_in_circle(double s);
+
+class PairCorrelation : public BlockAverages<PairCorrelation> {
+  public:
+    static auto averages(auto& s) {
+        return std::tie(s.pairs_, s.partners_, s.contact_, s.inside_, s.packing_, s.radius_);
+    }
+
+    explicit PairCorrelation(double container_radius, int every = 64)
+        : inner_radius_(0.5 * container_radius),
+          container_radius_(container_radius),
+          every_(every),
+          bins_(container_radius),
+          pairs_(bins_.count),
+          partners_(bins_.count) {}
+
+    void sample(const MFrameView& view);
+
+    const DistanceBins& bins() const { return bins_; }
+    Estimate g(std::size_t bin) const;
+    Estimate inner_g(std::size_t bin) const;
+    Estimate contact() const { return over_density(contact_.estimate(), 1.0); }
+    /// Packing fraction of the inner circle.
+    Estimate inner_packing() const { return packing_.estimate(); }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        visit(ReportRow{"contact", "1", "pair correlation at contact, in the inner circle",
+                        contact()});
+        visit(ReportRow{"inner_packing", "1", "packing fraction of the inner circle of radius R/2",
+                        inner_packing()});
+        ReportTable table{
+            "function",
+            "pair correlation in the whole container and about discs of its inner circle",
+            {{"distance", "r"},
+             {"g", "1", with_error_column},
+             {"g_inner", "1", with_error_column}}};
+        for (std::size_t bin = 0; bin < bins_.count; ++bin)
+            table.add(bins_.middle(bin), g(bin), inner_g(bin));
+        visit(std::move(table));
+    }
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(samples_);
+        this->visit_averages(visit);
+    }
+
+  private:
+    /// Partners per reference disc and area as a multiple of ρ.
+    Estimate over_density(Estimate partners, double area) const;
+    /// Σ over the partners of a disc gives the value at contact.
+    static double contact_weight(double gap, double cell, double contact_distance);
+
+    double inner_radius_, container_radius_;
+    int every_;
+    DistanceBins bins_;
+    std::int64_t samples_ = 0;
+    CellRates pairs_;     // per pair of discs
+    CellRates partners_;  // per disc in the inner circle
+    BlockMean contact_, inside_, packing_, radius_;
+    std::vector<std::uint32_t> order_;
+    std::vector<char> is_inside_;
+};
+
+}  // namespace swirl

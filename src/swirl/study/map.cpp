@@ -1,0 +1,177 @@
+#include "swirl/study/map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <thread>
+#include <unordered_map>
+
+#include "swirl/run/failure.hpp"
+#include "swirl/study/collected_sweep.hpp"
+#include "swirl/study/point_result.hpp"
+#include "swirl/study/sweep_folder.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The results in the folder; each file is read once.
+class MapResults {
+  public:
+    MapResults(const fs::path& folder, const SweepPlan& plan) : folder_(folder), plan_(plan) {
+        if (!plan.map)
+            throw Failure(fmt::format("'{}' holds a sweep, not a map.\nhint: use swirl sweep.",
+                                      folder.string()));
+    }
+
+    /// Looks at the folder again.
+    void update() {
+        const std::size_t points = plan_.points();
+        done_ = numbered_files(part_of_sweep(folder_, "results", plan_), ".json", points);
+        failed_ = numbered_files(folder_ / "failures", ".txt", points);
+    }
+
+    const MapRun* find(std::size_t point) {
+        if (const auto known = runs_.find(point); known != runs_.end()) return &known->second;
+        MapRun run;
+        if (done_[point]) {
+            const PointResult result = read_result(folder_, plan_, point);
+            const MapTarget& target = *plan_.map;
+            const std::string& name = target.is_of_crossing() ? target.rate : target.of;
+            run.value = result.quantity(0, name);
+            run.periods = result.periods;
+            for (const MeasuredNumber& number : result.quantities)
+                if (number.name == name) run.direction = number.direction;
+        } else if (failed_[point]) {
+            run.failed = true;
+        } else {
+            return nullptr;
+        }
+        return &runs_.emplace(point, run).first->second;
+    }
+
+    MapState explore() {
+        update();
+        return explore_map(plan_, [this](std::size_t point) { return find(point); });
+    }
+
+  private:
+    const fs::path folder_;
+    const SweepPlan& plan_;
+    std::vector<bool> done_, failed_;
+    std::unordered_map<std::size_t, MapRun> runs_;
+};
+
+std::size_t decided_sites(const MapState& state) {
+    return static_cast<std::size_t>(std::count_if(state.sites.begin(), state.sites.end(),
+                                                  [](const MapSite& s) { return s.decided; }));
+}
+
+const std::vector<std::string>* axis_values(const SweepPlan& plan, const std::string& name) {
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.name == name) return &axis.values;
+    return nullptr;
+}
+
+/// Waits a moment for the runs of other processes; false if stopped.
+bool wait_for_others(const std::atomic<bool>* stop) {
+    for (int k = 0; k < 10; ++k) {
+        if (stop && stop->load()) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return true;
+}
+
+}  // namespace
+
+MapState read_map(const fs::path& folder, const SweepPlan& plan) {
+    return MapResults(folder, plan).explore();
+}
+
+MapOutcome run_map(const fs::path& folder, const SweepPlan& plan, const SweepShare& given,
+                   const MapControl& control) {
+    MapResults results(folder, plan);
+    MapOutcome outcome;
+    std::uint64_t events_before = 0;
+    for (;;) {
+        outcome.state = results.explore();
+        if (outcome.state.missing.empty()) return outcome;
+        SweepShare share = given;
+        share.rest = true;  // the next step needs all runs of this one
+        share.only = outcome.state.missing;
+        const std::size_t decided = decided_sites(outcome.state);
+        std::uint64_t events = 0;
+        SweepControl step;
+        step.stop = control.stop;
+        step.progress = [&](double done, double runs, std::uint64_t so_far) {
+            events = so_far;
+            if (control.progress)
+                control.progress(decided, outcome.state.sites.size(), done, runs,
+                                 events_before + so_far);
+        };
+        const SweepOutcome made = run_sweep(folder, plan, share, step);
+        events_before += events;
+        outcome.done += made.done;
+        outcome.failed += made.failed;
+        if (outcome.first_failure.empty()) outcome.first_failure = made.first_failure;
+        const bool idle = made.done == 0 && made.failed == 0;
+        if (made.stopped || (idle && !wait_for_others(control.stop))) {
+            outcome.stopped = true;
+            outcome.state = results.explore();
+            return outcome;
+        }
+    }
+}
+
+Table map_table(const SweepPlan& plan, const MapState& state) {
+    const MapTarget& target = *plan.map;
+    const std::vector<std::string>*const xs = axis_values(plan, target.x), *const ys = axis_values(
+                                                                               plan, target.y);
+    std::vector<std::string> columns{target.x};
+    if (ys) columns.push_back(target.y);
+    columns.insert(columns.end(), {target.of, target.of + "_error"});
+    if (target.is_of_crossing()) columns.insert(columns.end(), {"N_c_lower", "N_c_upper"});
+    columns.insert(columns.end(), {"verdict", "periods", "seeds", "failed"});
+    Table table(columns);
+    for (const MapSite& s : state.sites) {
+        if (!s.decided) continue;
+        std::vector<Table::Cell> row{cell_of((*xs)[s.x])};
+        if (ys) row.push_back(cell_of((*ys)[s.y]));
+        row.insert(row.end(), {s.value.mean, s.value.error});
+        if (target.is_of_crossing()) row.insert(row.end(), {s.lower, s.upper});
+        row.emplace_back(s.verdict);
+        row.emplace_back(s.periods);
+        row.emplace_back(s.runs);
+        row.emplace_back(s.failed);
+        table.add(std::move(row));
+    }
+    return table;
+}
+
+std::string map_summary(const SweepPlan& plan, const MapState& state) {
+    const std::vector<std::string>* const xs = axis_values(plan, plan.map->x);
+    const std::vector<std::string>* const ys = axis_values(plan, plan.map->y);
+    std::map<std::string, int> verdicts;
+    std::int64_t runs = 0, failed = 0;
+    for (const MapSite& s : state.sites) {
+        if (s.decided) ++verdicts[s.verdict];
+        runs += s.runs;
+        failed += s.failed;
+    }
+    std::string counts;
+    for (const auto& [verdict, count] : verdicts)
+        counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, verdict);
+    const std::size_t decided = decided_sites(state);
+    const bool complete = decided == state.sites.size();
+    return fmt::format("{} of {} points needed{}{}; {} runs{}", state.sites.size(),
+                       xs->size() * (ys ? ys->size() : 1),
+                       complete ? "" : fmt::format(" so far, {} decided", decided),
+                       counts.empty() ? "" : " (" + counts + ")", runs,
+                       failed > 0 ? fmt::format(", {} failed", failed) : "");
+}
+
+}  // namespace swirl

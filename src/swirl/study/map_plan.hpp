@@ -1,0 +1,41 @@
+// The plan of an adaptive map: the plan of a sweep (sweep_plan.hpp) over one or two parameters, and over
+// the number of discs if N_c is asked for, with the quantity that decides where the map is refined.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "swirl/study/sweep_plan.hpp"
+
+namespace swirl {
+
+/// Default length of each run in periods, of which 20 are warm-up.
+inline constexpr const char* default_map_periods = "120";
+
+/// An axis of the map. `values` is FROM:TO, a range with `steps` values; or FROM:STEP:TO or a list, as
+/// for a sweep.
+struct MapAxisText {
+    std::string name, values;
+};
+
+struct MapSettings {
+    MapAxisText x, y = {};  // y without a name: a curve
+    std::string of = "by_time";
+    std::string rate = "by_time";       // for N_c
+    double level = 0.0;                 // not for N_c
+    std::optional<double> change = {};  // default: 2 for N_c, otherwise nowhere
+    double tolerance = 0.5;             // target standard error of N_c
+    std::int64_t steps = 16;            // values of a range FROM:TO
+    std::int64_t max_runs = 16;         // at one point
+    std::int64_t from = 5, to = 48;     // numbers of discs in which N_c is searched
+    ParameterTexts parameters = {};     // all others; one value each
+};
+
+/// "mu=0:1". Throws UsageError.
+MapAxisText read_map_axis(const char* option, const std::string& text);
+
+/// Throws UsageError for an invalid range, a value that cannot be run, or an unknown quantity.
+SweepPlan make_map_plan(const MapSettings& settings);
+
+}  // namespace swirl

@@ -1,0 +1,95 @@
+#include "swirl/study/point_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "swirl/io/atomic_file.hpp"
+#include "swirl/io/file_error.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/study/sweep_folder.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* remove_and_repeat = "remove it and run `swirl sweep` again.";
+
+/// JSON parser callback: skips the parts of a result that the table does not use, because building
+/// them would take most of the time.
+bool is_needed(int depth, Json::parse_event_t event, Json& parsed) {
+    if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
+    static constexpr std::string_view parts[] = {"format",   "version",    "point",       "replica",
+                                                 "config",   "state_hash", "periods",     "energy",
+                                                 "rotation", "measured",   "steady_state"};
+    const auto& key = parsed.get_ref<const std::string&>();
+    if (depth == 3) return key != "blocks";  // of a rotation rate
+    return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
+}
+
+/// Detects a result that was copied to another point or into another sweep.
+void reject_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
+                                    std::size_t point) {
+    const bool belongs = json.at("point") == point && json.at("replica") == plan.replica(point) &&
+                         json.at("config").at("seed") == plan.config(point).seed;
+    if (!belongs)
+        throw FileError(fmt::format("'{}' is not the result of point {} of this sweep.\nhint: {}",
+                                    file.string(), point, remove_and_repeat));
+}
+
+}  // namespace
+
+PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    const fs::path file = result_file(folder, plan, point);
+    const Json json = Json::parse(read_regular_file(file), is_needed, false);
+    if (json.is_discarded() || !json.is_object())
+        throw FileError(
+            fmt::format("'{}' is damaged.\nhint: {}", file.string(), remove_and_repeat));
+    PointResult result;
+    result.exists = true;
+    result.quantities.reserve(rotation_rates.size());
+    const auto number = [](const Json& value) {
+        return value.is_null() ? not_available : value.get<double>();  // throws for a text
+    };
+    try {
+        if (json.value("format", 0) != result_format)
+            throw FileError(fmt::format(
+                "'{}' is in format {} of swirl {}, but this program reads format {}.\nhint: "
+                "collect with the program that wrote it, or remove it and run `swirl sweep` again.",
+                file.string(), json.value("format", 0), json.value("version", std::string("?")),
+                result_format));
+        reject_result_of_another_point(file, json, plan, point);
+        for (const auto& [name, words] : rotation_rates) {
+            const Json& rate = json.at("rotation").at(name);
+            result.quantities.push_back(
+                {name, Estimate{.mean = number(rate.at("mean")),
+                                .error = number(rate.at("error")),
+                                .effective_samples = number(rate.at("effective_samples"))}});
+        }
+        if (const auto measured = json.find("measured"); measured != json.end())
+            for (auto& quantity : measured_numbers(*measured))
+                result.quantities.push_back(std::move(quantity));
+        // A single disc has no rotation.
+        result.has_whole_period = json.at("config").at("discs") == 1 ||
+                                  !std::isnan(result.quantities.front().estimate.mean);
+        result.energy = number(json.at("energy"));
+        result.periods = number(json.at("periods"));
+        result.state_hash = json.at("state_hash").get<std::string>();
+        result.version = json.at("version").get<std::string>();
+        result.verdict = json.at("steady_state").at("verdict").get<std::string>();
+    } catch (const nlohmann::json::exception&) {
+        throw FileError(fmt::format(
+            "'{}' lacks a part of a result, or has a text instead of a number.\nhint: {}",
+            file.string(), remove_and_repeat));
+    }
+    return result;
+}
+
+}  // namespace swirl

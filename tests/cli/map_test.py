@@ -1,0 +1,224 @@
+"""swirl map: adaptive maps are completed after an interruption, and the table does not depend on who made the runs."""
+
+import csv
+import io
+import json
+import os
+import random
+import shutil
+import subprocess
+import time
+import unittest
+
+import private_slurm
+from program import ONE_ERROR, SOURCE, SWIRL, InFolder, swirl
+
+# A small map: rotation of a few discs, a coarse grid and short runs. Level 0.8 crosses it.
+MAP = ["map", "--x", "mu=0:1", "--y", "discs=4:40", "--steps", "7", "--level", "0.5", "--periods", "12", "--seeds",
+       "4", "--no-figure", "--quiet"]
+
+
+class Map(InFolder):
+    in_memory = True
+
+    def good(self, *arguments, **more):
+        done = swirl(*arguments, **more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def rows(self, file):
+        with open(file, newline="", encoding="utf-8") as opened:
+            return list(csv.DictReader(opened))
+
+    def table(self, folder):
+        with open(os.path.join(folder, "map.csv"), encoding="utf-8") as opened:
+            return opened.read()
+
+    def results(self, folder):
+        return sorted(os.listdir(os.path.join(folder, "results")))
+
+    def whole(self):
+        self.good(*MAP, "--out", self.path("whole"))
+        return self.table(self.path("whole")), self.results(self.path("whole"))
+
+    def test_the_table_does_not_depend_on_threads_and_processes(self):
+        table, results = self.whole()
+        rows = list(csv.DictReader(io.StringIO(table)))
+        self.assertEqual(list(rows[0]), ["mu", "discs", "by_time", "by_time_error", "verdict", "periods", "seeds",
+                                         "failed"])
+        self.assertLess(len(rows), 49)
+        self.assertEqual({row["verdict"] for row in rows} - {"undetermined"}, {"above", "below"})
+        self.assertEqual(sum(int(row["seeds"]) for row in rows), len(results))
+        self.good(*MAP, "--out", self.path("one"), "--threads", 1)
+        self.assertEqual((self.table(self.path("one")), self.results(self.path("one"))), (table, results))
+        parts = [subprocess.Popen([SWIRL, *MAP, "--out", self.path("two"), "--part", f"{k}/2"],
+                                  stderr=subprocess.DEVNULL) for k in (1, 2)]
+        self.assertEqual([part.wait(100) for part in parts], [0, 0])
+        self.assertFalse(os.path.exists(self.path("two/map.csv")))  # left to a call without a part
+        self.good("map", "--out", self.path("two"), "--no-figure", "--quiet")
+        self.assertEqual((self.table(self.path("two")), self.results(self.path("two"))), (table, results))
+
+    def test_repeated_calls_complete_a_map_that_is_killed(self):
+        begin = time.monotonic()
+        table, results = self.whole()
+        longest = 0.7 * (time.monotonic() - begin)
+        choose = random.Random(7)
+        kills = 0
+        for _ in range(200):
+            process = subprocess.Popen([SWIRL, *MAP, "--out", self.path("killed")], stderr=subprocess.PIPE)
+            try:
+                process.communicate(timeout=choose.uniform(0.01, longest) if kills < 8 else 100)
+                break
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.communicate()
+                kills += 1
+        self.assertEqual(process.returncode, 0)
+        self.assertGreater(kills, 0)
+        self.assertEqual((self.table(self.path("killed")), self.results(self.path("killed"))), (table, results))
+
+    def test_a_lost_result_is_made_again(self):
+        table, results = self.whole()
+        for name in results[::3]:
+            os.remove(self.path(f"whole/results/{name}"))
+        status = self.good("map", "--out", self.path("whole"), "--status").stdout
+        self.assertRegex(status, r"[1-9]\d* runs to do")
+        self.good("map", "--out", self.path("whole"), "--no-figure", "--quiet")
+        self.assertEqual((self.table(self.path("whole")), self.results(self.path("whole"))), (table, results))
+
+    def test_the_folder_is_that_of_a_sweep(self):
+        table, results = self.whole()
+        collected = self.good("collect", self.path("whole"), "--csv", "-")
+        self.assertNotIn("not done yet", collected.stderr)
+        found = {(row["mu"], row["discs"]): row for row in csv.DictReader(io.StringIO(collected.stdout))}
+        for row in csv.DictReader(io.StringIO(table)):
+            self.assertEqual(row["by_time"], found[row["mu"], row["discs"]]["by_time"])
+            self.assertEqual(row["by_time_error"], found[row["mu"], row["discs"]]["by_time_error"])
+            self.assertEqual(row["seeds"], found[row["mu"], row["discs"]]["replicas"])
+        done = swirl("sweep", "--out", self.path("whole"))
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, ONE_ERROR)
+        self.assertIn("swirl map --out", done.stderr)
+        # A run has the seed that a sweep of its parameters gives it.
+        with open(self.path(f"whole/results/{results[0]}"), encoding="utf-8") as opened:
+            run = json.load(opened)
+        alone = self.good(*run["command"].split()[1:], "--json", "-", "--quiet")
+        self.assertEqual(json.loads(alone.stdout)["state_hash"], run["state_hash"])
+
+    def test_crossings_along_one_parameter(self):
+        call = ["map", "--x", "mu=0.9,1", "--of", "N_c", "--from", 36, "--to", 40, "--periods", 40, "--tolerance", 5,
+                "--no-figure", "--quiet", "--out", self.path("N_c")]
+        self.good(*call)
+        rows = self.rows(self.path("N_c/map.csv"))
+        self.assertEqual([row["mu"] for row in rows], ["0.9", "1"])
+        # The table of a sweep of these runs has the same crossings.
+        self.good("collect", self.path("N_c"), "--csv", self.path("t.csv"), "--crossings", self.path("c.csv"))
+        for ours, other in zip(rows, self.rows(self.path("c.csv")), strict=True):
+            for name in ("N_c", "N_c_error", "N_c_lower", "N_c_upper"):
+                self.assertEqual(ours[name], other[name])
+            if ours["verdict"] == "crosses":
+                self.assertTrue(36 <= float(ours["N_c"]) <= 40)
+
+    def test_a_measured_number(self):
+        self.good("map", "--x", "discs=6,30", "--of", "slip.cluster", "--level", 0.5, "--periods", 10, "--seeds", 2,
+                  "--no-figure", "--quiet", "--out", self.path("slip"))
+        rows = self.rows(self.path("slip/map.csv"))
+        self.assertEqual([row["discs"] for row in rows], ["6", "30"])
+        self.assertGreater(float(rows[1]["slip.cluster"]), 0)
+
+    def test_failed_runs_are_excluded_and_reported(self):
+        # Nearly inelastic discs collapse without a contact duration.
+        call = ["map", "--x", "restitution=0.1,1", "--contact-duration", 0, "--periods", 10, "--seeds", 2, "--no-figure",
+                "--quiet", "--out"]
+        done = self.good(*call, self.path("collapse"))
+        self.assertIn("warning: runs failed at 1 of 2 points", done.stderr)
+        rows = self.rows(self.path("collapse/map.csv"))
+        self.assertEqual([(row["verdict"], row["failed"]) for row in rows], [("failed", "2"), ("below", "0")])  # 48 discs
+        done = swirl("map", "--x", "restitution=0.1,0.2", *call[3:], self.path("none"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("error: every run failed", done.stderr)
+
+    def test_invalid_calls_are_rejected_before_anything_is_written(self):
+        for wrong, says in ((["--x", "mu"], "NAME=VALUES"), (["--x", "colour=1:2"], "colour"),
+                            (["--x", "mu=1:0"], "below"), (["--x", "mu=0:1", "--y", "mu=0:1"], "both"),
+                            (["--x", "mu=0:1", "--of", "slip"], "slip.cluster"),
+                            (["--x", "mu=0:1", "--of", "N_c", "--discs", 30], "--from"),
+                            (["--x", "mu=0:1", "--steps", 1], "--steps"), (["--x", "mu=0:1", "--mu", 1], "--mu"),
+                            (["--x", "mu=0:1", "--part", "3/2"], "PART/PARTS"), (["--y", "mu=0:1"], "--x"),
+                            (["--x", "mu=0:1", "--csv", self.path("m/plan.json")], "figure"), ([], "--x"),
+                            (["--seeds", 4], "--x"), (["--x", "mu=0:1", "--seed", 3], "--seed")):
+            done = swirl("map", *wrong, "--out", self.path("m"))
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, ONE_ERROR)
+            self.assertIn(says, done.stderr)
+            self.assertEqual(self.left_behind(), [])
+
+    def test_options_may_be_in_a_file(self):
+        with open(self.path("map.toml"), "w", encoding="utf-8") as opened:
+            opened.write('x = "mu=0:1"\ny = "discs=4:40"\nsteps = 7\nlevel = 0.5\nperiods = 12\nseeds = 4\n')
+        self.good("map", self.path("map.toml"), "--no-figure", "--quiet", "--out", self.path("file"))
+        self.assertEqual(self.table(self.path("file")), self.whole()[0])
+
+
+class Figure(InFolder):
+    def test_the_script_draws_maps_and_curves_from_their_tables_alone(self):
+        tables = {
+            "map": "mu,amplitude,by_time,by_time_error,verdict,periods,seeds,failed\n" + "".join(
+                f"{x},{y},{x - y + 0.1},0.05,above,100,2,0\n" for x in (0, 0.5, 1) for y in (0, 1, 2)),
+            "few": "mu,amplitude,by_time,by_time_error,verdict,periods,seeds,failed\n0,1,0.5,,above,10,1,0\n"
+                   "1,1,,,failed,,0,2\n",
+            "curve": "mu,by_time,by_time_error,verdict,periods,seeds,failed\n0,0.4,0.1,above,10,2,0\n"
+                     "1,-0.4,0.1,below,10,2,0\n",
+            "N_c": "mu,N_c,N_c_error,N_c_lower,N_c_upper,verdict,periods,seeds,failed\n"
+                   "0.5,40.1,0.2,39.7,40.5,crosses,10,2,0\n0.1,,,,,always rotates,10,2,0\n",
+            "N_c map": "mu,amplitude,N_c,N_c_error,N_c_lower,N_c_upper,verdict,periods,seeds,failed\n" + "".join(
+                f"{x},{y},{35 + 5 * x + y},0.2,34,36,crosses,100,2,0\n" for x in (0.5, 0.7, 1) for y in (1, 2))
+            + "0,1,,,,,always rotates,100,2,0\n0,2,,,,,undecided,100,2,0\n"}
+        for name, text in tables.items():
+            with open(self.path(f"{name}.csv"), "w", encoding="utf-8") as opened:
+                opened.write(text)
+            subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "figures", "parameter_map.py"),
+                            self.path(f"{name}.csv")], check=True, cwd="/")
+            for kind in ("png", "pdf"):
+                self.assertGreater(os.path.getsize(self.path(f"{name}.{kind}")), 4000)
+
+    def test_a_map_is_drawn_next_to_its_table(self):
+        done = swirl("map", "--x", "discs=6,12", "--periods", 10, "--seeds", 2, "--out", self.path("map"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("wrote " + self.path("map/map.csv"), done.stdout)
+        for kind in ("png", "pdf"):
+            self.assertGreater(os.path.getsize(self.path(f"map/map.{kind}")), 4000)
+
+
+class Cluster(InFolder):
+    def test_tasks_of_a_cluster_share_a_map(self):
+        reason = private_slurm.why_not()
+        if reason:
+            self.skipTest(reason)
+        slurm = private_slurm.Slurm(self.path("slurm"), nodes=2, cpus=1)
+        self.addCleanup(slurm.stop)
+        slurm.start()
+        environment = {"SLURM_CONF": f"{self.path('slurm')}/slurm.conf"}
+        out = self.path("a map")
+        call = [word for word in MAP if word not in ("--no-figure", "--quiet")]
+        done = swirl(*call, "--out", out, "--slurm", "--nodes", 2, environment=environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for _ in range(600):
+            status = swirl("map", "--out", out, "--status", environment=environment).stdout
+            if "; 0 runs to do" in status or "no longer in the queue" in status:
+                break
+            time.sleep(0.1)
+        logs = ""
+        for name in os.listdir(out + "/log"):
+            with open(os.path.join(out, "log", name), encoding="utf-8") as log:
+                logs += log.read()
+        self.assertIn("; 0 runs to do", swirl("map", "--out", out, "--status").stdout, logs)
+        self.assertEqual(swirl("map", "--out", out, "--no-figure", "--quiet").returncode, 0)
+        self.assertEqual(swirl(*MAP, "--out", self.path("one")).returncode, 0)
+        with open(out + "/map.csv", encoding="utf-8") as ours, open(self.path("one/map.csv"), encoding="utf-8") as one:
+            self.assertEqual(ours.read(), one.read())
+        shutil.rmtree(out)
+
+
+if __name__ == "__main__":
+    unittest.main()

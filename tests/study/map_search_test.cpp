@@ -1,0 +1,300 @@
+#include "swirl/study/map_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+#include <set>
+
+#include "swirl/run/failure.hpp"
+#include "swirl/run/reading.hpp"
+#include "swirl/study/map_plan.hpp"
+
+namespace swirl {
+namespace {
+
+/// The quantity as a function of the axes and the number of discs.
+using Known = std::function<double(double x, double y, double discs)>;
+
+/// A map whose runs return a known function with a known error.
+class KnownMap {
+  public:
+    KnownMap(const MapSettings& settings, Known known, double error)
+        : plan_(make_map_plan(settings)), known_(std::move(known)), error_(error) {}
+
+    const SweepPlan& plan() const { return plan_; }
+    void fail_if(std::function<bool(double x, double y)> fails) { fails_ = std::move(fails); }
+
+    /// Makes all missing runs of each step, or, with `random`, a random part of them.
+    MapState complete(std::mt19937* random = nullptr) {
+        for (;;) {
+            MapState state = explore();
+            if (state.missing.empty()) return state;
+            bool any = false;
+            for (const std::size_t point : state.missing) {
+                if (random && any && (*random)() % 3 != 0) continue;
+                EXPECT_FALSE(runs_.contains(point));
+                runs_[point] = run_at(point);
+                any = true;
+            }
+        }
+    }
+    MapState explore() const {
+        return explore_map(plan_, [&](std::size_t point) -> const MapRun* {
+            const auto found = runs_.find(point);
+            return found == runs_.end() ? nullptr : &found->second;
+        });
+    }
+    std::set<std::size_t> points() const {
+        std::set<std::size_t> done;
+        for (const auto& [point, run] : runs_) done.insert(point);
+        return done;
+    }
+    double value(const std::string& axis, std::size_t index) const {
+        for (const SweepAxis& a : plan_.axes)
+            if (a.name == axis) return *read_number(a.values[index]);
+        return 0.0;
+    }
+
+  private:
+    MapRun run_at(std::size_t point) const {
+        const ParameterTexts texts = plan_.parameters(point);
+        const auto number = [&](const std::string& name) {
+            const auto found = texts.find(name);
+            return found == texts.end() ? 0.0 : *read_number(found->second);
+        };
+        const double x = number(plan_.map->x), y = number(plan_.map->y);
+        MapRun run;
+        run.periods = 100.0;
+        run.failed = fails_ && fails_(x, y);
+        run.value = {.mean = known_(x, y, number("discs")), .error = error_};
+        run.value.effective_samples = 1000.0;
+        return run;
+    }
+
+    SweepPlan plan_;
+    Known known_;
+    double error_;
+    std::function<bool(double, double)> fails_;
+    std::map<std::size_t, MapRun> runs_;
+};
+
+MapSettings square_map(std::int64_t steps = 16) {
+    MapSettings settings;
+    settings.x = {"mu", "0:1"};
+    settings.y = {"restitution", "0:1"};
+    settings.steps = steps;
+    return settings;
+}
+
+double circle(double x, double y, double) { return std::hypot(x - 0.45, y - 0.55) - 0.3; }
+
+const MapSite* site_at(const MapState& state, std::size_t x, std::size_t y) {
+    for (const MapSite& s : state.sites)
+        if (s.x == x && s.y == y) return &s;
+    return nullptr;
+}
+
+TEST(MapSearch, IsFineAtTheZeroLineAndCoarseElsewhere) {
+    constexpr std::size_t n = 33;
+    KnownMap map(square_map(n), circle, 1e-6);
+    const MapState state = map.complete();
+    // 6 × 6 coarse cells at first. Every cell of the grid that the circle enters and whose corners
+    // differ has all its corners.
+    const auto sign = [&](std::size_t i, std::size_t j) {
+        return circle(double(i) / (n - 1), double(j) / (n - 1), 0.0) > 0.0;
+    };
+    for (std::size_t j = 0; j + 1 < n; ++j)
+        for (std::size_t i = 0; i + 1 < n; ++i) {
+            const int above = sign(i, j) + sign(i + 1, j) + sign(i, j + 1) + sign(i + 1, j + 1);
+            if (above == 0 || above == 4) continue;
+            for (const std::size_t b : {j, j + 1})
+                for (const std::size_t a : {i, i + 1})
+                    EXPECT_NE(site_at(state, a, b), nullptr) << a << " " << b;
+        }
+    EXPECT_LT(state.sites.size(), n * n / 2);
+    for (const MapSite& s : state.sites) {
+        EXPECT_TRUE(s.decided);
+        EXPECT_EQ(s.verdict, sign(s.x, s.y) ? "above" : "below");
+        EXPECT_EQ(s.runs, 2);
+    }
+}
+
+TEST(MapSearch, DoesNotDependOnTheOrderOfTheRuns) {
+    KnownMap in_order(square_map(), circle, 0.01);
+    const MapState expected = in_order.complete();
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        std::mt19937 random(seed);
+        KnownMap map(square_map(), circle, 0.01);
+        const MapState found = map.complete(&random);
+        EXPECT_EQ(map.points(), in_order.points());
+        ASSERT_EQ(found.sites.size(), expected.sites.size());
+        for (std::size_t k = 0; k < found.sites.size(); ++k) {
+            EXPECT_EQ(found.sites[k].verdict, expected.sites[k].verdict);
+            EXPECT_EQ(found.sites[k].value.mean, expected.sites[k].value.mean);
+        }
+    }
+}
+
+// Equal runs have the error e/√n; it may exceed that of the blocks for few seeds only. Within three
+// errors of the level a site has all its runs.
+TEST(MapSearch, RunsLongerNearTheLevel) {
+    MapSettings settings;
+    settings.x = {"mu", "0:1"};
+    settings.level = 0.5;
+    settings.steps = 21;
+    const auto line = [](double x, double, double) { return x; };
+    KnownMap map(settings, line, 0.02);
+    for (const MapSite& s : map.complete().sites) {
+        const double distance = std::abs(map.value("mu", s.x) - 0.5);
+        if (distance > 3.5 * 0.02 / std::sqrt(2.0)) {
+            EXPECT_EQ(s.runs, 2) << distance;
+        }
+        if (distance < 1e-9) {
+            EXPECT_EQ(s.runs, 16);
+            EXPECT_EQ(s.verdict, "undetermined");
+        } else {
+            EXPECT_EQ(s.verdict, map.value("mu", s.x) > 0.5 ? "above" : "below");
+        }
+        EXPECT_EQ(s.periods, 100.0 * double(s.runs));
+    }
+}
+
+TEST(MapSearch, RefinesWhereNeighboursDifferByMoreThanTheChange) {
+    const auto step = [](double x, double, double) { return x < 0.7 ? 1.0 : 2.0; };
+    MapSettings settings;
+    settings.x = {"mu", "0:1"};
+    settings.steps = 31;
+    KnownMap coarse(settings, step, 1e-6);
+    EXPECT_EQ(coarse.complete().sites.size(), 7u);
+    settings.change = 0.5;
+    KnownMap fine(settings, step, 1e-6);
+    const MapState state = fine.complete();
+    EXPECT_NE(site_at(state, 20, 0), nullptr);
+    EXPECT_NE(site_at(state, 21, 0), nullptr);
+    EXPECT_LT(state.sites.size(), 12u);
+}
+
+TEST(MapSearch, ExcludesFailedRunsAndMarksTheirBorder) {
+    KnownMap map(
+        square_map(), [](double, double, double) { return 1.0; }, 0.01);
+    map.fail_if([](double x, double) { return x > 0.5; });
+    const MapState state = map.complete();
+    for (const MapSite& s : state.sites) {
+        const bool fails = map.value("mu", s.x) > 0.5;
+        EXPECT_EQ(s.verdict, fails ? "failed" : "above");
+        EXPECT_EQ(s.runs, fails ? 0 : 2);
+        EXPECT_EQ(s.failed > 0, fails);
+        EXPECT_EQ(std::isnan(s.value.mean), fails);
+    }
+    // The border between the columns 7 and 8 is known in every row.
+    for (std::size_t j = 0; j < 16; ++j) {
+        EXPECT_NE(site_at(state, 7, j), nullptr);
+        EXPECT_NE(site_at(state, 8, j), nullptr);
+    }
+}
+
+TEST(MapSearch, FindsTheCrossingAtEverySite) {
+    MapSettings settings = square_map(11);
+    settings.of = "N_c";
+    const auto zero = [](double x, double y) { return 20.3 + 15.0 * x + 5.0 * y * y; };
+    KnownMap map(
+        settings, [&](double x, double y, double n) { return 0.01 * (zero(x, y) - n); }, 1e-4);
+    const MapState state = map.complete();
+    EXPECT_GT(state.sites.size(), 30u);
+    for (const MapSite& s : state.sites) {
+        EXPECT_EQ(s.verdict, "crosses");
+        // A straight line between two neighbours is exact for this curve.
+        EXPECT_NEAR(s.value.mean, zero(map.value("mu", s.x), map.value("restitution", s.y)), 1e-9);
+        EXPECT_LE(s.lower, s.value.mean);
+        EXPECT_GE(s.upper, s.value.mean);
+        EXPECT_LE(s.value.error, 0.5);
+    }
+    // Five numbers and a bisection of 11 numbers: at most nine numbers of discs with two runs each.
+    for (const MapSite& s : state.sites) EXPECT_LE(s.runs, 18);
+}
+
+TEST(MapSearch, ASiteWhoseNeighboursMisleadFindsItsCrossingToo) {
+    MapSettings settings;
+    settings.x = {"mu", "0:1"};
+    settings.of = "N_c";
+    settings.change = 0.5;
+    // A jump of N_c within a cell, and no crossing at the end.
+    const auto zero = [](double x) { return x < 0.55 ? 15.4 + 5.0 * x : x < 0.9 ? 40.4 : 90.0; };
+    KnownMap map(
+        settings, [&](double x, double, double n) { return 0.01 * (zero(x) - n); }, 1e-4);
+    for (const MapSite& s : map.complete().sites) {
+        const double x = map.value("mu", s.x);
+        EXPECT_EQ(s.verdict, x < 0.9 ? "crosses" : "always rotates") << x;
+        if (x < 0.9) {
+            EXPECT_NEAR(s.value.mean, zero(x), 1e-9) << x;
+        }
+    }
+}
+
+TEST(MapSearch, MoreRunsReachTheToleranceOfTheCrossing) {
+    MapSettings settings;
+    settings.x = {"mu", "0.5,1"};
+    settings.of = "N_c";
+    settings.tolerance = 0.4;
+    // The slope is 0.01 per disc: an error of 0.008 in ϖ is about 0.8 in N_c with two runs.
+    KnownMap map(
+        settings, [](double, double, double n) { return 0.01 * (30.4 - n); }, 0.008);
+    for (const MapSite& s : map.complete().sites) {
+        EXPECT_EQ(s.verdict, "crosses");
+        EXPECT_LE(s.value.error, 0.4);
+        EXPECT_GT(s.runs, 20);
+    }
+}
+
+TEST(MapPlan, HasTheValuesOfItsAxes) {
+    MapSettings settings;
+    settings.x = {"discs", "5:8"};  // whole numbers, each once
+    settings.y = {"mu", "0:0.25:1"};
+    const SweepPlan plan = make_map_plan(settings);
+    ASSERT_EQ(plan.axes.size(), 3u);
+    EXPECT_EQ(plan.axes[0].values, (std::vector<std::string>{"5", "6", "7", "8"}));
+    EXPECT_EQ(plan.axes[1].values.size(), 5u);
+    EXPECT_EQ(plan.axes[2].name, "periods");
+    EXPECT_EQ(plan.replicas, 16);
+}
+
+TEST(MapPlan, RejectsWhatCannotBeMapped) {
+    const auto rejects = [](const std::function<void(MapSettings&)>& change) {
+        MapSettings settings = square_map();
+        change(settings);
+        EXPECT_THROW(make_map_plan(settings), UsageError);
+    };
+    rejects([](auto& s) { s.y = s.x; });
+    rejects([](auto& s) { s.x.name = "seed"; });
+    rejects([](auto& s) { s.x.name = "colour"; });
+    rejects([](auto& s) { s.x.values = "1:0"; });
+    rejects([](auto& s) { s.x.values = "1,0.5"; });
+    rejects([](auto& s) { s.of = "slip"; });
+    rejects([](auto& s) { s.of = "slip.nothing"; });
+    rejects([](auto& s) { s.rate = "fast"; });
+    rejects([](auto& s) { s.level = not_available; });
+    rejects([](auto& s) { s.change = -1.0; });
+    rejects([](auto& s) { s.steps = 1; });
+    rejects([](auto& s) { s.max_runs = 0; });
+    rejects([](auto& s) { s.parameters = {{"mu", "1"}}; });
+    rejects([](auto& s) { s.parameters = {{"discs", "30,40"}}; });
+    rejects([](auto& s) {
+        s.of = "N_c";
+        s.parameters = {{"discs", "30"}};
+    });
+    rejects([](auto& s) {
+        s.of = "N_c";
+        s.level = 1.0;
+    });
+    rejects([](auto& s) {
+        s.of = "N_c";
+        s.tolerance = 0.0;
+    });
+    EXPECT_NO_THROW(make_map_plan(square_map()));
+}
+
+}  // namespace
+}  // namespace swirl
