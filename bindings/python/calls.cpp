@@ -4,7 +4,9 @@
 
 #include <unistd.h>
 
+#include "arrays.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parameter_files.hpp"
 
 namespace swirl::python {
 namespace {
@@ -36,9 +38,47 @@ std::string number_text(const std::string& name, const py::handle& value) {
     return py::repr(py::reinterpret_steal<py::object>(number));
 }
 
+bool is_list(const py::handle& value) {
+    return !py::isinstance<py::str>(value) && !py::isinstance<py::tuple>(value) &&
+           !py::isinstance<py::bytes>(value) && py::hasattr(value, "__iter__");
+}
+
+/// Parameters whose value may be an array: path, with the rows t, x and y, and sizes, with a radius
+/// or the rows radius and mass.
+bool takes_array(const std::string& name) { return name == "path" || name == "sizes"; }
+
+/// "points T:X:Y T:X:Y …" or "list R:M R:M …".
+std::string array_text(const std::string& name, const py::handle& value) {
+    const bool is_path = name == "path";
+    const auto reject = [&] {
+        throw_wrong_type(name, value,
+                         is_path ? "a text or an array of numbers with the columns t, x and y"
+                                 : "a text or an array of numbers, a radius or the columns radius "
+                                   "and mass");
+    };
+    Numbers array;
+    try {
+        const py::array given = py::module_::import("numpy").attr("asarray")(value);
+        const char kind = given.dtype().kind();
+        if (kind != 'i' && kind != 'u' && kind != 'f') reject();
+        array = Numbers::ensure(given);
+    } catch (const py::error_already_set&) {
+        reject();
+    }
+    const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 1;
+    const bool fits = is_path ? array.ndim() == 2 && columns == 3
+                              : array.ndim() == 1 || (array.ndim() == 2 && columns <= 2);
+    if (!fits || array.size() == 0) reject();
+    std::string text = is_path ? "points" : "list";
+    for (py::ssize_t k = 0; k < array.size(); ++k)
+        text += fmt::format("{}{}", k % columns == 0 ? ' ' : ':', array.data()[k]);
+    return text;
+}
+
 /// A tuple is one value with several parts: mixture=(12, 1.3).
 std::string value_text(const std::string& name, const py::handle& value) {
     if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
+    if (takes_array(name) && is_list(value)) return array_text(name, value);
     if (!py::isinstance<py::tuple>(value)) return number_text(name, value);
     std::string text;
     for (const py::handle part : value)
@@ -46,11 +86,6 @@ std::string value_text(const std::string& name, const py::handle& value) {
             (text.empty() ? "" : ":") +
             (py::isinstance<py::str>(part) ? py::cast<std::string>(part) : number_text(name, part));
     return text;
-}
-
-bool is_list(const py::handle& value) {
-    return !py::isinstance<py::str>(value) && !py::isinstance<py::tuple>(value) &&
-           !py::isinstance<py::bytes>(value) && py::hasattr(value, "__iter__");
 }
 
 std::string list_text(const std::string& name, const py::handle& values) {
@@ -76,7 +111,7 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
                                              similar ? fmt::format("did you mean '{}'?", *similar)
                                                      : "swirl.parameters() lists all parameters."));
         }
-        texts[name] = text_of(name, value);
+        texts[name] = with_file_contents(name, text_of(name, value));
     }
     return texts;
 }
@@ -85,7 +120,7 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
 
 ParameterTexts texts_of(const py::dict& given) {
     return texts_by(given, [](const std::string& name, const py::handle& value) {
-        if (is_list(value))
+        if (is_list(value) && !takes_array(name))
             throw_wrong_type(name, value,
                              "one number or text (only swirl.sweep() and swirl.map() take lists)");
         return value_text(name, value);
@@ -94,7 +129,9 @@ ParameterTexts texts_of(const py::dict& given) {
 
 ParameterTexts lists_of(const py::dict& given) {
     return texts_by(given, [](const std::string& name, const py::handle& value) {
-        return is_list(value) ? list_text(name, value) : value_text(name, value);
+        // One array is one path; a list is an axis with several.
+        const bool is_array = takes_array(name) && py::isinstance<py::array>(value);
+        return is_list(value) && !is_array ? list_text(name, value) : value_text(name, value);
     });
 }
 

@@ -9,6 +9,7 @@
 
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/particle_sizes.hpp"
 
 namespace swirl::python {
 namespace {
@@ -118,7 +119,9 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
     const auto angle = column_of("angle", given.angle, n, 0.0);
     const auto spin = column_of("spin", given.spin, n, 0.0);
     const auto radius = column_of("radius", given.radius, n, config.radius);
-    const auto mass = column_of("mass", given.mass, n, config.mass);
+    auto mass = column_of("mass", given.mass, n, config.mass);
+    if (given.radius && !given.mass)
+        for (std::size_t i = 0; i < n; ++i) mass[i] = mass_of_same_material(radius[i], config);
     // By default the same multiple of m r² for all discs.
     std::vector<double> inertia(n);
     const double multiple = config.inertia / (config.mass * config.radius * config.radius);

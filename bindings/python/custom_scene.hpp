@@ -17,7 +17,8 @@ struct GivenDiscs {
 };
 
 /// Throws UsageError for arrays of wrong shapes and for values out of range. What is not given has
-/// the value of `config`; discs without velocities move with the container.
+/// the value of `config`; discs without velocities move with the container, and given radii without
+/// masses are those of one material.
 std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
                            const Segment& first_segment);
 

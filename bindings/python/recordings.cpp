@@ -34,7 +34,7 @@ class Recording {
     }
     static std::unique_ptr<Recording> open(const std::string& file) {
         auto reader = std::make_shared<TrajectoryReader>(file);
-        auto recording = std::make_unique<Recording>(series_of(reader));
+        auto recording = std::make_unique<Recording>(series_of_run(reader));
         recording->reader_ = std::move(reader);
         return recording;
     }
@@ -154,8 +154,10 @@ py::tuple analyse(Recording& recording, const std::vector<std::string>& names, b
     if (recording.size() == 0) throw UsageError("the recording has no frames.");
     const SnapshotSeries& series = recording.series();
     const bool tracked = holds_tracks(series);
+    const bool m_frame = series.has_m_frame;
     if (!all) reject_unmeasurable(names, tracked);
-    const auto measured = measurable(names, tracked);
+    if (!all && !m_frame) require_m_frame_for(names);
+    const auto measured = measurable(names, tracked, m_frame);
     const Snapshot last = series.frame(series.frames - 1);
     if (last.time() < skip * last.period)
         throw UsageError(fmt::format("skip is {}, but the recording ends earlier.", skip));

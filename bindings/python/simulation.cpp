@@ -242,6 +242,7 @@ std::unique_ptr<InteractiveSimulation> make_simulation(const py::dict& parameter
         RunConfig one_disc = config;
         one_disc.discs = 1;
         one_disc.mixture.reset();
+        one_disc.sizes.reset();
         scene = make_initial_state(one_disc);
     } else {
         scene = interruptible(stop, [&] { return make_initial_state(config, &stop); });

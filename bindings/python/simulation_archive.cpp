@@ -12,6 +12,7 @@
 #include "swirl/io/state_archive.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/particle_sizes.hpp"
 
 namespace swirl::python {
 namespace {
@@ -64,18 +65,11 @@ void require_discs(const InitialState& scene, const RunConfig& config, bool is_c
         constexpr double tolerance = 1e-3;
         return require_no_overlap(now, scene.path.segment_at(clock).position_at(clock), tolerance);
     }
-    const auto second_species =
-        static_cast<std::size_t>(config.mixture ? config.mixture->count : 0);
-    const auto n = static_cast<std::size_t>(config.discs);
-    const double multiple = config.inertia / (config.mass * config.radius * config.radius);
-    bool same = radius.size() == n;
-    for (std::size_t i = 0; same && i < n; ++i) {
-        const bool is_first = i < n - second_species;
-        const double r = is_first ? config.radius : config.mixture->radius;
-        const double m = is_first ? config.mass : config.mixture->mass;
-        same = radius[i] == r && mass[i] == m &&
-               inertia[i] == (is_first ? config.inertia : multiple * m * r * r);
-    }
+    const std::vector<Particle> particles = particles_of(config);
+    bool same = radius.size() == particles.size();
+    for (std::size_t i = 0; same && i < particles.size(); ++i)
+        same = radius[i] == particles[i].radius && mass[i] == particles[i].mass &&
+               inertia[i] == particles[i].inertia;
     if (!same) reject_archive("its discs do not match its parameters");
 }
 

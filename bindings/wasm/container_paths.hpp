@@ -1,7 +1,5 @@
-// Paths that the page needs: by hand, from a given time on, and reversed.
+// Paths that the page needs: by hand, and reversed.
 #pragma once
-
-#include <algorithm>
 
 #include "swirl/physics/container_path.hpp"
 
@@ -19,22 +17,6 @@ inline ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double durat
 }
 
 inline bool is_by_hand(const ContainerPath& path) { return path.period == no_period; }
-
-/// The same path, starting at time `clock` of its period.
-inline ContainerPath path_from(const ContainerPath& path, double clock) {
-    ContainerPath later{path.period, {}};
-    const auto add = [&](const Segment& segment, double begin, double end, double shift) {
-        if (begin < end)
-            later.segments.push_back({begin + shift, end + shift, segment.position_at(begin),
-                                      segment.velocity_at(begin), segment.turn_rate});
-    };
-    for (const Segment& segment : path.segments)
-        add(segment, std::max(segment.begin, clock), segment.end, -clock);
-    for (const Segment& segment : path.segments)
-        add(segment, segment.begin, std::min(segment.end, clock), path.period - clock);
-    later.segments.back().end = path.period;
-    return later;
-}
 
 /// The path from its end to its start.
 inline ContainerPath reversed(const ContainerPath& path) {

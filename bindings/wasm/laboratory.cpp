@@ -24,6 +24,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/path_parameter.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/run/version.hpp"
@@ -88,6 +89,8 @@ Request parse_request(std::string_view lines) {
         given.erase(found);
     }
     RunConfig config = resolve(given);
+    // The page shows maps in the M-frame.
+    if (!has_m_frame(config)) throw_usage_error("this path has no M-frame, which the page needs.");
     return {std::move(config), std::move(measured), std::move(given)};
 }
 

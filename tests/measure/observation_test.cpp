@@ -55,7 +55,7 @@ TEST(Observation, NeedsFollowFromTheFunctionsOfTheClass) {
     using Names = std::set<std::string>;
     EXPECT_EQ(pinned, (Names{"pinned", "slip", "frustration"}));
     EXPECT_EQ(tracks, (Names{"pinned", "slip", "frustration", "diffusion"}));
-    EXPECT_EQ(cells, (Names{"order", "packing"}));
+    EXPECT_EQ(cells, (Names{"order", "packing", "segregation"}));
     EXPECT_EQ(events, (Names{"collisions", "wall", "energy", "collision_angles"}));
 }
 

@@ -172,6 +172,55 @@ def test_custom_polygon_equals_the_papers():
                                    atol=1e-12)
 
 
+def test_the_polygon_as_an_array_gives_the_bitwise_identical_run(tmp_path):
+    for parameters in (dict(discs=28), dict(discs=20, preset="experiment")):
+        first = swirl.Simulation(**parameters)
+        start = first.container_path()
+        points = np.vstack([start, [first.period, *start[0, 1:]]])
+        np.savetxt(tmp_path / "p.csv", points, delimiter=",", header="t,x,y", comments="", fmt="%.17g")
+        for path in (points, points.tolist(), str(tmp_path / "p.csv")):
+            again = swirl.Simulation(**parameters, path=path)
+            back = pickle.loads(pickle.dumps(again))
+            for sim in (again, back):
+                sim.advance(events=3000)
+                assert sim.config["path"].startswith("points 0:")
+            assert back.state_hash == again.state_hash
+            whole = swirl.Simulation(**parameters)
+            whole.advance(events=3000)
+            assert again.state_hash == whole.state_hash
+
+
+def test_a_run_takes_a_path_and_sizes_as_arrays():
+    triangle = np.array([[0, 1, 0], [4, -1, 1], [8, -1, -1], [12, 1, 0]], dtype=float)
+    run = swirl.run(discs=10, path=triangle, events=3000)
+    assert run.config["period"] == 12 and run.config["path"].startswith("points 0")
+    assert swirl.run(discs=10, path=run.config["path"], events=3000).state_hash == run.state_hash
+    sizes = swirl.run(sizes=[1, 0.5, 0.8], events=1000)
+    assert sizes.config["discs"] == 3
+    with_mass = swirl.Simulation(sizes=[[1, 1], [0.5, 3]])
+    np.testing.assert_array_equal(with_mass.snapshot().mass, [1, 3])
+    spheres = swirl.Simulation(sizes=[1, 0.5], body="sphere")
+    np.testing.assert_array_equal(spheres.snapshot().mass, [1, 0.125])
+    with pytest.raises(ValueError, match="times must increase"):
+        swirl.run(discs=3, path=triangle[[0, 2, 1, 3]])
+    with pytest.raises(ValueError, match="not closed"):
+        swirl.run(discs=3, path=triangle[:3])
+    with pytest.raises(TypeError, match="columns t, x and y"):
+        swirl.run(discs=3, path=[[0, 1], [1, 2]])
+    with pytest.raises(ValueError, match="path_times is given, but path has"):
+        swirl.Simulation(discs=3, path=triangle, path_times=[0, 4, 8])
+    with pytest.raises(ValueError, match="M-frame"):
+        swirl.run(discs=3, path="line", measure="slip", events=100)
+
+
+def test_radii_without_masses_are_of_one_material():
+    two_sizes = swirl.Simulation(position=[[0, 0], [4, 0]], radius=[1, 2])
+    np.testing.assert_array_equal(two_sizes.snapshot().mass, [1, 4])
+    np.testing.assert_array_equal(two_sizes.snapshot().inertia, [10, 160])
+    given = swirl.Simulation(position=[[0, 0], [4, 0]], radius=[1, 2], mass=[1, 1])
+    np.testing.assert_array_equal(given.snapshot().mass, [1, 1])
+
+
 def test_container_follows_a_custom_path():
     square = np.array([[2, 2], [-2, 2], [-2, -2], [2, -2]], dtype=float)
     sim = swirl.Simulation(discs=20, path=square, period=16)

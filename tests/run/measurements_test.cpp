@@ -145,7 +145,7 @@ TEST(Measurements, ListOfAllHasEveryMeasurement) {
     EXPECT_THAT(everything(),
                 ElementsAre("density", "flow", "profile", "pinned", "residence", "centre", "slip",
                             "frustration", "radial", "temperature", "order", "packing",
-                            "collisions", "wall", "diffusion", "energy", "rolling",
+                            "segregation", "collisions", "wall", "diffusion", "energy", "rolling",
                             "pair_correlation", "velocity_correlation", "velocity_distribution",
                             "contact_network", "collision_angles"));
 }
@@ -230,8 +230,10 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
             EXPECT_TRUE(json.at(name).contains(row.name)) << full;
             EXPECT_THAT(numbers, HasSubstr("\n" + full + "," + row.unit + ","));
             EXPECT_THAT(help, HasSubstr("  " + full + " "));
-            // Discs do not roll: one line "n/a" replaces the rows of this measurement.
-            EXPECT_THAT(terminal, HasSubstr(name == "rolling" ? "  rolling  " : "  " + full + " "));
+            // Discs do not roll, and equal ones do not segregate: one line "n/a" replaces the rows of
+            // such a measurement.
+            const bool is_absent = name == "rolling" || name == "segregation";
+            EXPECT_THAT(terminal, HasSubstr(is_absent ? "  " + name + "  " : "  " + full + " "));
             EXPECT_THAT(docs, HasSubstr("| " + full + " | " + row.unit + " |"));
         }
         for (const ReportTable& table : report.tables) {

@@ -80,6 +80,8 @@ std::string another(const Parameter& p) {
                                                              {"mixture", "2:1.2"},
                                                              {"speed", "2"},
                                                              {"path", "circle"},
+                                                             {"direction", "clockwise"},
+                                                             {"sizes", "uniform:0.9:1.1"},
                                                              {"periods", "50"},
                                                              {"warmup", "7"},
                                                              {"preset", "experiment"},

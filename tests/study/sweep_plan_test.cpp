@@ -40,6 +40,7 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
     for (const std::string& name : parameter_names()) {
         const std::string text = default_of(*find_parameter(name));
         const std::string value = name == "mixture"   ? "2:1.2"
+                                  : name == "sizes"   ? "uniform:0.9:1.1"
                                   : name == "warmup"  ? "7"
                                   : name == "periods" ? "50"
                                   : name == "preset"  ? "experiment"

@@ -14,8 +14,9 @@ from . import _engine
 from ._results import ArrayEstimate, Estimate, Measured, Result, measured_of
 
 PathName = Union[str, "os.PathLike[str]"]
-#: Value of a parameter, as on the command line; a tuple is one value with several parts.
-Value = Union[float, int, str, tuple[Union[float, int, str], ...], None]
+#: Value of a parameter, as on the command line; a tuple is one value with several parts, an array is a
+#: path (columns t, x, y) or sizes (radius, or columns radius and mass).
+Value = Union[float, int, str, tuple[Union[float, int, str], ...], "np.ndarray[Any, Any]", None]
 ProgressCallback = Callable[[float, int, float], object]  # (fraction, events, periods)
 
 

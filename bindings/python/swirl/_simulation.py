@@ -46,11 +46,15 @@ class Simulation:
         if discs and position is None:
             raise ValueError(f"{next(iter(discs))} is given for each disc, but position is not.")
         columns = {name: _floats(name, values) for name, values in discs.items()}
-        for name in ("discs", "mixture"):
+        for name in ("discs", "mixture", "sizes"):
             if columns and parameters.get(name) is not None:
                 raise ValueError(f"{name} and position are both given, but both define the discs.")
         custom_path = None
-        if path is not None and not isinstance(path, str):
+        if path is not None and not isinstance(path, str) and np.shape(path)[1:] == (3,):
+            if path_times is not None:
+                raise ValueError("path_times is given, but path has a column of times.")
+            parameters["path"] = _floats("path", path)
+        elif path is not None and not isinstance(path, str):
             custom_path = _floats("path", path)
             for name in ("amplitude", "sides", "speed"):
                 if parameters.get(name) is not None:
@@ -268,10 +272,16 @@ with_parameters(Simulation.__init__, """A simulation that advances step by step.
 position [disc, xy], velocity [disc, xy], angle [disc], spin [disc]: custom discs in the lab frame. The
     swirl centre is the origin, and the container starts at the first vertex of its path,
     (amplitude, 0). radius, mass and inertia may then be arrays [disc]. Without velocities discs start
-    at rest relative to the container.
-path: "polygon", "circle", or vertices [vertex, xy] of a closed polygon. The container's centre runs
-    through it in one period at constant speed, or is at each vertex at its time in path_times
-    [vertex], which begin with 0.
+    at rest relative to the container. If radius is an array and mass is not given, all discs consist
+    of one material: mass ~ radius², and a disc of radius 1 has the mass 1.
+path: a shape ("circle", "ellipse:0.5", "lissajous:2:3"), a CSV file, or an array of a closed path: with
+    the columns t, x and y, one row per point, the last row equal to the first at the end of the
+    period; or vertices [vertex, xy] of a closed polygon. Through the latter the container's centre
+    runs in one period at constant speed, or is at each vertex at its time in path_times [vertex],
+    which begin with 0.
+sizes: a distribution ("normal:1:0.1", "file:sizes.csv") or an array, radius [disc] or the columns
+    radius and mass. Masses that are not given follow from one material: mass ~ radius² for discs,
+    radius³ for spheres.
 
 A simulation can be copied, pickled and saved; copies continue independently and bitwise identically.
 Several threads may use different simulations at the same time. Calls of several threads to one

@@ -41,7 +41,7 @@ OpenedSeries open_series(const MeasureCall& call) {
             call.file));
     try_reading(call.file);
     if (is_trajectory(call.file))
-        return {series_of(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
+        return {series_of_run(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
     return open_tracks(call.file, call.camera,
                        number_option("misfit", call.misfit, default_misfit, 0.0));
 }
@@ -138,7 +138,8 @@ std::string report_text(const SnapshotSeries& series, const MeasuredSeries& meas
     return fmt::format("{} {}: ϖ/Ω = {} by time, {} rigid; {}\n",
                        counted(std::int64_t(measured.discs),
                                series.frame(0).are_balls() ? "sphere" : "disc"),
-                       rotation_verb(rotation), with_error(rotation.mean, rotation.error),
+                       series.has_m_frame ? rotation_verb(rotation) : direction_verb(rotation),
+                       with_error(rotation.mean, rotation.error),
                        with_error(rigid.mean, rigid.error),
                        counted(std::int64_t(measured.frames), "frame")) +
            measured_text(measured.reports);
@@ -156,7 +157,8 @@ void measure_file(const MeasureCall& call) {
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
     const bool tracked = holds_tracks(series);
     if (!tracked) reject_measurements_of_tracks(names, call);
-    names = measurable(names, tracked);
+    if (!series.has_m_frame && call.list != "all") require_m_frame_for(names);
+    names = measurable(names, tracked, series.has_m_frame);
     if (skip > 0.0 && series.frame(series.frames - 1).time() < skip * series.frame(0).period)
         throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
 

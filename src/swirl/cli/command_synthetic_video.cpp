@@ -17,6 +17,7 @@
 #include "swirl/render/movie_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/path_parameter.hpp"
 #include "swirl/run/version.hpp"
 
 namespace swirl {
@@ -178,6 +179,11 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     validate(call);
     const RunConfig config = resolve(*call.parameters);
     if (const auto wrong = problem(config)) throw UsageError(*wrong);
+    if (!has_m_frame(config))
+        throw UsageError(
+            "a synthetic video states the amplitude and the phase of a circular path, but this "
+            "path "
+            "is none.\nhint: use a counter-clockwise path that is nearly a circle.");
     const CameraSettings camera = camera_settings(call, config);
     const std::int64_t frames = call.frames.value_or(static_cast<std::int64_t>(
         call.periods * static_cast<double>(camera.frames_per_period) + 0.5));

@@ -12,6 +12,7 @@
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/toml_file.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parameter_files.hpp"
 
 namespace swirl {
 namespace {
@@ -114,6 +115,7 @@ ConfigFile read_config_file(const std::string& file, const std::vector<std::stri
         auto& into = find_parameter(name) ? found.parameters : found.others;
         into.emplace(name, fmt::format("{}", fmt::join(entry.values, ",")));
     }
+    found.parameters = with_file_contents(std::move(found.parameters));
     found.text = std::move(config.text);
     return found;
 }

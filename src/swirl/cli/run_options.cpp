@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "swirl/run/parameter_files.hpp"
+
 namespace swirl {
 
 std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
@@ -19,7 +21,9 @@ std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
         subcommand
             .add_option_function(
                 option_name(name),
-                [texts, name](const std::string& text) { (*texts)[name] = text; },
+                [texts, name](const std::string& text) {
+                    (*texts)[name] = with_file_contents(name, text);
+                },
                 default_text.empty() ? p.description
                                      : fmt::format("{} [{}]", p.description, default_text))
             ->type_name(p.form)

@@ -23,6 +23,8 @@ struct SnapshotSeries {
     /// Smoothing reduces velocities (track_smoothing.hpp). The mean of ½u² per disc, with u
     /// relative to the container, is larger by this value than that of the smoothed velocities.
     double missing_energy = 0.0;
+    /// False if the path of the container is known to have no M-frame.
+    bool has_m_frame = true;
 
     /// True if every frame has the same discs in the same order.
     bool same_discs() const { return breaks.empty(); }

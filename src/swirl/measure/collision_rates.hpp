@@ -21,6 +21,8 @@ namespace swirl {
 
 class CollisionRates : public MergedAverages<CollisionRates> {
   public:
+    static constexpr bool any_path = true;
+
     static auto averages(auto& s) { return std::tie(s.disc_rate_, s.wall_rate_, s.rate_); }
 
     void sample_event(const Event& event) {

@@ -134,6 +134,8 @@ class Diffusion : public BlockAverages<Diffusion> {
 /// Diffusion for lags below a period, and for lags of whole periods.
 class DiffusionLags {
   public:
+    static constexpr bool any_path = true;
+
     /// At equal steps of time within the period.
     void sample_within_period(const Snapshot& s) { within_.sample(s); }
     /// Once per period, always at the same phase.

@@ -58,6 +58,8 @@ double kinetic_energy(const Snapshot& snapshot);
 
 class EnergyBudget : public ReportedAverages<EnergyBudget, MergedAverages> {
   public:
+    static constexpr bool any_path = true;
+
     static auto rows(auto& s) {
         return std::tuple{
             AverageRow{"wall_power", "m v³/r", "work of the wall per time", s.work_},

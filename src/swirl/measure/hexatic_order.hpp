@@ -41,6 +41,8 @@ inline double hexatic_order(const MFrameView& view, const Voronoi& cells, std::s
 
 class HexaticOrder : public RegionAverages {
   public:
+    static constexpr bool any_path = true;
+
     void sample(const MFrameView& view, const Voronoi& cells, PinnedFlags pinned = {}) {
         add(view, pinned, [&](std::size_t i) { return hexatic_order(view, cells, i); });
         for (std::size_t i = 0; i < view.size(); ++i) {

@@ -19,6 +19,8 @@ namespace swirl {
 
 class LocalPacking : public RegionAverages {
   public:
+    static constexpr bool any_path = true;
+
     void sample(const MFrameView& view, const Voronoi& cells, PinnedFlags pinned = {}) {
         add(view, pinned, [&](std::size_t i) {
             const double area = cells.area(i);

@@ -22,6 +22,7 @@
 #include "swirl/measure/radial_density.hpp"
 #include "swirl/measure/rolling.hpp"
 #include "swirl/measure/sampling.hpp"
+#include "swirl/measure/segregation.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
 #include "swirl/measure/velocity_correlation.hpp"
@@ -78,6 +79,8 @@ inline constexpr std::tuple measurement_list{
         "hexatic order ψ6 from Voronoi neighbours, of all discs and of the pinned"),
     measurement<LocalPacking>("packing", "local_packing.hpp",
         "local packing fraction from Voronoi cells, of all discs and of the pinned"),
+    measurement<Segregation>("segregation", "segregation.hpp",
+        "separation of large and small particles, radially and among neighbours"),
     measurement<CollisionRates>("collisions", "collision_rates.hpp",
         "collision rates of a disc, mean free time"),
     measurement_in_container<WallStress>("wall", "wall_stress.hpp",

@@ -15,7 +15,8 @@ constexpr MeasurementKind kind_of(const MeasurementRow<M>& row) {
             .needs_pinned = pinned,
             .needs_tracks = pinned || positions,
             .needs_cells = SamplesCells<M>,
-            .needs_events = !pinned && !SamplesFrames<M>};
+            .needs_events = !pinned && !SamplesFrames<M>,
+            .needs_m_frame = !AnyPath<M>};
 }
 
 constexpr auto kinds =

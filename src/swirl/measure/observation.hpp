@@ -51,10 +51,11 @@ inline constexpr int samples_per_position = 7;
 /// A row of the list, and what follows from the functions of its class.
 struct MeasurementKind {
     std::string_view name, header, description;
-    bool needs_pinned;  // has no result if the pinned discs are unknown
-    bool needs_tracks;  // the same discs in every frame
-    bool needs_cells;   // Voronoi cells
-    bool needs_events;  // every collision: frames are not enough
+    bool needs_pinned;   // has no result if the pinned discs are unknown
+    bool needs_tracks;   // the same discs in every frame
+    bool needs_cells;    // Voronoi cells
+    bool needs_events;   // every collision: frames are not enough
+    bool needs_m_frame;  // undefined on a path without an M-frame
 };
 
 /// In the order of the list.

@@ -21,6 +21,8 @@ namespace swirl {
 
 class RadialDensity {
   public:
+    static constexpr bool any_path = true;
+
     explicit RadialDensity(double container_radius, std::size_t rings = 43)
         : container_radius_(container_radius), counts_(rings + 1) {}
 

@@ -42,6 +42,8 @@ namespace swirl {
 
 class Rolling : public ReportedAverages<Rolling> {
   public:
+    static constexpr bool any_path = true;
+
     static auto rows(auto& s) {
         return std::tuple{
             AverageRow{"rolling_share", "1", "share of the spheres that roll on the floor",

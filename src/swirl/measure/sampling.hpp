@@ -11,6 +11,9 @@
 //   - fields(visitor), which visits everything that a checkpoint must store;
 //   - report(visitor) or report(visitor, pinned_loose): see measurement_report.hpp.
 //
+// It may have `static constexpr bool any_path = true` (AnyPath); otherwise it is rejected on paths
+// without an M-frame.
+//
 // Each name stands for one function; none of them is overloaded. SamplingContract rejects a class
 // that has a function of one of these names with another signature, and a class without a sampling
 // function. A function with any other name is an ordinary function that nothing calls.
@@ -142,6 +145,13 @@ concept Reports = requires(const M& m, Report& report) {
 template <class M>
 concept ReportsTracks = requires(const M& m, Report& report, const PinnedLoose& tracks) {
     m.report(report, tracks);
+};
+
+/// any_path = true: the results do not depend on the M-frame, so the path of the container may have
+/// any shape.
+template <class M>
+concept AnyPath = requires {
+    requires M::any_path;
 };
 
 /// Measurements that need frames: positions and velocities at equal time steps.

@@ -65,25 +65,86 @@ inline ContainerPath still_path(double period) {
     return {period, {{0.0, period, {0.0, 0.0}, {0.0, 0.0}, 0.0}}};
 }
 
-/// Regular polygon with vertices A (cos 2πk/M, sin 2πk/M), traversed at constant speed
-/// 2AM sin(π/M)/T, with M = `sides` ≥ 3.
-inline ContainerPath polygon_path(double amplitude, double period, int sides) {
-    if (amplitude == 0.0) return still_path(period);
+/// A closed path of `sides` straight segments of equal duration between the points point(0), …,
+/// point(sides − 1), and back to the first.
+template <class Point>
+ContainerPath sampled_path(double period, int sides, Point point) {
     ContainerPath path{period, {}};
     for (int k = 0; k < sides; ++k) {
         const double begin = period * k / sides, end = period * (k + 1) / sides;
-        const Vec2 from = amplitude * unit_circle(double(k) / sides);
-        const Vec2 to = amplitude * unit_circle(double(k + 1) / sides);
+        const Vec2 from = point(k), to = point((k + 1) % sides);
         path.segments.push_back({begin, end, from, (sides / period) * (to - from), 0.0});
     }
     return path;
 }
 
-/// The exact circle of radius A, which the paper's polygon approximates.
-inline ContainerPath circular_path(double amplitude, double period) {
+/// Regular polygon with vertices A (cos 2πk/M, sin 2πk/M), traversed at constant speed
+/// 2AM sin(π/M)/T, with M = `sides` ≥ 3.
+inline ContainerPath polygon_path(double amplitude, double period, int sides) {
+    if (amplitude == 0.0) return still_path(period);
+    return sampled_path(period, sides,
+                        [&](int k) { return amplitude * unit_circle(double(k) / sides); });
+}
+
+/// The exact circle of radius A, which the paper's polygon approximates. It starts at the angle
+/// 2π `turns`.
+inline ContainerPath circular_path(double amplitude, double period, double turns = 0.0) {
     if (amplitude == 0.0) return still_path(period);
     const double omega = 2.0 * pi / period;
-    return {period, {{0.0, period, {amplitude, 0.0}, {0.0, amplitude * omega}, omega}}};
+    if (turns == 0.0)
+        return {period, {{0.0, period, {amplitude, 0.0}, {0.0, amplitude * omega}, omega}}};
+    const Vec2 start = amplitude * unit_circle(turns);
+    return {period, {{0.0, period, start, omega * perpendicular(start), omega}}};
+}
+
+/// The container's centre is at a point of its path at this time of the period.
+struct PathPoint {
+    double time;
+    Vec2 at;
+};
+
+/// Straight segments between the points, each at constant velocity. Times increase from 0 to the
+/// period, and the last point is the first one. Points at the times kT/n give the velocities of
+/// sampled_path() bitwise.
+inline ContainerPath polyline_path(const std::vector<PathPoint>& points) {
+    const double period = points.back().time;
+    const auto n = static_cast<double>(points.size() - 1);
+    bool equal_durations = true;
+    for (std::size_t k = 0; k < points.size(); ++k)
+        equal_durations &= points[k].time == period * static_cast<double>(k) / n;
+    ContainerPath path{period, {}};
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const PathPoint &from = points[k], &to = points[k + 1];
+        const double rate = equal_durations ? n / period : 1.0 / (to.time - from.time);
+        path.segments.push_back({from.time, to.time, from.at, rate * (to.at - from.at), 0.0});
+    }
+    return path;
+}
+
+/// The same path, starting at time `clock` of its period.
+inline ContainerPath path_from(const ContainerPath& path, double clock) {
+    ContainerPath later{path.period, {}};
+    const auto add = [&](const Segment& segment, double begin, double end, double shift) {
+        if (begin < end)
+            later.segments.push_back({begin + shift, end + shift, segment.position_at(begin),
+                                      segment.velocity_at(begin), segment.turn_rate});
+    };
+    for (const Segment& segment : path.segments)
+        add(segment, segment.begin > clock ? segment.begin : clock, segment.end, -clock);
+    for (const Segment& segment : path.segments)
+        add(segment, segment.begin, segment.end < clock ? segment.end : clock, path.period - clock);
+    later.segments.back().end = path.period;
+    return later;
+}
+
+/// The mirror image at the x axis.
+inline ContainerPath mirrored(ContainerPath path) {
+    for (Segment& segment : path.segments) {
+        segment.start.y = -segment.start.y;
+        segment.velocity.y = -segment.velocity.y;
+        segment.turn_rate = -segment.turn_rate;
+    }
+    return path;
 }
 
 }  // namespace swirl

@@ -17,6 +17,8 @@
 #include "swirl/render/numbered_frames.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/particle_sizes.hpp"
+#include "swirl/run/path_parameter.hpp"
 #include "swirl/run/simd.hpp"
 
 namespace swirl {
@@ -163,6 +165,7 @@ std::vector<std::string> parameter_labels(const RunConfig& config) {
     if (config.mixture)
         labels.push_back(fmt::format("{} {}s of {} $r$", config.mixture->count, body_word(config),
                                      plain(config.mixture->radius / config.radius)));
+    if (config.sizes) labels.push_back(radii_text(config));
     labels.push_back(fmt::format("seed {}", config.seed));
     return labels;
 }
@@ -175,7 +178,7 @@ FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
     };
     source.path = outline(make_path(config));
     source.container_radius = config.container_radius;
-    source.amplitude = config.amplitude;
+    source.amplitude = path_reach(config);
     source.period = config.period;
     source.caption = caption_of(config);
     source.parameters = parameter_labels(config);

@@ -10,6 +10,8 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/particle_sizes.hpp"
+#include "swirl/run/path_parameter.hpp"
 
 namespace swirl {
 namespace {
@@ -51,12 +53,17 @@ std::string hint_on_capacity(const RunConfig& c) {
     return fmt::format("\nhint: use fewer {}s or a larger --container-radius.", body_word(c));
 }
 
-/// The only upper bound for a mixture is the area of the container.
+/// The only upper bound for unequal discs is the area of the container.
 std::optional<std::string> problem_with_area(const RunConfig& c) {
     const double R = c.container_radius;
-    const auto count = static_cast<double>(c.mixture->count);
-    const double area = (static_cast<double>(c.discs) - count) * c.radius * c.radius +
-                        count * c.mixture->radius * c.mixture->radius;
+    double area = 0.0;
+    if (c.mixture) {
+        const auto count = static_cast<double>(c.mixture->count);
+        area = (static_cast<double>(c.discs) - count) * c.radius * c.radius +
+               count * c.mixture->radius * c.mixture->radius;
+    } else {
+        for (const Particle& particle : particles_of(c)) area += particle.radius * particle.radius;
+    }
     if (area <= R * R) return {};
     return fmt::format(
         "{} {} not fit into a container of radius {}: together they would cover {:.0f} % of "
@@ -71,20 +78,19 @@ constexpr double max_container_ratio = 5e4;
 
 std::optional<std::string> problem_with_size(const RunConfig& c) {
     const double R = c.container_radius;
-    const double big = c.mixture ? std::fmax(c.radius, c.mixture->radius) : c.radius;
-    if (big >= R)
+    const auto [smallest, largest] = radius_bounds(c);
+    if (largest >= R)
         return fmt::format(
             "a {} of radius {} does not fit into a container of radius {}: --container-radius must "
-            "be larger than --radius.",
-            body_word(c), big, R);
-    const double small = c.mixture ? std::fmin(c.radius, c.mixture->radius) : c.radius;
-    if (R > max_container_ratio * small)
+            "be larger than {}.",
+            body_word(c), largest, R, c.sizes ? "the largest radius in --sizes" : "--radius");
+    if (R > max_container_ratio * smallest)
         return fmt::format(
             "a container of radius {} is more than {} times as large as a {} of radius {}, which "
             "exceeds the accuracy of the neighbour search.\nhint: use a smaller "
             "--container-radius.",
-            R, max_container_ratio, body_word(c), small);
-    if (c.mixture) return problem_with_area(c);
+            R, max_container_ratio, body_word(c), smallest);
+    if (has_unequal_sizes(c)) return problem_with_area(c);
     const double maximum = max_discs_in_container(c.radius, R);
     if (static_cast<double>(c.discs) <= maximum) return {};
     return fmt::format(
@@ -146,9 +152,6 @@ std::optional<std::string> problem_with_body(const RunConfig& c) {
         if (c.vertical_wall != 1.0)
             return only_spheres("--vertical-wall", c.vertical_wall, "slip vertically");
     }
-    if (c.path == PathShape::circle && c.shape() != Shape::disc)
-        return "--path is circle, but on it floor friction changes direction while a particle "
-               "slides, so its trajectory is not a parabola.\nhint: use --path polygon.";
     return {};
 }
 
@@ -162,7 +165,7 @@ std::optional<std::string> problem_with_warmup(const RunConfig& c) {
             *c.warmup, *c.periods);
     }
     // Every period has at least the events at the vertices of the path.
-    const std::int64_t segments = c.path == PathShape::circle || c.amplitude == 0.0 ? 1 : c.sides;
+    const std::int64_t segments = path_vertices(c);
     if (*c.warmup < c.events / segments + 1) return {};
     return fmt::format(
         "--warmup is {} periods, but a run of --events {} has at most {} periods: the warm-up must "
@@ -175,22 +178,14 @@ std::optional<std::string> problem_with_warmup(const RunConfig& c) {
 std::optional<std::string> problem(const RunConfig& config) {
     if (auto message = out_of_range(config)) return message;
     if (auto message = problem_with_ratios(config)) return message;
+    if (auto message = problem_with_sizes(config)) return message;
     if (auto message = problem_with_size(config)) return message;
     if (auto message = problem_with_body(config)) return message;
+    if (auto message = problem_with_path(config)) return message;
     if (auto message = problem_without_floor(config)) return message;
     if (auto message = problem_with_floor_friction(config)) return message;
     if (auto message = problem_with_rolling_resistance(config)) return message;
     return problem_with_warmup(config);
-}
-
-ContainerPath make_path(const RunConfig& c) {
-    return c.path == PathShape::circle ? circular_path(c.amplitude, c.period)
-                                       : polygon_path(c.amplitude, c.period, c.sides);
-}
-
-double container_speed(const RunConfig& c) {
-    if (c.path == PathShape::circle) return c.amplitude * c.omega();
-    return 2.0 * c.amplitude * c.sides * unit_circle(0.5 / c.sides).y / c.period;
 }
 
 Tuning stopped_by(const std::atomic<bool>* stop) {
@@ -218,26 +213,26 @@ InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
 namespace {
 
 std::string no_placement_message(const RunConfig& c) {
-    const std::string radii = c.mixture ? fmt::format("{} and {}", c.radius, c.mixture->radius)
-                                        : fmt::format("{}", c.radius);
     const std::string bound =
-        c.mixture ? ""
-                  : fmt::format(
-                        " No arrangement holds more than {:.0f}, and close to that number the "
-                        "placement may fail.",
-                        max_discs_in_container(c.radius, c.container_radius));
+        has_unequal_sizes(c)
+            ? ""
+            : fmt::format(
+                  " No arrangement holds more than {:.0f}, and close to that number the "
+                  "placement may fail.",
+                  max_discs_in_container(c.radius, c.container_radius));
     return fmt::format(
-        "{} of radius {} could not be placed in a container of radius {} without overlap.{}{}",
-        counted(c.discs, body_word(c)), radii, c.container_radius, bound, hint_on_capacity(c));
+        "{} of {} could not be placed in a container of radius {} without overlap.{}{}",
+        counted(c.discs, body_word(c)), radii_text(c), c.container_radius, bound,
+        hint_on_capacity(c));
 }
 
 }  // namespace
 
 InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* stop) {
-    const auto n = static_cast<std::size_t>(c.discs);
-    const std::size_t second_species = c.mixture ? static_cast<std::size_t>(c.mixture->count) : 0;
-    std::vector<double> radii(n, c.radius);
-    for (std::size_t i = n - second_species; i < n; ++i) radii[i] = c.mixture->radius;
+    const std::vector<Particle> particles = particles_of(c);
+    std::vector<double> radii;
+    radii.reserve(particles.size());
+    for (const Particle& particle : particles) radii.push_back(particle.radius);
 
     const auto centres =
         place_discs(radii, c.container_radius, c.seed, stopped_by(stop).is_stopped);
@@ -249,20 +244,17 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     // A tenth of the container's speed for the paper's parameters. It does not depend on that
     // speed, because the discs must also move in a container at rest.
     const double max_initial_speed = 0.02 * c.container_radius * c.omega();
-    const double inertia_factor = c.inertia / (c.mass * c.radius * c.radius);
     const Segment& segment = state.path.segments.front();
     // A separate stream: the velocities must not repeat the numbers that placed the discs.
     constexpr std::uint64_t stream = 0x76656c6f63697479;  // "velocity" in ASCII
     Random random(Random(c.seed ^ stream).bits());
-    state.discs.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    state.discs.reserve(particles.size());
+    for (std::size_t i = 0; i < particles.size(); ++i) {
         if (stop && stop->load()) throw_interrupted("stopped before the first event.");
-        const double mass = i < n - second_species ? c.mass : c.mixture->mass;
-        const double inertia =
-            i < n - second_species ? c.inertia : inertia_factor * mass * radii[i] * radii[i];
+        const auto& [radius, mass, inertia] = particles[i];
         state.discs.push_back({segment.start + (*centres)[i],
                                segment.velocity + random.in_disc(max_initial_speed), 0.0, 0.0, 0.0,
-                               radii[i], mass, inertia});
+                               radius, mass, inertia});
     }
     return state;
 }

@@ -32,7 +32,7 @@ InitialState make_initial_state(const RunConfig& config, const std::atomic<bool>
 /// Settings of a simulation that ends early when `stop` is set (simulation.hpp).
 Tuning stopped_by(const std::atomic<bool>* stop);
 
-/// Speed of the container along its path: 2AM sin(π/M)/T on the polygon, AΩ on the circle.
+/// Mean speed of the container along its path: 2AM sin(π/M)/T on the polygon, AΩ on the circle.
 double container_speed(const RunConfig& config);
 
 }  // namespace swirl

@@ -8,6 +8,7 @@
 
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/budget.hpp"
+#include "swirl/run/particle_sizes.hpp"
 
 namespace swirl {
 namespace {
@@ -110,8 +111,7 @@ std::optional<std::string> CoreRun::problem_at_the_end() const {
 /// Overlaps are rounding errors of positions (docs/explanation/physics.md) and must stay small.
 std::optional<std::string> CoreRun::overlap_problem() const {
     constexpr double max_relative_overlap = 1e-6;
-    const double smallest =
-        config_.mixture ? std::min(config_.radius, config_.mixture->radius) : config_.radius;
+    const double smallest = radius_bounds(config_).smallest;
     if (result_.max_overlap <= max_relative_overlap * smallest) return {};
     return fmt::format(
         "after {:.3f} periods a disc overlaps another disc or the wall by {:.2g} of the smallest "

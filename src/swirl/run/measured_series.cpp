@@ -4,8 +4,11 @@
 
 #include <algorithm>
 
+#include "swirl/io/trajectory.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
+#include "swirl/run/path_parameter.hpp"
 #include "swirl/run/simd.hpp"
 
 namespace swirl {
@@ -20,11 +23,25 @@ bool holds_tracks(const SnapshotSeries& series) {
     return series.same_discs() || longest > std::uint64_t(PinnedLoose::width);
 }
 
-std::vector<std::string> measurable(const std::vector<std::string>& names, bool tracked) {
+SnapshotSeries series_of_run(const std::shared_ptr<TrajectoryReader>& reader) {
+    SnapshotSeries series = series_of(reader);
+    const std::string parameters = reader->provenance("parameters");
+    if (parameters.empty()) return series;
+    try {
+        series.has_m_frame = has_m_frame(resolve(parameters_in(parameters)));
+    } catch (const UsageError&) {
+        // The recording of another version, whose paths all have an M-frame.
+    }
+    return series;
+}
+
+std::vector<std::string> measurable(const std::vector<std::string>& names, bool tracked,
+                                    bool has_m_frame) {
     std::vector<std::string> left;
     std::copy_if(names.begin(), names.end(), std::back_inserter(left), [&](const auto& name) {
         const MeasurementKind& kind = *find_measurement(name);
-        return !kind.needs_events && (tracked || !kind.needs_tracks);
+        return !kind.needs_events && (tracked || !kind.needs_tracks) &&
+               (has_m_frame || !kind.needs_m_frame);
     });
     return left;
 }
@@ -33,7 +50,8 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
                               double skip, const MeasuringControl& control) {
     if (series.frames == 0) throw Failure("there are no frames.");
     const Snapshot first = series.frame(0);
-    Observation observation(first.container_radius, first.period, names, holds_tracks(series));
+    Observation observation(first.container_radius, first.period, names,
+                            series.has_m_frame && holds_tracks(series));
     ClusterRotation rotation(selected_width());
     MeasuredSeries measured;
     std::int64_t period = first.periods;

@@ -35,9 +35,13 @@ struct MeasuringControl {
 /// True if the same discs are seen in enough frames in a row to determine which are pinned.
 bool holds_tracks(const SnapshotSeries& series);
 
-/// The measurements among `names` that frames allow: none that needs every collision, and, without
-/// tracks, none that follows a disc.
-std::vector<std::string> measurable(const std::vector<std::string>& names, bool tracked);
+/// The frames of a recorded run, with what its parameters say about the path of the container.
+SnapshotSeries series_of_run(const std::shared_ptr<TrajectoryReader>& reader);
+
+/// The measurements among `names` that frames allow: none that needs every collision; without
+/// tracks, none that follows a disc; without an M-frame, none that is defined in it.
+std::vector<std::string> measurable(const std::vector<std::string>& names, bool tracked,
+                                    bool has_m_frame = true);
 
 /// The names must be measurable(). The first `skip` periods do not count. Throws Failure if no
 /// frame remains, and Interrupted.

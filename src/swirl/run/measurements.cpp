@@ -9,6 +9,7 @@
 #include "swirl/io/table.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/path_parameter.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 
@@ -157,8 +158,28 @@ std::string measurement_markdown() {
     return names + "\n" + rows + "\n" + tables;
 }
 
+void require_m_frame_for(const std::vector<std::string>& names) {
+    std::vector<std::string> possible;
+    for (const MeasurementKind& kind : measurement_kinds())
+        if (!kind.needs_m_frame) possible.emplace_back(kind.name);
+    for (const std::string& name : names)
+        if (find_measurement(name)->needs_m_frame)
+            throw UsageError(fmt::format(
+                "--measure has '{}' in its list, but it is defined in the M-frame, which this path "
+                "does not have.\nhint: use {}. The M-frame needs a counter-clockwise path that is "
+                "nearly a circle.",
+                name, fmt::join(possible, ", ")));
+}
+
+/// Pinned discs are defined in the M-frame: without it, none is known.
 Observation observation_of(const RunConfig& config, std::vector<std::string> names) {
-    return Observation(config.container_radius, config.period, std::move(names));
+    const bool m_frame = has_m_frame(config);
+    const bool all = names.size() == measurement_kinds().size();
+    if (!m_frame && all)
+        std::erase_if(names,
+                      [](const auto& name) { return find_measurement(name)->needs_m_frame; });
+    if (!m_frame) require_m_frame_for(names);
+    return Observation(config.container_radius, config.period, std::move(names), m_frame);
 }
 
 MeasuredRun measured_run(const RunConfig& config, const std::vector<std::string>& names,

@@ -32,7 +32,12 @@ std::string measurement_help_text();
 /// The same as the tables of docs/reference/measurements.md.
 std::string measurement_markdown();
 
-/// For the container of that run; the names are those of read_measurement_list().
+/// Throws UsageError if one of the measurements is defined in the M-frame.
+void require_m_frame_for(const std::vector<std::string>& names);
+
+/// For the container of that run; the names are those of read_measurement_list(). On a path without
+/// an M-frame, the list of all measurements means all that do not need it, and any other list that
+/// does throws UsageError.
 Observation observation_of(const RunConfig& config, std::vector<std::string> names);
 
 struct MeasuredRun {

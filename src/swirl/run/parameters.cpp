@@ -8,6 +8,8 @@
 
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/particle_sizes.hpp"
+#include "swirl/run/path_parameter.hpp"
 
 namespace swirl {
 namespace {
@@ -129,12 +131,6 @@ double inertia_named(std::string_view name, double mass, double radius) {
     return paper_inertia * mass * radius * radius;
 }
 
-/// The mass for the same material as the others: m ~ r² for discs, r³ for spheres.
-double mass_of_second_species(double radius, const RunConfig& config) {
-    const double ratio = radius / config.radius;
-    return config.mass * ratio * ratio * (config.body == Shape::sphere ? ratio : 1.0);
-}
-
 /// Two of amplitude, period and speed determine the third. If all three are present, removes one
 /// that only the file gives; the speed first, because it follows from the others.
 void keep_two_of_three(ParameterTexts& texts, const ParameterTexts& command_line) {
@@ -143,16 +139,6 @@ void keep_two_of_three(ParameterTexts& texts, const ParameterTexts& command_line
         if (!texts.contains(name)) return;
     for (const char* name : three)
         if (!command_line.contains(name)) return void(texts.erase(name));
-}
-
-/// A circle has no sides: removes the one of the two that only the file gives.
-void keep_path_or_sides(ParameterTexts& texts, const ParameterTexts& command_line) {
-    const auto path = texts.find("path");
-    if (path == texts.end() || path->second.find("circle") == std::string::npos) return;
-    const bool path_given = command_line.contains("path");
-    const bool sides_given = command_line.contains("sides");
-    if (path_given && !sides_given) texts.erase("sides");
-    if (sides_given && !path_given) texts.erase("path");
 }
 
 std::optional<std::string> outside(const Parameter& p, double value) {
@@ -253,7 +239,7 @@ void read_mixture(std::string_view text, const ParameterTexts&, RunConfig& confi
     const auto radius =
         read_number(text.substr(first + 1, second == text.npos ? second : second - first - 1));
     if (!count || !radius) reject_text("mixture", text, allowed);
-    config.mixture = Mixture{*count, *radius, mass_of_second_species(*radius, config)};
+    config.mixture = Mixture{*count, *radius, mass_of_same_material(*radius, config)};
     if (second == text.npos) return;
     const auto mass = read_number(text.substr(second + 1));
     if (!mass) reject_text("mixture", text, allowed);
@@ -267,7 +253,7 @@ ParameterValue write_mixture(const RunConfig& config) {
 /// Omits a default mass, so that it adapts to another mass of the first species.
 std::string format_mixture(const RunConfig& config) {
     const Mixture& m = *config.mixture;
-    if (m.mass == mass_of_second_species(m.radius, config))
+    if (m.mass == mass_of_same_material(m.radius, config))
         return fmt::format("{}:{}", m.count, m.radius);
     return as_text(m);
 }
@@ -302,29 +288,6 @@ void read_speed(std::string_view text, const ParameterTexts& given, RunConfig& c
 
 ParameterValue write_speed(const RunConfig& config) { return container_speed(config); }
 ParameterValue write_omega(const RunConfig& config) { return config.omega(); }
-
-void read_path(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "polygon" && text != "circle")
-        reject_choice("path", text, {"polygon", "circle"}, "polygon or circle");
-    config.path = text == "circle" ? PathShape::circle : PathShape::polygon;
-}
-
-ParameterValue write_path(const RunConfig& config) {
-    return config.path == PathShape::circle ? "circle" : "polygon";
-}
-
-void read_sides(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    const std::int64_t sides = whole_number_from("sides", text);
-    if (config.path == PathShape::circle)
-        throw_usage_error(fmt::format(
-            "--sides is {}, but --path circle has no sides.\nhint: omit one of the two.", sides));
-    config.sides = clamped(sides);
-}
-
-ParameterValue write_sides(const RunConfig& config) {
-    if (config.path == PathShape::circle) return {};
-    return std::int64_t{config.sides};
-}
 
 ParameterValue write_events(const RunConfig& config) {
     return config.periods ? ParameterValue() : ParameterValue(config.events);

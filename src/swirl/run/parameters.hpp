@@ -27,7 +27,16 @@
 
 namespace swirl {
 
-enum class PathShape { polygon, circle };
+/// All but the circle consist of straight segments.
+enum class PathShape { polygon, circle, line, ellipse, lissajous, points };
+
+/// What the shape of a path needs besides its amplitude, period and number of sides.
+struct PathCurve {
+    double axis_ratio = 1.0;                  // of an ellipse: y axis over x axis
+    std::int64_t x_cycles = 1, y_cycles = 1;  // of a Lissajous figure, per period
+    double y_lead = 0.0;                      // of a Lissajous figure, in degrees
+    std::vector<PathPoint> points;            // before they are scaled to amplitude and period
+};
 
 /// The paper's experiment in the units of its simulation: spheres of r = 3 mm in a container of
 /// R = 25.5 mm, swirled at A = 5.75 mm with Ω = 11.81 /s. Lengths are in units of r, speeds in
@@ -48,6 +57,18 @@ struct Mixture {
     bool operator==(const Mixture&) const = default;
 };
 
+/// Laws of the radii (particle_sizes.hpp).
+enum class SizeLaw { uniform, normal, lognormal, power, listed };
+struct ListedSize {
+    double radius;
+    std::optional<double> mass;  // by default that of the same material
+};
+struct Sizes {
+    SizeLaw law;
+    std::array<double, 3> numbers;   // of the law, in the order of its text
+    std::vector<ListedSize> listed;  // one per particle
+};
+
 struct RunConfig {
     std::int64_t discs = 48;  // both species together
     double mu_disc = 1.0, mu_wall = 1.0;
@@ -64,9 +85,13 @@ struct RunConfig {
     double container_radius = paper_container_radius;
     double amplitude = paper_amplitude;  // 0: the container is at rest
     PathShape path = PathShape::polygon;
-    int sides = paper_sides;  // of the polygon
+    PathCurve curve;
+    bool clockwise = false;   // the path is mirrored at the x axis
+    double path_phase = 0.0;  // where on the path a run starts, in degrees of a period
+    int sides = paper_sides;  // number of straight segments
     double period = paper_period;
     std::optional<Mixture> mixture;
+    std::optional<Sizes> sizes;
 
     /// The run ends after this many events of all kinds, as in the paper. If `periods` is set, it
     /// ends after that many periods instead. Both include the warm-up.
@@ -113,10 +138,10 @@ using ParameterWriter = ParameterValue(const RunConfig& config);
 using ParameterFormatter = std::string(const RunConfig& config);
 
 /// Most parameters are a plain member of RunConfig; the others have their own functions.
-ParameterReader read_preset, read_mu, read_body, read_inertia, read_floor, read_mixture, read_speed,
-    read_path, read_sides, read_periods, read_warmup;
-ParameterWriter write_body, write_floor, write_mixture, write_speed, write_omega, write_path,
-    write_sides, write_events, write_warmup;
+ParameterReader read_preset, read_mu, read_body, read_inertia, read_floor, read_mixture, read_sizes,
+    read_speed, read_path, read_direction, read_sides, read_periods, read_warmup;
+ParameterWriter write_body, write_floor, write_mixture, write_sizes, write_speed, write_omega,
+    write_path, write_direction, write_sides, write_events, write_warmup;
 ParameterFormatter format_inertia, format_mixture;
 
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
@@ -281,7 +306,23 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .read = read_mixture,
      .write = write_mixture,
      .format = format_mixture,
-     .order = ReadingOrder::second},
+     .order = ReadingOrder::second,
+     .overrides = {"sizes"}},
+    {.name = "sizes",
+     .form = "LAW|file:FILE",
+     .description = "Distribution of the radii, drawn from the seed",
+     .details =
+         "uniform:MIN:MAX, normal:MEAN:SD, lognormal:MEDIAN:SD (of ln r), "
+         "power:EXPONENT:MIN:MAX (density ~ r^-EXPONENT), or a CSV file with a radius and, "
+         "if wanted, a mass per particle. Other masses are those of the material of --radius "
+         "and --mass: m ~ r^2 for discs, r^3 for spheres "
+         "(docs/how-to/sizes.md).",
+     .group = parameter_group::particles,
+     .read = read_sizes,
+     .write = write_sizes,
+     .default_text = "",
+     .written = WrittenIf::set,
+     .overrides = {"mixture"}},
     {.name = "restitution",
      .symbol = "e",
      .form = "0..1",
@@ -382,7 +423,10 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .unit = "length",
      .form = "NUMBER",
      .description = "Radius of the path of the container centre",
-     .details = "Of a polygon, the radius of its circumscribed circle.",
+     .details =
+         "Of a polygon, the radius of its circumscribed circle. Of an ellipse or a line, the "
+         "semi-axis along x; of a Lissajous figure, along x and y. Of a path from a file, "
+         "the largest distance from the origin: another value scales the path.",
      .group = parameter_group::container,
      .member = &RunConfig::amplitude,
      .range = parameter_range::nonnegative,
@@ -392,6 +436,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .unit = "time",
      .form = "NUMBER",
      .description = "Duration of one turn of the path",
+     .details = "A path from a file has its own period: another value scales its times.",
      .group = parameter_group::container,
      .member = &RunConfig::period,
      .range = parameter_range::positive,
@@ -418,15 +463,36 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .default_text = "",
      .is_derived = true},
     {.name = "path",
-     .form = "polygon|circle",
-     .description = "Shape of the path of the container centre",
+     .form = "polygon|circle|line|SHAPE|FILE",
+     .description = "Path of the container centre, by shape or from a file",
+     .details = "Other shapes: ellipse:RATIO, lissajous:P:Q[:DEGREES]. A CSV file "
+                "holds a closed path of one period, with the columns t, x and y "
+                "(docs/how-to/paths.md).",
      .group = parameter_group::container,
      .read = read_path,
      .write = write_path},
+    {.name = "direction",
+     .form = "counter-clockwise|clockwise",
+     .description = "Direction of the path; clockwise mirrors it at the x axis",
+     .group = parameter_group::container,
+     .read = read_direction,
+     .write = write_direction,
+     .default_text = "counter-clockwise",
+     .written = WrittenIf::set},
+    {.name = "path_phase",
+     .unit = "°",
+     .form = "DEG",
+     .description = "Point of the path where a run starts, 360 for a period",
+     .group = parameter_group::container,
+     .member = &RunConfig::path_phase,
+     .range = {0, 360},
+     .slider = {0, 360, 15},
+     .written = WrittenIf::not_default},
     {.name = "sides",
      .symbol = "M",
      .form = "M",
-     .description = "Number of sides of the polygon",
+     .description = "Number of straight segments of the path",
+     .details = "A Lissajous figure has 30 times its larger number of cycles by default.",
      .group = parameter_group::container,
      .member = &RunConfig::sides,
      .range = {3, max_sides},

@@ -18,6 +18,9 @@ namespace swirl {
 /// A whole number that fits into 64 bits ("12", "1e6"); nothing otherwise.
 std::optional<std::int64_t> read_whole_number(std::string_view text);
 
+/// The parts between separators, any of these characters. Parts may be empty.
+std::vector<std::string_view> split(std::string_view text, std::string_view separators);
+
 /// "mu_disc" for both spellings; "color" and "centre" for British and American ones.
 std::string plain_name(std::string_view name);
 /// "--mu-disc"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "swirl/run/config.hpp"
+#include "swirl/run/path_parameter.hpp"
 #include "swirl/run/reading.hpp"
 
 namespace swirl {
@@ -17,19 +18,25 @@ std::string with_minus(const std::string& text) {
 
 std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
 
-/// On the polygon, the vertices of the path add energy on average.
+/// On straight segments, the vertices of the path add energy on average.
 bool energy_grows_without_bound(const RunConfig& c) {
-    return c.conserves_energy() && c.amplitude > 0.0 && c.path == PathShape::polygon;
+    return c.conserves_energy() && c.amplitude > 0.0 && c.path != PathShape::circle;
 }
 
 std::string energy_warning(const RunResult& r) {
     const double growth = r.invariant - r.invariant_at_start;
     const double per_period = r.periods > 0.0 ? growth / r.periods : 0.0;
-    if (r.config.path == PathShape::circle)
+    if (r.config.path == PathShape::circle && !r.config.clockwise)
         return fmt::format(
             "without friction, K − ΩL (kinetic energy K, angular momentum L) is conserved on the "
             "circle: it was {:.6g} at the start and changed by {:.1e}.",
             r.invariant_at_start, growth);
+    if (!has_m_frame(r.config))
+        return fmt::format(
+            "without friction, the energy grows without bound on this path: from {:.4g} to {:.4g} "
+            "in {:.1f} periods. Quantities that depend on the speed of the discs have no steady "
+            "state.",
+            r.energy_at_start, r.energy, r.periods);
     return fmt::format(
         "without friction, the energy grows without bound on the polygon: from {:.4g} to {:.4g} in "
         "{:.1f} periods, by a factor of {:.1f}. K − ΩL (kinetic energy K, angular momentum L), "
@@ -171,6 +178,12 @@ std::string rotation_verb(const Estimate& e) {
     return e.mean > 0.0 ? "rotate" : "counterrotate";
 }
 
+std::string direction_verb(const Estimate& e) {
+    const std::string verb = rotation_verb(e);
+    if (verb == "rotate") return "rotate counter-clockwise";
+    return verb == "counterrotate" ? "rotate clockwise" : verb;
+}
+
 std::string headline(const RunResult& r) {
     const Estimate& e = r.rotation.by_event;
     const char* const body = body_word(r.config);
@@ -179,7 +192,9 @@ std::string headline(const RunResult& r) {
     if (!r.has_whole_period())
         return fmt::format("{} {}s completed no whole period{}, so there are no averages.",
                            r.config.discs, body, r.warmup > 0 ? " after the warm-up" : "");
-    const std::string motion = fmt::format("{} {}s {}", r.config.discs, body, rotation_verb(e));
+    const std::string motion =
+        fmt::format("{} {}s {}", r.config.discs, body,
+                    has_m_frame(r.config) ? rotation_verb(e) : direction_verb(e));
     if (std::isnan(e.mean)) return motion + ".";
     return fmt::format("{}: ϖ/Ω = {} by event, {} by time.", motion, with_error(e),
                        with_error(r.rotation.by_time));
@@ -216,6 +231,8 @@ std::string report(const RunResult& r, bool verbose) {
         text += fmt::format("  {:<12}{}\n", name, value);
     };
     if (r.config.discs > 1 && r.has_whole_period()) {
+        if (!has_m_frame(r.config))
+            line("Ω", "2π/T, a unit: this path has no M-frame; counter-clockwise is positive");
         line("rigid", fmt::format("{} by event, {} by time", with_error(r.rotation.rigid_by_event),
                                   with_error(r.rotation.rigid_by_time)));
         if (verbose)

@@ -16,6 +16,9 @@ std::string with_commas(std::uint64_t number);
 
 /// "rotate", "counterrotate", or "stall" if the mean is within two standard errors of zero.
 std::string rotation_verb(const Estimate& rotation);
+/// "rotate counter-clockwise", "rotate clockwise" or "stall": for paths without an M-frame, where
+/// there is no swirl with which the cluster could rotate.
+std::string direction_verb(const Estimate& rotation);
 
 /// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line.
 std::string headline(const RunResult& result);

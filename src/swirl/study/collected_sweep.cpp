@@ -153,7 +153,11 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
 
 }  // namespace
 
+/// A path or sizes from a file are identified by a checksum.
 Table::Cell cell_of(const std::string& text) {
+    for (const std::string_view word : {"points", "list"})
+        if (text.starts_with(std::string(word) + ' '))
+            return fmt::format("{}-{:016x}", word, checksum(text));
     if (const auto whole = read_whole_number(text)) return *whole;
     if (const auto number = read_number(text)) return *number;
     return text;

@@ -12,6 +12,7 @@
 
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parallel_for.hpp"
+#include "swirl/run/path_parameter.hpp"
 #include "swirl/statistics/replicates.hpp"
 
 namespace swirl {
@@ -313,6 +314,10 @@ void validate(const CrossingSettings& settings) {
 }
 
 CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {
+    if (!has_m_frame(settings.config))
+        throw UsageError(
+            "on this path there is no swirl with which the discs could rotate or counterrotate, so "
+            "there is no N_c.\nhint: use a counter-clockwise path that is nearly a circle.");
     validate(settings);
     return Searcher(settings, control).search();
 }

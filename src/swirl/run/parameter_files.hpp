@@ -1,0 +1,20 @@
+// Parameters whose value may be the name of a file: --path FILE.csv and --sizes file:FILE.csv. The
+// file's contents replace its name at once, before the configuration is made. So a configuration
+// holds the path itself, and a run that resumes does not depend on the file.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "swirl/run/parameters.hpp"
+
+namespace swirl {
+
+/// The text of a parameter, with the contents of a file instead of its name. In a list of texts
+/// (an axis of a sweep) each is replaced. Throws UsageError if a file cannot be read.
+std::string with_file_contents(std::string_view name, const std::string& text);
+
+/// The same for all parameters.
+ParameterTexts with_file_contents(ParameterTexts texts);
+
+}  // namespace swirl
