@@ -1,4 +1,4 @@
-"""The report: report.md and report.html (one self-contained file), from the files that `swirl paper` wrote to a
+"""The report: report.md, report.html (one self-contained file) and report.pdf, from the files that `swirl paper` wrote to a
 folder.
 
     /usr/bin/python3 figures/report.py out
@@ -7,6 +7,7 @@ folder.
 import html
 import os
 
+import atomic_file
 import verdicts
 from captions import CONTRADICTIONS, by_section, figure_texts, image_of, question_of, title_of
 from claims import CLAIMS
@@ -164,12 +165,44 @@ def page(folder, about, judged):
     return "".join(parts)
 
 
+# --- PDF ----------------------------------------------------------------------------------------
+
+def figure_blocks(figure, caption, findings, remarks):
+    image, question = image_of(figure), question_of(figure)
+    return [("heading", title_of(figure)), *([("image", image)] if image else []),
+            *([("text", question)] if question else []), *([("text", caption)] if caption else []),
+            *(("bullet", finding) for finding in findings), *(("small", remark) for remark in remarks),
+            ("small", f"swirl paper --figure {figure['name']}")]
+
+
+def pdf(folder, about, judged):
+    from report_pdf import report_pdf  # the only part that needs matplotlib
+    opening = [(INTRODUCTION, main_results(folder)), (counts(judged), []), (how_to_read(about), [])]
+    for heading, group in disagreements(judged):
+        opening.append((heading + ":", [f"{statement} {found}" for statement, found in group]))
+    claims = []
+    for k, (claim, verdict, found) in enumerate(judged, 1):
+        claims += [("text", f"{k}. {claim.statement} ({claim.source})"),
+                   ("bullet", f"{verdict}: {found}"), *([("small", claim.command)] if claim.command else [])]
+    texts = figure_texts(about)
+    sections = [("Claim by claim", claims)]
+    for heading, figures in by_section(about["figures"]):
+        sections.append((heading, [block for figure in figures
+                                   for block in figure_blocks(figure, *texts[figure["name"]])]))
+    sections += [("Contradictions in the paper, and what was assumed",
+                  [("bullet", f"{matter}. The paper: {paper}. Here: {here}.") for matter, paper, here in CONTRADICTIONS]),
+                 ("Parameters, versions, time",
+                  [("bullet", f"{name}: {value}") for name, value in parameter_rows(about)])]
+    return report_pdf(folder, TITLE, opening, sections)
+
+
 def main():
-    folder, about = described_folder("paper.json", "swirl paper --out", "Writes report.md and report.html")
+    folder, about = described_folder("paper.json", "swirl paper --out", "Writes report.md, report.html and report.pdf")
     judged = judge(folder)
     for name, text in (("report.md", markdown(about, judged, crossings_of_one_setting(folder), main_results(folder))),
                        ("report.html", page(folder, about, judged))):
         write(os.path.join(folder, name), text)
+    atomic_file.write_or_exit(os.path.join(folder, "report.pdf"), pdf(folder, about, judged))
 
 
 if __name__ == "__main__":

@@ -75,15 +75,16 @@ std::string array_text(const std::string& name, const py::handle& value) {
     return text;
 }
 
-/// A tuple is one value with several parts: mixture=(12, 1.3).
+/// A tuple is one value with several parts: mixture=(12, 1.3), or several ramps.
 std::string value_text(const std::string& name, const py::handle& value) {
     if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
     if (takes_array(name) && is_list(value)) return array_text(name, value);
     if (!py::isinstance<py::tuple>(value)) return number_text(name, value);
     std::string text;
+    const char* const separator = name == "ramp" ? ";" : ":";
     for (const py::handle part : value)
         text +=
-            (text.empty() ? "" : ":") +
+            (text.empty() ? "" : separator) +
             (py::isinstance<py::str>(part) ? py::cast<std::string>(part) : number_text(name, part));
     return text;
 }

@@ -13,6 +13,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/period_series.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/run.hpp"
@@ -83,19 +84,37 @@ RunResult run_plain(Run& run) {
     return run.result();
 }
 
-/// Returns (JSON of the result, reports, exception during the run or None, headline, report).
+/// (names, units, descriptions, values [period, column]); None without a series.
+py::object series_in_python(const std::optional<PeriodSeries>& series) {
+    if (!series) return py::none();
+    std::vector<std::string> names, units, descriptions;
+    for (const SeriesColumn& column : series->columns()) {
+        names.push_back(column.name);
+        units.push_back(column.unit);
+        descriptions.push_back(column.description);
+    }
+    return py::make_tuple(names, units, descriptions,
+                          owned_array(std::vector<double>(series->values()),
+                                      {static_cast<py::ssize_t>(series->periods()),
+                                       static_cast<py::ssize_t>(names.size())}));
+}
+
+/// Returns (JSON of the result, reports, exception during the run or None, headline, report, series).
 py::tuple run_once(const py::dict& given, const std::vector<std::string>& measured,
                    const std::string& command, const ProgressCallback& callback,
-                   const CustomMeasurement& custom, const RunFiles& files,
+                   const CustomMeasurement& custom, const RunFiles& files, bool has_series,
                    const std::string& recorded_as) {
     const RunConfig config = resolve(texts_of(given));
     Observation observation = observation_of(config, measured);
     RunControl control;
     if (!observation.empty()) control.observation = &observation;
+    std::optional<PeriodSeries> series;
+    if (has_series) control.series = &series.emplace(config, measured);
     RunMonitor monitor(control, callback);
 
-    const bool records =
-        !files.trajectory.empty() || !files.event_log.empty() || !files.checkpoint.empty();
+    const bool records = !files.trajectory.empty() || !files.event_log.empty() ||
+                         !files.checkpoint.empty() ||
+                         (!files.series.empty() && !custom.period_ended);
     if (records && custom.period_ended)
         throw UsageError(
             "a run with trajectory, event_log or checkpoint cannot have custom measurements.\n"
@@ -112,13 +131,16 @@ py::tuple run_once(const py::dict& given, const std::vector<std::string>& measur
         const WithoutInterpreter without;
         result = custom.period_ended ? run_with_custom(*run, custom, monitor) : run_plain(*run);
     }
+    if (!records && !files.series.empty()) series->write(files.series);
     nlohmann::ordered_json json = result_json(result);
     json["command"] = command;
     json["config_text"] = "";
+    if (series) json["series"] = series_json(*series);
     const MeasurementReports reports = observation.report();
     if (!reports.empty()) json["measured"] = measured_json(reports);
     return py::make_tuple(json.dump(2), reports_in_python(reports), monitor.error().object(),
-                          headline(result), report(result, true) + warning_lines(result));
+                          headline(result), report(result, true) + warning_lines(result),
+                          series_in_python(series));
 }
 
 /// Means, errors and effective samples of each column. Rows are blocks.
@@ -152,6 +174,7 @@ RunFiles run_files(const py::dict& given) {
     files.trajectory = path("trajectory");
     files.event_log = path("event_log");
     files.checkpoint = path("checkpoint");
+    files.series = path("series");
     if (given.contains("frames")) files.frames.per_period = py::cast<int>(given["frames"]);
     files.resume = given.contains("resume") && py::cast<bool>(given["resume"]);
     files.overwrite = given.contains("overwrite") && py::cast<bool>(given["overwrite"]);
@@ -174,12 +197,13 @@ void bind_runs(py::module_& module) {
         "run",
         [](const py::dict& given, const std::vector<std::string>& measured,
            const std::string& command, const ProgressCallback& callback, int frames_per_period,
-           const std::optional<py::function>& period_ended, const py::dict& files) {
+           const std::optional<py::function>& period_ended, const py::dict& files,
+           bool has_series) {
             return run_once(given, measured, command, callback, {frames_per_period, period_ended},
-                            run_files(files), command);
+                            run_files(files), has_series, command);
         },
         py::arg("parameters"), py::arg("measured"), py::arg("command"), py::arg("progress"),
-        py::arg("frames_per_period"), py::arg("period_ended"), py::arg("files"));
+        py::arg("frames_per_period"), py::arg("period_ended"), py::arg("files"), py::arg("series"));
     module.def("resolve",
                [](const py::dict& given) { return config_text(resolve(texts_of(given))); });
     module.def("measurement_list",

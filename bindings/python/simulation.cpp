@@ -232,6 +232,10 @@ std::unique_ptr<InteractiveSimulation> make_simulation(const py::dict& parameter
                                                        const std::optional<Numbers>& path,
                                                        const std::optional<Numbers>& path_times) {
     const RunConfig config = resolve(texts_of(parameters));
+    if (!config.ramps.empty())
+        throw UsageError(
+            "ramp is given, but a Simulation has none.\nhint: swirl.run(ramp=...) runs it; "
+            "series=True returns the averages of every period.");
     const bool is_custom = given || path;
     if (is_custom && config.shape() != Shape::disc)
         throw UsageError("position and path are allowed only for discs without a floor.");

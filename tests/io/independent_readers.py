@@ -196,7 +196,7 @@ def read_xyz():
     import MDAnalysis
     universe = MDAnalysis.Universe(FILE, format="XYZ", topology_format="XYZ")
     assert len(universe.trajectory) == FRAMES
-    assert list(universe.atoms.names[:2]) == ["D1", "D2"]
+    assert list(universe.atoms.names[:2]) == ["H", "He"]
     for k, frame in enumerate(universe.trajectory):
         close(frame.positions[:, 0], expected(k)[0], "x")
         close(frame.positions[:, 1], expected(k)[1], "y")
@@ -206,6 +206,8 @@ def read_xyz():
         assert ("Properties=species:S:1:pos:R:3:velo:R:3:omega:R:" +
                 ("3:radius:R:1:id:I:1:orientation:R:4 " if SPHERES else "1:radius:R:1:id:I:1 ")
                 ) in comment, comment
+        for name in ("container_x", "container_y", "container_radius"):
+            assert f" {name}=" in comment, comment
         table = np.array([next(lines).split()[1:] for _ in range(DISCS)], dtype=float).T
     x, y, vx, vy, _, spin = expected(0)
     zero = np.zeros(DISCS)
@@ -224,8 +226,21 @@ def read_vtp():
     import xml.etree.ElementTree as tree
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-    sets = tree.parse(FILE).getroot().findall("Collection/DataSet")
-    assert len(sets) == FRAMES
+    parts = tree.parse(FILE).getroot().findall("Collection/DataSet")
+    sets = [entry for entry in parts if entry.attrib["part"] == "0"]
+    walls = [entry for entry in parts if entry.attrib["part"] == "1"]
+    assert len(sets) == len(walls) == FRAMES
+    for k, entry in enumerate(walls):
+        assert float(entry.attrib["timestep"]) == time(k)
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(os.path.join(os.path.dirname(FILE), entry.attrib["file"]))
+        reader.Update()
+        wall = reader.GetOutput()
+        assert wall.GetNumberOfLines() == 1 and wall.GetNumberOfVerts() == 0
+        points = vtk_to_numpy(wall.GetPoints().GetData())
+        # The points are at equal distances, so their mean is the centre.
+        distances = np.hypot(*(points - points.mean(axis=0)).T[:2])
+        almost(distances, np.full(len(points), distances[0]), "wall")
     for k, entry in enumerate(sets):
         assert float(entry.attrib["timestep"]) == time(k)
         reader = vtkXMLPolyDataReader()

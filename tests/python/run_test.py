@@ -359,3 +359,33 @@ def test_impossible_runs_raise_failures(tmp_path):
         swirl.run(discs=5, events=100, trajectory=tmp_path / "no" / "such" / "folder.h5")
     with pytest.raises(swirl.Failure, match="within the warm-up of warmup 400"):
         swirl.run(discs=48, events=20000, warmup=400)
+
+
+def test_the_series_is_that_of_the_command_line(tmp_path):
+    given = {"discs": 16, "mu": 0.5, "periods": 20}
+    file = tmp_path / "s.csv"
+    ours = swirl.run(**given, measure="slip", series=True, ramp="amplitude=1:2@3..12")
+    written = swirl.run(**given, measure="slip", series=file, ramp=("amplitude=1:2@3..12",))
+    with open(file, newline="") as opened:
+        rows = list(csv.DictReader(opened))
+    assert list(ours.series) == list(rows[0])
+    for name, values in ours.series.items():
+        assert np.array_equal(values, [float(row[name] or "nan") for row in rows], equal_nan=True)
+        assert np.array_equal(values, written.series[name], equal_nan=True)
+    assert ours.series["ramp.amplitude"][[0, 3, 12, 19]].tolist() == [1, 1, 2, 2]
+    assert ours.series["events"].sum() == ours.events.total
+    assert ours.autocorrelation_times["by_time"] >= 1
+    assert swirl.run(**given).series is None
+    copied = pickle.loads(pickle.dumps(ours.series))
+    assert np.array_equal(copied["energy"], ours.series["energy"])
+
+
+def test_a_ramp_is_rejected_where_it_cannot_be():
+    with pytest.raises(ValueError, match="property of the particles"):
+        swirl.run(ramp="inertia=1:2@3..4")
+    with pytest.raises(ValueError, match="a Simulation has none"):
+        swirl.Simulation(discs=5, ramp="mu=0:1@3..4")
+    with pytest.raises(ValueError, match="needs a steady state"):
+        swirl.crossing(ramp="mu=0:1@3..4")
+    with pytest.raises(ValueError, match="must end in .csv"):
+        swirl.run(series="s.json")

@@ -84,6 +84,7 @@ std::string another(const Parameter& p) {
                                                              {"sizes", "uniform:0.9:1.1"},
                                                              {"periods", "50"},
                                                              {"warmup", "7"},
+                                                             {"ramp", "mu=0.5:0.7@2..9"},
                                                              {"preset", "experiment"},
                                                              {"body", "sphere"},
                                                              {"floor", "sliding"},

@@ -15,7 +15,7 @@ from ._engine import Event, Failure, FileError, Frames, Snapshot
 from ._engine import samples_per_period as samples_per_period
 from ._engine import version as _version
 from ._recordings import Analysis, Recording, Tracks, Trajectory, analyse
-from ._results import ArrayEstimate, Estimate, EventCounts, Measured, Result, Rotation, Table
+from ._results import ArrayEstimate, Estimate, EventCounts, Measured, Result, Rotation, Series, Table
 from ._runs import Interrupted, Parameter, measurements, parameters, run
 from ._simulation import EventKind, Simulation, load
 from ._study import Crossing, SweepWarning, collect, crossing, parameter_map, sweep
@@ -26,7 +26,7 @@ __version__ = _version().split()[0]
 __all__ = [
     "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
     "FileError", "Frames", "Interrupted", "Measured", "Parameter", "Recording", "Result", "Rotation",
-    "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "analyse", "collect",
+    "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "analyse", "collect",
     "crossing", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
     "samples_per_period", "sweep",
 ]

@@ -204,6 +204,52 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
                          [repr(table) for table in self.tables.values()])
 
 
+class Series(Mapping[str, FloatArray]):
+    """The averages of every period of a run: `series["by_time"]` is a column, with one value per period.
+
+    Columns: period, counted (1 after the warm-up), the rotation rates by_event, by_time,
+    rigid_by_event and rigid_by_time, spin, energy, centre_x, centre_y, events; "ramp.mu" and so on for
+    ramps; "slip.cluster" and so on for the rows of `measure`. A missing value is NaN. It is a mapping
+    of arrays, so `pandas.DataFrame(dict(series))` is a table of it.
+    """
+
+    def __init__(self, names: list[str], units: list[str], descriptions: list[str],
+                 values: FloatArray) -> None:
+        values.setflags(write=False)
+        self._values = values
+        self._names = names
+        self.units: Mapping[str, str] = MappingProxyType(dict(zip(names, units)))
+        self.descriptions: Mapping[str, str] = MappingProxyType(dict(zip(names, descriptions)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Series, (self._names, list(self.units.values()), list(self.descriptions.values()),
+                        self._values)
+
+    def __getitem__(self, name: str) -> FloatArray:
+        if name not in self._names:
+            raise KeyError(f"the series has no column '{name}'; it has {', '.join(self._names)}.")
+        return self._values[:, self._names.index(name)]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    @property
+    def periods(self) -> int:
+        """The number of rows."""
+        return int(self._values.shape[0])
+
+    def to_pandas(self) -> Any:
+        """The series as a pandas DataFrame, one row per period."""
+        import pandas
+        return pandas.DataFrame(np.array(self._values), columns=self._names)
+
+    def __repr__(self) -> str:
+        return f"<series of {self.periods} periods: {', '.join(self._names)}>"
+
+
 def measured_of(reports: list[Report]) -> dict[str, Measured]:
     """Converts the reports of the engine."""
     all_found = {}
@@ -262,6 +308,8 @@ class Result:
     measured                {"density": …}: results of the argument `measure`
     events, periods         EventCounts and simulated periods, warm-up included
     warmup                  whole periods omitted from the averages
+    series                  Series with the argument `series`, otherwise None
+    autocorrelation_times   of its columns, in periods: {"by_time": …}; empty without a series
     steady_state            "steady", "drifting", "jumping", "switching" or "too short to tell"
     steady_state_found      findings of the steady-state tests; "" if there are none
     change, change_of_the_spin
@@ -274,7 +322,7 @@ class Result:
     """
 
     def __init__(self, text: str, measured: Mapping[str, Measured], headline: str,
-                 report: str) -> None:
+                 report: str, series: Optional[Series] = None) -> None:
         found = json.loads(text)
         self._text = text
         self._headline = headline
@@ -284,6 +332,10 @@ class Result:
         self.rotation = Rotation(**{name: _estimate(value, "Ω")
                                     for name, value in found["rotation"].items()})
         self.measured: Mapping[str, Measured] = dict(measured)
+        self.series = series
+        self.autocorrelation_times: dict[str, float] = {
+            name: _number(average["autocorrelation_time"])
+            for name, average in found.get("series", {}).get("averages", {}).items()}
         self.events = EventCounts(**found["events"])
         self.periods = float(found["periods"])
         self.warmup = int(found["warmup"]["periods"])

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Optional, Protocol, Union
 import numpy as np
 
 from . import _engine
-from ._results import ArrayEstimate, Estimate, Measured, Result, measured_of
+from ._results import ArrayEstimate, Estimate, Measured, Result, Series, measured_of
 
 PathName = Union[str, "os.PathLike[str]"]
 #: Value of a parameter, as on the command line; a tuple is one value with several parts, an array is a
@@ -204,19 +204,22 @@ class Progress:
 def run(*, measure: Optional[Measure] = None, progress: Union[bool, ProgressCallback, None] = None,
         trajectory: Optional[PathName] = None, frames: Optional[int] = None,
         event_log: Optional[PathName] = None, checkpoint: Optional[PathName] = None,
-        resume: bool = False, overwrite: bool = False, **parameters: Value) -> Result:
+        series: Union[bool, PathName] = False, resume: bool = False, overwrite: bool = False,
+        **parameters: Value) -> Result:
     names, custom = split_measure(measure)
     blocks = CustomBlocks(custom)
-    files = _files(trajectory, frames, event_log, checkpoint, resume, overwrite)
+    table = None if isinstance(series, bool) else series
+    files = _files(trajectory, frames, event_log, checkpoint, table, resume, overwrite)
     given = {**parameters, **({"measure": ",".join(names)} if names else {}), **files}
     bar = Progress(progress, "run")
     try:
-        text, reports, raised, headline, report = _engine.run(
+        text, reports, raised, headline, report, found = _engine.run(
             parameters, names, call_text("run", given), bar.callback, blocks.samples_per_period,
-            blocks.period_ended if custom else None, files)
+            blocks.period_ended if custom else None, files, bool(series))
     finally:
         bar.close()
-    result = Result(text, {**measured_of(reports), **blocks.results()}, headline, report)
+    result = Result(text, {**measured_of(reports), **blocks.results()}, headline, report,
+                    Series(*found) if found is not None else None)
     if isinstance(raised, KeyboardInterrupt):
         raise Interrupted(result) from None
     if raised is not None:
@@ -225,10 +228,15 @@ def run(*, measure: Optional[Measure] = None, progress: Union[bool, ProgressCall
 
 
 def _files(trajectory: Optional[PathName], frames: Optional[int], event_log: Optional[PathName],
-           checkpoint: Optional[PathName], resume: bool, overwrite: bool) -> dict[str, Any]:
+           checkpoint: Optional[PathName], series: Optional[PathName], resume: bool,
+           overwrite: bool) -> dict[str, Any]:
     files: dict[str, Any] = {name: os.fspath(path) for name, path in
                              (("trajectory", trajectory), ("event_log", event_log),
-                              ("checkpoint", checkpoint)) if path is not None}
+                              ("checkpoint", checkpoint), ("series", series))
+                             if path is not None}
+    if series is not None and not os.fspath(series).endswith(".csv"):
+        raise ValueError(f"series is '{os.fspath(series)}', but its name must end in .csv.\n"
+                         "hint: the table is written as CSV; series=True only returns it.")
     if frames is not None:
         if trajectory is None:
             raise ValueError("frames is given, but trajectory is not.")
@@ -244,7 +252,7 @@ def _files(trajectory: Optional[PathName], frames: Optional[int], event_log: Opt
         files["overwrite"] = True
     continues = resume and checkpoint is not None and os.path.exists(checkpoint)
     if not overwrite and not continues:
-        for path in (checkpoint, trajectory, event_log):
+        for path in (checkpoint, trajectory, event_log, series):
             if path is not None and os.path.exists(path) and os.path.getsize(path) > 0:
                 raise FileExistsError(f"'{os.fspath(path)}' already exists.\nhint: choose another name, "
                                       "or use overwrite=True to replace it.")
@@ -289,6 +297,7 @@ measure: names (swirl.measurements()), "all", and custom measurements: objects w
     sample(snapshot), called 511 times in each period after the warm-up, or block(frames), called once
     per period with all its samples.
 progress: True for a bar (needs tqdm), or a function of (fraction, events, periods).
+series: True for the averages of every period, result.series; or also the name of a CSV file to write.
 trajectory, frames, event_log, checkpoint, resume, overwrite: files, as for `swirl run`. frames is the
     number per period [30].
 

@@ -192,7 +192,7 @@ void add_crossing_command(Subcommand& subcommand) {
     const char *const search = "Search", *const output = "Output";
     subcommand.add_option("config", call->config_file,
                           "TOML file with options; the command line overrides it", "FILE.toml");
-    call->parameters = add_run_options(subcommand, {"discs", "periods"}, defaults);
+    call->parameters = add_run_options(subcommand, {"discs", "periods", "ramp"}, defaults);
     subcommand.add_option("--tolerance", call->settings.tolerance,
                           "Target standard error of N_c [0.3]", "NUMBER", search);
     subcommand.add_option("--from", call->settings.from, "Smallest number of discs [5]", "N",

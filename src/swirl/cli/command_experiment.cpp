@@ -255,7 +255,7 @@ void add_experiment_command(Subcommand& subcommand) {
     add("--fps", call->fps, "N", "Frames per second of all videos [from each video]");
     add("--frames", call->frames, "N", "Number of frames of each video [all]");
     flag("--spin", call->spin, "Measure spins from textures (Figure 4b)");
-    call->parameters = add_run_options(subcommand, {"discs", "mixture", "radius"},
+    call->parameters = add_run_options(subcommand, {"discs", "mixture", "radius", "ramp"},
                                        {{"events", "5e5"},
                                         {"container_radius", "from the videos"},
                                         {"amplitude", "from the videos"},

@@ -18,7 +18,7 @@ namespace {
 
 struct ExportCall {
     std::string file, format, out, scale, range, stride;
-    bool quiet = false;
+    bool container = false, quiet = false;
 };
 
 /// "lammps (text dump, …), xyz (…)", from the list of formats.
@@ -66,6 +66,11 @@ ExportOptions options_of(const ExportCall& call) {
         options.pixels_per_radius = *scale;
     }
     choose_frames(call, options);
+    options.container = call.container;
+    if (call.container && call.format != "lammps" && call.format != "xyz")
+        throw UsageError(fmt::format(
+            "--container adds a particle to lammps and xyz, but --to is '{}'.\nhint: omit it.",
+            call.format));
     return options;
 }
 
@@ -139,6 +144,8 @@ void add_export_command(Subcommand& subcommand) {
         ->type_name("FIRST:LAST");
     subcommand.add_option("--stride", call->stride, "Distance between exported frames [1]")
         ->type_name("N");
+    subcommand.add_flag("--container", call->container,
+                        "Add the container as a particle, lammps and xyz");
     subcommand.add_flag("--quiet", call->quiet, "Print neither progress nor report");
     subcommand.set_examples({"swirl export frames.h5 --to vtp",
                              "swirl export frames.h5 --to csv --scale 25 --out tracks.csv",

@@ -16,6 +16,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/period_series.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/run.hpp"
 
@@ -44,6 +45,7 @@ struct PreparedRun {
     Observation observation;
     RunFiles files;
     std::vector<fs::path> tables;
+    std::optional<PeriodSeries> series = {};
 };
 
 /// Returns the text of the file.
@@ -100,7 +102,7 @@ void reject_output_conflicts(const RunCall& call, const PreparedRun& prepared) {
     const RunFiles& files = prepared.files;
     std::vector<fs::path> all = prepared.tables;
     all.insert(all.end(), {call.recording->config_file, call.json, files.trajectory,
-                           files.event_log, files.checkpoint, call.tables});
+                           files.event_log, files.series, files.checkpoint, call.tables});
     reject_same_files(all);
 }
 
@@ -118,6 +120,7 @@ PreparedRun prepare(RunCall& call) {
         if (!text->empty()) prepared.files.call[name] = *text;
     if (!call.tables.empty()) prepared.tables = measured_table_files(names, call.tables);
     reject_output_conflicts(call, prepared);
+    if (!prepared.files.series.empty()) prepared.series.emplace(config, names);
     return prepared;
 }
 
@@ -140,6 +143,7 @@ RunResult run_with_progress(PreparedRun& prepared, bool quiet) {
         line.show_events(progress.fraction, progress.events);
     };
     if (!prepared.observation.empty()) control.observation = &prepared.observation;
+    if (prepared.series) control.series = &*prepared.series;
     return run_recorded(config, prepared.files, control,
                         provenance_of(config, command_line(), prepared.config_text));
 }
@@ -150,6 +154,10 @@ nlohmann::ordered_json json_of(const RunResult& result, const PreparedRun& prepa
     json["command"] = command_line();
     json["config_text"] = prepared.config_text;
     if (!measured.empty()) json["measured"] = measured_json(measured);
+    if (prepared.series) {
+        json["series"] = series_json(*prepared.series);
+        json["series"]["file"] = prepared.files.series.string();
+    }
     return json;
 }
 
@@ -158,6 +166,9 @@ void write_outputs(const RunCall& call, const PreparedRun& prepared, const RunRe
     const MeasurementReports measured = prepared.observation.report();
     std::string text = call.quiet ? headline(result) + "\n"
                                   : report(result, call.verbose) + measured_text(measured);
+    if (prepared.series && !call.quiet)
+        text += (prepared.config.ramps.empty() ? series_text(*prepared.series) : "") +
+                fmt::format("wrote {}\n", prepared.files.series.string());
     if (!call.tables.empty())
         for (const auto& file : write_measured_tables(measured, call.tables))
             if (!call.quiet) text += fmt::format("wrote {}\n", file.string());

@@ -17,6 +17,7 @@
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/study/collected_sweep.hpp"
+#include "swirl/study/python_script.hpp"
 #include "swirl/study/slurm.hpp"
 #include "swirl/study/sweep.hpp"
 #include "swirl/study/sweep_folder.hpp"
@@ -28,16 +29,18 @@ namespace fs = std::filesystem;
 
 struct SweepCall {
     std::shared_ptr<ParameterTexts> parameters;
-    std::string config_file, out, seeds, measure, frames;
+    std::string config_file, out, seeds, measure, frames, chain;
     ShareOptions sharing;
-    bool status = false, dry_run = false, quiet = false, grow = false;
+    bool status = false, dry_run = false, quiet = false, grow = false, series = false;
 };
 
 constexpr std::int64_t max_replicas = 1'000'000, max_frames = 1'000'000;
 
 void apply_config_file(SweepCall& call) {
-    const std::map<std::string, std::string*> others{
-        {"seeds", &call.seeds}, {"measure", &call.measure}, {"frames", &call.frames}};
+    const std::map<std::string, std::string*> others{{"seeds", &call.seeds},
+                                                     {"measure", &call.measure},
+                                                     {"frames", &call.frames},
+                                                     {"chain", &call.chain}};
     std::vector<std::string> names = parameter_names();
     for (const auto& [name, target] : others) names.push_back(name);
     const ConfigFile plan = read_config_file(call.config_file, names, Lists::accepted, "sweep");
@@ -46,9 +49,11 @@ void apply_config_file(SweepCall& call) {
 }
 
 std::vector<std::string> further_measurements(const SweepCall& call) {
-    if (!call.frames.empty())
+    if (!call.frames.empty() || call.series || !call.chain.empty())
         throw UsageError(
-            "--frames cannot be used with --grow: a sweep records all of its runs or none.");
+            "--frames, --series and --chain cannot be used with --grow: they apply to all runs of "
+            "a "
+            "sweep or to none.");
     if (call.measure.empty()) return {};
     return read_measurement_list(call.measure);
 }
@@ -79,12 +84,18 @@ PlanOfCall plan_of(SweepCall& call) {
     if (!call.config_file.empty()) apply_config_file(call);
     if (call.grow) return grown_plan(call);
     if (call.parameters->empty() && call.seeds.empty() && call.measure.empty() &&
-        call.frames.empty())
+        call.frames.empty() && call.chain.empty() && !call.series)
         return {existing_plan(call)};
     SweepPlan plan =
         make_plan(*call.parameters, whole_number("seeds", call.seeds, 1, max_replicas));
     if (!call.measure.empty()) plan.measure = read_measurement_list(call.measure);
     plan.frames = static_cast<int>(whole_number("frames", call.frames, 0, max_frames));
+    plan.series = call.series;
+    if (!call.chain.empty()) set_chain(plan, call.chain);
+    if (!plan.chain.empty() && plan.frames > 0)
+        throw UsageError(
+            "--chain and --frames cannot be combined: a recording does not hold where its run "
+            "started from.\nhint: use --series, or `swirl run --ramp` with --trajectory.");
     return {plan};
 }
 
@@ -124,6 +135,8 @@ std::string plan_text(const SweepPlan& plan) {
     }
     if (!plan.measure.empty()) text += fmt::format("  measure: {}\n", fmt::join(plan.measure, " "));
     if (plan.frames > 0) text += fmt::format("  frames per period: {}\n", plan.frames);
+    if (plan.series) text += "  series of every run\n";
+    if (!plan.chain.empty()) text += fmt::format("  chain along {}, up and down\n", plan.chain);
     return text + fmt::format("  replicas: {}\n", plan.replicas);
 }
 
@@ -171,6 +184,10 @@ void add_sweep_command(Subcommand& subcommand) {
                           group);
     subcommand.add_option("--frames", call->frames, "Recorded frames per period of each run [none]",
                           "N", group);
+    subcommand.add_flag("--series", call->series, "Write the averages of every period of each run",
+                        group);
+    subcommand.add_option("--chain", call->chain,
+                          "Parameter along which each run continues from the last", "NAME", group);
     add_threads_option(subcommand, call->sharing, group);
     subcommand.add_flag("--grow", call->grow, "Extend an existing sweep; finished runs are kept",
                         group);
@@ -182,18 +199,22 @@ void add_sweep_command(Subcommand& subcommand) {
     subcommand.explain(
         "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. With "
         "--grow, the given values, replicas (--seeds is their new total) and measurements are "
-        "added to the sweep in DIR. Recorded runs are in DIR/trajectories.\n");
+        "added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in DIR/series. "
+        "With --chain NAME, each run starts from the final state of the one with the next lower "
+        "value of NAME, and then, down again, of the next higher one.\n");
     subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--seeds", "--out",
                                  "--measure", "--threads", "--grow", "--status"});
     subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
                              "swirl sweep --out study --grow --discs 49:55 --seeds 16",
                              "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
+                             "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop",
                              "swirl sweep --out study --status"});
     subcommand.callback([call] { sweep(*call); });
 }
 
 struct CollectCall {
-    std::string folder, table, crossings;
+    std::string folder, table, crossings, quantity;
+    bool plot = false;
 
     std::string table_file() const {
         return table.empty() ? (fs::path(folder) / "table.csv").string() : table;
@@ -216,10 +237,29 @@ void write_tables(const CollectCall& call, const std::string& table, const std::
     if (call.crossings == "-") print_all(crossings);
 }
 
+void reject_plot_options(const CollectCall& call) {
+    if (!call.quantity.empty() && !call.plot)
+        throw UsageError("--quantity is given, but nothing is drawn.\nhint: add --plot.");
+    if (call.plot && call.table_file() == "-")
+        throw UsageError(
+            "--plot draws a table in a file, but --csv is '-'.\nhint: give --csv a file name.");
+}
+
+/// Draws the table; the figures lie next to it.
+void draw_table(const CollectCall& call) {
+    std::vector<std::string> arguments{call.table_file()};
+    if (!call.quantity.empty()) arguments.push_back(call.quantity);
+    run_python_script("sweep_table.py", arguments, &stop_signal());
+    const fs::path stem = fs::path(call.table_file()).replace_extension();
+    if (call.table_file() != "-" && call.crossings != "-")
+        print_all(fmt::format("drawn: {0}.png, {0}.pdf\n", stem.string()));
+}
+
 void collect(const CollectCall& call) {
     const fs::path folder = call.folder;
     const std::string file = call.table_file();
     reject_same_files({file, call.crossings});
+    reject_plot_options(call);
     for (const std::string& output : {file, call.crossings}) reject_part_of_sweep(folder, output);
     const SweepPlan plan = read_plan(folder);
     const CollectedSweep collected = collect_sweep(folder, plan);
@@ -229,6 +269,7 @@ void collect(const CollectCall& call) {
     if (file != "-" && call.crossings != "-")
         print_all(fmt::format("{} of {} runs in {}{}\n", s.done, s.points, file,
                               crossings.empty() ? "" : ", crossings in " + call.crossings));
+    if (call.plot) draw_table(call);
     if (s.done < s.points && !plan.map)  // a map does not need all points
         print_warning(fmt::format("{} of {} runs are not done yet and missing from the table.",
                                   s.points - s.done, s.points));
@@ -242,11 +283,14 @@ void add_collect_command(Subcommand& subcommand) {
                           "File for the table, or - for stdout [DIR/table.csv]", "FILE|-");
     subcommand.add_option("--crossings", call->crossings,
                           "File for a table of N_c, or - for stdout", "FILE|-");
+    subcommand.add_flag("--plot", call->plot, "Draw the table as PNG and PDF next to it");
+    subcommand.add_option("--quantity", call->quantity, "Column to draw [by_time]", "NAME");
     subcommand.explain(
         "N_c is the number of discs at which the rotation (by time) changes its sign, for each "
         "combination of the other parameters.\n");
     subcommand.set_examples({"swirl collect study", "swirl collect study --crossings N_c.csv",
-                             "swirl collect study --csv -"});
+                             "swirl collect study --csv -",
+                             "swirl collect study --plot --quantity energy"});
     subcommand.callback([call] { collect(*call); });
 }
 

@@ -285,7 +285,7 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     flag("--roll", call->rolls, "Draw discs as spheres that roll on the floor");
     flag("--mirrored", call->mirrored, "Mirror the image, as seen from below");
     flag("--still", call->still, "Let the camera move with the container");
-    call->parameters = add_run_options(subcommand, {"events", "periods", "warmup"});
+    call->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
     subcommand.set_main_options({"--out", "--length", "--frames", "--fps", "--camera", "--scale",
                                  "--frames-per-period", "--discs", "--mu", "--seed"});
     subcommand.set_examples({"swirl synthetic-video --discs 36 --out lab.mp4",

@@ -100,6 +100,11 @@ void verify_result(const std::string& file, bool quiet) {
     if (json.value("complete", Json()) != Json(true))
         throw Failure(
             fmt::format("'{}' cannot be verified: its run was stopped before its end.", file));
+    if (json.contains("started_from") && !json["started_from"].is_null())
+        throw Failure(fmt::format(
+            "'{}' cannot be verified: its run started from the end of another one.\nhint: "
+            "repeat the sweep in another folder and compare the tables.",
+            file));
     const RunConfig config = config_in(file, json["config"].dump());
     Observation observation = observation_of(config, measurements_in(file, json));
     Json result = result_json(repeat_run(

@@ -26,6 +26,8 @@ struct Option {
     std::string help_group = {};
     bool is_required = false;
     bool is_given = false;  // set by parse()
+    /// Not 0: the option may be repeated, and its values are joined by this character.
+    char joined_by = '\0';
 
     Option* type_name(std::string form) {
         value_form = std::move(form);
@@ -33,6 +35,10 @@ struct Option {
     }
     Option* group(std::string name_of_group) {
         help_group = std::move(name_of_group);
+        return this;
+    }
+    Option* repeatable(char separator) {
+        joined_by = separator;
         return this;
     }
     Option* required() {

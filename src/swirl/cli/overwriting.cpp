@@ -63,7 +63,9 @@ bool has_all(const Json& result, const std::vector<std::string>& names) {
 /// A resumed run may replace its own files, and those that it was started to overwrite.
 void reject_files_of_another_run(const RunFiles& files, const std::string& json) {
     const bool result = has_content(json);
-    if (!result && !file_exists(files.trajectory) && !file_exists(files.event_log)) return;
+    if (!result && !file_exists(files.trajectory) && !file_exists(files.event_log) &&
+        !has_content(files.series))
+        return;
     const CheckpointedCall saved = call_in_checkpoint(files.checkpoint);
     const auto may_replace = [&](const char* option, const fs::path& file) {
         const auto named = saved.options.find(option);
@@ -72,6 +74,13 @@ void reject_files_of_another_run(const RunFiles& files, const std::string& json)
     for (const auto& [option, file] :
          {std::pair{"trajectory", files.trajectory}, std::pair{"log_events", files.event_log}})
         if (file_exists(file) && !may_replace(option, file)) require_recording_of(file, saved.run);
+    const auto series = saved.options.find("series");
+    if (has_content(files.series) &&
+        (series == saved.options.end() || fs::path(series->second) != files.series))
+        throw Failure(fmt::format(
+            "'{}' is not the series of the run in the checkpoint; it was left unchanged.\nhint: "
+            "choose another name.",
+            files.series.string()));
     if (!result || may_replace("json", json)) return;
     const Json of_checkpoint = Json::parse(saved.configuration, nullptr, false);
     if (without_length(config_in(result_in(json))) != without_length(of_checkpoint))
@@ -109,7 +118,8 @@ bool is_done_already(const RunFiles& files, const std::string& json, const RunCo
     return std::all_of(tables.begin(), tables.end(), file_exists) &&
            (files.trajectory.empty() ||
             is_recording_of(files.trajectory, config, frames_entry(files))) &&
-           (files.event_log.empty() || is_recording_of(files.event_log, config, ""));
+           (files.event_log.empty() || is_recording_of(files.event_log, config, "")) &&
+           (files.series.empty() || has_content(files.series));
 }
 
 void reject_overwriting(const RunFiles& files, const std::string& json) {
@@ -122,7 +132,7 @@ void reject_overwriting(const RunFiles& files, const std::string& json) {
                         "--resume, or start "
                         "again with --overwrite, which renames it to '{}'.",
                         files.checkpoint.string(), backup_name(files.checkpoint).string()));
-    for (const fs::path& file : {fs::path(json), files.trajectory, files.event_log})
+    for (const fs::path& file : {fs::path(json), files.trajectory, files.event_log, files.series})
         if (has_content(file))
             throw Failure(
                 fmt::format("'{}' already exists.\nhint: choose another name, or use "

@@ -172,7 +172,8 @@ struct OptionAdder {
         return app.add_option(option.name, *values, option.description)->expected(1, max_values);
     }
     CLI::Option* operator()(const std::function<void(const std::string&)>& take) const {
-        return app.add_option_function(option.name, take, option.description);
+        CLI::Option* const added = app.add_option_function(option.name, take, option.description);
+        return option.joined_by == '\0' ? added : added->join(option.joined_by);
     }
     CLI::Option* operator()(auto* value) const {
         return app.add_option(option.name, *value, option.description);

@@ -8,11 +8,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 namespace swirl {
 namespace {
 
 constexpr std::chrono::milliseconds redraw_interval(100);
+/// The first fraction of new work is smaller; a resumed run begins with a larger one.
+constexpr double max_first_step = 0.02;
 constexpr std::chrono::seconds first_line_after(10), line_interval(30);
 
 bool is_set(const char* variable) {
@@ -53,21 +56,26 @@ void ProgressLine::show(double fraction, const std::string& rate) {
     if (quiet_) return;
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
-    if (now < next_) return;
     const double done = std::clamp(fraction, 0.0, 1.0);
     // A smaller fraction means a new stage: the elapsed time of the last one does not apply.
-    if (done < last_) begin_ = now;
+    if (!has_begun_ || done < last_) {
+        begin_ = has_begun_ || done > max_first_step ? now : created_;
+        first_ = has_begun_ || done > max_first_step ? done : 0.0;
+    }
+    has_begun_ = true;
     last_ = done;
+    if (now < next_) return;
     const double elapsed = std::chrono::duration<double>(now - begin_).count();
-    const double left = done > 0.0 ? elapsed * (1.0 - done) / done : 0.0;
+    const std::optional<double> left =
+        done > first_ ? std::optional(elapsed * (1.0 - done) / (done - first_)) : std::nullopt;
     if (terminal_) {
         next_ = now + redraw_interval;
-        draw_bar(done, rate, left);
+        draw_bar(done, rate, left ? short_duration(*left) : "?");
         return;
     }
     next_ = now + line_interval;
     fmt::print(stderr, "{}: {:.0f} %, {}, {} left\n", label_, 100.0 * done, rate,
-               done > 0.0 ? short_duration(left) : "unknown time");
+               left ? short_duration(*left) : "unknown time");
 }
 
 void ProgressLine::show_events(double fraction, std::uint64_t events) {
@@ -75,9 +83,8 @@ void ProgressLine::show_events(double fraction, std::uint64_t events) {
     show(fraction, short_number(double(events) / elapsed.count()) + " events/s");
 }
 
-void ProgressLine::draw_bar(double fraction, const std::string& rate, double left) {
-    const std::string tail = fmt::format(" {:3.0f} %  {}  {} left", 100.0 * fraction, rate,
-                                         fraction > 0.0 ? short_duration(left) : "?");
+void ProgressLine::draw_bar(double fraction, const std::string& rate, const std::string& left) {
+    const std::string tail = fmt::format(" {:3.0f} %  {}  {} left", 100.0 * fraction, rate, left);
     const std::size_t width = terminal_width();
     const std::size_t taken = label_.size() + tail.size() + 2;
     constexpr std::size_t min_bar = 8, max_bar = 40;  // characters

@@ -28,13 +28,15 @@ class ProgressLine {
 
   private:
     using Clock = std::chrono::steady_clock;
-    void draw_bar(double fraction, const std::string& rate, double left);
+    void draw_bar(double fraction, const std::string& rate, const std::string& left);
 
     const std::string label_;
     const bool quiet_, terminal_, color_;
     const Clock::time_point created_ = Clock::now();
+    bool has_begun_ = false;   // with the first call of show()
     Clock::time_point begin_;  // of the present stage
-    double last_ = 0.0;        // fraction shown last
+    double first_ = 0.0;       // fraction at `begin_`: a resumed run does not begin at 0
+    double last_ = 0.0;        // fraction at the last call
     Clock::time_point next_;
     bool drawn_ = false;
     std::mutex mutex_;

@@ -31,6 +31,7 @@ constexpr RecordingOption options[] = {
     {"frame_events", "N", "Events between frames, instead of --frames"},
     {"compression", "0..9", "Deflate level of recordings; 0: none, 9: smallest [0]"},
     {"log_events", "FILE.h5", "Event log to record, with all impulses"},
+    {"series", "FILE.csv", "Table of the averages of every period (CSV)"},
     {"checkpoint", "FILE", "Checkpoint file [named after the other files of the run]"},
     {"checkpoint_every", "SECONDS", "Time between checkpoints, seconds; 0: none [60]"},
 };
@@ -88,8 +89,8 @@ FrameTimes frame_times(const RecordingCall& call) {
 
 std::string default_checkpoint(const RunFiles& files, const RunConfig& config,
                                const std::vector<std::string>& measured, const std::string& json) {
-    for (const std::string& name :
-         {json == "-" ? std::string() : json, files.trajectory.string(), files.event_log.string()})
+    for (const std::string& name : {json == "-" ? std::string() : json, files.trajectory.string(),
+                                    files.event_log.string(), files.series.string()})
         if (!name.empty()) return name + ".checkpoint";
     return fmt::format("swirl-{:08x}.checkpoint",
                        static_cast<std::uint32_t>(checksum(
@@ -174,6 +175,11 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
     files.trajectory = text_of(call, "trajectory");
     files.frames = frame_times(call);
     files.event_log = text_of(call, "log_events");
+    files.series = text_of(call, "series");
+    if (!files.series.empty() && files.series.extension() != ".csv")
+        throw UsageError(fmt::format(
+            "--series is '{}', but its name must end in .csv.\nhint: the table is written as CSV.",
+            files.series.string()));
     files.compression = static_cast<int>(integer(call, "compression", files.compression, 0, 9));
     files.resume = call.resume;
     if (call.resume && call.overwrite)
@@ -188,13 +194,14 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
     files.checkpoint_needed = call.resume || call.keep_checkpoint || !files.checkpoint.empty() ||
                               !text_of(call, "checkpoint_every").empty();
     const bool has_no_named_file = files.checkpoint.empty() && (json.empty() || json == "-") &&
-                                   files.trajectory.empty() && files.event_log.empty();
+                                   files.trajectory.empty() && files.event_log.empty() &&
+                                   files.series.empty();
     // Without a named file, an old checkpoint is the only file of a run: it is backed up, not an
     // error.
     files.overwrite = call.overwrite || (has_no_named_file && !call.resume);
     if (files.checkpoint.empty())
         files.checkpoint = default_checkpoint(files, config, measured, json);
-    reject_same_files({files.trajectory, files.event_log, files.checkpoint, json});
+    reject_same_files({files.trajectory, files.event_log, files.series, files.checkpoint, json});
     if (files.checkpoint_every == 0.0) {
         if (call.resume)
             throw UsageError("--resume needs a checkpoint, but --checkpoint-every is 0.");
@@ -202,7 +209,7 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
             throw UsageError("--keep-checkpoint needs a checkpoint, but --checkpoint-every is 0.");
         files.checkpoint.clear();
     }
-    for (const auto& file : {files.trajectory, files.event_log})
+    for (const auto& file : {files.trajectory, files.event_log, files.series})
         if (!file.empty()) {
             reject_unwritable(file);
             require_replaceable(file);

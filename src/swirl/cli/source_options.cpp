@@ -103,7 +103,7 @@ std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand) {
         .add_option("--over-first", texts->first_image, "Number of frame 0 among the images [0]")
         ->type_name("NUMBER")
         ->group(camera);
-    texts->parameters = add_run_options(subcommand, {"events", "periods", "warmup"});
+    texts->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
     return texts;
 }
 

@@ -54,6 +54,14 @@ class Reference {
         return {periods_, t, EventKind::disc_disc, i, j, {}, bodies_.collide_pair(i, j, t), 0.0};
     }
 
+    /// Simulation::change_surroundings().
+    void change_surroundings(InitialState scene) {
+        scene.discs = bodies_.discs();
+        shift_discs(scene.discs, scene.path.segments.front().start - path_.segments.front().start);
+        bodies_ = ReferenceBodies(scene);
+        path_ = scene.path;
+    }
+
     const Disc& disc(std::size_t i) const { return bodies_.disc(i); }
     const Segment& segment() const { return path_.segments[segment_]; }
 

@@ -22,6 +22,7 @@ class ReferenceBodies {
     }
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(state_.discs.size()); }
+    const std::vector<Disc>& discs() const { return state_.discs; }
     const Disc& disc(std::size_t i) const { return state_.discs[i]; }
 
     double contact_time(std::uint32_t i, std::uint32_t j) const {

@@ -66,6 +66,16 @@ bool Simulation::advance_to(std::int64_t periods, double clock, std::uint64_t ma
     return true;
 }
 
+void Simulation::change_surroundings(InitialState scene, const Tuning& tuning) {
+    const Vec2 shift = scene.path.segments.front().start - storage_->state->segments[0].start;
+    scene.discs = storage_->current_scene().discs;
+    shift_discs(scene.discs, shift);
+    // A request to stop would leave a simulation without discs.
+    Tuning uninterrupted = tuning;
+    uninterrupted.is_stopped = {};
+    *this = Simulation(scene, progress(), uninterrupted);
+}
+
 std::int64_t Simulation::periods() const { return storage_->state->periods; }
 double Simulation::clock() const { return storage_->state->clock; }
 std::size_t Simulation::size() const { return storage_->state->size; }

@@ -13,6 +13,7 @@
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/h5md.hpp"
 #include "swirl/io/trajectory.hpp"
+#include "swirl/math/unit_circle.hpp"
 
 namespace swirl {
 namespace {
@@ -55,11 +56,16 @@ bool has_spheres(const SnapshotSeries& series) {
     return first.are_spheres() && !first.turned.empty();
 }
 
+/// The number of the type after those of the discs, from 1.
+std::int64_t type_of_container(const std::vector<std::int64_t>& species) {
+    return species.empty() ? 1 : *std::max_element(species.begin(), species.end()) + 2;
+}
+
 void write_lammps(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& s) {
         const auto species = h5md::species_of(s.radius, s.mass);
         add(text, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", k,
-            s.size());
+            s.size() + (options.container ? 1 : 0));
         add(text, "{} {}\n{} {}\n-1 1\n", -series.reach, series.reach, -series.reach, series.reach);
         add(text, "ITEM: ATOMS id type x y z vx vy vz radius mass {}\n",
             !s.are_spheres()   ? "omegaz"
@@ -77,7 +83,18 @@ void write_lammps(const SnapshotSeries& series, AtomicFile& file, const ExportOp
             }
             add(text, "\n");
         }
+        if (!options.container) return;
+        const Vec2 c = s.container_centre, v = s.container_velocity;
+        add(text, "{} {} {} {} 0 {} {} 0 {} 0 0", s.size() + 1, type_of_container(species), c.x,
+            c.y, v.x, v.y, s.container_radius);
+        add(text, "{}{}\n", s.are_spheres() ? " 0 0" : "", s.turned.empty() ? "" : " 1 0 0 0");
     });
+}
+
+/// ASE accepts chemical symbols only, X for none.
+const char* symbol_of_species(std::int64_t species) {
+    static constexpr const char* symbols[] = {"H", "He", "Li", "Be", "B", "C", "N", "O", "F", "Ne"};
+    return species < std::ssize(symbols) ? symbols[species] : "X";
 }
 
 void write_xyz(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
@@ -85,13 +102,15 @@ void write_xyz(const SnapshotSeries& series, AtomicFile& file, const ExportOptio
         const auto species = h5md::species_of(s.radius, s.mass);
         add(text,
             "{}\nProperties=species:S:1:pos:R:3:velo:R:3:omega:R:{}:radius:R:1:id:I:1{} Time={} "
-            "pbc=\"F F F\"\n",
-            s.size(), s.are_spheres() ? 3 : 1, s.turned.empty() ? "" : ":orientation:R:4",
-            s.time());
+            "pbc=\"F F F\" container_x={} container_y={} container_radius={}\n",
+            s.size() + (options.container ? 1 : 0), s.are_spheres() ? 3 : 1,
+            s.turned.empty() ? "" : ":orientation:R:4", s.time(), s.container_centre.x,
+            s.container_centre.y, s.container_radius);
         for (std::size_t i = 0; i < s.size(); ++i) {
             options.check_stop_at(i);
             const Vec2 p = s.position(i);
-            add(text, "D{} {} {} 0 {} {} 0 ", species[i] + 1, p.x, p.y, s.vx[i], s.vy[i]);
+            add(text, "{} {} {} 0 {} {} 0 ", symbol_of_species(species[i]), p.x, p.y, s.vx[i],
+                s.vy[i]);
             if (s.are_spheres()) add(text, "{} {} ", s.spin_x[i], s.spin_y[i]);
             add(text, "{} {} {}", or_zero(s.spin[i]), s.radius[i], i + 1);
             if (!s.turned.empty()) {
@@ -100,6 +119,11 @@ void write_xyz(const SnapshotSeries& series, AtomicFile& file, const ExportOptio
             }
             add(text, "\n");
         }
+        if (!options.container) return;
+        const Vec2 c = s.container_centre, v = s.container_velocity;
+        add(text, "X {} {} 0 {} {} 0 {}0 {} {}{}\n", c.x, c.y, v.x, v.y,
+            s.are_spheres() ? "0 0 " : "", s.container_radius, s.size() + 1,
+            s.turned.empty() ? "" : " 0 0 0 1");
     });
 }
 
@@ -227,6 +251,33 @@ std::string vtp_of(const Snapshot& s) {
     return fmt::to_string(text);
 }
 
+/// The wall as one closed polygonal line.
+std::string container_vtp_of(const Snapshot& s) {
+    constexpr int sides = 180;
+    std::vector<double> points;
+    std::vector<std::int64_t> connectivity;
+    for (int k = 0; k < sides; ++k) {
+        const Vec2 p =
+            s.container_centre + s.container_radius * unit_circle(double(k) / double(sides));
+        points.insert(points.end(), {p.x, p.y, 0.0});
+        connectivity.push_back(k);
+    }
+    connectivity.push_back(0);
+    Text text;
+    add(text,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"1\" "
+        "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
+        sides);
+    add_array(text, "Float64", "Points", 3, points);
+    add(text, "</Points>\n<Lines>\n");
+    add_array(text, "Int64", "connectivity", 1, connectivity);
+    add_array(text, "Int64", "offsets", 1, std::vector<std::int64_t>{sides + 1});
+    add(text, "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n");
+    return fmt::to_string(text);
+}
+
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -254,14 +305,17 @@ std::string write_vtp_frames(const SnapshotSeries& series, const std::filesystem
     try {
         FilesystemSync frames(folder);  // one sync before the index, not one per frame
         write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
-            const std::string name = fmt::format("{:06}.vtp", k);
-            AtomicFile frame(folder / name);
-            frame.append(vtp_of(s));
-            frame.flush_buffer();
-            frame.publish();
-            written.push_back(folder / name);
-            add(index, "<DataSet timestep=\"{}\" part=\"0\" file=\"{}/{}\"/>\n", s.time(),
-                escaped(folder.filename().string()), name);
+            const auto add_part = [&](int part, const std::string& name, const std::string& vtp) {
+                AtomicFile frame(folder / name);
+                frame.append(vtp);
+                frame.flush_buffer();
+                frame.publish();
+                written.push_back(folder / name);
+                add(index, "<DataSet timestep=\"{}\" part=\"{}\" file=\"{}/{}\"/>\n", s.time(),
+                    part, escaped(folder.filename().string()), name);
+            };
+            add_part(0, fmt::format("{:06}.vtp", k), vtp_of(s));
+            add_part(1, fmt::format("{:06}_container.vtp", k), container_vtp_of(s));
         });
         frames.sync();
     } catch (...) {

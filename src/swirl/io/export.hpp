@@ -4,9 +4,12 @@
 //   lammps  LAMMPS text dump: id type x y z vx vy vz radius mass omegaz (OVITO, MDAnalysis, VMD).
 //           TIMESTEP is the number of the frame. The box contains the container at all times and is
 //           not periodic.
-//   xyz     extended XYZ: species pos velo omega radius id; Time in the comment (OVITO, ASE)
-//   vtp     NAME.pvd, and one NAME/NNNNNN.vtp per frame (ParaView, VTK): points with velocity,
-//           angle, spin, radius, mass, id; uncompressed base64 with 64-bit headers
+//   xyz     extended XYZ: species pos velo omega radius id; the species are H, He, Li …, because ASE
+//           accepts chemical symbols only, and X for the container; Time, container_x, container_y and
+//           container_radius in the comment (OVITO: global attributes; ASE: info)
+//   vtp     NAME.pvd, and for each frame NAME/NNNNNN.vtp (ParaView, VTK): points with velocity,
+//           angle, spin, radius, mass, id; and NAME/NNNNNN_container.vtp, part 1 of the index: the
+//           wall as a closed line. Uncompressed base64 with 64-bit headers
 //   csv     the columns of trackpy: frame,particle,x,y in pixels; y is down, the origin top left
 //   table   CSV for pandas, R or a spreadsheet; units in the header. One line per disc and frame,
 //           with the time, the centre of the container, and all quantities of a frame
@@ -17,6 +20,9 @@
 // For spheres in addition: omegax omegay and quatw quati quatj quatk (lammps); three components of
 // omega, and orientation:R:4 in the order x y z w (xyz); spin_x, spin_y, turned (vtp); their
 // columns (table); log/particles/rolling_spin (gsd).
+//
+// With ExportOptions::container, lammps and xyz have the container as one more particle: the last one,
+// of a type of its own, with the container's radius and velocity and without mass.
 //
 // If only some frames are exported, they keep their numbers and times.
 //
@@ -38,6 +44,7 @@ struct ExportOptions {
     double pixels_per_radius = 20.0;  // csv only
     /// Exports frames first, first + stride, … up to and including `last`.
     std::uint64_t first = 0, last = std::numeric_limits<std::uint64_t>::max(), stride = 1;
+    bool container = false;  // lammps and xyz only
     /// Called after each frame with the number of frames written so far. It may throw to stop.
     std::function<void(std::uint64_t)> on_frame = {};
     /// Called regularly within a frame, which may have millions of discs. It may throw to stop.

@@ -40,6 +40,7 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
             "'{}' is an H5MD file of another program: it does not describe the container.", path_));
     h5md::require_known_format(*file_, path);
     are_spheres_ = file_->has(group_of(orientation) + "/value");
+    period_changes_ = file_->has(scalar_paths[period_length]);
     complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
     open_columns();
     read_constants();
@@ -65,8 +66,8 @@ void TrajectoryReader::open_columns() {
     };
     for (const std::string& path : counter_paths)
         counters_.push_back(frame_column(path).read<std::int64_t>());
-    for (const std::string& path : scalar_paths)
-        scalars_.push_back(frame_column(path).read<double>());
+    for (int k = 0; k < scalar_count(period_changes_); ++k)
+        scalars_.push_back(frame_column(scalar_paths[k]).read<double>());
     frames_ = common_length(path_, complete_, lengths);
     const Dimensions& chunk = series_[angle].chunk_shape();
     frames_per_block_ = chunk.empty() ? 1 : std::max<std::uint64_t>(1, chunk[0]);
@@ -117,6 +118,11 @@ Snapshot TrajectoryReader::frame(std::uint64_t k) {
     Snapshot s = constants_;
     s.periods = counters_[periods][k];
     s.clock = scalars_[clock][k];
+    if (period_changes_) {
+        s.period = scalars_[period_length][k];
+        s.periods_at_change = s.periods;
+        s.time_at_change = scalars_[period_start][k];
+    }
     s.container_centre = {scalars_[centre_x][k], scalars_[centre_y][k]};
     s.container_velocity = {scalars_[centre_vx][k], scalars_[centre_vy][k]};
     const std::size_t first = (k - block_begin_) * discs();
@@ -184,8 +190,10 @@ std::string TrajectoryReader::inconsistent_index_or_time() const {
     for (int k = 0; k < series_count(are_spheres_); ++k) groups.push_back(group_of(k));
     for (const std::string& path : counter_paths)
         if (path.ends_with("/value")) groups.push_back(path.substr(0, path.rfind('/')));
-    for (const std::string& path : scalar_paths)
-        if (path.ends_with("/value")) groups.push_back(path.substr(0, path.rfind('/')));
+    for (int k = clock; k < scalar_count(period_changes_); ++k) {
+        const std::string& path = scalar_paths[k];
+        groups.push_back(path.substr(0, path.rfind('/')));
+    }
     for (const std::string& group : groups)
         if (std::string name = inconsistent_time_of(group); !name.empty()) return name;
     return "";
@@ -201,8 +209,9 @@ std::string TrajectoryReader::inconsistent_time_of(const std::string& group) con
     const auto times = time.read<double>(0, frames_);
     for (std::uint64_t k = 0; k < frames_; ++k) {
         if (steps[k] != std::int64_t(k)) return group + "/step";
-        if (times[k] != double(counters_[periods][k]) * constants_.period + scalars_[clock][k])
-            return group + "/time";
+        const double start = period_changes_ ? scalars_[period_start][k]
+                                             : double(counters_[periods][k]) * constants_.period;
+        if (times[k] != start + scalars_[clock][k]) return group + "/time";
     }
     return "";
 }

@@ -17,6 +17,8 @@
 //       swirls (i64), clock                time = swirls·period + clock, but never rounded
 //       events (i64)                       events executed before the frame
 //       container_x, container_y, container_vx, container_vy
+//   If the period changes during the run, in addition (the attribute `period` is then the first):
+//       period, period_start               time = period_start + clock
 //   /parameters                            attributes: format (1), period, container_radius,
 //                                          complete (0 or 1); for spheres and coins floor (0 or 1);
 //                                          for coins lie_flat (1); one text dataset for each entry
@@ -57,7 +59,8 @@ class TrajectoryWriter {
   public:
     /// `first` gives the constants: number of discs, radii, masses, period, container.
     TrajectoryWriter(const std::filesystem::path& path, const Snapshot& first,
-                     const Provenance& provenance, int compression = default_compression);
+                     const Provenance& provenance, int compression = default_compression,
+                     bool period_changes = false);
     /// Continues an unfinished file after its first `frames` frames and drops the others. Throws
     /// FileError if it has fewer frames, or belongs to another run (recording.hpp).
     static TrajectoryWriter resume(const std::filesystem::path& path, std::uint64_t frames,
@@ -115,7 +118,7 @@ class TrajectoryReader {
 
     std::string path_;
     std::unique_ptr<Hdf5File> file_;
-    bool are_spheres_ = false, complete_ = false;
+    bool are_spheres_ = false, complete_ = false, period_changes_ = false;
     std::vector<Column> series_;                       // by trajectory_layout::Series
     std::vector<std::vector<std::int64_t>> counters_;  // by trajectory_layout::Counter
     std::vector<std::vector<double>> scalars_;         // by trajectory_layout::Scalar

@@ -31,11 +31,24 @@ inline const std::array<std::string, counters> counter_paths{h5md::particles + "
                                                              h5md::observables + "/swirls/value",
                                                              h5md::observables + "/events/value"};
 
-/// Datasets with one real number for each frame, and their paths.
-enum Scalar { time, clock, centre_x, centre_y, centre_vx, centre_vy, scalars };
+/// Datasets with one real number for each frame, and their paths. The last two exist only if the
+/// period changes during the run.
+enum Scalar {
+    time,
+    clock,
+    centre_x,
+    centre_y,
+    centre_vx,
+    centre_vy,
+    period_length,
+    period_start,
+    scalars
+};
+constexpr int scalar_count(bool period_changes) { return period_changes ? scalars : period_length; }
 inline const std::array<std::string, scalars> scalar_paths{
     h5md::particles + "/position/time",        h5md::observables + "/clock/value",
     h5md::observables + "/container_x/value",  h5md::observables + "/container_y/value",
-    h5md::observables + "/container_vx/value", h5md::observables + "/container_vy/value"};
+    h5md::observables + "/container_vx/value", h5md::observables + "/container_vy/value",
+    h5md::observables + "/period/value",       h5md::observables + "/period_start/value"};
 
 }  // namespace swirl::trajectory_layout

@@ -89,6 +89,8 @@ void copy_frame(const Snapshot& s, std::uint64_t k, FrameBlock& block) {
     block.of_counters[periods][k] = s.periods;
     block.of_scalars[time][k] = s.time();
     block.of_scalars[clock][k] = s.clock;
+    block.of_scalars[period_length][k] = s.period;
+    block.of_scalars[period_start][k] = s.period_start();
     block.of_scalars[centre_x][k] = s.container_centre.x;
     block.of_scalars[centre_y][k] = s.container_centre.y;
     block.of_scalars[centre_vx][k] = s.container_velocity.x;
@@ -139,7 +141,7 @@ void create_observable(Hdf5File& file, const std::string& path, bool is_counter,
     file.attach_scales(path, {group + "/time"});
 }
 
-void create_frame_columns(Hdf5File& file, int compression) {
+void create_frame_columns(Hdf5File& file, int compression, bool period_changes) {
     const Dimensions chunk{max_frames_per_chunk};
     file.create_group(particles + "/position");
     file.create_column<std::int64_t>(counter_paths[step], {}, chunk, compression);
@@ -148,7 +150,7 @@ void create_frame_columns(Hdf5File& file, int compression) {
     file.attach_scales(counter_paths[step], {scalar_paths[time]});
     for (int c = step + 1; c < counters; ++c)
         create_observable(file, counter_paths[c], true, compression);
-    for (int s = time + 1; s < scalars; ++s)
+    for (int s = time + 1; s < scalar_count(period_changes); ++s)
         create_observable(file, scalar_paths[s], false, compression);
 }
 
@@ -189,12 +191,12 @@ void write_parameters(Hdf5File& file, const Snapshot& first, const Provenance& p
 }
 
 Hdf5File create_file(const std::filesystem::path& path, const Snapshot& first,
-                     const Provenance& provenance, int compression) {
+                     const Provenance& provenance, int compression, bool period_changes) {
     Hdf5File file(partial_name(path), JournaledFile::Mode::create);
     h5md::create_head(file, particles);
     write_constants(file, first);
     file.create_group(observables);
-    create_frame_columns(file, compression);
+    create_frame_columns(file, compression, period_changes);
     for (int k = 0; k < series_count(first.are_spheres()); ++k)
         create_series(file, k, first.size(), compression);
     write_parameters(file, first, provenance);
@@ -207,11 +209,12 @@ class FrameFile {
     FrameFile(const std::filesystem::path& path, Hdf5File file)
         : path_(path),
           file_(std::move(file)),
-          are_spheres_(file_.has(group_of(orientation) + "/value")) {
+          are_spheres_(file_.has(group_of(orientation) + "/value")),
+          scalar_count_(scalar_count(file_.has(scalar_paths[period_length]))) {
         for (int k = 0; k < series_count(are_spheres_); ++k)
             series_columns_[k] = file_.column(group_of(k) + "/value");
         for (int c = 0; c < counters; ++c) counter_columns_[c] = file_.column(counter_paths[c]);
-        for (int s = 0; s < scalars; ++s) scalar_columns_[s] = file_.column(scalar_paths[s]);
+        for (int s = 0; s < scalar_count_; ++s) scalar_columns_[s] = file_.column(scalar_paths[s]);
         discs_ = series_columns_[angle].row_shape().at(0);
         file_.set_attribute(parameters, "complete", std::vector<std::int64_t>{0});
     }
@@ -227,7 +230,7 @@ class FrameFile {
         };
         for (int k = 0; k < series_count(are_spheres_); ++k) truncate_column(series_columns_[k]);
         for (Column& column : counter_columns_) truncate_column(column);
-        for (Column& column : scalar_columns_) truncate_column(column);
+        for (int s = 0; s < scalar_count_; ++s) truncate_column(scalar_columns_[s]);
         frames_ = frames;
     }
 
@@ -246,7 +249,7 @@ class FrameFile {
         }
         for (int c = 0; c < counters; ++c)
             counter_columns_[c].append(block.of_counters[c].data() + skipped, count);
-        for (int s = 0; s < scalars; ++s)
+        for (int s = 0; s < scalar_count_; ++s)
             scalar_columns_[s].append(block.of_scalars[s].data() + skipped, count);
         frames_ = end;
         is_changed_ = true;
@@ -269,6 +272,7 @@ class FrameFile {
     std::filesystem::path path_;
     Hdf5File file_;  // declared before the columns, which refer to it
     bool are_spheres_;
+    int scalar_count_;
     std::array<Column, all_series> series_columns_;
     std::array<Column, counters> counter_columns_;
     std::array<Column, scalars> scalar_columns_;
@@ -427,9 +431,11 @@ TrajectoryWriter::TrajectoryWriter(std::unique_ptr<Pipeline> pipeline)
     : pipeline_(std::move(pipeline)) {}
 
 TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const Snapshot& first,
-                                   const Provenance& provenance, int compression)
+                                   const Provenance& provenance, int compression,
+                                   bool period_changes)
     : pipeline_(std::make_unique<Pipeline>(
-          FrameFile(path, create_file(path, first, provenance, compression)), std::nullopt)) {
+          FrameFile(path, create_file(path, first, provenance, compression, period_changes)),
+          std::nullopt)) {
     flush();
 }
 

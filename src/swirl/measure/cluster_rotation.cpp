@@ -135,6 +135,14 @@ void ClusterRotation::close_block() {
     time_.close_into(individual_by_time_, rigid_by_time_);
 }
 
+std::array<double, rotation_rates.size()> ClusterRotation::open_means() const {
+    const auto mean = [](double sum, const OpenBlock& block) {
+        return sum * (block.period / (2.0 * pi)) / block.samples;
+    };
+    return {mean(event_.individual, event_), mean(time_.individual, time_),
+            mean(event_.rigid, event_), mean(time_.rigid, time_)};
+}
+
 RotationEstimates ClusterRotation::estimates() const {
     return {individual_by_event_.estimate(), individual_by_time_.estimate(),
             rigid_by_event_.estimate(), rigid_by_time_.estimate()};

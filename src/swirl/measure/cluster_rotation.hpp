@@ -126,6 +126,10 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     /// block does not count.
     void close_block();
 
+    /// The means over the samples since the last close_block(), in units of Ω, in the order of
+    /// rotation_rates.
+    std::array<double, rotation_rates.size()> open_means() const;
+
     RotationEstimates estimates() const;
     /// Blocks in units of Ω, for the test of the steady state and as time series.
     const BlockSeries& by_event() const { return individual_by_event_; }

@@ -32,6 +32,7 @@ namespace swirl {
 
 class ContactNetwork : public BlockAverages<ContactNetwork> {
   public:
+    static constexpr bool any_path = true;  // no axis of the M-frame matters
     static auto averages(auto& s) {
         return std::tie(s.coordination_, s.wall_, s.isolated_, s.rattlers_, s.groups_, s.largest_,
                         s.loops_, s.contacts_);

@@ -113,6 +113,7 @@ const MFrameView* Observation::frame_with_cells(const MFrameView& now) {
 
 void Observation::sample(const Event& event, const Snapshot& after) {
     discs_ = after.size();
+    period_ = after.period;
     const bool by_event = samples_by_event_ && (events_ + 1) % events_per_sample == 0;
     if (by_event) view_.update(after);
     each([&]<class M>(M& m) {

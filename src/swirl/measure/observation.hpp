@@ -146,7 +146,7 @@ class Observation {
     }
     const MFrameView* frame_with_cells(const MFrameView& now);
 
-    double period_;
+    double period_;  // the present one
     std::vector<std::string> names_;
     ChosenFrom<std::remove_const_t<decltype(measurement_list)>>::Type chosen_;
     bool views_samples_ = false, follows_pinned_ = false, follows_residences_ = false;

@@ -45,6 +45,7 @@ double closer_in_circle(double s);
 
 class PairCorrelation : public BlockAverages<PairCorrelation> {
   public:
+    static constexpr bool any_path = true;  // no axis of the M-frame matters
     static auto averages(auto& s) {
         return std::tie(s.pairs_, s.partners_, s.contact_, s.inside_, s.packing_, s.radius_);
     }

@@ -19,7 +19,8 @@ namespace swirl {
 
 class SampleTimes {
   public:
-    /// With `interval` above 0: k · interval from the beginning, independent of the periods.
+    /// With `interval` above 0: k · interval from the beginning, independent of the periods. Then
+    /// the period must not change.
     SampleTimes(int per_period, double period, double interval = 0.0)
         : per_period_(per_period), period_(period), interval_(interval) {}
 
@@ -43,6 +44,7 @@ class SampleTimes {
 
   private:
     bool advance(Snapshot& s, const ContainerPath& path, double clock) {
+        period_ = s.period;
         if (s.periods != periods_) begin_period(s.periods);
         if (due_ == undetermined) due_ = next_in(s.periods);
         if (!(due_ <= clock)) return false;

@@ -30,6 +30,7 @@ namespace swirl {
 
 class VelocityCorrelation : public BlockAverages<VelocityCorrelation> {
   public:
+    static constexpr bool any_path = true;  // no axis of the M-frame matters
     static auto averages(auto& s) {
         return std::tie(s.along_, s.across_, s.spin_, s.near_along_, s.near_across_, s.near_spin_);
     }

@@ -417,7 +417,8 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
     const fs::path file = settings.out / "paper.json";
     write_file_atomically(file, about.dump(2) + "\n");
     run_python_script("report.py", {settings.out.string()}, stop);
-    return {file, settings.out / "report.md", settings.out / "report.html"};
+    return {file, settings.out / "report.md", settings.out / "report.html",
+            settings.out / "report.pdf"};
 }
 
 std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table,

@@ -129,8 +129,8 @@ struct PaperResult {
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
                          const PaperControl& control, bool decide = false);
 
-/// The report on all figures: OUT/paper.json, and from it and the tables OUT/report.md and
-/// OUT/report.html. Returns these files.
+/// The report on all figures: OUT/paper.json, and from it and the tables OUT/report.md,
+/// OUT/report.html and OUT/report.pdf. Returns these files.
 std::vector<fs::path> write_report(const PaperResult& result, const PaperSettings& settings,
                                    const std::string& command,
                                    const std::atomic<bool>* stop = nullptr);

@@ -137,6 +137,13 @@ inline ContainerPath path_from(const ContainerPath& path, double clock) {
     return later;
 }
 
+/// The same segments, with the container at rest in the middle.
+inline ContainerPath at_rest(ContainerPath path) {
+    for (Segment& segment : path.segments)
+        segment = {segment.begin, segment.end, {0.0, 0.0}, {0.0, 0.0}, 0.0};
+    return path;
+}
+
 /// The mirror image at the x axis.
 inline ContainerPath mirrored(ContainerPath path) {
     for (Segment& segment : path.segments) {

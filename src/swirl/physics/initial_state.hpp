@@ -21,4 +21,10 @@ struct InitialState {
     Floor floor{};  // for spheres and coins
 };
 
+/// Moves all discs by the same vector. Without a shift, no bit changes.
+inline void shift_discs(std::vector<Disc>& discs, const Vec2& shift) {
+    if (shift.x == 0.0 && shift.y == 0.0) return;
+    for (Disc& disc : discs) disc.position = disc.position + shift;
+}
+
 }  // namespace swirl

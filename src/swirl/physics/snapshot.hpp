@@ -24,6 +24,9 @@ struct Snapshot {
     std::int64_t periods = 0;  // whole periods since the beginning
     double clock = 0.0;        // time since the start of the current period
     double period = 0.0;       // T; Ω = 2π/T
+    // If T changes during the run: the last change, after this many periods and at this time.
+    std::int64_t periods_at_change = 0;
+    double time_at_change = 0.0;
     Vec2 container_centre{0.0, 0.0}, container_velocity{0.0, 0.0};
     double container_radius = 0.0;
 
@@ -43,7 +46,15 @@ struct Snapshot {
     bool are_spheres() const { return !ax.empty(); }
     bool are_balls() const { return are_spheres() && !lie_flat; }
     std::size_t size() const { return x.size(); }
-    double time() const { return static_cast<double>(periods) * period + clock; }
+    double time() const { return period_start() + clock; }
+    double period_start() const {
+        return time_at_change + static_cast<double>(periods - periods_at_change) * period;
+    }
+    /// Whole periods and the fraction of the present one.
+    double periods_passed() const {
+        if (periods_at_change == 0) return time() / period;
+        return static_cast<double>(periods) + clock / period;
+    }
 
     Vec2 position(std::size_t i) const {
         const double elapsed = clock - held_at[i];

@@ -12,6 +12,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
+#include "swirl/run/ramp.hpp"
 
 namespace swirl {
 namespace {
@@ -185,7 +186,8 @@ std::optional<std::string> problem(const RunConfig& config) {
     if (auto message = problem_without_floor(config)) return message;
     if (auto message = problem_with_floor_friction(config)) return message;
     if (auto message = problem_with_rolling_resistance(config)) return message;
-    return problem_with_warmup(config);
+    if (auto message = problem_with_warmup(config)) return message;
+    return problem_with_ramps(config);
 }
 
 Tuning stopped_by(const std::atomic<bool>* stop) {
@@ -240,7 +242,7 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
         throw_interrupted(fmt::format("stopped during the placement of the {}s.", body_word(c)));
     if (!centres) throw_usage_error(no_placement_message(c));
 
-    InitialState state = without_discs(c, make_path(c));
+    InitialState state = surroundings_in(c, 0);
     // A tenth of the container's speed for the paper's parameters. It does not depend on that
     // speed, because the discs must also move in a container at rest.
     const double max_initial_speed = 0.02 * c.container_radius * c.omega();

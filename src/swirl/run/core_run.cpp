@@ -9,6 +9,8 @@
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/budget.hpp"
 #include "swirl/run/particle_sizes.hpp"
+#include "swirl/run/period_series.hpp"
+#include "swirl/run/ramp.hpp"
 
 namespace swirl {
 namespace {
@@ -29,6 +31,7 @@ CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, Observation
     : config_(config),
       path_(begin.path),
       observation_(observation),
+      tuning_(tuning),
       simulation_(begin, progress, tuning),
       snapshot_(simulation_.snapshot()),
       event_(),
@@ -54,7 +57,7 @@ bool CoreRun::complete() const {
 }
 
 double CoreRun::periods() const {
-    return static_cast<double>(simulation_.periods()) + simulation_.clock() / config_.period;
+    return static_cast<double>(simulation_.periods()) + simulation_.clock() / path_.period;
 }
 double CoreRun::fraction() const {
     if (config_.periods) return periods() / static_cast<double>(*config_.periods);
@@ -69,9 +72,15 @@ void CoreRun::execute_event() {
     while (next_sample(rotation_times_)) {
         rotation().sample_by_time(snapshot_);
         spin().add(mean_spin(snapshot_));
+        if (series_) series_->sample(snapshot());
     }
-    if (observes())
-        while (next_sample(observation_times_)) observation_->sample(snapshot());
+    const bool measures_period = series_ && series_->measures();
+    if (!observes() && !measures_period) return;
+    while (next_sample(observation_times_)) {
+        const Snapshot& now = snapshot();
+        if (observes()) observation_->sample(now);
+        if (measures_period) series_->sample_measured(now);
+    }
 }
 
 void CoreRun::pass_event() {
@@ -83,6 +92,7 @@ void CoreRun::pass_event() {
     }
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
     if (observes()) observation_->sample(event_, snapshot());
+    if (series_ && series_->measures()) series_->sample_measured(event_, snapshot());
     if (event_.kind == EventKind::path_vertex && simulation_.periods() > event_.periods)
         begin_period();
 }
@@ -150,6 +160,7 @@ void CoreRun::sample_by_event() {
 /// Closes the blocks of the period that has ended, and ends the warm-up or the run if it is time.
 void CoreRun::begin_period() {
     sample_by_event();
+    if (series_) add_period_to_series();
     rotation().close_block();
     spin().close_block();
     if (observes()) observation_->close_block();
@@ -158,7 +169,33 @@ void CoreRun::begin_period() {
         result_.warmup = simulation_.periods();
         result_.warmup_events = simulation_.events();
     }
+    if (!config_.ramps.empty() && changes_in_period(config_, simulation_.periods()))
+        continue_ramps();
     if (complete()) events_to_check_ = 0;
+}
+
+/// The blocks of the period are still open.
+void CoreRun::add_period_to_series() {
+    series_->add_period({.period = simulation_.periods() - 1,
+                         .is_counted = warm_,
+                         .rotation = rotation().open_means(),
+                         .spin = spin().open_mean(),
+                         .events = simulation_.events().total()});
+}
+
+/// Continues with the values of the period that begins.
+void CoreRun::continue_ramps() {
+    const InitialState next = surroundings_in(config_, simulation_.periods());
+    const bool period_changes = next.path.period != path_.period;
+    const double now = snapshot_.time();
+    simulation_.change_surroundings(next, tuning_);
+    path_ = next.path;
+    Snapshot begin = simulation_.snapshot();
+    begin.turned = std::move(snapshot_.turned);
+    begin.periods_at_change = period_changes ? begin.periods : snapshot_.periods_at_change;
+    begin.time_at_change = period_changes ? now : snapshot_.time_at_change;
+    snapshot_ = std::move(begin);
+    rotation().follow(snapshot_, event_);
 }
 
 /// Called at the end of each period of the warm-up.

@@ -24,6 +24,7 @@
 namespace swirl {
 
 class Observation;
+class PeriodSeries;
 
 /// Event by event:
 ///
@@ -35,9 +36,11 @@ class Observation;
 class CoreRun {
   public:
     /// `observation` measures from the end of the warm-up on, and must outlive the run. Null: only
-    /// the rotation is measured.
+    /// the rotation is measured. `begin` is in the surroundings of its period (ramp.hpp).
     CoreRun(const RunConfig& config, const InitialState& begin, Observation* observation = nullptr,
             const Progress& progress = {}, const Tuning& tuning = {});
+    /// Also adds every period to a series, which must outlive the run. Call it before the first event.
+    void add_periods_to(PeriodSeries* series) { series_ = series; }
 
     /// Executes the next event. The snapshot keeps the state before it until pass_event().
     void execute_event();
@@ -110,6 +113,7 @@ class CoreRun {
         visit(result_.warmup, result_.warmup_events, result_.max_overlap);
         visit(result_.energy_at_start, result_.invariant_at_start);
         visit(spin_in_warmup_, spin_after_, next_warmup_test_);
+        if (!config_.ramps.empty()) visit(snapshot_.periods_at_change, snapshot_.time_at_change);
         if (!snapshot_.turned.empty()) visit(std::span(snapshot_.turned));
         if (observation_) visit(observation_times_);
     }
@@ -123,6 +127,8 @@ class CoreRun {
     std::string reason_for_collapse() const;
     void sample_by_event();
     void begin_period();
+    void add_period_to_series();
+    void continue_ramps();
     bool is_warmup_over();
     bool is_warmup_detected();
     SteadyState steady_state_of(const BlockSeries& series) const;
@@ -132,6 +138,8 @@ class CoreRun {
     RunConfig config_;
     ContainerPath path_;
     Observation* observation_;
+    PeriodSeries* series_ = nullptr;
+    const Tuning tuning_;
     Simulation simulation_;
     Snapshot snapshot_, synchronised_;
     Event event_;

@@ -86,6 +86,16 @@ Json row_json(const ReportRow& row) {
     return json;
 }
 
+Json series_json(const PeriodSeries& series) {
+    Json averages = Json::object();
+    for (const SeriesAverage& average : series.averages()) {
+        Json& json = averages[average.name] = estimate_json(average.estimate);
+        json["autocorrelation_time"] = average.autocorrelation_time;
+        json["unit"] = average.unit;
+    }
+    return {{"periods", series.periods()}, {"averages", averages}};
+}
+
 Json result_json(const RunResult& r) {
     Json json = {{"format", result_format},
                  {"config", config_json(r.config)},

@@ -8,6 +8,7 @@
 
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/period_series.hpp"
 #include "swirl/run/result.hpp"
 
 namespace swirl {
@@ -30,5 +31,8 @@ nlohmann::ordered_json estimate_json(const Estimate& estimate);
 nlohmann::ordered_json row_json(const ReportRow& row);
 
 nlohmann::ordered_json result_json(const RunResult& result);
+
+/// {"periods", "averages": {NAME: estimate_json() with "unit" and "autocorrelation_time"}}
+nlohmann::ordered_json series_json(const PeriodSeries& series);
 
 }  // namespace swirl

@@ -10,6 +10,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
+#include "swirl/run/ramp.hpp"
 
 namespace swirl {
 namespace {
@@ -381,6 +382,9 @@ ParameterTexts overridden(ParameterTexts file, const ParameterTexts& command_lin
              {"body", "inertia", "floor", "floor_friction", "gravity", "mu", "mu_disc", "mu_wall",
               "restitution", "container_radius", "amplitude", "period", "speed"})
             file.erase(name);
+    // A ramp replaces the file's values of its parameters.
+    if (const auto ramp = command_line.find("ramp"); ramp != command_line.end())
+        for (const std::string& name : parameters_set_by_ramps(ramp->second)) file.erase(name);
     for (const auto& [name, text] : command_line)
         if (const Parameter* const p = find_parameter(name))
             for (const char* other : p->overrides)

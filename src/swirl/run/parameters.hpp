@@ -69,6 +69,18 @@ struct Sizes {
     std::vector<ListedSize> listed;  // one per particle
 };
 
+/// A parameter that changes during the run. It has one value in each period: `values` are at equal
+/// distances from period `begin` to period `end`, counted from 0, and the periods between two of
+/// them are interpolated. The first value holds before, the last one after.
+struct Ramp {
+    std::string name;  // in the table: "mu"
+    std::vector<double> values;
+    std::int64_t begin = 0, end = 0;
+
+    double value_in(std::int64_t period) const;
+    bool operator==(const Ramp&) const = default;
+};
+
 struct RunConfig {
     std::int64_t discs = 48;  // both species together
     double mu_disc = 1.0, mu_wall = 1.0;
@@ -108,15 +120,26 @@ struct RunConfig {
 
     std::uint64_t seed = 1;
 
+    /// The members above have the values of period 0 (in_period()).
+    std::vector<Ramp> ramps;
+
+    /// The ramp of this parameter, or null.
+    const Ramp* ramp_of(std::string_view name) const {
+        for (const Ramp& ramp : ramps)
+            if (ramp.name == name) return &ramp;
+        return nullptr;
+    }
     double omega() const { return 2.0 * pi / period; }
     /// Discs on a floor are coins.
     Shape shape() const { return body == Shape::disc && floor ? Shape::coin : body; }
     /// Nothing dissipates energy: no friction, elastic collisions, no floor.
     bool conserves_energy() const {
-        return mu_disc == 0.0 && mu_wall == 0.0 && restitution == 1.0 && !floor;
+        return mu_disc == 0.0 && mu_wall == 0.0 && restitution == 1.0 && !floor && ramps.empty();
     }
     /// True if the contact duration has an effect (physics/collision_law.hpp).
-    bool uses_contact_duration() const { return restitution != 1.0 || floor; }
+    bool uses_contact_duration() const {
+        return restitution != 1.0 || floor || ramp_of("restitution");
+    }
 };
 
 /// From a random initial state, rotation and density relax within a few periods if both friction
@@ -139,9 +162,9 @@ using ParameterFormatter = std::string(const RunConfig& config);
 
 /// Most parameters are a plain member of RunConfig; the others have their own functions.
 ParameterReader read_preset, read_mu, read_body, read_inertia, read_floor, read_mixture, read_sizes,
-    read_speed, read_path, read_direction, read_sides, read_periods, read_warmup;
+    read_speed, read_path, read_direction, read_sides, read_periods, read_warmup, read_ramp;
 ParameterWriter write_body, write_floor, write_mixture, write_sizes, write_speed, write_omega,
-    write_path, write_direction, write_sides, write_events, write_warmup;
+    write_path, write_direction, write_sides, write_events, write_warmup, write_ramp;
 ParameterFormatter format_inertia, format_mixture;
 
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
@@ -190,6 +213,7 @@ struct Parameter {
     const char* default_text = nullptr;    // needed if the default is not the member's value
     ReadingOrder order = ReadingOrder::first;
     WrittenIf written = WrittenIf::always;
+    bool can_ramp = false;    // --ramp can change it during the run (ramp.hpp)
     bool is_derived = false;  // written, but not read back: it follows from others
     /// If this parameter is given on the command line, the file's values of these are ignored.
     std::array<const char*, 2> overrides = {};
@@ -235,6 +259,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .slider = {0, 2, 0.05},
      .read = read_mu,
      .default_text = "1",
+     .can_ramp = true,
      .overrides = {"mu_disc", "mu_wall"}},
     {.name = "mu_disc",
      .symbol = "μ_d",
@@ -244,7 +269,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .member = &RunConfig::mu_disc,
      .range = parameter_range::nonnegative,
      .slider = {0, 2, 0.05},
-     .default_text = ""},
+     .default_text = "",
+     .can_ramp = true},
     {.name = "mu_wall",
      .symbol = "μ_w",
      .form = "NUMBER",
@@ -253,7 +279,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .member = &RunConfig::mu_wall,
      .range = parameter_range::nonnegative,
      .slider = {0, 2, 0.05},
-     .default_text = ""},
+     .default_text = "",
+     .can_ramp = true},
     {.name = "body",
      .form = "disc|sphere",
      .description = "Type of particle",
@@ -330,7 +357,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::restitution,
      .range = parameter_range::fraction,
-     .slider = {0.5, 1, 0.01}},
+     .slider = {0.5, 1, 0.01},
+     .can_ramp = true},
     {.name = "tangential_restitution",
      .symbol = "β",
      .form = "0..1",
@@ -339,7 +367,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::tangential_restitution,
      .range = parameter_range::fraction,
-     .slider = {0, 1, 0.05}},
+     .slider = {0, 1, 0.05},
+     .can_ramp = true},
     {.name = "contact_duration",
      .symbol = "t_c",
      .unit = "time",
@@ -368,7 +397,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .member = &RunConfig::floor_friction,
      .range = parameter_range::positive,
      .slider = {0.05, 1, 0.05},
-     .written = WrittenIf::floor},
+     .written = WrittenIf::floor,
+     .can_ramp = true},
     {.name = "gravity",
      .symbol = "g",
      .unit = "length / time²",
@@ -430,7 +460,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::container,
      .member = &RunConfig::amplitude,
      .range = parameter_range::nonnegative,
-     .slider = {0, 5, 0.05}},
+     .slider = {0, 5, 0.05},
+     .can_ramp = true},
     {.name = "period",
      .symbol = "T",
      .unit = "time",
@@ -440,7 +471,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::container,
      .member = &RunConfig::period,
      .range = parameter_range::positive,
-     .slider = {2, 40, 0.1}},
+     .slider = {2, 40, 0.1},
+     .can_ramp = true},
     {.name = "speed",
      .symbol = "v",
      .unit = "length / time",
@@ -464,7 +496,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .is_derived = true},
     {.name = "path",
      .form = "polygon|circle|line|SHAPE|FILE",
-     .description = "Path of the container centre, by shape or from a file",
+     .description = "Path of the container centre, a shape or a file",
      .details = "Other shapes: ellipse:RATIO, lissajous:P:Q[:DEGREES]. A CSV file "
                 "holds a closed path of one period, with the columns t, x and y "
                 "(docs/how-to/paths.md).",
@@ -532,6 +564,20 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .read = read_warmup,
      .write = write_warmup,
      .default_text = "20, at most 1/5 of run"},
+    {.name = "ramp",
+     .form = "NAME=FROM:TO@P..Q",
+     .description = "Parameter that changes, and in which periods",
+     .details = "FROM:TO:… are values at equal distances from period P to Q, counted from 0; "
+                "each period has one value. Parameters: mu, mu_disc, mu_wall, restitution, "
+                "tangential_restitution, floor_friction, amplitude, period. Several ramps: repeat "
+                "the option, or separate them by semicolons. Without --events and --periods, the "
+                "run ends after period Q.",
+     .group = parameter_group::run,
+     .read = read_ramp,
+     .write = write_ramp,
+     .default_text = "",
+     .order = ReadingOrder::last,
+     .written = WrittenIf::set},
     {.name = "seed",
      .form = "NUMBER",
      .description = "Seed of the initial positions and velocities",

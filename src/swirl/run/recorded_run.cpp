@@ -18,6 +18,7 @@
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/period_series.hpp"
 #include "swirl/run/simd.hpp"
 #include "swirl/run/version.hpp"
 
@@ -40,10 +41,12 @@ Json identity(const RunConfig& config, const RunFiles& files, const Observation*
     Json measured = Json::array();
     if (observation && !observation->empty())
         measured.push_back(fmt::format("{}", fmt::join(observation->names(), ",")));
-    return {{"parameters", config_json(config)},
-            {"frames", frames_json(files)},
-            {"event_log", !files.event_log.empty()},
-            {"measured", measured}};
+    Json identity{{"parameters", config_json(config)},
+                  {"frames", frames_json(files)},
+                  {"event_log", !files.event_log.empty()},
+                  {"measured", measured}};
+    if (!files.series.empty()) identity["series"] = true;
+    return identity;
 }
 
 /// The JSON part of a checkpoint, with the entries that every checkpoint has.
@@ -92,6 +95,8 @@ std::string difference(const Json& there, const Json& here) {
                            there["frames"].dump(), here["frames"].dump());
     if (there.value("event_log", Json(false)) != here.at("event_log"))
         return "only one of them writes an event log";
+    if (there.contains("series") != here.contains("series"))
+        return "only one of them writes a series";
     return fmt::format("it measures {} there and {} here",
                        there.value("measured", Json::array()).dump(), here.at("measured").dump());
 }
@@ -129,10 +134,12 @@ void back_up(const std::filesystem::path& checkpoint) {
 class Recorder {
   public:
     Recorder(const RunConfig& config, const RunFiles& files, const Provenance& provenance,
-             const Observation* observation, const std::atomic<bool>* stop)
+             const Observation* observation, const PeriodSeries* series,
+             const std::atomic<bool>* stop)
         : config_(config),
           files_(files),
           observation_(observation),
+          series_(series),
           run_name_(run_name(identity(config, files, observation))),
           overwrites_(files.overwrite),
           frame_times_(files.frames.per_period, config.period, files.frames.interval.value_or(0.0)),
@@ -146,6 +153,7 @@ class Recorder {
     RunResult operator()(RunControl control) {
         control.resume = std::move(resumed_);
         control.orientations = !files_.trajectory.empty() && config_.shape() != Shape::disc;
+        FinalState* const final_state = control.final_state;
         Run run(config_, std::move(control));
         if (extended_)
             if (const auto problem = run.problem_with_length(*extended_))
@@ -159,11 +167,13 @@ class Recorder {
         }
         if (!run.complete() || files_.keep_checkpoint) save(run);
         const RunResult result = run.result();
+        if (!files_.series.empty()) series_->write(files_.series);
         if (!result.complete) {
             if (trajectory_) trajectory_->flush();
             if (event_log_) event_log_->flush();
             return result;
         }
+        if (final_state) *final_state = run.final_state();
         if (trajectory_) trajectory_->finish();
         if (event_log_) event_log_->finish();
         return result;
@@ -171,6 +181,7 @@ class Recorder {
 
   private:
     void start(Provenance provenance, const std::atomic<bool>* stop) {
+        reject_ramps_in_recordings();
         if (files_.overwrite) back_up(files_.checkpoint);
         provenance.emplace_back(run_entry, run_name_);
         provenance.emplace_back("frames", frames_entry(files_));
@@ -181,10 +192,27 @@ class Recorder {
         const Snapshot first = Simulation(scene, {}, selected_tuning(stop)).snapshot();
         if (stop && stop->load()) throw Interrupted("stopped before the first event.");
         if (!files_.trajectory.empty())
-            trajectory_.emplace(files_.trajectory, first, provenance, files_.compression);
+            trajectory_.emplace(files_.trajectory, first, provenance, files_.compression,
+                                config_.ramp_of("period") != nullptr);
         if (!files_.event_log.empty())
             event_log_.emplace(files_.event_log, first, scene.path.segments.back().end, provenance,
                                files_.compression, moving_floor(scene.floor, scene.path));
+    }
+
+    /// An event log has one path, and frames at an interval have one period.
+    void reject_ramps_in_recordings() const {
+        for (const char* name : {"amplitude", "period"}) {
+            if (!config_.ramp_of(name)) continue;
+            if (!files_.event_log.empty())
+                throw UsageError(fmt::format(
+                    "an event log cannot record a ramp of {}: it holds one path of the container."
+                    "\nhint: use --trajectory without --log-events.",
+                    name));
+        }
+        if (config_.ramp_of("period") && !files_.trajectory.empty() && files_.frames.interval)
+            throw UsageError(
+                "--frame-interval cannot be used with a ramp of the period.\nhint: use --frames, "
+                "the number of frames per period.");
     }
 
     void resume() {
@@ -276,6 +304,7 @@ class Recorder {
     const RunConfig& config_;
     const RunFiles& files_;
     const Observation* observation_;
+    const PeriodSeries* series_;
     std::string run_name_;
     bool overwrites_;  // stays true when a run that was started with --overwrite is resumed
     std::optional<TrajectoryWriter> trajectory_;
@@ -292,7 +321,8 @@ class Recorder {
 
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
                        const Provenance& provenance) {
-    return Recorder(config, files, provenance, control.observation, control.stop)(control);
+    return Recorder(config, files, provenance, control.observation, control.series,
+                    control.stop)(control);
 }
 
 void remove_checkpoint(const RunFiles& files) {

@@ -7,6 +7,7 @@
 
 #include "swirl/run/config.hpp"
 #include "swirl/run/path_parameter.hpp"
+#include "swirl/run/ramp.hpp"
 #include "swirl/run/reading.hpp"
 
 namespace swirl {
@@ -127,6 +128,26 @@ std::string steady_text(const RunResult& r) {
         100.0 * (false_alarm_rate(rotation) + false_alarm_rate(spin)));
 }
 
+/// False if a longer run may show another direction of rotation, or that there is one.
+bool is_direction_known(const Estimate& e) {
+    constexpr std::size_t min_blocks = 5;  // with fewer, the error itself is hardly known
+    if (e.blocks < min_blocks) return false;
+    return rotation_verb(e) != std::string_view("stall") ||
+           e.blocks >= min_blocks_of_a_steady_state;
+}
+
+std::string ramp_warning(const RunResult& r) {
+    std::string text =
+        "the averages mix all values of the ramp.\nhint: --series FILE.csv writes the "
+        "averages of each period.";
+    if (r.periods <= static_cast<double>(end_of_ramps(r.config)))
+        text = fmt::format(
+            "the run ended after {:.1f} periods, before the last value of its ramp in "
+            "period {}; {}",
+            r.periods, end_of_ramps(r.config), text);
+    return text;
+}
+
 std::string periods_text(const RunResult& r) {
     if (r.warmup == 0) return fmt::format("{:.1f}; no warm-up", r.periods);
     return fmt::format("{:.1f}; {} warm-up{} and excluded from the averages", r.periods,
@@ -170,6 +191,18 @@ std::string with_error(double mean, double error) {
     return with_minus(fmt::format("{:.{}f} ± {:.{}f}", mean, decimals, error, decimals));
 }
 
+std::string series_text(const PeriodSeries& series) {
+    std::string text =
+        fmt::format("  series of {} periods; correlation times in periods:\n", series.periods());
+    for (const SeriesAverage& a : series.averages()) {
+        if (std::isnan(a.autocorrelation_time)) continue;
+        text +=
+            fmt::format("  {:<38}τ = {:.3g}, {:.0f} effective samples of {}\n", a.name,
+                        a.autocorrelation_time, a.estimate.effective_samples, a.estimate.blocks);
+    }
+    return text;
+}
+
 std::string rotation_verb(const Estimate& e) {
     if (std::isnan(e.mean)) return "have no rotation about their own centre";
     constexpr double rounding = 1e-12;
@@ -196,8 +229,16 @@ std::string headline(const RunResult& r) {
         fmt::format("{} {}s {}", r.config.discs, body,
                     has_m_frame(r.config) ? rotation_verb(e) : direction_verb(e));
     if (std::isnan(e.mean)) return motion + ".";
-    return fmt::format("{}: ϖ/Ω = {} by event, {} by time.", motion, with_error(e),
-                       with_error(r.rotation.by_time));
+    const std::string rates =
+        fmt::format("ϖ/Ω = {} by event, {} by time", with_error(e), with_error(r.rotation.by_time));
+    if (!r.config.ramps.empty())
+        return fmt::format("{} {}s in a ramp, {}: on average {}.", r.config.discs, body,
+                           ramps_text(r.config.ramps), rates);
+    if (!is_direction_known(e))
+        return fmt::format("{} {}s: {}; {} too few to determine the direction of rotation.",
+                           r.config.discs, body, rates,
+                           e.blocks == 1 ? "1 period is" : fmt::format("{} periods are", e.blocks));
+    return fmt::format("{}: {}.", motion, rates);
 }
 
 const char* verdict(SteadyState::Verdict verdict) {
@@ -246,7 +287,7 @@ std::string report(const RunResult& r, bool verbose) {
                                body, with_commas(r.events.disc_wall), body,
                                with_commas(r.events.path_vertex), floor_events_text(r)));
     line("periods", periods_text(r));
-    line("steady", steady_text(r));
+    if (r.config.ramps.empty()) line("steady", steady_text(r));
     if (verbose) {
         line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
         line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
@@ -270,7 +311,9 @@ std::vector<std::string> warnings(const RunResult& r) {
         all.push_back(fmt::format("incomplete: stopped after {:.1f} periods and {} events.",
                                   r.periods, with_commas(r.events.total())));
     if (!r.has_whole_period() && r.config.amplitude > 0.0) all.push_back(no_period_warning(r));
-    if (r.config.conserves_energy() && r.config.amplitude > 0.0)
+    if (!r.config.ramps.empty())
+        all.push_back(ramp_warning(r));
+    else if (r.config.conserves_energy() && r.config.amplitude > 0.0)
         all.push_back(energy_warning(r));
     else if (!steady_state_found(r).empty())
         all.push_back(not_steady_warning(r));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "swirl/run/period_series.hpp"
 #include "swirl/run/result.hpp"
 
 namespace swirl {
@@ -14,13 +15,17 @@ std::string with_error(double mean, double error);
 /// "1,000,000"
 std::string with_commas(std::uint64_t number);
 
+/// The averages of a series and their correlations, one line each.
+std::string series_text(const PeriodSeries& series);
+
 /// "rotate", "counterrotate", or "stall" if the mean is within two standard errors of zero.
 std::string rotation_verb(const Estimate& rotation);
 /// "rotate counter-clockwise", "rotate clockwise" or "stall": for paths without an M-frame, where
 /// there is no swirl with which the cluster could rotate.
 std::string direction_verb(const Estimate& rotation);
 
-/// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line.
+/// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line. A run of few periods has no
+/// verb, unless the direction is certain.
 std::string headline(const RunResult& result);
 
 /// "steady", "drifting", "jumping", "switching" or "too short to tell".

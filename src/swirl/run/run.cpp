@@ -11,6 +11,8 @@
 #include "swirl/io/state_archive.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/period_series.hpp"
+#include "swirl/run/ramp.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/simd.hpp"
 
@@ -19,6 +21,13 @@ namespace {
 
 constexpr std::chrono::milliseconds progress_interval(100);
 
+std::vector<Disc> discs_of(const Simulation& simulation) {
+    std::vector<Disc> discs;
+    discs.reserve(simulation.size());
+    for (std::size_t i = 0; i < simulation.size(); ++i) discs.push_back(simulation.disc(i));
+    return discs;
+}
+
 /// The state of a trajectory between two events.
 struct SavedTrajectory {
     Progress progress;
@@ -26,9 +35,7 @@ struct SavedTrajectory {
 
     static SavedTrajectory of(const Simulation& simulation) {
         SavedTrajectory saved{simulation.progress(), {}};
-        saved.discs.reserve(simulation.size());
-        for (std::size_t i = 0; i < simulation.size(); ++i)
-            saved.discs.push_back(simulation.disc(i));
+        saved.discs = discs_of(simulation);
         return saved;
     }
     template <class Visitor>
@@ -44,21 +51,35 @@ bool have_equal_bodies(const std::vector<Disc>& a, const std::vector<Disc>& b) {
     });
 }
 
+/// Replaces random positions by the final state of another run.
+void begin_from(const FinalState& state, InitialState& initial) {
+    if (!have_equal_bodies(state.discs, initial.discs))
+        throw FileError("the state to start from belongs to another run.");
+    initial.discs = state.discs;
+    shift_discs(initial.discs, initial.path.segments.front().start - state.container_centre);
+    if (const char* const what = impossible_to_continue(initial, Progress{}))
+        throw FileError(
+            fmt::format("the state to start from is inconsistent: it says that {}.", what));
+}
+
 /// The run in its initial state, or in the state to resume from.
 CoreRun begin(const RunConfig& config, const RunControl& control) {
     InitialState initial = make_initial_state(config, control.stop);
     SavedTrajectory saved;
+    if (control.begin_from && !control.resume) begin_from(*control.begin_from, initial);
     if (control.resume) {
         StateReader read(*control.resume);
         read(saved);
         if (!have_equal_bodies(saved.discs, initial.discs))
             throw FileError("the saved state belongs to another run.");
+        if (!config.ramps.empty()) initial = surroundings_in(config, saved.progress.periods);
         initial.discs = saved.discs;
         if (const char* const what = impossible_to_continue(initial, saved.progress))
             throw FileError(fmt::format("the saved state is inconsistent: it says that {}.", what));
     }
     CoreRun run(config, initial, control.observation, saved.progress,
                 selected_tuning(control.stop));
+    run.add_periods_to(control.series);
     if (control.stop && control.stop->load())
         throw Interrupted(control.resume
                               ? "stopped before the run continued; its checkpoint is unchanged."
@@ -89,6 +110,7 @@ void Run::fields(Visitor&& visit) {
     visit(seconds_before_);
     visit(run_);
     if (control_.observation) visit(*control_.observation);
+    if (control_.series) visit(*control_.series);
 }
 
 void Run::write(StateWriter& state) {
@@ -97,6 +119,10 @@ void Run::write(StateWriter& state) {
     const double before = std::exchange(seconds_before_, seconds());
     fields(state);
     seconds_before_ = before;
+}
+
+FinalState Run::final_state() const {
+    return {run_.path().segments.front().start, discs_of(run_.simulation())};
 }
 
 std::string Run::state() {

@@ -8,8 +8,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "swirl/measure/sample_times.hpp"
+#include "swirl/physics/disc.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/run/config.hpp"
@@ -18,12 +20,24 @@
 
 namespace swirl {
 
+class PeriodSeries;
 class StateWriter;
 
 struct RunProgress {
     double fraction;       // of the run
     std::uint64_t events;  // so far
     double periods;        // so far
+};
+
+/// The discs at the end of a period, and the container's centre then.
+struct FinalState {
+    Vec2 container_centre{0.0, 0.0};
+    std::vector<Disc> discs;
+
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(container_centre.x, container_centre.y, discs);
+    }
 };
 
 /// Optional services during a run. None of them changes the trajectory: it stays bitwise identical.
@@ -38,8 +52,18 @@ struct RunControl {
     /// part of the saved state.
     Observation* observation = nullptr;
 
+    /// Receives the averages of every period. Must outlive the run. Its data are part of the saved
+    /// state; with `resume` it must be empty.
+    PeriodSeries* series = nullptr;
+
     /// Integrate the orientation of each sphere (Snapshot::turned).
     bool orientations = false;
+
+    /// The final state of another run of whole periods, from which this run starts instead of from
+    /// random positions (study/sweep_chain.hpp). Discs keep their positions relative to the container.
+    std::optional<FinalState> begin_from = {};
+    /// Receives the final state of a run of whole periods when it is complete.
+    FinalState* final_state = nullptr;
 
     /// The state() of a run with the same configuration and the same measurements. The run
     /// continues from it, bitwise identical; `observation` must be empty at that point.
@@ -89,6 +113,9 @@ class Run {
     std::optional<std::string> problem_with_length(const RunConfig& shorter) const;
     /// The result up to now.
     RunResult result();
+
+    /// At the end of a run of whole periods, for RunControl::begin_from.
+    FinalState final_state() const;
 
     /// For RunControl::resume; between pass_event() and next_event().
     std::string state();

@@ -53,6 +53,53 @@ struct Block {
     double sum = 0.0, weight = 0.0;
 };
 
+/// Integrated autocorrelation time, at least 1, from the autocovariances of lags below `lags`:
+/// Geyer's sum.
+template <class Autocovariance>
+double autocorrelation_time(std::size_t lags, const Autocovariance& autocovariance) {
+    const double variance = autocovariance(0);
+    if (!(variance > 0.0)) return 1.0;
+    double sum = -variance, last = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k + 1 < lags; k += 2) {
+        double pair = autocovariance(k) + autocovariance(k + 1);
+        if (!(pair > 0.0)) break;
+        pair = std::min(pair, last);
+        last = pair;
+        sum += 2.0 * pair;
+    }
+    return std::max(1.0, sum / variance);
+}
+
+/// Mean and error of equally weighted values in order of time, without joining any of them; and their
+/// integrated autocorrelation time, NaN for fewer than two values.
+struct SeriesEstimate {
+    Estimate estimate;
+    double autocorrelation_time = not_available;
+};
+inline SeriesEstimate estimate_of_series(std::span<const double> values) {
+    SeriesEstimate found;
+    const auto n = static_cast<double>(values.size());
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    found.estimate.blocks = values.size();
+    if (values.empty()) return found;
+    const double mean = sum / n;
+    found.estimate.mean = mean;
+    found.estimate.effective_samples = n;
+    if (values.size() < 2) return found;
+    const auto autocovariance = [&](std::size_t lag) {
+        double product = 0.0;
+        for (std::size_t k = 0; k + lag < values.size(); ++k)
+            product += (values[k] - mean) * (values[k + lag] - mean);
+        return product / n;
+    };
+    const double tau = autocorrelation_time(values.size(), autocovariance);
+    found.autocorrelation_time = tau;
+    found.estimate.effective_samples = n / tau;
+    found.estimate.error = std::sqrt(tau * autocovariance(0) / (n - 1.0));
+    return found;
+}
+
 /// The blocks of one run, or of several runs one after the other.
 class BlockSeries {
   public:
@@ -119,18 +166,8 @@ class BlockSeries {
 
     /// Integrated autocorrelation time of the residuals about `mean`, in blocks; at least 1.
     double autocorrelation_time(double mean) const {
-        const double variance = autocovariance(mean, 0);
-        if (!(variance > 0.0)) return 1.0;
-        const std::size_t longest = longest_run();
-        double sum = -variance, last = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k + 1 < longest; k += 2) {
-            double pair = autocovariance(mean, k) + autocovariance(mean, k + 1);
-            if (!(pair > 0.0)) break;
-            pair = std::min(pair, last);
-            last = pair;
-            sum += 2.0 * pair;
-        }
-        return std::max(1.0, sum / variance);
+        return swirl::autocorrelation_time(
+            longest_run(), [&](std::size_t lag) { return autocovariance(mean, lag); });
     }
 
     template <class Visitor>
@@ -208,6 +245,10 @@ class BlockMean {
     void close_block() {
         series_.add(open_.sum, open_.weight);
         open_ = {};
+    }
+    /// The mean of the open block; NaN without a value.
+    double open_mean() const {
+        return open_.weight != 0.0 ? open_.sum / open_.weight : not_available;
     }
     Estimate estimate() const { return series_.estimate(); }
     const BlockSeries& series() const { return series_; }

@@ -96,6 +96,7 @@ std::vector<std::string> columns_of(const SweepPlan& plan,
                                     const std::vector<Quantity>& quantities) {
     std::vector<std::string> columns;
     for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
+    if (!plan.chain.empty()) columns.emplace_back("direction");
     columns.emplace_back("replicas");
     if (!gives_periods(plan)) columns.emplace_back("periods");
     columns.insert(columns.end(), {"energy", "steady_state", "scatter"});
@@ -119,6 +120,7 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
              const std::vector<const PointResult*>& replicas) {
     std::vector<Table::Cell> row;
     for (const SweepAxis& axis : plan.axes) row.push_back(cell_of(texts.at(axis.name)));
+    if (!plan.chain.empty()) row.emplace_back(texts.at("direction"));
     const auto n = static_cast<double>(replicas.size());
     double periods = 0.0, energy = 0.0;
     for (const PointResult* r : replicas) {
@@ -175,14 +177,17 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     std::vector<std::size_t> points(results.size());  // by product index
     for (std::size_t p = 0; p < points.size(); ++p) points[plan.product_index(p)] = p;
     const auto replica_count = static_cast<std::size_t>(plan.replicas);
-    for (const std::size_t row : rows_of(plan)) {
-        const std::size_t first = row * replica_count;
-        std::vector<const PointResult*> replicas;
-        for (std::size_t r = first; r < first + replica_count; ++r)
-            if (results[r].exists) replicas.push_back(&results[r]);
-        if (!replicas.empty())
-            add_row(collected, plan, plan.parameters(points[first]), quantities, replicas);
-    }
+    for (const std::size_t row : rows_of(plan))
+        for (std::size_t direction = 0; direction < plan.directions(); ++direction) {
+            const std::size_t first = (row * plan.directions() + direction) * replica_count;
+            std::vector<const PointResult*> replicas;
+            for (std::size_t r = first; r < first + replica_count; ++r)
+                if (results[r].exists) replicas.push_back(&results[r]);
+            if (replicas.empty()) continue;
+            ParameterTexts texts = plan.parameters(points[first]);
+            if (!plan.chain.empty()) texts["direction"] = plan.direction(points[first]);
+            add_row(collected, plan, texts, quantities, replicas);
+        }
     return collected;
 }
 
@@ -213,10 +218,12 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
     std::vector<std::string> others;
     for (const SweepAxis& axis : plan.axes)
         if (axis.name != "discs") others.push_back(axis.name);
-    if (others.size() == plan.axes.size())
+    const bool varies_discs = others.size() < plan.axes.size();
+    if (!varies_discs)
         throw UsageError(
             "the crossings are sign changes with the number of discs, but --discs is not a "
             "parameter of this sweep.");
+    if (!plan.chain.empty()) others.emplace_back("direction");
     std::vector<ParameterTexts> groups;  // in the order of the rows
     std::map<ParameterTexts, RotationCurves> curves;
     for (const CollectedRow& row : collected.rows) {

@@ -4,9 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
@@ -15,8 +17,10 @@
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/parallel_for.hpp"
+#include "swirl/run/period_series.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/shell_word.hpp"
+#include "swirl/study/sweep_chain.hpp"
 #include "swirl/study/sweep_folder.hpp"
 #include "swirl/study/sweep_locks.hpp"
 
@@ -26,14 +30,36 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The command that runs one point on its own.
+/// The command that runs one point on its own; for a chain, the sweep, of which no point runs alone.
 std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
+    if (!plan.chain.empty()) {
+        std::string sweep = "swirl sweep";
+        for (const SweepAxis& axis : plan.axes)
+            sweep += fmt::format(" {} {}", option_name(axis.name),
+                                 shell_word(fmt::format("{}", fmt::join(axis.values, ","))));
+        if (!plan.measure.empty())
+            sweep += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
+        return sweep + fmt::format(" --seeds {} --chain {} --out DIR", plan.replicas, plan.chain);
+    }
     std::string command = "swirl run";
     for (const auto& [name, value] : plan.parameters(point))
         if (name != "seed") command += fmt::format(" {} {}", option_name(name), shell_word(value));
     if (!plan.measure.empty())
         command += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
     return command + fmt::format(" --seed {}", seed);
+}
+
+/// The relative time that a point takes. A run of N discs in the paper's container has about N^2.5
+/// events per period for N from 20 to 50.
+double cost_of(const SweepPlan& plan, std::size_t point) {
+    const ParameterTexts texts = plan.parameters(point);
+    const auto value = [&](const char* name, double default_value) {
+        const auto found = texts.find(name);
+        if (found == texts.end()) return default_value;
+        return read_number(found->second).value_or(default_value);
+    };
+    if (!texts.contains("periods")) return value("events", double(RunConfig{}.events));
+    return value("periods", 1.0) * std::pow(value("discs", double(RunConfig{}.discs)), 2.5);
 }
 
 class SweepWorker {
@@ -48,18 +74,24 @@ class SweepWorker {
           writer_(part_of_sweep(folder, "results", plan)) {}
 
     SweepOutcome run() {
-        std::vector<std::size_t> own, others;
-        const std::vector<bool> done =
-            numbered_files(part_of_sweep(folder_, "results", plan_), ".json", plan_.points());
-        const auto add = [&](std::size_t point) {
-            if (!done[point])
-                (point % share_.parts == share_.part - 1 ? own : others).push_back(point);
+        std::vector<std::vector<std::size_t>> own, others;
+        const auto add = [&](const std::vector<std::size_t>& chain, std::size_t k) {
+            const auto to_do = std::count_if(chain.begin(), chain.end(),
+                                             [&](std::size_t point) { return !done_before_[point]; });
+            if (to_do == 0) return;
+            const bool is_own = k % share_.parts == share_.part - 1;
+            (is_own ? own : others).push_back(chain);
+            if (!is_own && !share_.rest) return;
+            total_ += double(to_do);
+            for (const std::size_t point : chain)
+                if (!done_before_[point]) total_cost_ += cost_of(plan_, point);
         };
-        if (share_.only)
-            for (const std::size_t point : *share_.only) add(point);
-        else
-            for (std::size_t point = 0; point < plan_.points(); ++point) add(point);
-        total_ = double(own.size() + (share_.rest ? others.size() : 0));
+        if (share_.only) {
+            for (const std::size_t point : *share_.only) add({point}, point);
+        } else {
+            const std::vector<std::vector<std::size_t>> chains = chains_of(plan_);
+            for (std::size_t k = 0; k < chains.size(); ++k) add(chains[k], k);
+        }
         work_on(own);
         if (share_.rest) work_on(others);
         writer_.finish();
@@ -68,52 +100,87 @@ class SweepWorker {
     }
 
   private:
-    void work_on(const std::vector<std::size_t>& points) {
+    void work_on(const std::vector<std::vector<std::size_t>>& chains) {
         parallel_for(
-            points.size(), [&](std::size_t k) { try_point(points[k]); }, share_.threads);
+            chains.size(), [&](std::size_t k) { run_chain(chains[k]); }, share_.threads);
     }
 
-    void try_point(std::size_t point) {
-        if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;
+    /// Ends at the first point that this call cannot finish: the next one starts from its end.
+    void run_chain(const std::vector<std::size_t>& chain) {
+        std::optional<FinalState> last;  // of the point before, if this call has run it
+        for (std::size_t k = 0; k < chain.size(); ++k) {
+            if (done_before_[chain[k]]) continue;
+            if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;
+            ChainLink link;
+            if (k > 0) {
+                link.from = chain[k - 1];
+                link.begin =
+                    last ? std::move(last) : read_final_state(folder_, plan_, chain[k - 1]);
+                last.reset();
+            }
+            if (!try_point(chain[k], link)) return;
+            if (!link.end.discs.empty()) last = std::move(link.end);
+        }
+    }
+
+    /// Where a run of a chain starts and ends.
+    struct ChainLink {
+        std::optional<std::size_t> from;  // the point before
+        std::optional<FinalState> begin;
+        FinalState end;
+    };
+
+    /// True if the point is done.
+    bool try_point(std::size_t point, ChainLink& link) {
         const std::shared_ptr<SweepLock> point_lock = SweepLock::try_lock(locks_, point);
         if (!point_lock) {
             const std::lock_guard lock(mutex_);
             ++outcome_.elsewhere;
-            return;
+            return false;
         }
         // Another process may have finished it in the meantime.
-        if (::access(result_file(folder_, plan_, point).c_str(), F_OK) == 0) return count(0, 0);
+        if (::access(result_file(folder_, plan_, point).c_str(), F_OK) == 0) {
+            count(point, 1.0, 0);
+            return true;
+        }
         std::string failure;
         try {
-            if (!do_point(point, point_lock)) return;
+            if (!do_point(point, point_lock, link)) return false;
         } catch (const FileError& error) {
             throw;  // concerns the whole folder, not this point
         } catch (const Interrupted&) {
-            return;
+            return false;
         } catch (const std::exception& error) {
             failure = error.what();
         }
         const fs::path failure_file = folder_ / "failures" / (number_of_point(point) + ".txt");
         if (failure.empty()) {
             if (failed_before_[point]) ::unlink(failure_file.c_str());
-            return;
+            return true;
         }
         write_file_atomically(failure_file, failure + "\n");
         const std::lock_guard lock(mutex_);
         if (outcome_.failed++ == 0)
             outcome_.first_failure = fmt::format("point {}: {}", point, failure);
+        return false;
     }
 
     /// False if the run was stopped early.
-    bool do_point(std::size_t point, const std::shared_ptr<SweepLock>& point_lock) {
+    bool do_point(std::size_t point, const std::shared_ptr<SweepLock>& point_lock,
+                  ChainLink& link) {
         const RunConfig config = plan_.config(point);
         const RunFiles files = files_of(point);
         const std::string command = command_of(plan_, point, config.seed);
         Observation observation = observation_of(config, plan_.measure);
-        const RunResult result = run_point(config, files, command, observation);
+        const RunResult result = run_point(point, config, files, command, observation, link);
         if (!result.complete) return false;
+        if (!plan_.chain.empty()) write_final_state(folder_, plan_, point, link.end);
         Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
         Json results = result_json(result);
+        if (!plan_.chain.empty()) {
+            json["direction"] = plan_.direction(point);
+            json["started_from"] = link.from ? Json(*link.from) : Json();
+        }
         for (auto& [name, value] : results.items()) json[name] = std::move(value);
         json["command"] = command;
         if (!plan_.measure.empty()) json["measured"] = measured_json(observation.report());
@@ -131,18 +198,24 @@ class SweepWorker {
         files.resume = true;
         files.overwrite = true;  // existing files of this number belong to this point
         if (plan_.frames > 0) files.trajectory = folder_ / "trajectories" / (number + ".h5");
+        if (plan_.series)
+            files.series = part_of_sweep(folder_, "series", plan_) / (number + ".csv");
         files.frames.per_period = std::max(plan_.frames, 1);
         return files;
     }
 
-    RunResult run_point(const RunConfig& config, const RunFiles& files, const std::string& command,
-                        Observation& observation) {
+    RunResult run_point(std::size_t point, const RunConfig& config, const RunFiles& files,
+                        const std::string& command, Observation& observation, ChainLink& link) {
         RunControl control;
+        control.begin_from = std::move(link.begin);
+        if (!plan_.chain.empty()) control.final_state = &link.end;
+        std::optional<PeriodSeries> series;
+        if (plan_.series) control.series = &series.emplace(config, plan_.measure);
         control.stop = control_.stop;
         double counted = 0.0;
         std::uint64_t counted_events = 0;
         control.progress = [&](const RunProgress& p) {
-            count(p.fraction - counted, p.events - counted_events);
+            count(point, p.fraction - counted, p.events - counted_events);
             counted = p.fraction;
             counted_events = p.events;
         };
@@ -150,13 +223,15 @@ class SweepWorker {
         Provenance provenance;  // only recordings need it
         if (plan_.frames > 0) provenance = provenance_of(config, command, plan_text_);
         const RunResult result = run_recorded(config, files, control, provenance);
-        if (result.complete) count(1.0 - counted, result.events.total() - counted_events);
+        if (result.complete) count(point, 1.0 - counted, result.events.total() - counted_events);
         return result;
     }
 
-    void count(double points, std::uint64_t events) {
+    /// Adds a fraction of a point to the progress, weighted with its cost.
+    void count(std::size_t point, double fraction, std::uint64_t events) {
+        const double share = total_cost_ > 0.0 ? cost_of(plan_, point) * total_ / total_cost_ : 1.0;
         const std::lock_guard lock(mutex_);
-        done_ += points;
+        done_ += fraction * share;
         events_ += events;
         if (control_.progress) control_.progress(done_, total_, events_);
     }
@@ -169,10 +244,12 @@ class SweepWorker {
     const std::shared_ptr<SweepLocks> locks_;
     const std::vector<bool> failed_before_ =
         numbered_files(folder_ / "failures", ".txt", plan_.points());
+    const std::vector<bool> done_before_ =
+        numbered_files(part_of_sweep(folder_, "results", plan_), ".json", plan_.points());
     ResultWriter writer_;
     std::mutex mutex_;
     SweepOutcome outcome_;
-    double done_ = 0.0, total_ = 0.0;
+    double done_ = 0.0, total_ = 0.0, total_cost_ = 0.0;
     std::uint64_t events_ = 0;
 };
 

@@ -6,6 +6,8 @@
 //     DIR/failures/000012.txt  the error message of point 12; the next call tries again
 //     DIR/checkpoints/         of points that take longer than a minute
 //     DIR/trajectories/000012.h5  recorded frames, if the plan asks for them
+//     DIR/series/000012.csv       averages of every period, if the plan asks for them
+//     DIR/states/                 final states of the runs of a chain (sweep_chain.hpp)
 //
 // Any number of processes, on any machines that share the folder, may work on it, be killed, and
 // start again. A point done twice gives the same bytes except for the time it took.
@@ -48,7 +50,8 @@ struct SweepOutcome {
 struct SweepControl {
     const std::atomic<bool>* stop = nullptr;
     /// Called from any thread with the points of this call that are done (including fractions of
-    /// running points), their total, and the events so far.
+    /// running points, and each weighted with the time that it probably takes), their total, and the
+    /// events so far.
     std::function<void(double done, double all, std::uint64_t events)> progress;
 };
 

@@ -20,9 +20,9 @@ fs::path result_file(const fs::path& folder, const SweepPlan& plan, std::size_t 
 }
 
 bool belongs_to_sweep(const fs::path& folder, const fs::path& file) {
-    static constexpr std::string_view parts[] = {"plan.json",    "locks",   "job.sh",
-                                                 "slurm_job",    "results", "checkpoints",
-                                                 "trajectories", "log",     "failures"};
+    static constexpr std::string_view parts[] = {
+        "plan.json",    "locks", "job.sh",   "slurm_job", "results", "checkpoints",
+        "trajectories", "log",   "failures", "series",    "states"};
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const std::string name = it->path().filename().string();

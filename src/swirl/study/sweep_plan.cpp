@@ -17,6 +17,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/ramp.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
@@ -101,7 +102,7 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
 
 /// The number of runs, as a double: the counts in a damaged file may overflow an integer.
 double number_of_runs(const SweepPlan& plan) {
-    double count = double(plan.replicas);
+    double count = double(plan.replicas) * double(plan.directions());
     for (const SweepAxis& axis : plan.axes) count *= double(axis.values.size());
     return count;
 }
@@ -181,6 +182,8 @@ Json plan_json(const SweepPlan& plan) {
     Json json{{"format", sweep_format}, {"axes", axes}, {"replicas", plan.replicas}};
     if (!plan.measure.empty()) json["measure"] = plan.measure;
     if (plan.frames > 0) json["frames"] = plan.frames;
+    if (plan.series) json["series"] = true;
+    if (!plan.chain.empty()) json["chain"] = plan.chain;
     if (plan.generation > 1) json["generation"] = plan.generation;
     for (const SweepStage& stage : plan.before)
         json["before"].push_back({{"values", stage.values}, {"replicas", stage.replicas}});
@@ -211,7 +214,7 @@ MapTarget map_target_of(const Json& json) {
 }  // namespace
 
 std::size_t SweepPlan::points() const {
-    auto count = static_cast<std::size_t>(replicas);
+    std::size_t count = static_cast<std::size_t>(replicas) * directions();
     for (const SweepAxis& axis : axes) count *= axis.values.size();
     return count;
 }
@@ -220,9 +223,15 @@ std::int64_t SweepPlan::replica(std::size_t point) const {
     return static_cast<std::int64_t>(product_index(point) % static_cast<std::size_t>(replicas));
 }
 
+const char* SweepPlan::direction(std::size_t point) const {
+    if (chain.empty()) return "";
+    const std::size_t index = product_index(point) / static_cast<std::size_t>(replicas);
+    return index % directions() == 0 ? "up" : "down";
+}
+
 ParameterTexts SweepPlan::parameters(std::size_t point) const {
     ParameterTexts texts;
-    std::size_t index = product_index(point) / static_cast<std::size_t>(replicas);
+    std::size_t index = product_index(point) / (static_cast<std::size_t>(replicas) * directions());
     for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
         texts[axis->name] = axis->values[index % axis->values.size()];
         index /= axis->values.size();
@@ -232,7 +241,8 @@ ParameterTexts SweepPlan::parameters(std::size_t point) const {
 
 RunConfig SweepPlan::config(std::size_t point) const {
     RunConfig config = resolve(parameters(point));
-    const std::string identity = fmt::format("{} replica {}", config_text(config), replica(point));
+    std::string identity = fmt::format("{} replica {}", config_text(config), replica(point));
+    if (!chain.empty()) identity += fmt::format(" chain {} {}", chain, direction(point));
     config.seed = Random(checksum(identity)).bits() >> 11;  // exact in every JSON reader
     return config;
 }
@@ -247,7 +257,8 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
         if (part.empty())
             throw UsageError(fmt::format("{} is '{}', but a value in the list is empty.",
                                          option_name(name), text));
-        const bool has_colons = name == "mixture" || name == "path" || name == "sizes";
+        const bool has_colons =
+            name == "mixture" || name == "path" || name == "sizes" || name == "ramp";
         if (part.find(':') != part.npos && !has_colons) {
             const auto more = range(name, part);
             values.insert(values.end(), more.begin(), more.end());
@@ -274,11 +285,41 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
     return plan;
 }
 
+void set_chain(SweepPlan& plan, std::string_view parameter) {
+    const std::string name = plain_name(parameter);
+    const auto axis = std::find_if(plan.axes.begin(), plan.axes.end(),
+                                   [&](const SweepAxis& a) { return a.name == name; });
+    const std::vector<std::string> names = ramp_parameter_names();
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        throw UsageError(fmt::format("--chain is '{}', but it must be one of: {}.{}", parameter,
+                                     fmt::join(names, ", "), nearest_value_hint(name, names)));
+    if (axis == plan.axes.end() || axis->values.size() < 2)
+        throw UsageError(
+            fmt::format("--chain is '{}', but the sweep has no list of values of it.\nhint: give "
+                        "{} with several values, for example {} 0.1:0.1:1.",
+                        parameter, option_name(name), option_name(name)));
+    const auto is_axis = [&](const char* other) {
+        return std::any_of(plan.axes.begin(), plan.axes.end(),
+                           [&](const SweepAxis& a) { return a.name == other; });
+    };
+    if (!is_axis("periods"))
+        throw UsageError(
+            "a chain needs runs of whole periods.\nhint: give their length with --periods.");
+    if (is_axis("ramp"))
+        throw UsageError("--chain and --ramp cannot be combined.\nhint: omit one of them.");
+    plan.chain = name;
+    validate(plan);
+}
+
 SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
                 const std::vector<std::string>& measure) {
     if (plan.map)
         throw UsageError(
             "an adaptive map cannot grow.\nhint: start another map with further values.");
+    if (!plan.chain.empty())
+        throw UsageError(
+            "a sweep with a chain cannot grow: each run starts from the one before it.\nhint: use "
+            "another folder.");
     SweepPlan larger = plan;
     for (const auto& [given, text] : more) {
         const std::string name = plain_name(given);
@@ -327,6 +368,8 @@ SweepPlan read_plan(const fs::path& folder) {
         plan.replicas = json.at("replicas").get<std::int64_t>();
         plan.measure = json.value("measure", std::vector<std::string>());
         plan.frames = json.value("frames", 0);
+        plan.series = json.value("series", false);
+        plan.chain = json.value("chain", std::string());
         plan.generation = json.value("generation", 1);
         for (const Json& stage : json.value("before", Json::array()))
             plan.before.push_back({stage.at("values").get<std::vector<std::size_t>>(),
@@ -346,6 +389,13 @@ SweepPlan read_plan(const fs::path& folder) {
                         "each point, but from 1 to {} runs are possible.",
                         file.string(), count, plan.replicas, max_points));
     reject_shrinking(file, plan);
+    if (!plan.chain.empty()) {
+        try {
+            set_chain(plan, plan.chain);
+        } catch (const UsageError& error) {
+            throw FileError(fmt::format("'{}' is damaged: {}", file.string(), error.what()));
+        }
+    }
     plan.product_indices = product_indices_of(plan);
     return plan;
 }
@@ -390,6 +440,7 @@ void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* 
     std::vector<fs::path> parts{part_of_sweep(folder, "results", plan), folder / "failures",
                                 part_of_sweep(folder, "checkpoints", plan)};
     if (plan.frames > 0) parts.push_back(folder / "trajectories");
+    if (plan.series) parts.push_back(part_of_sweep(folder, "series", plan));
     for (const fs::path& part : parts)
         if (fs::create_directories(part, error); error)
             throw Failure(

@@ -5,6 +5,11 @@
 // Measurements need the running simulation. With further measurements, all points are therefore run
 // again with the same seeds (bitwise identical) in DIR/results-2, -3, …; the old results stay.
 //
+// Chain. With a chain along a parameter, each combination of the other parameters and replica is one
+// chain: its points in ascending order of the parameter, then in descending order. Each starts from
+// the final state of the one before it. A point of a plan is then a combination, a direction and a
+// replica, the last varying fastest.
+//
 // Order. Points are numbered with the parameters in the order of `swirl run --help`; the last one
 // and then the replica vary fastest. The seed of a point is computed from its resolved parameters,
 // its replica and the seed of the plan. It does not depend on the number of the point, on threads
@@ -53,7 +58,10 @@ struct SweepPlan {
     std::int64_t replicas = 1;
     std::vector<std::string> measure;  // measurements of every run (measurements.hpp)
     int frames = 0;                    // per period, of the trajectory of every run; 0: none
-    int generation = 1;                // increases with every addition of measurements
+    bool series = false;               // write the table of the periods of every run
+    /// The parameter along which each run starts from the end of its neighbour; "" for none.
+    std::string chain = {};
+    int generation = 1;  // increases with every addition of measurements
     std::vector<SweepStage> before = {};
     std::optional<MapTarget> map = {};  // only for an adaptive map
     /// For each point, its index in the product of the axes, with the replica varying fastest.
@@ -67,6 +75,10 @@ struct SweepPlan {
     /// The parameters of a point, without its seed.
     ParameterTexts parameters(std::size_t point) const;
     std::int64_t replica(std::size_t point) const;
+    /// A chain passes each point twice: first with rising, then with falling values.
+    std::size_t directions() const { return chain.empty() ? 1 : 2; }
+    /// "up" or "down"; "" without a chain.
+    const char* direction(std::size_t point) const;
     /// The configuration with its seed. Throws UsageError.
     RunConfig config(std::size_t point) const;
     /// The contents of plan.json, in one line.
@@ -80,6 +92,9 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
 /// Each text may be a list. Throws UsageError, also for a value with which a point cannot be run,
 /// and for two values that give the same run.
 SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas);
+
+/// Makes the plan a chain along this parameter (sweep_chain.hpp). Throws UsageError.
+void set_chain(SweepPlan& plan, std::string_view parameter);
 
 /// The plan with further values, replicas and measurements; 0 replicas and no measurements leave
 /// them unchanged. Throws UsageError for parameters that the plan does not have.

@@ -1,0 +1,101 @@
+// The averages of every period of a run, as a table with one row per period (--series).
+//
+// Fixed columns: the number of the period, from 0; whether it counts in the averages of the run
+// (after the warm-up); the four rotation rates; the mean spin; the mean kinetic energy; the mean
+// centre of mass in the M-frame; the number of events. Then one column for each parameter with a
+// ramp, and one for each row of the measurements of the run. Such a row is what the measurement
+// reports for this period alone. So it is n/a where a measurement needs more than one period.
+//
+// Energy and centre are means over the 64 samples by time of the rotation (cluster_rotation.hpp).
+// A value that is not available is NaN, and an empty cell in the file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/observation.hpp"
+#include "swirl/run/parameters.hpp"
+
+namespace swirl {
+
+struct SeriesColumn {
+    std::string name, unit, description;
+};
+
+/// The mean of a column over the periods that count and have a value, and its correlations.
+struct SeriesAverage {
+    std::string name, unit;
+    Estimate estimate;
+    double autocorrelation_time;  // integrated, in periods; at least 1 (block_average.hpp)
+};
+
+/// What a run knows of a period at its end.
+struct PeriodAverages {
+    std::int64_t period;
+    bool is_counted;
+    std::array<double, rotation_rates.size()> rotation;
+    double spin;
+    std::uint64_t events;  // since the start of the run
+};
+
+class PeriodSeries {
+  public:
+    /// `measurements`: names of measurement_kinds().
+    PeriodSeries(const RunConfig& config, std::vector<std::string> measurements);
+
+    /// At the sample times of the rotation.
+    void sample(const Snapshot& snapshot);
+    /// At the times and after the events that the measurements of a run sample; needed if measures().
+    void sample_measured(const Snapshot& snapshot) { measured_.sample(snapshot); }
+    void sample_measured(const Event& event, const Snapshot& after) {
+        measured_.sample(event, after);
+    }
+    bool measures() const { return !measured_.empty(); }
+    void add_period(const PeriodAverages& averages);
+
+    const std::vector<SeriesColumn>& columns() const { return columns_; }
+    std::size_t periods() const { return values_.size() / columns_.size(); }
+    double at(std::size_t period, std::size_t column) const {
+        return values_[period * columns_.size() + column];
+    }
+    /// Row by row.
+    const std::vector<double>& values() const { return values_; }
+
+    /// Of the columns that are averages: all but the first two and those of ramps.
+    std::vector<SeriesAverage> averages() const;
+
+    /// Writes the table as CSV, atomically. Throws FileError.
+    void write(const std::filesystem::path& file) const;
+
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(values_, events_, energy_, centre_.x, centre_.y, samples_);
+        if (measures()) visit(measured_);
+    }
+    bool is_consistent() const { return values_.size() % columns_.size() == 0; }
+
+  private:
+    void add_columns();
+    Observation empty_observation() const;
+
+    RunConfig config_;
+    std::vector<SeriesColumn> columns_;
+    std::size_t first_measured_ = 0;  // index of the first column of a measurement
+    std::vector<double> values_;
+    std::uint64_t events_ = 0;  // up to the last period
+
+    // Of the present period.
+    double energy_ = 0.0;
+    Vec2 centre_{0.0, 0.0};
+    double samples_ = 0.0;
+    Observation measured_;
+    MFrameView view_;
+};
+
+}  // namespace swirl

@@ -1,0 +1,179 @@
+"""`--series`, `--ramp` and `--chain`: the files they write, interruptions, and rejected calls."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import unittest
+
+from program import InFolder, ONE_ERROR, SWIRL, swirl
+
+RAMP = ("--discs", 24, "--ramp", "mu=0.2:1:0.2@3..23", "--ramp", "amplitude=1:2@5..20")
+
+
+def rows(file):
+    with open(file, newline="") as opened:
+        return list(csv.DictReader(opened))
+
+
+class Series(InFolder):
+    def run_swirl(self, *arguments):
+        done = swirl(*arguments, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def test_each_period_is_a_row_with_the_value_of_its_ramp(self):
+        self.run_swirl("run", *RAMP, "--series", "s.csv", "--measure", "slip", "--json", "r.json")
+        table = rows(self.path("s.csv"))
+        self.assertEqual([row["period"] for row in table], [str(k) for k in range(24)])
+        self.assertEqual([float(table[k]["ramp.mu"]) for k in (0, 3, 13, 23)], [0.2, 0.2, 1, 0.2])
+        self.assertTrue(all(row["slip.cluster"] for row in table))
+        with open(self.path("r.json")) as opened:
+            result = json.load(opened)
+        self.assertEqual(sum(int(row["events"]) for row in table), result["events"]["total"])
+        self.assertEqual(result["series"]["periods"], 24)
+        average = result["series"]["averages"]["slip.cluster"]
+        self.assertGreaterEqual(average["autocorrelation_time"], 1)
+        self.assertAlmostEqual(average["blocks"] / average["autocorrelation_time"],
+                               average["effective_samples"])
+
+    def test_a_killed_and_resumed_run_has_the_same_series(self):
+        whole = ("--discs", 48, "--ramp", "mu=0.2:1@3..203", "--ramp", "period=12:9@3..203")
+        self.run_swirl("run", *whole, "--series", "whole.csv", "--quiet")
+        call = ("run", *whole, "--series", "s.csv", "--trajectory", "t.h5", "--checkpoint", "c",
+                "--checkpoint-every", "0.01", "--quiet")
+        kills = 0
+        for _ in range(40):
+            started = subprocess.Popen([SWIRL, *map(str, call), "--resume"], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            if kills < 3:
+                try:
+                    started.wait(0.15)
+                except subprocess.TimeoutExpired:
+                    started.send_signal(signal.SIGKILL if kills % 2 else signal.SIGTERM)
+                    kills += 1
+            if started.wait(100) == 0:
+                break
+        self.assertEqual(started.returncode, 0)
+        with open(self.path("s.csv")) as one, open(self.path("whole.csv")) as other:
+            self.assertEqual(one.read(), other.read())
+        self.run_swirl("verify", "t.h5")
+
+    def test_existing_files_and_other_endings_are_rejected(self):
+        with open(self.path("s.csv"), "w") as opened:
+            opened.write("mine\n")
+        for arguments, part in ((("--series", "s.csv"), "already exists"),
+                                (("--series", "s.h5"), "must end in .csv"),
+                                (("--ramp", "period=12:9@2..9", "--log-events", "e.h5"),
+                                 "an event log cannot record a ramp of period"),
+                                (("--ramp", "period=12:9@2..9", "--trajectory", "t.h5",
+                                  "--frame-interval", "1"), "--frame-interval cannot be used"),
+                                (("--ramp", "inertia=1:2@2..9"), "property of the particles")):
+            done = swirl("run", "--discs", 8, *arguments, cwd=self.folder)
+            self.assertIn(part, done.stderr)
+            self.assertRegex(done.stderr, ONE_ERROR)
+            self.assertNotEqual(done.returncode, 0)
+        with open(self.path("s.csv")) as opened:
+            self.assertEqual(opened.read(), "mine\n")
+
+    def test_a_configuration_file_holds_ramps_and_options_replace_its_values(self):
+        with open(self.path("plan.toml"), "w") as opened:
+            opened.write('discs = 12\nramp = "mu=0.1:1@2..9; amplitude=1:2@2..9"\nseries = "a.csv"\n')
+        self.run_swirl("run", "plan.toml", "--quiet")
+        self.assertEqual(len(rows(self.path("a.csv"))), 10)
+        with open(self.path("mu.toml"), "w") as opened:
+            opened.write("discs = 12\nmu = 0.5\n")
+        done = self.run_swirl("run", "mu.toml", "--ramp", "mu=0.1:1@2..9", "--dry-run")
+        self.assertIn('ramp = "mu=0.1:1@2..9"', done.stdout)
+
+    def test_other_commands_have_no_ramp(self):
+        for command in (("crossing",), ("movie", "--out", "m.mp4")):
+            done = swirl(*command, "--ramp", "mu=0.1:1@2..9", cwd=self.folder)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("there is no option --ramp", done.stderr)
+
+
+class Chain(InFolder):
+    SWEEP = ("sweep", "--discs", 20, "--mu", "0.2,0.6,1", "--amplitude", "1.5,2", "--periods", 8,
+             "--warmup", 2, "--seeds", 2, "--chain", "mu", "--quiet")
+
+    def results(self, name):
+        folder = os.path.join(self.folder, name, "results")
+        found = {}
+        for file in sorted(os.listdir(folder)):
+            with open(os.path.join(folder, file)) as opened:
+                found[file] = json.load(opened)
+        return found
+
+    def sweep(self, name, *more):
+        done = swirl(*self.SWEEP, "--out", name, *more, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_each_run_starts_from_its_neighbour_in_both_directions(self):
+        self.sweep("loop", "--series")
+        results = self.results("loop")
+        self.assertEqual(len(results), 2 * 3 * 2 * 2)
+        for result in results.values():
+            if result["started_from"] is None:
+                self.assertEqual((result["direction"], result["config"]["mu_disc"]), ("up", 0.2))
+                continue
+            before = results[f"{result['started_from']:06}.json"]
+            self.assertEqual(result["config"]["amplitude"], before["config"]["amplitude"])
+            self.assertEqual(result["replica"], before["replica"])
+            step = result["config"]["mu_disc"] - before["config"]["mu_disc"]
+            turns = result["direction"] == "down" and before["direction"] == "up"
+            self.assertAlmostEqual(step, 0 if turns else 0.4 if result["direction"] == "up" else -0.4)
+            # Velocities are kept, and the sums of their squares are those of the end before.
+            self.assertAlmostEqual(result["energy_at_start"] / before["energy"], 1, delta=1e-12)
+        done = swirl("collect", "loop", "--csv", "-", cwd=self.folder)
+        table = list(csv.DictReader(done.stdout.splitlines()))
+        self.assertEqual(len(table), 12)
+        self.assertEqual({row["direction"] for row in table}, {"up", "down"})
+        self.assertEqual(len(os.listdir(os.path.join(self.folder, "loop", "series"))), 24)
+        verified = swirl("verify", "loop/results/000002.json", cwd=self.folder)
+        self.assertIn("started from the end of another", verified.stderr)
+
+    def test_a_continued_chain_is_bitwise_identical(self):
+        self.sweep("whole")
+        self.sweep("parts")
+        # As after an interruption: the later results of some chains are missing.
+        gone = [file for file, result in self.results("parts").items()
+                if result["direction"] == "down" or result["config"]["mu_disc"] == 1]
+        for file in gone:
+            os.remove(os.path.join(self.folder, "parts", "results", file))
+        self.sweep("parts")
+        whole, parts = self.results("whole"), self.results("parts")
+        self.assertEqual({file: r["state_hash"] for file, r in whole.items()},
+                         {file: r["state_hash"] for file, r in parts.items()})
+
+    def test_wrong_chains_are_rejected(self):
+        for arguments, part in (
+                (("--mu", "0.1,1", "--chain", "mu"), "needs runs of whole periods"),
+                (("--mu", "1", "--periods", 5, "--chain", "mu"), "no list of values"),
+                (("--inertia", "1,2", "--periods", 5, "--chain", "inertia"), "must be one of: mu"),
+                (("--mu", "0.1,1", "--periods", 5, "--chain", "mu", "--frames", 8), "--frames")):
+            done = swirl("sweep", *arguments, "--out", "bad", cwd=self.folder)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(part, done.stderr)
+            self.assertFalse(os.path.exists(os.path.join(self.folder, "bad")))
+        self.sweep("loop")
+        grown = swirl("sweep", "--out", "loop", "--grow", "--mu", "0.4", cwd=self.folder)
+        self.assertIn("a sweep with a chain cannot grow", grown.stderr)
+
+    def test_the_table_is_drawn(self):
+        self.sweep("loop")
+        done = swirl("collect", "loop", "--plot", cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for kind in ("png", "pdf"):
+            self.assertGreater(os.path.getsize(os.path.join(self.folder, "loop", f"table.{kind}")), 1000)
+        done = swirl("collect", "loop", "--plot", "--quantity", "nonsense", cwd=self.folder)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("no column 'nonsense'", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
