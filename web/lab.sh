@@ -1,6 +1,6 @@
 #!/bin/sh
 # `swirl lab`: builds the browser page if it is out of date, then serves it on this machine or writes it
-# as one self-contained file.
+# as one self-contained file. Options of a run set the parameters with which the page starts.
 set -eu
 home=$(dirname "$(dirname "$(readlink -f "$0")")")
 me=swirl
@@ -9,7 +9,7 @@ me=swirl
 usage() {
     cat <<'TEXT'
 Interactive simulation in a browser, with the engine of the program.
-Usage: swirl lab [OPTIONS]
+Usage: swirl lab [OPTIONS] [OPTIONS OF swirl run]
 
 Options:
   -h,--help                       Print this help message and exit
@@ -18,12 +18,33 @@ Options:
   --no-browser                    Do not open a browser
   --quiet                         Print no messages
 
+Parameters of a run, such as --discs and --mu, set the initial state of the page. See swirl run --help.
+
 Examples:
   swirl lab
+  swirl lab --discs 40 --mu 0.3
   swirl lab --port 9000 --no-browser
   swirl lab --out laboratory.html
 TEXT
 }
+
+# True if the page has this parameter. The length of a run has no meaning there.
+is_parameter() {
+    case $1 in
+        periods | events) return 1 ;;
+    esac
+    grep -q "^| \`$(printf %s "$1" | tr - _)\` " "$home/docs/reference/parameters.md"
+}
+
+given= # NAME=VALUE, one per line
+give() {
+    case $2 in
+        *"$newline"*) wrong_call "--$1 contains a line break, but a value must be one line of text." ;;
+    esac
+    given=$given$(printf %s "$1" | tr - _)=$2$newline
+}
+newline='
+'
 
 port=8720 out= browser=yes quiet=
 while [ $# -gt 0 ]; do
@@ -41,6 +62,19 @@ while [ $# -gt 0 ]; do
         --)
             [ $# -eq 1 ] || wrong_call "unexpected argument '$2'. See swirl lab --help."
             break
+            ;;
+        --*)
+            name=${1#--}
+            name=$(printf %s "${name%%=*}" | tr _ -)
+            is_parameter "$name" || wrong_call "there is no option '${1%%=*}'. See swirl lab --help."
+            case $1 in
+                *=*) give "$name" "${1#*=}" && shift ;;
+                *)
+                    [ $# -gt 1 ] || wrong_call "$1 needs a value. See swirl lab --help."
+                    give "$name" "$2"
+                    shift 2
+                    ;;
+            esac
             ;;
         *) wrong_call "there is no option '$1'. See swirl lab --help." ;;
     esac
@@ -98,15 +132,33 @@ build_page
 rm -f "${lock:-}"
 trap - EXIT INT HUP TERM
 
+query=
+if [ -n "$given" ]; then
+    oldifs=$IFS
+    IFS=$newline
+    set -f
+    # shellcheck disable=SC2086
+    query=$(node "$home/web/start.mjs" "$home/build/wasm/swirl.wasm" $given) || exit 2
+    set +f
+    IFS=$oldifs
+fi
+
+write_page() {
+    if [ -z "$query" ]; then
+        cp "$page" "$temporary"
+    else
+        node "$home/web/start.mjs" --page "$page" "$query" >"$temporary"
+    fi
+}
 if [ -n "$out" ]; then
     temporary=$(mktemp "$out.partial.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
     trap 'rm -f "$temporary"' EXIT
     trap 'exit 130' INT
     trap 'exit 143' HUP TERM
     chmod "$(printf %o $((0666 & ~0$(umask))))" "$temporary"
-    cp "$page" "$temporary" 2>/dev/null && sync "$temporary" && rename "$temporary" "$out" ||
+    write_page 2>/dev/null && sync "$temporary" && rename "$temporary" "$out" ||
         give_up "'$out' cannot be written."
     [ -n "$quiet" ] || say "wrote $out"
     exit 0
 fi
-exec node "$home/web/serve.mjs" "$page" "$port" "$browser"
+exec node "$home/web/serve.mjs" "$page" "$port" "$browser" "$query"

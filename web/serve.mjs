@@ -1,10 +1,10 @@
-// Serves one page on the loopback interface: node serve.mjs PAGE PORT yes|no. The last argument says
-// whether to open a browser.
+// Serves one page on the loopback interface: node serve.mjs PAGE PORT yes|no QUERY. The third argument says
+// whether to open a browser, the last one is the query of the address that is shown; it may be empty.
 import {createServer} from "node:http";
 import {readFile} from "node:fs/promises";
 import {spawn} from "node:child_process";
 
-const [page, port, browser] = process.argv.slice(2);
+const [page, port, browser, query = ""] = process.argv.slice(2);
 // Only these names are accepted as Host: a foreign page whose name resolves to this machine (DNS
 // rebinding) sends its own name.
 const hosts = ["localhost", "127.0.0.1", "[::1]"].flatMap(
@@ -44,7 +44,7 @@ server.on("error", (error) => {
     process.exit(1);
 });
 server.listen(Number(port), "127.0.0.1", () => {
-    const address = `http://localhost:${port}/`;
+    const address = `http://localhost:${port}/${query && `?${query}`}`;
     console.log(`${address}  (Ctrl-C stops the server)`);
     if (browser !== "yes" || !(process.env.DISPLAY || process.env.WAYLAND_DISPLAY)) return;
     spawn("xdg-open", [address], {stdio: "ignore", detached: true}).on("error", () => {}).unref();

@@ -1,5 +1,5 @@
 """Prepares the source folder of `swirl site` for Sphinx: links to the tree, plus the gallery and the notebooks as
-pages.
+pages, and the live dish on the front page.
 
     site.py ROOT SOURCE GALLERY NOTEBOOKS
 
@@ -48,6 +48,21 @@ def gallery_page(root, source, gallery):
     write(os.path.join(source, "gallery.md"), "\n".join(page))
 
 
+DISH = """```{raw} html
+<iframe src="../lab.html?embed=1" title="Live simulation" style="width: 100%; height: min(27rem, 80vh); border: 0"></iframe>
+<p style="margin-top: 0">The dish is simulated in your browser. <a href="../lab.html">Open the whole page.</a></p>
+```
+"""
+
+
+def front_page(source):
+    """The documentation's front page begins with the live dish."""
+    path = os.path.join(source, "docs", "index.md")
+    with open(path, encoding="utf-8") as opened:
+        heading, rest = opened.read().split("\n", 1)
+    write(path, f"{heading}\n\n{DISH}{rest}")
+
+
 def output_markdown(output, folder, name):
     """The richest form of a cell's output. Images become files next to the page."""
     if output["output_type"] == "stream":
@@ -90,6 +105,7 @@ def notebook_pages(source, executed):
 if __name__ == "__main__":
     root, source, gallery, notebooks = sys.argv[1:5]
     copy_tree(root, source)
+    front_page(source)
     os.makedirs(os.path.join(source, "gallery"), exist_ok=True)
     gallery_page(root, source, gallery)
     notebook_pages(source, notebooks)

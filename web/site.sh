@@ -95,6 +95,9 @@ if ! "$(system_python)" -B "$home/web/site.py" "$home" "$source" "$temporary/gal
     give_up "the site could not be built (see above)."
 fi
 "$home/web/lab.sh" --quiet --out "$site/lab.html"
+# The page links to the documentation next to it.
+sed 's|<meta charset="utf-8">|&<meta name="swirl-documentation" content="docs/">|' "$site/lab.html" >"$temporary/lab.html"
+mv "$temporary/lab.html" "$site/lab.html"
 # Sphinx copies the images of the pages, but no movies.
 for movie in "$temporary"/gallery/*.mp4; do
     [ ! -e "$movie" ] || { mkdir -p "$site/gallery" && cp "$movie" "$site/gallery"; }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "container_paths.hpp"
+#include "spin_map.hpp"
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/observation.hpp"
@@ -32,7 +33,9 @@ class Container {
           observation_(config.container_radius, config.period, measured_),
           run_(endless(config), begin, measured_.empty() ? nullptr : &observation_),
           shown_(run_.stored_snapshot()),
-          pinned_times_(samples_per_period, config.period) {
+          turned_times_(rotation_samples, config.period),
+          pinned_times_(samples_per_period, config.period),
+          spins_(config.container_radius) {
         run_.follow_orientations();
     }
     Container(const Container&) = delete;
@@ -58,6 +61,7 @@ class Container {
         const PinnedLoose& found = pinned_.pinned_loose();
         return found.is_known() && found.pinned()[i] != 0;
     }
+    const SpinMap& spins() const { return spins_; }
     const Simulation& simulation() const { return run_.simulation(); }
     const RunConfig& config() const { return config_; }
     const ContainerPath& path() const { return run_.path(); }
@@ -66,6 +70,11 @@ class Container {
     const ClusterRotation& rotation_in_warmup() { return run_.rotation_in_warmup(); }
     const ClusterRotation& rotation() { return run_.rotation_after_warmup(); }
     const Observation& observation() const { return observation_; }
+    /// Turns of the cluster since the averages began, or during the warm-up since its start: the
+    /// integral of the rotation rate, by the same samples as its average by time. So turns divided
+    /// by periods are the average. The movies count turns in the same way (page.hpp of the layer
+    /// render).
+    const RotationSample& turns() const { return turns_; }
     std::int64_t warmup() const { return config_.warmup.value_or(default_warmup); }
     bool is_warm() const { return run_.stored_snapshot().periods >= warmup(); }
 
@@ -158,11 +167,24 @@ class Container {
         if (problem_) return false;
         run_.execute_event();
         found_ = true;
+        while (run_.next_sample(turned_times_)) add_turns();
         // The pinned criterion takes 511 samples per period, which cost more than the simulation.
-        // They are taken only for a page that measures.
+        // They are taken only for a page that measures; its map of the spins takes them, too.
         if (!measured_.empty())
-            while (run_.next_sample(pinned_times_)) pinned_.sample(run_.snapshot());
+            while (run_.next_sample(pinned_times_)) spins_.sample(pinned_.sample(run_.snapshot()));
         return true;
+    }
+    void add_turns() {
+        const Snapshot& s = run_.snapshot();
+        if (!turns_are_averaged_ && s.periods >= warmup()) {
+            turns_ = {0.0, 0.0};
+            turns_are_averaged_ = true;
+        }
+        const RotationSample rate = cluster_rotation(s);
+        const double turns = config_.period / rotation_samples / (2.0 * pi);
+        if (!std::isfinite(rate.individual + rate.rigid)) return;  // a single disc has none
+        turns_.individual += turns * rate.individual;
+        turns_.rigid += turns * rate.rigid;
     }
     void pass() {
         run_.pass_event();
@@ -177,8 +199,12 @@ class Container {
     CoreRun run_;
     Snapshot shown_;
     Event passed_{};
+    RotationSample turns_{0.0, 0.0};
+    bool turns_are_averaged_ = false;
+    SampleTimes turned_times_;
     SampleTimes pinned_times_;
     PinnedFrames pinned_;
+    SpinMap spins_;
     bool found_ = false;
     double passed_clock_ = 0.0;  // of the last passed event
     std::optional<std::string> problem_;

@@ -11,15 +11,19 @@
 // as in all other programs.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "container.hpp"
+#include "fitting.hpp"
 #include "json.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/failure.hpp"
@@ -28,6 +32,7 @@
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/statistics/replicates.hpp"
 #include "swirl/statistics/zero_crossing.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
@@ -96,28 +101,44 @@ Request parse_request(std::string_view lines) {
 
 std::unique_ptr<Container> simulated;
 ParameterTexts given_at_start;
+RotationSample turns_by_hand{0.0, 0.0};
 std::vector<double> numbers;
 std::vector<MeasurementReport> reports;
 
-/// True if only contact parameters and the path differ. The discs can continue with new values of
-/// these; any other difference needs a new simulation.
-bool only_contacts_and_path_differ(const RunConfig& a, RunConfig b) {
-    b.mu_disc = a.mu_disc;
-    b.mu_wall = a.mu_wall;
-    b.restitution = a.restitution;
-    b.tangential_restitution = a.tangential_restitution;
-    b.contact_duration = a.contact_duration;
-    b.vertical_disc = a.vertical_disc;
-    b.vertical_wall = a.vertical_wall;
-    b.floor_friction = a.floor_friction;
-    b.gravity = a.gravity;
-    b.rolling_resistance = a.rolling_resistance;
+/// A copy of `b` with the path of `a`.
+RunConfig with_path_of(const RunConfig& a, RunConfig b) {
     b.amplitude = a.amplitude;
     b.period = a.period;
     b.sides = a.sides;
     b.path = a.path;
-    b.warmup = a.warmup;
-    return texts_of(a) == texts_of(b);
+    return b;
+}
+
+/// How the discs can continue with other values.
+enum class Change { needs_new_simulation, at_once, at_the_start_of_a_period };
+
+/// Contact parameters and the number of discs of one size change at once, the path at the start of
+/// a period. Any other difference needs a new simulation.
+Change change_between(const RunConfig& a, const RunConfig& b) {
+    constexpr std::int64_t most = 400;  // more discs are not added one by one
+    RunConfig like = with_path_of(a, b);
+    like.mu_disc = a.mu_disc;
+    like.mu_wall = a.mu_wall;
+    like.restitution = a.restitution;
+    like.tangential_restitution = a.tangential_restitution;
+    like.contact_duration = a.contact_duration;
+    like.vertical_disc = a.vertical_disc;
+    like.vertical_wall = a.vertical_wall;
+    like.floor_friction = a.floor_friction;
+    like.gravity = a.gravity;
+    like.rolling_resistance = a.rolling_resistance;
+    like.warmup = a.warmup;
+    const std::int64_t discs = b.discs;
+    if (!a.mixture && a.discs > 0 && discs > 0 && a.discs <= most && discs <= most)
+        like.discs = a.discs;
+    if (texts_of(a) != texts_of(like)) return Change::needs_new_simulation;
+    return texts_of(b) == texts_of(with_path_of(a, b)) ? Change::at_once
+                                                       : Change::at_the_start_of_a_period;
 }
 
 /// The JSON of a parameter's value.
@@ -134,31 +155,40 @@ struct ValueJson {
     std::string operator()(const auto& value) const { return fmt::format("{}", value); }
 };
 
-/// The free position nearest to `point` on the line from disc i to it. Other discs and the wall
-/// block the way; if `point` itself is free, it is returned.
-Vec2 nearest_free_position(const InitialState& state, std::size_t i, const Vec2& point) {
-    constexpr double gap = 1e-9;  // above the rounding error of a computed contact
-    const Disc& disc = state.discs[i];
-    const Vec2 from = disc.position, way = point - from;
-    const Vec2 centre = state.path.segments.front().start;
-    const double reach_of_centre = (state.container_radius - disc.radius) * (1.0 - gap);
-    const auto fits = [&](const Vec2& p) {
-        if (dot(p - centre, p - centre) > reach_of_centre * reach_of_centre) return false;
-        for (std::size_t j = 0; j < state.discs.size(); ++j) {
-            const Vec2 d = p - state.discs[j].position;
-            const double reach = (disc.radius + state.discs[j].radius) * (1.0 + gap);
-            if (j != i && dot(d, d) < reach * reach) return false;
-        }
-        return true;
-    };
-    if (fits(point)) return point;
-    // Bisection finds one free position next to an obstacle; any of them is good enough.
-    double free = 0.0, blocked = 1.0;
-    for (int step = 0; step < 40; ++step) {
-        const double middle = 0.5 * (free + blocked);
-        (fits(from + middle * way) ? free : blocked) = middle;
+constexpr std::size_t runs_width = 5;
+
+/// The points of the curve ϖ(N) from the runs in `numbers`. Runs with the same N are replicates.
+std::vector<RotationPoint> curve_of_runs() {
+    std::map<double, std::pair<std::vector<Estimate>, std::vector<double>>> by_number;
+    for (std::size_t k = 0; k + runs_width <= numbers.size(); k += runs_width) {
+        auto& [estimates, periods] = by_number[numbers[k]];
+        Estimate e;
+        e.mean = numbers[k + 1];
+        e.error = numbers[k + 2];
+        e.effective_samples = numbers[k + 4];
+        estimates.push_back(e);
+        periods.push_back(numbers[k + 3]);
     }
-    return from + free * way;
+    std::vector<RotationPoint> curve;
+    for (const auto& [discs, replicates] : by_number) {
+        const Estimate e = ensemble(replicates.first, replicates.second).estimate;
+        curve.push_back({discs, e.mean, e.error});
+    }
+    return curve;
+}
+
+std::string_view name_of(Crossing::Verdict verdict) {
+    switch (verdict) {
+        case Crossing::Verdict::crosses:
+            return "crosses";
+        case Crossing::Verdict::always_rotates:
+            return "always_rotates";
+        case Crossing::Verdict::always_counterrotates:
+            return "always_counterrotates";
+        case Crossing::Verdict::undecided:
+            break;
+    }
+    return "undecided";
 }
 
 /// [from, to, step], or null.
@@ -205,20 +235,30 @@ EXPORTED(begin) void begin() {
     given_at_start = std::move(given);
 }
 
-/// 1: change() would keep the discs; 0: the change needs a new simulation.
+/// 0: change() needs a new simulation; 1: it keeps the discs at once; 2: it keeps them at the start
+/// of a period.
 EXPORTED(keeps_discs) std::uint32_t keeps_discs() {
-    return only_contacts_and_path_differ(simulated->config(), parse_request(buffer).config);
+    return static_cast<std::uint32_t>(
+        change_between(simulated->config(), parse_request(buffer).config));
 }
 
-/// Continues with the same discs from `time`, at the start of the container's path, with other
-/// friction coefficients, restitutions or another path. Averages are reset. 0: the change needs a
-/// new simulation, and nothing was done.
+/// Continues with the same discs from `time`, with other friction coefficients or restitutions, or
+/// another number of discs. Another path begins at its start, at the start of a period. Averages
+/// are reset. 0: the change needs a new simulation, and nothing was done; else 1 + the number of
+/// discs for which there is no room at this moment.
 EXPORTED(change) std::uint32_t change(double time) {
-    const auto [config, measured, given] = parse_request(buffer);
-    if (!only_contacts_and_path_differ(simulated->config(), config)) return 0;
-    const InitialState state = simulated->continued_from(time, config, make_path(config));
+    auto [config, measured, given] = parse_request(buffer);
+    const Change kind = change_between(simulated->config(), config);
+    if (kind == Change::needs_new_simulation) return 0;
+    InitialState state = simulated->continued_from(
+        time, config,
+        kind == Change::at_once ? path_from(simulated->path(), simulated->snapshot_at(time).clock)
+                                : make_path(config));
+    const auto wanted = static_cast<std::size_t>(config.discs);
+    fit_discs(state, wanted);
+    config.discs = static_cast<std::int64_t>(state.discs.size());
     simulated = std::make_unique<Container>(config, state, measured);
-    return 1;
+    return static_cast<std::uint32_t>(1 + wanted - state.discs.size());
 }
 
 /// Reverses time from `time` on: negates all velocities and spins, and reverses the path. 0: energy
@@ -255,7 +295,14 @@ EXPORTED(drag) void drag(double time, std::uint32_t i, double x, double y) {
 /// stops there. Time restarts at 0. Nothing is averaged, since the path has no period.
 EXPORTED(steer) void steer(double time, double x, double y, double duration) {
     RunConfig config = simulated->config();
-    const Vec2 from = simulated->snapshot_at(time).container_centre;
+    const Snapshot& now = simulated->snapshot_at(time);
+    const Vec2 from = now.container_centre;
+    if (!is_by_hand(simulated->path())) turns_by_hand = {0.0, 0.0};
+    const RotationSample rate = cluster_rotation(now.up_to_date());
+    if (std::isfinite(rate.individual + rate.rigid)) {
+        turns_by_hand.individual += duration * rate.individual / (2.0 * pi);
+        turns_by_hand.rigid += duration * rate.rigid / (2.0 * pi);
+    }
     const InitialState state =
         simulated->continued_from(time, config, path_by_hand(from, {x, y}, duration));
     config.period = state.path.period;
@@ -352,23 +399,37 @@ EXPORTED(events) double events() {
 }
 EXPORTED(state_hash) std::uint64_t state_hash() { return simulated->simulation().state_hash(); }
 
-/// JSON: ϖ/Ω so far by each rotation rate, without the warm-up. For the plot: the rigid-body rate by
-/// time in blocks, with the warm-up (the mean over the discs has peaks if a disc is near the centre
-/// of mass); the number of blocks in the warm-up; the periods per block in the warm-up and after it.
+/// JSON: ϖ/Ω so far by each rotation rate, without the warm-up. For the plot: the mean over the
+/// discs and the rigid-body rate by time in blocks, with the warm-up; the number of blocks in the
+/// warm-up; the periods per block in the warm-up and after it.
 EXPORTED(rotation) std::uint32_t rotation() {
     const RotationEstimates e = simulated->rotation().estimates();
-    std::string blocks;
-    for (const ClusterRotation* part : {&simulated->rotation_in_warmup(), &simulated->rotation()})
-        for (const double mean : part->rigid_by_time().block_means())
-            blocks += (blocks.empty() ? "" : ",") + number(mean);
+    std::string blocks, rigid_blocks;
+    const auto add = [](std::string& list, const BlockSeries& series) {
+        for (const double mean : series.block_means())
+            list += (list.empty() ? "" : ",") + number(mean);
+    };
+    for (const ClusterRotation* part : {&simulated->rotation_in_warmup(), &simulated->rotation()}) {
+        add(blocks, part->by_time());
+        add(rigid_blocks, part->rigid_by_time());
+    }
     const BlockSeries &before = simulated->rotation_in_warmup().rigid_by_time(),
                       &after = simulated->rotation().rigid_by_time();
     return answer(fmt::format(
         R"({{"by_event":{},"by_time":{},"rigid_by_event":{},"rigid_by_time":{},"warmup":{},)"
-        R"("warmup_blocks":{},"periods_per_block":[{},{}],"blocks":[{}]}})",
+        R"("warmup_blocks":{},"periods_per_block":[{},{}],"blocks":[{}],"rigid_blocks":[{}]}})",
         estimate_json(e.by_event), estimate_json(e.by_time), estimate_json(e.rigid_by_event),
         estimate_json(e.rigid_by_time), simulated->warmup(), before.size(),
-        before.periods_per_block(), after.periods_per_block(), blocks));
+        before.periods_per_block(), after.periods_per_block(), blocks, rigid_blocks));
+}
+
+/// Turns of the cluster (Container::turns), by hand since its start: the mean over the discs, and
+/// the rigid body.
+EXPORTED(turns) const double* turns() {
+    const RotationSample& counted =
+        is_by_hand(simulated->path()) ? turns_by_hand : simulated->turns();
+    numbers.assign({counted.individual, counted.rigid});
+    return numbers.data();
 }
 
 /// Stores the current report of all measurements; column() reads it.
@@ -394,23 +455,42 @@ EXPORTED(column) std::uint32_t column() {
     }
     return 0;
 }
+/// Selects the map of the spins (spin_map.hpp). Returns its number of values; values() has them.
+EXPORTED(spin_map) std::uint32_t spin_map() {
+    numbers = simulated->spins().means();
+    return static_cast<std::uint32_t>(numbers.size());
+}
 EXPORTED(values) const double* values() { return numbers.data(); }
 
-/// Memory for `count` points of a curve ϖ(N), three numbers each: N, mean and error.
-EXPORTED(points) double* points(std::uint32_t count) {
-    numbers.resize(3 * std::size_t{count});
+/// Memory for `count` runs, five numbers each: N, ϖ/Ω, its error, the periods after the warm-up, and
+/// the effective number of samples.
+EXPORTED(runs) double* runs(std::uint32_t count) {
+    numbers.resize(runs_width * std::size_t{count});
     return numbers.data();
 }
-/// N_c of these points as JSON; null without a crossing. N_c and its error are null if only the
-/// bracket is known.
+/// JSON of these runs: the estimate at each N, N_c with its error, interval and bracket (null where
+/// there is none), and the N whose sign is not certain.
 EXPORTED(crossing) std::uint32_t crossing() {
-    std::vector<RotationPoint> curve;
-    for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
-        curve.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+    const std::vector<RotationPoint> curve = curve_of_runs();
     const Crossing c = find_crossing(curve);
-    if (c.verdict != Crossing::Verdict::crosses) return answer("null");
-    return answer(fmt::format(R"({{"discs":{},"error":{},"lower":{},"upper":{}}})", number(c.discs),
-                              number(c.error), number(c.lower), number(c.upper)));
+    const SignChange* const change = c.last();
+    std::string points, undetermined;
+    for (const RotationPoint& p : curve)
+        points += fmt::format("{}[{},{},{}]", points.empty() ? "" : ",", number(p.discs),
+                              number(p.mean), number(p.error));
+    for (const double n : c.undetermined)
+        undetermined += fmt::format("{}{}", undetermined.empty() ? "" : ",", n);
+    return answer(JsonObject()
+                      .add("verdict", quoted(name_of(c.verdict)))
+                      .add("discs", c.discs)
+                      .add("error", c.error)
+                      .add("lower", c.lower)
+                      .add("upper", c.upper)
+                      .add("before", change ? change->before : not_available)
+                      .add("after", change ? change->after : not_available)
+                      .add("undetermined", '[' + undetermined + ']')
+                      .add("points", '[' + points + ']')
+                      .text());
 }
 
 /// The result as `swirl run --json` writes it, without the keys on the program's build, its command

@@ -76,6 +76,7 @@ engineOf(process.argv[1]).then((make) => {
                 hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
                 rotation: JSON.parse(engine.answer(engine.out.rotation())),
                 result: JSON.parse(engine.answer(engine.out.result())),
+                turns: [...new Float64Array(engine.out.memory.buffer, engine.out.turns(), 2)],
                 problem: engine.answer(engine.out.problem(1)),
                 command: engine.answer(engine.out.command()),
                 asked: engine.asked});
@@ -314,11 +315,57 @@ class Laboratory(unittest.TestCase):
         other, answers = self.discs({}, steps)
         self.assertEqual(answers, [1, 1, 1])
         self.assertNotEqual(other, kept)
-        for more in ({"discs": "6"}, {"radius": "0.5"}, {"container_radius": "10"}, {"seed": "4"}):
+        for more in ({"radius": "0.5"}, {"container_radius": "10"}, {"seed": "4"}, {"discs": "6", "mixture": "2:0.5"}):
             self.assertEqual(self.discs({}, [["keeps_discs", {"discs": "5", "seed": "3", **more}],
                                              ["advance_to", 0, 10]])[1][0], 0)
             steps[1] = change(**more)
             self.assertEqual(self.discs({}, steps[:2] + [["advance_to", period, 10 ** 6]])[1][1], 0)
+
+    def test_contacts_change_at_once_and_the_path_at_a_period(self):
+        period = 11.866071
+        given = {"discs": "5", "seed": "3"}
+        for more, when in (({"mu": "0.5"}, 1), ({"discs": "7"}, 1), ({"amplitude": "1"}, 2), ({"path": "circle"}, 2)):
+            answers = self.discs({}, [["keeps_discs", {**given, **more}], ["advance_to", 0, 10]])[1]
+            self.assertEqual(answers[0], when, more)
+        # A change to the same values in the middle of a period does not alter the motion.
+        same, _ = self.discs({}, [["advance_to", 0.5 * period, 10 ** 6]])
+        kept, answers = self.discs({}, [["advance_to", 0.4 * period, 10 ** 6], ["change", 0.4 * period, given],
+                                        ["advance_to", 0.1 * period, 10 ** 6]])
+        self.assertEqual(answers, [1, 1, 1])
+        # The frames are those of the container's centre, which is where it was.
+        self.assert_same_discs(kept, same)
+
+    def test_discs_are_added_where_there_is_room_and_the_last_are_removed(self):
+        given = {"discs": "5", "seed": "3"}
+        time = 3.0
+        before, _ = self.discs({}, [["advance_to", time, 10 ** 6]])
+        steps = lambda n: [["advance_to", time, 10 ** 6], ["change", time, {**given, "discs": str(n)}],  # noqa: E731
+                           ["advance_to", 0, 10 ** 6]]
+        more, answers = self.discs({}, steps(12))
+        self.assertEqual((answers[1], len(more)), (1, 12))
+        self.assert_same_discs(more[:5], before)
+        for i, a in enumerate(more):
+            for b in more[:i]:
+                self.assertGreaterEqual(math.dist(a[:2], b[:2]), 2)
+        fewer, answers = self.discs({}, steps(2))
+        self.assertEqual(answers[1], 1)
+        self.assert_same_discs(fewer, before[:2])
+        # Discs without room are counted: 1 + their number.
+        full, answers = self.discs({}, steps(60))
+        self.assertEqual(answers[1], 1 + 60 - len(full))
+        self.assertLess(len(full), 60)
+
+    def test_turns_are_the_rotation_rate_times_the_periods(self):
+        period = 11.866071
+        for warmup, periods in (("0", 6), ("3", 6)):
+            given = {"discs": "28", "seed": "2", "warmup": warmup, "measure": ""}
+            said = self.engine([{"given": given, "events": 0, "steps":
+                                 [["advance_to", periods * period * (1 + 1e-12), 10 ** 9]]}])["said"][0]
+            averaged = periods - int(warmup)
+            for turns, rate in zip(said["turns"], ("by_time", "rigid_by_time")):
+                # The first sample of the next period is taken with the event at its beginning, so a sample of
+                # 1/64 period may be counted on one side only; a rate is below 2 Ω.
+                self.assertAlmostEqual(turns, averaged * said["rotation"][rate]["mean"], delta=2 / 64, msg=rate)
 
     def test_reversed_time_leads_back_to_the_start(self):
         period = 11.866071
@@ -399,16 +446,6 @@ class Laboratory(unittest.TestCase):
         with open(os.path.join(folder, "result.json"), encoding="utf-8") as opened:
             self.assertEqual(json.load(opened)["config"]["discs"], 28)
         self.assert_shows_discs(os.path.join(folder, "swirl.png"), 28)
-        # A point of the page's Figure 5b is a run: 20 swirls after a warm-up of 20.
-        with open(os.path.join(folder, "study.csv"), encoding="utf-8") as opened:
-            points = {(row["mu_disc"], row["mu_wall"], row["discs"]): row for row in csv.DictReader(opened)}
-        point = points["1", "0", "8"]
-        here = json.loads(swirl("run", "--discs", "8", "--mu-disc", "1", "--mu-wall", "0", "--periods",
-                                "40", "--warmup", "20", "--json", "-", "--quiet").stdout)
-        for column, key in (("varpi", "mean"), ("varpi_error", "error")):
-            self.assertEqual(float(point[column]), here["rotation"]["by_time"][key], column)
-            rigid = column.replace("varpi", "varpi_rigid")
-            self.assertEqual(float(point[rigid]), here["rotation"]["rigid_by_time"][key], rigid)
         if shutil.which("ffprobe"):
             asked = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
                                     "stream=nb_read_frames", "-of", "csv=p=0",
@@ -418,27 +455,115 @@ class Laboratory(unittest.TestCase):
 
     def assert_shows_discs(self, path, discs):
         """The image has a light background and colours from blue to grey to orange, which cover the area of the
-        discs within a fifth. (Rims and orientation marks are dark, the arc along the wall is coloured.)"""
+        discs within a fifth. (Rims and orientation marks are dark.)"""
         rows = pixels_of(path)
         self.assertEqual({len(row) for row in rows}, {len(rows)})
-        paper, ink = (0xfb, 0xfa, 0xf8), (0x23, 0x27, 0x2b)
+        paper, floor, ink = (0xfb, 0xf9, 0xf6), (0xff, 0xff, 0xff), (0x1d, 0x23, 0x28)
+        arcs = (0xcc, 0x5c, 0x0a), (0x24, 0x63, 0x9e)  # of the turns, outside the wall
         for corner in (rows[0][0], rows[0][-1], rows[-1][0], rows[-1][-1]):
             self.assertEqual(corner, paper)
         colors = collections.Counter(pixel for row in rows for pixel in row)
         self.assertGreater(colors[ink], len(rows))
         much = 1e-4 * len(rows) ** 2
-        shown = [color for color, n in colors.items() if n > much and color not in (paper, ink)]
+        shown = [color for color, n in colors.items() if n > much and color not in (paper, floor, ink, *arcs)]
         self.assertGreater(len(shown), 5)
         self.assertGreater(max(r - b for r, _, b in shown), 20)
         self.assertGreater(max(b - r for r, _, b in shown), 20)
         covered = sum(colors[color] for color in shown) / len(rows) ** 2
-        expected = discs * math.pi / (2 * 1.06 * (8.6 + 1.892)) ** 2
+        radius = (len(rows) / 2 - 20) / (8.6 + 1.892)  # in pixels; the image has a border of 20
+        expected = discs * math.pi * (radius / len(rows)) ** 2
         self.assertLess(abs(covered / expected - 1), 0.2)
+
+    def test_the_layout_at_four_sizes(self):
+        if not CHROMIUM:
+            self.skipTest("this test needs chromium")
+        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "sizes.mjs"), self.page, CHROMIUM],
+                              capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_the_units_of_the_page(self):
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "units.mjs")],
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def files(self):
+        """A folder with a result and a checkpoint of one run, and with trajectories of another."""
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        at = lambda name: os.path.join(folder, name)  # noqa: E731
+        for arguments in (("--discs", "12", "--mu", "0.3", "--periods", "8", "--warmup", "2", "--json", at("run.json"),
+                           "--checkpoint", at("run.checkpoint"), "--keep-checkpoint"),
+                          *(("--preset", "experiment", "--discs", "6", "--periods", "2", "--warmup", "0", "--frames",
+                             "10", "--trajectory", at(name), "--compression", level)
+                            for name, level in (("plain.h5", "0"), ("packed.h5", "6")))):
+            self.assertEqual(swirl("run", *arguments, "--quiet").returncode, 0)
+        swirl("export", at("plain.h5"), "--to", "table", "--out", at("table.csv"), "--quiet")
+        with open(at("parameters.json"), "w", encoding="utf-8") as opened:
+            json.dump(self.engine([])["parameters"], opened)
+        return folder
+
+    def test_the_units_of_discovery_explorer_lesson_and_files(self):
+        folder = self.files()
+        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "panels.mjs"),
+                               os.path.join(folder, "parameters.json"), folder], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_discovery_explorer_lesson_and_files_in_a_browser(self):
+        if not CHROMIUM:
+            self.skipTest("this test needs chromium")
+        folder = os.path.dirname(self.page)
+        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "panels_page.mjs"), self.page, CHROMIUM,
+                               self.files(), folder], capture_output=True, text=True, timeout=600)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        # A point of the explorer is a run, and its row has the command line of that run.
+        with open(os.path.join(folder, "rotation_explored.csv"), encoding="utf-8") as opened:
+            rows = [row for row in csv.DictReader(opened) if row["discs"] == "8"]
+        self.assertEqual(len(rows), 3)
+        for row in rows:
+            program, *words = shlex.split(row["command"])
+            self.assertEqual(program, "./swirl")
+            here = json.loads(swirl(*words, "--json", "-", "--quiet").stdout)["rotation"]
+            for rate in ("by_time", "by_event", "rigid_by_time", "rigid_by_event"):
+                self.assertEqual(float(row[f"varpi_{rate}"]), here[rate]["mean"], rate)
+                self.assertEqual(float(row[f"varpi_{rate}_error"]), here[rate]["error"], rate)
+
+    def test_the_crossing_of_runs_matches_the_command_line(self):
+        search = json.loads(swirl("crossing", "--mu", "0.5", "--from", "41", "--to", "47", "--step", "1", "--events",
+                                  "20000", "--json", "-", "--quiet").stdout)
+        runs = [number for point in search["points"]
+                for number in (point["discs"], point["mean"], point["error"], 100, 0)]
+        done = subprocess.run(["node", "-e", NODE.split("engineOf(process.argv[1])")[0] + """
+            engineOf(process.argv[1]).then((make) => {
+                const engine = make(), runs = JSON.parse(process.argv[2]), at = engine.out.runs(runs.length / 5);
+                new Float64Array(engine.out.memory.buffer, at, runs.length).set(runs);
+                console.log(engine.answer(engine.out.crossing()));
+            });""", os.path.join(SOURCE, "build/wasm/swirl.wasm"), json.dumps(runs)],
+                              check=True, capture_output=True, text=True)
+        there = json.loads(done.stdout)
+        self.assertEqual(there["verdict"], "crosses")
+        for key in ("", "_error", "_lower", "_upper"):
+            self.assertEqual(there[key[1:] or "discs"], search["N_c" + key], key)
+        self.assertEqual(there["undetermined"], search["undetermined"])
+        change = search["sign_changes"][-1]
+        self.assertEqual([there["before"], there["after"]], [change["from"], change["to"]])
+        self.assertEqual(there["points"], [[p["discs"], p["mean"], p["error"]] for p in search["points"]])
+
+    def test_options_of_a_run_set_the_parameters_of_the_page(self):
+        folder = os.path.dirname(self.page)
+        written = os.path.join(folder, "with_parameters.html")
+        done = subprocess.run([LAB, "--discs", "40", "--mu_disc=0.3", "--mixture", "20:0.6", "--out", written, "--quiet"],
+                              capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with open(written, encoding="utf-8") as opened, open(self.page, encoding="utf-8") as plain:
+            entry = '<meta name="swirl-start" content="discs=40&amp;mu_disc=0.3&amp;mixture=20%3A0.6">\n'
+            text = opened.read()
+            self.assertIn(entry, text)
+            self.assertEqual(text.replace(entry, ""), plain.read())
+        for wrong in (["--discs", "1000"], ["--mu", "x"], ["--path", "square"]):
+            done = subprocess.run([LAB, *wrong, "--out", written], capture_output=True, text=True)
+            here = swirl("run", *wrong, check=False)
+            self.assertEqual((done.returncode, here.returncode), (2, 2), wrong)
+            self.assertEqual(done.stderr.removeprefix("swirl: "), here.stderr.removeprefix("error: "))
 
     def test_it_is_small(self):
         with open(self.page, "rb") as opened:
@@ -463,9 +588,9 @@ class Laboratory(unittest.TestCase):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = str(free.getsockname()[1])
-        with subprocess.Popen([LAB, "--port", port, "--no-browser"], stdout=subprocess.PIPE,
-                              text=True) as lab:
-            self.assertIn(f"http://localhost:{port}/", lab.stdout.readline())
+        with subprocess.Popen([LAB, "--port", port, "--no-browser", "--discs", "40", "--mu", "0.3"],
+                              stdout=subprocess.PIPE, text=True) as lab:
+            self.assertIn(f"http://localhost:{port}/?discs=40&mu=0.3 ", lab.stdout.readline())
             second = subprocess.run([LAB, "--port", port, "--no-browser"], capture_output=True,
                                     text=True)
             self.assertEqual(second.returncode, 1)
@@ -475,7 +600,9 @@ class Laboratory(unittest.TestCase):
 
     def test_usage_errors(self):
         for wrong, said in ((["--port", "0"], "--port is '0'"), (["--port", "x"], "--port is 'x'"),
-                            (["--speed"], "'--speed'"), (["--out"], "--out needs a value")):
+                            (["--loud"], "'--loud'"), (["--out"], "--out needs a value"),
+                            (["--discs"], "--discs needs a value"), (["--periods", "5"], "'--periods'"),
+                            (["--seed", "1\n2"], "--seed contains a line break")):
             done = subprocess.run([LAB, *wrong], capture_output=True, text=True)
             self.assertEqual(done.returncode, 2, wrong)
             self.assertIn(said, done.stderr)

@@ -23,6 +23,7 @@ export interface Parameter {
 export interface Estimate {
     mean: number | null;
     error: number | null;
+    effective_samples: number | null;
     blocks: number;
 }
 
@@ -36,8 +37,10 @@ export function perRate<T>(of: (rate: Rate) => T): Record<Rate, T> {
 
 export interface Rotation extends Record<Rate, Estimate> {
     warmup: number; // in periods
-    /** Means over blocks of periods; the warm-up's come first. */
+    /** Means over blocks of periods, of the mean over the discs and of the rigid body; the warm-up's come
+     *  first. */
     blocks: (number | null)[];
+    rigid_blocks: (number | null)[];
     warmup_blocks: number;
     /** In the warm-up and after it. */
     periods_per_block: [number, number];
@@ -62,6 +65,7 @@ interface Exports {
     events(): number;
     state_hash(): bigint;
     rotation(): number;
+    turns(): number;
     keeps_discs(): number;
     change(time: number): number;
     steer(time: number, x: number, y: number, duration: number): void;
@@ -71,18 +75,32 @@ interface Exports {
     command(): number;
     report(): void;
     column(): number;
+    spin_map(): number;
     values(): number;
-    points(count: number): number;
+    runs(count: number): number;
     crossing(): number;
 }
 
-/** N_c, its standard error and its 95 % interval. If not every N in between was run, only the bracket is known. */
+/** The evaluation of runs with different N by one rotation rate, as `swirl crossing` does it. */
 export interface Crossing {
+    verdict: "crosses" | "always_rotates" | "always_counterrotates" | "undecided";
+    /** N_c and its standard error. If not every N in the bracket was run, only the bracket is known. */
     discs: number | null;
     error: number | null;
-    lower: number;
-    upper: number;
+    /** 95 % interval of N_c; the bracket if N_c is not known. */
+    lower: number | null;
+    upper: number | null;
+    /** The bracket of N_c: the last N with certain rotation, and the next with certain counterrotation. */
+    before: number | null;
+    after: number | null;
+    /** N whose direction of rotation is not certain. */
+    undetermined: number[];
+    /** N, ϖ/Ω and error at each N. */
+    points: [number, number | null, number | null][];
 }
+
+/** One run for the evaluation: N, ϖ/Ω, error, periods after the warm-up, effective number of samples. */
+export type RunNumbers = [number, number, number, number, number];
 
 /** The layout of a frame: numbers in its head, per disc, and per orientation (a quaternion; only spheres
  *  have one). */
@@ -142,15 +160,17 @@ export class Engine {
         this.writeLines(given);
         this.out.begin();
     }
-    /** Whether change() would keep the discs. Throws UsageError. */
-    keepsDiscs(given: Record<string, string>): boolean {
+    /** Whether and when change() would keep the discs. Throws UsageError. */
+    keepsDiscs(given: Record<string, string>): "no" | "now" | "later" {
         this.writeLines(given);
-        return this.out.keeps_discs() === 1;
+        return (["no", "now", "later"] as const)[this.out.keeps_discs()]!;
     }
-    /** The discs continue from `time`, the start of a period; false if the change needs a new simulation. */
-    change(time: number, given: Record<string, string>): boolean {
+    /** The discs continue from `time`. Returns the number of discs for which there is no room at this moment;
+     *  undefined if the change needs a new simulation. */
+    change(time: number, given: Record<string, string>): number | undefined {
         this.writeLines(given);
-        return this.out.change(time) === 1;
+        const answer = this.out.change(time);
+        return answer === 0 ? undefined : answer - 1;
     }
     /** From `time` on the container moves straight to a point. The engine's time restarts at 0. */
     steer(time: number, x: number, y: number, duration: number): void {
@@ -182,11 +202,16 @@ export class Engine {
         const size = this.out.column();
         return this.numbers(this.out.values(), size);
     }
-    /** `points` are triples of N, ϖ/Ω and error. */
-    crossing(points: number[]): Crossing | null {
-        const at = this.out.points(points.length / 3);
-        new Float64Array(this.out.memory.buffer, at, points.length).set(points);
-        return JSON.parse(this.answer(this.out.crossing())) as Crossing | null;
+    /** The mean spin in cells of the M-frame. */
+    spinMap(): Float64Array {
+        const size = this.out.spin_map();
+        return this.numbers(this.out.values(), size);
+    }
+    /** Evaluates runs with different N. */
+    crossing(runs: readonly RunNumbers[]): Crossing {
+        const at = this.out.runs(runs.length);
+        new Float64Array(this.out.memory.buffer, at, 5 * runs.length).set(runs.flat());
+        return JSON.parse(this.answer(this.out.crossing())) as Crossing;
     }
     /** All parameters, including those that were not given. */
     configuration(): Record<string, string> {
@@ -221,6 +246,11 @@ export class Engine {
     }
     nextEvent(): Float64Array {
         return this.numbers(this.out.next_event(), 9);
+    }
+    /** Turns of the cluster since the averages, or the warm-up, began: the mean over the discs, and the rigid
+     *  body. */
+    turns(): [number, number] {
+        return [...this.numbers(this.out.turns(), 2)] as [number, number];
     }
     get time(): number {
         return this.out.time();

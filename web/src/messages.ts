@@ -1,13 +1,17 @@
 // The messages between the page and its worker.
-import type {Crossing, Parameter, Rate, Rotation} from "./engine";
+import type {Crossing, Parameter, Rate, Rotation, RunNumbers} from "./engine";
 
 export type ToWorker =
     | {kind: "engine"; bytes: ArrayBuffer}
-    | {kind: "begin"; given: Record<string, string>; events: number}
-    /** Advances time by so many periods. Answered by a frame. */
-    | {kind: "tick"; periods: number}
+    /** Starts a simulation and executes so many events. Answers carry the number `run`. */
+    | {kind: "begin"; given: Record<string, string>; events: number; run: number}
+    /** Advances time by so many periods; with `strobe`, at most to the end of the present one. Answered by
+     *  a frame. */
+    | {kind: "tick"; periods: number; strobe?: boolean}
+    /** Advances by so many whole periods without frames in between. Answered by progress and a frame. */
+    | {kind: "skip"; periods: number}
     | {kind: "step"}
-    /** Other friction coefficients or another path for the same discs, from the next period on. */
+    /** Other friction coefficients or another number for the same discs; another path from the next period on. */
     | {kind: "change"; given: Record<string, string>}
     /** By hand: the container moves straight to a point within `duration`. Answered by a frame. */
     | {kind: "steer"; x: number; y: number; duration: number}
@@ -19,19 +23,26 @@ export type ToWorker =
     | {kind: "maps"}
     /** A whole run of so many periods after the warm-up. */
     | {kind: "point"; given: Record<string, string>; periods: number}
-    | {kind: "crossing"; curve: number; curves: Record<Rate, number[]>};
+    /** Runs to exactly this event; answered by its result. */
+    | {kind: "repeat"; given: Record<string, string>; events: number}
+    | {kind: "crossing"; runs: Record<Rate, RunNumbers[]>};
 
 /** Averages in cells of the M-frame, and against θ. */
 export interface Maps {
     kind: "maps";
     density: Float64Array;
+    spin: Float64Array;
     flow: {x: Float64Array; y: Float64Array; ux: Float64Array; uy: Float64Array};
     profile: {theta: Float64Array; varpi: Float64Array; wall: Float64Array};
 }
 
 export interface Frame {
     kind: "frame";
+    run: number;
     frame: Float64Array;
+    /** Turns of the cluster since the averages began, or in the warm-up since its start: the mean over the
+     *  discs, and the rigid body. */
+    turns: [number, number];
     events: number;
     hash: string;
     /** The command line that reproduces this state, if the simulation was not changed. */
@@ -45,19 +56,20 @@ export interface Frame {
 
 export type FromWorker =
     | {kind: "ready"; parameters: Parameter[]}
-    | {kind: "started"; configuration: Record<string, string>}
-    | {kind: "rejected"; message: string}
-    /** On the way to the event in the page's address. */
-    | {kind: "progress"; done: number; all: number}
+    | {kind: "started"; run: number; configuration: Record<string, string>}
+    | {kind: "rejected"; run: number; message: string}
+    /** On the way to an event, or to the end of skipped periods (`unit`). */
+    | {kind: "progress"; run: number; unit: "events" | "periods"; done: number; all: number}
     /** The browser cannot run the engine. */
     | {kind: "unsupported"}
-    /** Whether the discs continue with the change; if not, a new simulation is needed. */
-    | {kind: "changed"; kept: boolean; configuration: Record<string, string>}
+    /** Whether the discs continue with the change; if not, a new simulation is needed. The missing discs are
+     *  added when there is room. */
+    | {kind: "changed"; run: number; kept: boolean; missing: number; configuration: Record<string, string>}
     | {kind: "reversed"; done: boolean}
     /** JSON as the command line writes it. */
     | {kind: "result"; text: string}
     | Maps
     /** A collapsed run has no averages. */
     | {kind: "point"; rotation: Rotation; collapsed: boolean}
-    | {kind: "crossing"; curve: number; crossings: Record<Rate, Crossing | null>}
+    | {kind: "crossing"; crossings: Record<Rate, Crossing>}
     | Frame;

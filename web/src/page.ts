@@ -41,8 +41,12 @@ const style = (name: string): string =>
 export const ink = (): string => style("--ink");
 export const line = (): string => style("--line");
 export const quiet = (): string => style("--quiet");
+export const paper = (): string => style("--paper");
 export const accent = (): string => style("--accent");
 export const dark = (): boolean => matchMedia("(prefers-color-scheme: dark)").matches;
+
+/** With a minus sign. */
+export const signed = (x: number, decimals: number): string => x.toFixed(decimals).replace("-", "−");
 
 export function withError(mean: number | null, error: number | null, unknown: string): string {
     if (mean === null) return unknown;

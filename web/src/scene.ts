@@ -2,25 +2,32 @@
 // C of the container, and its −y axis points from S, the centre of the path, to C.
 import {drawBall, inRotatedAxes, type Orientation} from "./ball";
 import {frameDisc, frameHead, frameOrientation} from "./engine";
-import {symbols} from "./texts";
+import {drawLegend} from "./legend";
+import {drawMap, type MapLayer} from "./maps";
+import {drawEvent, drawForces, drawHeld, drawMarks, drawNext, drawTurns} from "./marks";
+import {sectorColors} from "./paint";
 
 export type View = "lab" | "m";
-export type Coloring = "spin" | "speed" | "pinned" | "id";
+export type Coloring = "sector" | "spin" | "speed" | "pinned" | "id";
 
 export interface DrawOptions {
     view: View;
     coloring: Coloring;
+    sectors: readonly number[]; // a sector for each disc, for the colouring by sector
     trails: Float64Array[]; // earlier frames, the oldest first
     event: Float64Array | undefined;
     next: Float64Array | undefined; // the next event, whose particles are marked
     omega: number; // of the container's path; if above 0, forces are drawn in the M-frame
     dark: boolean;
     room: number; // largest distance of the container from S, for the scale of the lab frame
-    clusterTurns: number; // rotation of the cluster, in turns; drawn as an arc in the lab frame
+    turns: number; // of the cluster; drawn as an arc in the lab frame
     held: number | undefined; // the disc selected by keys
+    isSmall?: boolean; // a thumbnail, without marks
+    map?: MapLayer | undefined; // averages behind the discs, in the M-frame
+    note?: string; // in the lower right corner
 }
 
-interface Frame {
+export interface Frame {
     centre: [number, number];
     radius: number;
     down: [number, number];
@@ -32,24 +39,26 @@ function head(f: Float64Array): Frame {
 }
 
 /** A point of the lab frame in the frame of the view. */
-function shown(frame: Frame, view: View, x: number, y: number): [number, number] {
+export function shown(frame: Frame, view: View, x: number, y: number): [number, number] {
     if (view === "lab") return [x, y];
     const [dx, dy] = [x - frame.centre[0], y - frame.centre[1]];
     const [ex, ey] = frame.down;
     return [-dx * ey + dy * ex, -(dx * ex + dy * ey)];
 }
 
-/** Half the width of the image. */
-function reachOf(frame: Frame, look: {view: View; room: number}): number {
-    const room = Math.max(look.room, Math.hypot(...frame.centre));
-    return (look.view === "lab" ? frame.radius + room : frame.radius) * 1.06;
+const border = 20; // pixels of the page: for the arc outside the wall, and the marks on it
+
+/** Length units per pixel of the page, for an image of this width. */
+function unitsPerPixel(frame: Frame, look: {view: View; room: number; isSmall?: boolean}, width: number): number {
+    const room = look.view === "lab" ? Math.max(look.room, Math.hypot(...frame.centre)) : 0;
+    return (frame.radius + room) / Math.max(0.5 * width - (look.isSmall ? 2 : border), 0.25 * width);
 }
 
 /** The point of the lab frame at these coordinates of the window. */
 export function pointedAt(canvas: HTMLCanvasElement, f: Float64Array, room: number, clientX: number,
                           clientY: number): [number, number] {
     const box = canvas.getBoundingClientRect();
-    const scale = 2 * reachOf(head(f), {view: "lab", room}) / box.width;
+    const scale = unitsPerPixel(head(f), {view: "lab", room}, box.width);
     return [(clientX - box.left - box.width / 2) * scale,
             (box.top + box.height / 2 - clientY) * scale];
 }
@@ -69,89 +78,123 @@ function orientationOf(f: Float64Array, i: number): Orientation | undefined {
     return k < f.length ? [f[k]!, f[k + 1]!, f[k + 2]!, f[k + 3]!] : undefined;
 }
 
-/** Rotation of the cluster about its centre of mass from one frame to a later one, in turns: the rigid
- *  rotation that fits the motion of the discs best. */
-export function clusterTurnsBetween(a: Float64Array, b: Float64Array): number {
-    if (a.length !== b.length) return 0;
-    const discs = head(b).discs;
-    const mean = (f: Float64Array, at: number): number => {
-        let sum = 0;
-        for (let i = 0; i < discs; ++i) sum += f[frameHead + frameDisc * i + at]!;
-        return sum / discs;
-    };
-    const [ax, ay, bx, by] = [mean(a, 0), mean(a, 1), mean(b, 0), mean(b, 1)];
-    let along = 0, across = 0;
-    for (let i = 0; i < discs; ++i) {
-        const k = frameHead + frameDisc * i;
-        const [px, py, qx, qy] = [a[k]! - ax, a[k + 1]! - ay, b[k]! - bx, b[k + 1]! - by];
-        along += px * qx + py * qy;
-        across += px * qy - py * qx;
-    }
-    return Math.atan2(across, along) / (2 * Math.PI);
+
+export interface Palette {
+    ink: string;
+    paper: string;
+    floor: string; // of the container
+    quiet: string;
+    with: string;
+    against: string;
 }
+const palettes: Record<"light" | "dark", Palette> = {
+    light: {ink: "#1d2328", paper: "#fbf9f6", floor: "#ffffff", quiet: "#6b737a", with: "#cc5c0a", against: "#24639e"},
+    dark: {ink: "#ebe8e3", paper: "#121517", floor: "#1d2226", quiet: "#98a1a8", with: "#f5a860", against: "#86bdf2"},
+};
+export const paletteOf = (isDark: boolean): Palette => palettes[isDark ? "dark" : "light"];
 
 /** From blue (against the swirl) to grey to orange (with the swirl); suited to colour-blind readers. */
-function diverging(x: number): string {
+export function diverging(x: number): [number, number, number] {
     const t = Math.max(-1, Math.min(1, x));
     const from = t < 0 ? [36, 99, 158] : [204, 92, 10];
-    const grey = [188, 190, 192];
-    const c = grey.map((g, k) => Math.round(g + Math.abs(t) * (from[k]! - g)));
-    return `rgb(${c.join(" ")})`;
+    const grey = [196, 198, 200];
+    return grey.map((g, k) => Math.round(g + Math.abs(t) * (from[k]! - g))) as [number, number, number];
 }
 
-const names = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
+export const idColors = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
+export const pinnedColor = "#d55e00", looseColor = "#56b4e9";
 
-function color(f: Float64Array, k: number, i: number, coloring: Coloring): string {
-    if (coloring === "id") return names[i % names.length]!;
-    if (coloring === "pinned") return f[k + 7] === 1 ? "#d55e00" : "#56b4e9";
-    if (coloring === "spin") return diverging(1.5 * f[k + 3]!); // full colour at 1.3 Ω of the paper's container
+function color(f: Float64Array, k: number, i: number, {coloring, sectors}: DrawOptions): string {
+    if (coloring === "sector") return sectorColors[sectors[i] ?? 0]!;
+    if (coloring === "id") return idColors[i % idColors.length]!;
+    if (coloring === "pinned") return f[k + 7] === 1 ? pinnedColor : looseColor;
     const [vx, vy] = [f[k + 4]! - f[5]!, f[k + 5]! - f[6]!]; // relative to the container
-    return diverging(Math.hypot(vx, vy) - 1);
+    // Full colour at a spin of 1.3 Ω of the paper's container.
+    return `rgb(${diverging(coloring === "spin" ? 1.5 * f[k + 3]! : Math.hypot(vx, vy) - 1).join(" ")})`;
 }
 
 const minBallRadius = 6; // pixels; the pattern of smaller spheres is invisible
 
+/** Pixels of the canvas per pixel of the page; sets the canvas's size. */
+function fit(canvas: HTMLCanvasElement): number {
+    const ratio = window.devicePixelRatio || 1, size = Math.round(canvas.clientWidth * ratio);
+    if (canvas.width !== size) canvas.width = canvas.height = size;
+    return ratio;
+}
+
 export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptions): void {
     const context = canvas.getContext("2d");
     if (!context) return;
-    const ratio = window.devicePixelRatio || 1;
-    const size = canvas.clientWidth * ratio;
-    if (canvas.width !== size) canvas.width = canvas.height = size;
-    const frame = head(f);
-    const amplitude = Math.hypot(...frame.centre);
-    const scale = size / (2 * reachOf(frame, look));
-    const ink = look.dark ? "#e8e6e3" : "#23272b";
+    const ratio = fit(canvas), size = canvas.width, frame = head(f), palette = paletteOf(look.dark);
+    const scale = ratio / unitsPerPixel(frame, look, size / ratio), hair = 1.2 * ratio / scale;
     context.setTransform(1, 0, 0, 1, 0, 0);
-    context.fillStyle = look.dark ? "#15181a" : "#fbfaf8"; // so that a movie has it, too
+    context.fillStyle = palette.paper; // so that a movie has it, too
     context.fillRect(0, 0, size, size);
     context.setTransform(scale, 0, 0, -scale, size / 2, size / 2);
-    const hair = 1.2 * ratio / scale;
+    const frameAngle = look.view === "m" ? Math.atan2(frame.down[0], -frame.down[1]) : 0;
+    drawContainer(context, frame, look, palette, frameAngle, hair);
+    if (look.map) drawMap(context, look.map, frame.radius, look.dark);
+    if (look.view === "lab" && !look.isSmall) {
+        drawPath(context, frame, palette, hair);
+        drawTurns(context, frame, look.turns, palette, hair);
+    }
+    if (look.view === "lab" && !look.isSmall) drawMarks(context, frame, look, palette, hair);
+    drawTrails(context, f, look, hair);
+    if (look.map) drawOutlines(context, f, frame, look, palette, hair);
+    else drawDiscs(context, f, frame, look, frameAngle, scale, hair);
+    if (look.view === "m" && look.omega > 0) drawForces(context, f, frame, look.omega, hair);
+    if (look.held !== undefined && look.held < frame.discs) drawHeld(context, f, frame, look, palette, look.held, hair);
+    drawNext(context, f, frame, look, hair);
+    drawEvent(context, f, frame, look, hair);
+    if (look.isSmall) return;
+    if (look.view === "m") drawMarks(context, frame, look, palette, hair);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    drawLegend(context, size / ratio, look, palette);
+}
 
-    const [cx, cy] = shown(frame, look.view, ...frame.centre);
-    context.lineWidth = 2 * hair;
-    context.strokeStyle = ink;
-    context.fillStyle = look.dark ? "#1d2124" : "#fbfaf8";
+/** The container and its wall. In the M-frame the wall moves, as twelve marks on it show. */
+function drawContainer(context: CanvasRenderingContext2D, frame: Frame, {view, isSmall}: DrawOptions, palette: Palette,
+                       frameAngle: number, hair: number): void {
+    const [cx, cy] = shown(frame, view, ...frame.centre);
+    context.fillStyle = palette.floor;
+    context.strokeStyle = palette.ink;
+    context.lineWidth = (isSmall ? 1.2 : 2.6) * hair;
     context.beginPath();
-    context.arc(cx, cy, frame.radius, 0, 2 * Math.PI);
+    context.arc(cx, cy, frame.radius + 0.5 * context.lineWidth, 0, 2 * Math.PI);
     context.fill();
     context.stroke();
-    if (look.view === "lab" && amplitude > 0) {
-        context.lineWidth = hair;
-        context.setLineDash([4 * hair, 4 * hair]);
+    if (view === "lab" || isSmall) return;
+    for (let k = 0; k < 12; ++k) {
+        const angle = k * Math.PI / 6 - frameAngle, [c, s] = [Math.cos(angle), Math.sin(angle)];
+        const [from, to] = [frame.radius + 2.6 * hair, frame.radius + (k === 0 ? 11 : 7) * hair];
+        context.lineWidth = (k === 0 ? 5 : 2) * hair;
         context.beginPath();
-        context.arc(0, 0, amplitude, 0, 2 * Math.PI);
+        context.moveTo(cx + from * c, cy + from * s);
+        context.lineTo(cx + to * c, cy + to * s);
         context.stroke();
-        context.setLineDash([]);
     }
+}
 
-    if (look.view === "lab") drawClusterTurns(context, frame, look.clusterTurns, hair);
-    drawTrails(context, f, look, hair);
-    const frameAngle = look.view === "m" ? Math.atan2(frame.down[0], -frame.down[1]) : 0;
+/** The path of the container's centre, with an arrow in its direction. */
+function drawPath(context: CanvasRenderingContext2D, frame: Frame, palette: Palette, hair: number): void {
+    const amplitude = Math.hypot(...frame.centre);
+    if (!(amplitude > 3 * hair)) return;
+    context.strokeStyle = context.fillStyle = palette.quiet;
+    context.lineWidth = hair;
+    context.setLineDash([3 * hair, 4 * hair]);
+    context.beginPath();
+    context.arc(0, 0, amplitude, 0, 2 * Math.PI);
+    context.stroke();
+    context.setLineDash([]);
+}
+
+function drawDiscs(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
+                   frameAngle: number, scale: number, hair: number): void {
     for (let i = 0; i < frame.discs; ++i) {
         const k = frameHead + frameDisc * i;
         const [x, y] = shown(frame, look.view, f[k]!, f[k + 1]!);
         const r = f[k + 6]!, angle = f[k + 2]! - frameAngle, orientation = orientationOf(f, i);
-        context.fillStyle = color(f, k, i, look.coloring);
+        context.fillStyle = color(f, k, i, look);
         if (orientation && r * scale > minBallRadius) {
             drawBall(context, x, y, r, inRotatedAxes(frameAngle, orientation));
             continue;
@@ -159,58 +202,37 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
         context.beginPath();
         context.arc(x, y, r, 0, 2 * Math.PI);
         context.fill();
-        if (r * scale < 3) continue;
+        if (r * scale < 4) continue;
         context.lineWidth = Math.min(hair, 0.15 * r);
-        context.strokeStyle = "#23272b";
+        context.strokeStyle = "rgb(0 0 0 / .4)";
         context.stroke();
+        if (look.isSmall) continue;
         context.beginPath();
         context.moveTo(x, y);
         context.lineTo(x + r * Math.cos(angle), y + r * Math.sin(angle));
         context.stroke();
     }
-    if (look.view === "m" && look.omega > 0) drawForces(context, f, frame, look.omega, hair);
-    if (look.held !== undefined && look.held < frame.discs)
-        drawHeld(context, f, frame, look, ink, look.held, hair);
-    drawNext(context, f, frame, look, hair);
-    drawEvent(context, f, frame, look, hair);
-    drawMarks(context, frame, look, ink, hair);
 }
 
-function drawHeld(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
-                  ink: string, held: number, hair: number): void {
-    const k = frameHead + frameDisc * held;
-    context.strokeStyle = ink;
-    context.lineWidth = 3 * hair;
-    context.beginPath();
-    context.arc(...shown(frame, look.view, f[k]!, f[k + 1]!), f[k + 6]! + 2 * hair, 0, 2 * Math.PI);
-    context.stroke();
+/** On a map, discs are outlines; the pinned ones are marked. */
+function drawOutlines(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
+                      palette: Palette, hair: number): void {
+    for (let i = 0; i < frame.discs; ++i) {
+        const k = frameHead + frameDisc * i, pinned = f[k + 7] === 1;
+        context.strokeStyle = pinned ? pinnedColor : palette.ink;
+        context.globalAlpha = pinned ? 1 : 0.35;
+        context.lineWidth = (pinned ? 3 : 1) * hair;
+        context.beginPath();
+        context.arc(...shown(frame, look.view, f[k]!, f[k + 1]!), f[k + 6]! - 0.5 * context.lineWidth, 0, 2 * Math.PI);
+        context.stroke();
+    }
+    context.globalAlpha = 1;
 }
 
 /** Position (lab frame) and radius of a disc. */
 export function discOf(f: Float64Array, i: number): {x: number; y: number; radius: number} {
     const k = frameHead + frameDisc * i;
     return {x: f[k]!, y: f[k + 1]!, radius: f[k + 6]!};
-}
-
-/** An arc along the wall that starts at the right: the rotation of the cluster. A circle stands for all
- *  whole turns. */
-function drawClusterTurns(context: CanvasRenderingContext2D, frame: Frame, clusterTurns: number,
-                    hair: number): void {
-    const whole = Math.trunc(clusterTurns), rest = clusterTurns - whole;
-    const radius = frame.radius - 4 * hair;
-    if (!(radius > 5 * hair)) return; // the container is a dot at this scale
-    context.strokeStyle = context.fillStyle = clusterTurns < 0 ? "#24639e" : "#cc5c0a";
-    context.lineWidth = 4 * hair;
-    context.globalAlpha = 0.8;
-    if (whole !== 0) {
-        context.beginPath();
-        context.arc(...frame.centre, radius - 5 * hair, 0, 2 * Math.PI);
-        context.stroke();
-    }
-    context.beginPath();
-    context.arc(...frame.centre, radius, 0, 2 * Math.PI * rest, rest < 0);
-    context.stroke();
-    context.globalAlpha = 1;
 }
 
 /** The frames for the trails, oldest first: those at most `longest` before `now`. A fixed number of
@@ -230,7 +252,7 @@ function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: Dr
         context.lineWidth = hair;
         for (let i = 0; i < after.discs; ++i) {
             const k = frameHead + frameDisc * i;
-            context.strokeStyle = color(b, k, i, look.coloring);
+            context.strokeStyle = color(b, k, i, look);
             context.beginPath();
             context.moveTo(...shown(before, look.view, a[k]!, a[k + 1]!));
             context.lineTo(...shown(after, look.view, b[k]!, b[k + 1]!));
@@ -238,101 +260,4 @@ function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: Dr
         }
     }
     context.globalAlpha = 1;
-}
-
-/** Draws the impulse of an event as an arrow on the disc that received it. */
-function drawEvent(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
-                   hair: number): void {
-    const e = look.event;
-    if (!e || e[1]! >= 2) return; // without an impulse
-    const wall = e[1] === 1;
-    const k = frameHead + frameDisc * e[wall ? 2 : 3]!;
-    const [nx, ny] = [e[4]!, e[5]!];
-    const sign = wall ? -1 : 1; // on the disc, not on the wall
-    const jx = sign * (e[6]! * nx + e[7]! * ny), jy = sign * (e[6]! * ny - e[7]! * nx);
-    const [x, y] = [f[k]!, f[k + 1]!];
-    const [ax, ay] = shown(frame, look.view, x, y);
-    const [bx, by] = shown(frame, look.view, x + 3 * jx, y + 3 * jy);
-    drawArrow(context, [ax, ay], [bx, by], "#b00020", 2 * hair);
-}
-
-function drawArrow(context: CanvasRenderingContext2D, [ax, ay]: [number, number],
-                   [bx, by]: [number, number], color: string, width: number): void {
-    const length = Math.hypot(bx - ax, by - ay), tip = Math.min(0.5, 0.4 * length);
-    context.strokeStyle = context.fillStyle = color;
-    context.lineWidth = width;
-    context.beginPath();
-    context.moveTo(ax, ay);
-    context.lineTo(bx, by);
-    context.stroke();
-    if (length === 0) return;
-    const [ux, uy] = [(bx - ax) / length, (by - ay) / length];
-    context.beginPath();
-    context.moveTo(bx, by);
-    context.lineTo(bx - tip * ux + 0.5 * tip * uy, by - tip * uy - 0.5 * tip * ux);
-    context.lineTo(bx - tip * ux - 0.5 * tip * uy, by - tip * uy + 0.5 * tip * ux);
-    context.fill();
-}
-
-/** Draws centrifugal and Coriolis force of each disc in the M-frame, on one scale: the largest
- *  centrifugal force in the container is two radii long. */
-function drawForces(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, omega: number,
-                    hair: number): void {
-    const amplitude = Math.hypot(...frame.centre), [sx, sy] = shown(frame, "m", 0, 0);
-    for (let i = 0; i < frame.discs; ++i) {
-        const k = frameHead + frameDisc * i, [x, y] = [f[k]!, f[k + 1]!];
-        const at = shown(frame, "m", x, y);
-        // The lab velocity without the rotation about S.
-        const [vx, vy] = [f[k + 4]! + omega * y, f[k + 5]! - omega * x];
-        const [ex, ey] = frame.down;
-        const [wx, wy] = [-vx * ey + vy * ex, -(vx * ex + vy * ey)];
-        const scale = 2 * f[k + 6]! / (omega * omega * (frame.radius + amplitude));
-        const centrifugal = scale * omega * omega, coriolis = 2 * scale * omega;
-        drawArrow(context, at, [at[0] + centrifugal * (at[0] - sx), at[1] + centrifugal * (at[1] - sy)],
-                  "#8a5a00", 2 * hair);
-        drawArrow(context, at, [at[0] + coriolis * wy, at[1] - coriolis * wx], "#a0307a", 2 * hair);
-    }
-}
-
-/** Draws a ring around the disc or discs of the next event. */
-function drawNext(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
-                  hair: number): void {
-    const e = look.next;
-    if (!e || e[1] === 2) return; // a path vertex, which concerns all discs
-    context.strokeStyle = "#b00020";
-    context.lineWidth = 2 * hair;
-    context.setLineDash([4 * hair, 3 * hair]);
-    for (const i of e[1] === 0 ? [e[2]!, e[3]!] : [e[2]!]) {
-        const k = frameHead + frameDisc * i;
-        context.beginPath();
-        context.arc(...shown(frame, look.view, f[k]!, f[k + 1]!), f[k + 6]! + 3 * hair, 0, 2 * Math.PI);
-        context.stroke();
-    }
-    context.setLineDash([]);
-}
-
-/** S, the centre of the path; C, the centre of the container; M, the point of the wall farthest from S. */
-function drawMarks(context: CanvasRenderingContext2D, frame: Frame, look: DrawOptions, ink: string,
-                   hair: number): void {
-    const m: [number, number] = [frame.centre[0] + frame.radius * frame.down[0],
-                                 frame.centre[1] + frame.radius * frame.down[1]];
-    const marks: [string, [number, number]][] = [
-        [symbols.swirl, [0, 0]], [symbols.container, frame.centre], [symbols.farthest, m]];
-    for (const [name, at] of marks) {
-        const [x, y] = shown(frame, look.view, ...at);
-        context.fillStyle = ink;
-        context.beginPath();
-        context.arc(x, y, 2.5 * hair, 0, 2 * Math.PI);
-        context.fill();
-        context.save();
-        context.translate(x, y);
-        context.scale(1, -1);
-        context.font = `600 ${13 * hair}px system-ui, sans-serif`;
-        context.lineWidth = 3 * hair;
-        context.strokeStyle = look.dark ? "#1d2124" : "#fbfaf8";
-        const [dx, dy] = at === m ? [-5 * hair, -7 * hair] : [5 * hair, -5 * hair];
-        context.strokeText(name, dx, dy);
-        context.fillText(name, dx, dy);
-        context.restore();
-    }
 }

@@ -1,4 +1,4 @@
-// The rigid-body rate in units of Ω, averaged in blocks. A block is one period at first. In a long run
+// The rotation rate in units of Ω, averaged in blocks. A block is one period at first. In a long run
 // the engine merges neighbouring blocks, so that their number stays bounded.
 import type {Rotation} from "./engine";
 
@@ -16,5 +16,6 @@ export function meansOf({blocks, warmup_blocks: early}: Rotation): (number | nul
 
 export function tableOf(rotation: Rotation | undefined): string {
     const periods = rotation ? periodsOf(rotation) : [];
-    return "period,varpi_rigid\n" + periods.map((period, k) => `${period},${rotation!.blocks[k] ?? ""}\n`).join("");
+    return "period,varpi,varpi_rigid\n" + periods.map(
+        (period, k) => `${period},${rotation!.blocks[k] ?? ""},${rotation!.rigid_blocks[k] ?? ""}\n`).join("");
 }

@@ -14,14 +14,16 @@ let module: WebAssembly.Module | undefined;
 let engine: Engine | undefined;
 let now = 0; // the time on display
 let period = 1;
-let lastAverages = 0;
+let runNumber = 0;
+let lastAverages = -Infinity;
 let change: Record<string, string> | undefined; // takes effect at the end of the period
+let toFit: {given: Record<string, string>; tries: number} | undefined; // discs without room so far
 
 const send = (message: FromWorker): void => postMessage(message);
 
 function reject(error: unknown): void {
     engine = undefined;
-    send({kind: "rejected", message: error instanceof UsageError ? error.message :
+    send({kind: "rejected", run: runNumber, message: error instanceof UsageError ? error.message :
         workerTexts.stopped(String(error))});
 }
 
@@ -33,7 +35,7 @@ function requireNoProblem(simulation: Engine, atTheEnd: boolean): void {
 
 function show(single = false): void {
     if (!engine) return;
-    const frame: Frame = {kind: "frame", frame: engine.frame(now), events: engine.events,
+    const frame: Frame = {kind: "frame", run: runNumber, frame: engine.frame(now), turns: engine.turns(), events: engine.events,
                           hash: engine.stateHash, command: engine.command()};
     if (single) [frame.event, frame.next] = [engine.event(), engine.nextEvent()];
     if (single || performance.now() - lastAverages > averagesInterval) {
@@ -60,7 +62,7 @@ function run(simulation: Engine, events: number): void {
         requireNoProblem(simulation, false);
         if (performance.now() - reported < averagesInterval) continue;
         reported = performance.now();
-        send({kind: "progress", done: Math.min(done + eventsPerBatch, events), all: events});
+        send({kind: "progress", run: runNumber, unit: "events", done: Math.min(done + eventsPerBatch, events), all: events});
     }
     requireNoProblem(simulation, true);
 }
@@ -69,11 +71,11 @@ function begin(given: Record<string, string>, events: number): void {
     if (!module) return;
     engine = startSimulation(module, {...given, ...measured});
     now = 0;
-    lastAverages = 0;
-    change = undefined;
+    lastAverages = -Infinity;
+    change = toFit = undefined;
     const configuration = engine.configuration();
     period = Number(configuration["period"]);
-    send({kind: "started", configuration});
+    send({kind: "started", run: runNumber, configuration});
     run(engine, events);
     now = engine.time;
     show(events > 0);
@@ -93,34 +95,61 @@ function advance(simulation: Engine, target: number): boolean {
     return arrived;
 }
 
-function tick(periods: number): void {
+function tick(periods: number, strobe = false): void {
     if (!engine) return;
     const periodEnd = (Math.floor(now / period + 1e-9) + 1) * period;
-    const target = change ? Math.min(now + periods * period, periodEnd) : now + periods * period;
+    const target = Math.min(now + periods * period, change || strobe ? periodEnd : Infinity,
+                            toFit ? Math.max(period / 3, now) : Infinity);
     const arrived = advance(engine, target);
     const reached = arrived ? target : Math.min(engine.time, target);
     now = Math.max(now, reached);
     if (change && now === periodEnd) applyChange(change);
+    else if (toFit && now >= period / 3) applyChange(toFit.given, toFit.tries);
     show();
 }
 
-/** A change that keeps the discs takes effect at the end of the period; any other at once. */
-function requestChange(given: Record<string, string>): void {
+/** Advances by whole periods as fast as it can, and reports the progress. */
+function skip(periods: number): void {
     if (!engine) return;
-    if (engine.keepsDiscs(given)) change = given;
-    else send({kind: "changed", kept: false, configuration: engine.configuration()});
+    const begun = Math.round(now / period);
+    let reported = performance.now();
+    while (now < (begun + periods) * period - 1e-9) {
+        while (!engine.advanceTo(now + period, eventsPerBatch)) requireNoProblem(engine, false);
+        now += period;
+        if (performance.now() - reported < averagesInterval) continue;
+        reported = performance.now();
+        send({kind: "progress", run: runNumber, unit: "periods", done: Math.round(now / period) - begun, all: periods});
+    }
+    lastAverages = -Infinity;
+    show();
 }
 
-function applyChange(given: Record<string, string>): void {
+/** A change of the path takes effect at the end of the period; any other at once. */
+function requestChange(given: Record<string, string>): void {
     if (!engine) return;
     change = undefined;
-    const kept = engine.change(now, {...given, ...measured});
-    const configuration = engine.configuration();
-    if (kept) {
+    const keeps = engine.keepsDiscs(given);
+    if (keeps === "later") change = given;
+    else if (keeps === "now") applyChange(given);
+    else send({kind: "changed", run: runNumber, kept: false, missing: 0, configuration: engine.configuration()});
+}
+
+const triesToFit = 12; // four periods
+
+/** Discs that have no room at this moment are added a third of a period later. */
+function applyChange(given: Record<string, string>, tries = triesToFit): void {
+    if (!engine) return;
+    change = undefined;
+    const missing = engine.change(now, {...given, ...measured}), configuration = engine.configuration();
+    if (missing !== undefined) {
         now = 0;
         period = Number(configuration["period"]);
     }
-    send({kind: "changed", kept, configuration});
+    toFit = missing && tries > 0 ? {given, tries: tries - 1} : undefined;
+    // Without a place for all discs after some periods, a new simulation places them.
+    send({kind: "changed", run: runNumber, kept: missing === 0 || toFit !== undefined,
+          missing: missing ?? 0, configuration});
+    show();
 }
 
 function steer(x: number, y: number, duration: number): void {
@@ -150,7 +179,7 @@ function maps(): void {
     if (!engine) return;
     engine.report();
     const of = (column: string): Float64Array => engine!.column(column);
-    send({kind: "maps", density: of("density//by_time"),
+    send({kind: "maps", density: of("density//by_time"), spin: engine.spinMap(),
          flow: {x: of("flow//x"), y: of("flow//y"), ux: of("flow//u_x"), uy: of("flow//u_y")},
          profile: {theta: of("profile//theta"), varpi: of("profile//varpi_m"),
                    wall: of("profile//wall")}});
@@ -166,6 +195,14 @@ function point(given: Record<string, string>, periods: number): void {
     send({kind: "point", rotation: simulation.rotation(), collapsed});
 }
 
+/** Runs to exactly this event in a simulation of its own. */
+function repeat(given: Record<string, string>, events: number): void {
+    if (!module) return;
+    const simulation = startSimulation(module, given);
+    run(simulation, events);
+    send({kind: "result", text: simulation.result()});
+}
+
 onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
     try {
         switch (data.kind) {
@@ -175,10 +212,14 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                            : {kind: "unsupported"});
                 break;
             case "begin":
+                runNumber = data.run;
                 begin(data.given, data.events);
                 break;
             case "tick":
-                tick(data.periods);
+                tick(data.periods, data.strobe);
+                break;
+            case "skip":
+                skip(data.periods);
                 break;
             case "change":
                 requestChange(data.given);
@@ -201,11 +242,13 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
             case "point":
                 point(data.given, data.periods);
                 break;
+            case "repeat":
+                repeat(data.given, data.events);
+                break;
             case "crossing":
                 if (module) {
-                    const found = new Engine(module);
-                    send({kind: "crossing", curve: data.curve,
-                         crossings: perRate((rate) => found.crossing(data.curves[rate]))});
+                    const evaluation = new Engine(module);
+                    send({kind: "crossing", crossings: perRate((rate) => evaluation.crossing(data.runs[rate]))});
                 }
                 break;
             case "step":

@@ -19,7 +19,7 @@ const frame = (discs, {time = 0, centre = [0, 0], radius = 8.6} = {}) => new Flo
     [time, 0, 0, ...centre, 0, 0, radius, 1, 0, discs.length,
      ...discs.flatMap(([x, y, r = 1]) => [x, y, 0.25, -0.5, 1, 2, r, 0])]);
 
-/** Finds visible texts in a source other than texts.ts: letters in the text, name or label of an element
+/** Finds visible texts in a source other than texts.*.ts and symbols.ts: letters in the text, name or label of an element
  *  or canvas; elsewhere strings of several words, or with letters that identifiers cannot have. */
 const shownBy = (source) => {
     const found = [], file = ts.createSourceFile("a.ts", source, ts.ScriptTarget.ES2022, true);
@@ -28,7 +28,7 @@ const shownBy = (source) => {
     /** The arguments of a call that are shown. */
     const shownOf = ({expression, arguments: given = []}) => ({
         __proto__: null, element: given.slice(2), append: given, prepend: given, button: given.slice(0, 1),
-        field: given.slice(0, 1), choice: given.slice(0, 1), figure: given.slice(1), alert: given,
+        field: given.slice(0, 1), choice: given.slice(1, 2), figure: given.slice(1), alert: given,
         showError: given, UsageError: given, fillText: given.slice(0, 1), strokeText: given.slice(0, 1),
         setAttribute: /^(aria-label|aria-description|title|alt|placeholder)$/.test(given[0]?.text)
             ? given.slice(1) : [],
@@ -37,7 +37,8 @@ const shownBy = (source) => {
         (ts.isNewExpression(node) && nameOf(node.expression) === "Error") || // a programming error, not shown to users
         (ts.isBinaryExpression(node) && nameOf(node.left) === "font") ||
         (ts.isCallExpression(node) && nameOf(node.expression) === "setAttribute" &&
-            shownOf(node).length === 0);
+            shownOf(node).length === 0) ||
+        (ts.isCallExpression(node) && /^(matches|closest|querySelector(All)?)$/.test(nameOf(node.expression)));
     const visit = (node, isShown) => {
         if (hidden(node)) return;
         if (ts.isStringLiteralLike(node) || [ts.SyntaxKind.TemplateHead, ts.SyntaxKind.TemplateMiddle,
@@ -77,22 +78,18 @@ try {
         ['axes = [{label: "μ", stroke: "red"}]', ["μ"]],
         ['element("p", {textContent: texts.wait, id: "wait"}, texts.groups["a"], given["discs"])', []],
     ]) assert.deepEqual(shownBy(source), wanted, source);
-    for (const name of readdirSync(sources).filter((each) => each.endsWith(".ts") && each !== "texts.ts")) {
-        const stray = shownBy(readFileSync(join(sources, name), "utf-8"));
-        assert.deepEqual(stray, [], `${name} has texts that belong in texts.ts`);
+    const classes = new Set(readdirSync(sources).filter((each) => each.endsWith(".css"))
+        .flatMap((each) => readFileSync(join(sources, each), "utf-8").match(/(?<=\.)[a-z][a-z-]*/g)));
+    for (const name of readdirSync(sources).filter((each) => each.endsWith(".ts") && !/^(texts\.|symbols)/.test(each))) {
+        const stray = shownBy(readFileSync(join(sources, name), "utf-8"))
+            .filter((each) => !each.split(" ").every((word) => classes.has(word)));
+        assert.deepEqual(stray, [], `${name} has texts that belong in texts.en.ts`);
     }
     assert.deepEqual(shownByPage('<a title="So {{b}}" id="x">{{a}} <b>yes</b></a>'), ["So", "yes"]);
     assert.deepEqual(shownByPage(readFileSync(join(sources, "..", "index.html"), "utf-8")), []);
 
-    const {clusterTurnsBetween, discAt, recent} = await load("scene");
-    const moved = (discs, by) => discs.map(([x, y]) => [
-        3 + x * Math.cos(by) - y * Math.sin(by), 4 + x * Math.sin(by) + y * Math.cos(by)]);
+    const {discAt, recent} = await load("scene");
     const cluster = [[0, 0], [2, 0], [1, 3], [-4, 2]];
-    for (const by of [0, 0.3, -0.3, 3, -3]) { // the translation must not count as rotation
-        const turns = clusterTurnsBetween(frame(cluster), frame(moved(cluster, by)));
-        assert.ok(Math.abs(turns - by / (2 * Math.PI)) < 1e-12, `${turns} turns for ${by}`);
-    }
-    assert.equal(clusterTurnsBetween(frame(cluster), frame(cluster.slice(1))), 0); // another number of discs
     assert.equal(discAt(frame(cluster), 2.5, 0.5), 1);
     assert.equal(discAt(frame(cluster), 2.9, 0.9), undefined);
     // Trails span a fixed time, whatever the interval between two frames.
@@ -102,6 +99,37 @@ try {
         assert.equal(past.length, count, `${past.length} frames of ${step} periods`);
         assert.deepEqual(past, history.slice(45 - count)); // the newest ones, in order
     }
+
+    // Sectors stay with the discs: a rotated cluster keeps its colours, and new discs get those of their place.
+    const {SectorPaint, sectorColors} = await load("paint");
+    const ring = (count, by = 0) => Array.from({length: count}, (_, k) => {
+        const angle = 2 * Math.PI * (k + 0.5) / count + by;
+        return [3 + 5 * Math.cos(angle), 4 + 5 * Math.sin(angle)];
+    });
+    const paint = new SectorPaint(), sectors = sectorColors.length;
+    paint.apply(frame(ring(3 * sectors)));
+    assert.deepEqual([...paint.sectors], ring(3 * sectors).map((_, k) => Math.floor(k / 3)));
+    paint.extend(frame(ring(3 * sectors, 2)));
+    assert.deepEqual([...paint.sectors], ring(3 * sectors).map((_, k) => Math.floor(k / 3)));
+    assert.equal(paint.isMixed(frame(ring(3 * sectors, 2))), false);
+    // Each colour opposite itself: the resultants cancel.
+    assert.equal(paint.isMixed(frame(ring(3 * sectors).map((at, k) => (k % 3 ? at : [6 - at[0], 8 - at[1]])))), true);
+    paint.extend(frame(ring(2)));
+    assert.deepEqual([...paint.sectors], [0, 0]);
+
+    // The verdict: from all periods while there is no average, firm when the 95 % interval excludes zero.
+    const {findingOf, student95} = await load("verdict");
+    for (const [freedom, t] of [[3, 3.182], [4, 2.776], [9, 2.262], [30, 2.042], [1e6, 1.960]]) // Student's table
+        assert.ok(Math.abs(student95(freedom) / t - 1) < 0.01, `${student95(freedom)} for ${freedom}`);
+    const rotation = (mean, error, count, blocks = []) => ({by_time: {mean, error, blocks: count}, blocks});
+    assert.deepEqual(findingOf(undefined, 0.02, 0.1), {mean: null, interval: null, direction: undefined, isFirm: false});
+    assert.deepEqual(findingOf(undefined, -0.1, 0.5), {mean: -0.2, interval: null, direction: "against", isFirm: false});
+    assert.deepEqual(findingOf(rotation(null, null, 0, [9, 9, 0.25, 0.75]), 0, 4),
+                     {mean: 0.5, interval: null, direction: "with", isFirm: false}); // the later half of the warm-up
+    assert.equal(findingOf(rotation(0.1, 0.01, 4), 0, 24).isFirm, false); // too few blocks
+    assert.equal(findingOf(rotation(0.1, 0.01, 10), 0, 30).isFirm, true);
+    assert.equal(findingOf(rotation(-0.1, 0.05, 10), 0, 30).isFirm, false);
+    assert.equal(findingOf(rotation(-0.1, 0.04, 10), 0, 30).isFirm, true);
 
     // In any orientation the eight octants of a sphere cover its visible half exactly once.
     const {inRotatedAxes, rotated, visiblePart} = await load("ball");
@@ -143,11 +171,17 @@ try {
     assert.equal(kept.all.length, 6);
 
     const {periodsOf, meansOf, tableOf} = await load("series");
-    const short = {warmup: 2, warmup_blocks: 2, periods_per_block: [1, 1], blocks: [5, 7, 1, 3, null]};
+    const short = {warmup: 2, warmup_blocks: 2, periods_per_block: [1, 1], blocks: [5, 7, 1, 3, null],
+                   rigid_blocks: [6, 8, 2, 4, null]};
     assert.deepEqual(periodsOf(short), [1, 2, 3, 4, 5]);
     assert.deepEqual(meansOf(short), [null, null, 1, 2, 4 / 3]);
-    assert.equal(tableOf(short), "period,varpi_rigid\n1,5\n2,7\n3,1\n4,3\n5,\n");
-    assert.equal(tableOf(undefined), "period,varpi_rigid\n");
+    assert.equal(tableOf(short), "period,varpi,varpi_rigid\n1,5,6\n2,7,8\n3,1,2\n4,3,4\n5,,\n");
+    assert.equal(tableOf(undefined), "period,varpi,varpi_rigid\n");
+    // After a change the periods continue, with a gap in the lines.
+    const {joined} = await load("curve");
+    assert.deepEqual(joined([[], [], []], undefined), [[], [], []]);
+    assert.deepEqual(joined([[1, 2], [8, 9], [null, 9]], {...short, blocks: [5, 7, 1]}),
+                     [[1, 2, 2, 3, 4, 5], [8, 9, null, 5, 7, 1], [null, 9, null, null, null, 1]]);
     // A long run with merged blocks: two periods each in the warm-up, four after it.
     const long = {warmup: 5, warmup_blocks: 2, periods_per_block: [2, 4], blocks: [1, 1, 3, 5]};
     assert.deepEqual(periodsOf(long), [2, 4, 9, 13]);
@@ -159,18 +193,6 @@ try {
     assert.equal(withError(12.34, 3, "?"), "12.3 ± 3.0");
     assert.equal(withError(null, null, "?"), "?");
     assert.equal(withError(0.25, null, "?"), "0.250");
-
-    const {parseNumbers, parseCoefficients} = await load("study");
-    assert.deepEqual(parseNumbers("5, 8:2:12"), [5, 8, 10, 12]);
-    assert.deepEqual(parseNumbers("0:0.1:0.3").map((x) => x.toFixed(6)),
-                     ["0.000000", "0.100000", "0.200000", "0.300000"]);
-    for (const wrong of ["", "5:x", "1:0:5", "1:2", ":1:3", "1::3", "1:1:3:5"])
-        assert.equal(parseNumbers(wrong), undefined, wrong);
-    const pairs = (text) => parseCoefficients(text)?.map(({disc, wall}) => [disc, wall]);
-    assert.deepEqual(pairs("0.1, 0:0.5:1, 1:0 , 0:1"), [[0.1, 0.1], [0, 0], [0.5, 0.5], [1, 1], [1, 0], [0, 1]]);
-    assert.deepEqual(pairs("1, 1:1, 1:0, 1:0"), [[1, 1], [1, 0]]);
-    for (const wrong of ["", " , ", "1:x", "1:", ":1", "x", "1:2:3:4", "0.1, 1:y", "1:0:5"])
-        assert.equal(pairs(wrong), undefined, wrong);
 } finally {
     rmSync(folder, {recursive: true});
 }

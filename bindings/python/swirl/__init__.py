@@ -14,6 +14,7 @@ from . import plot as plot
 from ._engine import Event, Failure, FileError, Frames, Snapshot
 from ._engine import samples_per_period as samples_per_period
 from ._engine import version as _version
+from ._lab import Lab, lab
 from ._recordings import Analysis, Recording, Tracks, Trajectory, analyse
 from ._results import ArrayEstimate, Estimate, EventCounts, Measured, Result, Rotation, Series, Table
 from ._runs import Interrupted, Parameter, measurements, parameters, run
@@ -25,8 +26,8 @@ __version__ = _version().split()[0]
 
 __all__ = [
     "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
-    "FileError", "Frames", "Interrupted", "Measured", "Parameter", "Recording", "Result", "Rotation",
+    "FileError", "Frames", "Interrupted", "Lab", "Measured", "Parameter", "Recording", "Result", "Rotation",
     "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "analyse", "collect",
-    "crossing", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
+    "crossing", "lab", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
     "samples_per_period", "sweep",
 ]

@@ -27,11 +27,11 @@ double scale_end(std::vector<double> values) {
     return 10.0 * power;
 }
 
-/// The rigid-body rate Σ r × v / Σ r². At a single instant the mean over the discs is no good
-/// measure: a disc near the centre of mass has an arbitrary angular velocity. A single disc has its
-/// spin, as in the minimal model.
+/// The mean over the discs, as every report and the browser page have it, so that curve, turns and
+/// ϖ agree. A disc that passes the centre of mass makes a peak, which the range of the plot leaves
+/// out. A single disc has its spin, as in the minimal model.
 double rotation_of(const Snapshot& s) {
-    return s.size() == 1 ? s.spin[0] : cluster_rotation(s).rigid;
+    return s.size() == 1 ? s.spin[0] : cluster_rotation(s).individual;
 }
 
 /// Collects in a first pass what scales and plot need.
@@ -178,7 +178,7 @@ Page::Page(const std::vector<FrameSource>& sources, const Appearance& appearance
                        .em = 10.0};
         fit_range(plot, curves_);
         // A single disc has no rotation except its spin.
-        plot.vertical_label = survey.single_disc ? "$ω$/$Ω$" : "$ϖ_{rigid}$/$Ω$";
+        plot.vertical_label = survey.single_disc ? "$ω$/$Ω$" : "$ϖ$/$Ω$";
         spec.plot = plot;
     }
     sheet_.emplace(spec);

@@ -1,0 +1,107 @@
+// The rotation rate period by period, with a mark where a parameter was changed.
+import type {Rotation} from "./engine";
+import type {Laboratory} from "./laboratory";
+import {accent, byId, element, ink, line, quiet} from "./page";
+import {Plot} from "./plot";
+import {meansOf, periodsOf} from "./series";
+import {symbols, texts} from "./texts";
+
+const height = 150;
+/** The axis ends here: a disc that passes the centre of mass makes single periods many times as large. */
+const clippedAt = 1.5;
+const remembered = 200; // periods before the last change
+
+type Columns = [number[], (number | null)[], (number | null)[]];
+
+/** Periods, values and means, after those of earlier parameters. */
+export function joined(earlier: Columns, rotation: Rotation | undefined): Columns {
+    if (!rotation) return earlier;
+    const begin = earlier[0].at(-1) ?? 0;
+    // A gap in the lines separates the parameters.
+    const gap = earlier[0].length > 0 ? [null] : [];
+    return [[...earlier[0], ...gap.map(() => begin), ...periodsOf(rotation).map((period) => begin + period)],
+            [...earlier[1], ...gap, ...rotation.blocks], [...earlier[2], ...gap, ...meansOf(rotation)]];
+}
+
+export class Curve {
+    private readonly place = byId("curve");
+    private readonly note = element("p", {className: "quiet"});
+    private readonly plot: Plot;
+    private earlier: Columns = [[], [], []];
+    private shown: Columns = [[], [], []];
+    private marks: {at: number; text: string}[] = [];
+    private before: Record<string, string> = {}; // the parameters of the last values
+
+    constructor(private readonly lab: Laboratory) {
+        this.plot = new Plot({
+            width: 300, height,
+            x: {color: ink},
+            y: {label: symbols.rotation, color: ink, grid: line, size: 40, labelSize: 18, range: (low, high) =>
+                [Math.max(Math.min(low, -0.1) - 0.05, -clippedAt), Math.min(Math.max(high, 0.1) + 0.05, clippedAt)]},
+            lines: [{color: quiet, width: 1}, {color: accent, width: 2}],
+            draw: (plot) => this.drawMarks(plot),
+        }, this.place);
+        this.place.append(this.note);
+        this.clear();
+        lab.on("begin", () => this.clear());
+        lab.on("changed", (byParameters) => { if (byParameters) this.mark(); else this.clear(); });
+        lab.on("averages", (rotation) => this.show(rotation));
+        addEventListener("resize", () => this.resize());
+    }
+
+    private clear(): void {
+        this.earlier = this.shown = [[], [], []];
+        this.marks = [];
+        this.before = this.lab.configuration;
+        this.place.hidden = true;
+    }
+
+    /** The values so far become those of earlier parameters. */
+    private mark(): void {
+        const {configuration} = this.lab, at = this.shown[0].at(-1) ?? 0;
+        const changes = Object.keys(configuration).filter((name) => configuration[name] !== this.before[name] &&
+            this.before[name] !== undefined).map((name) => `${texts.symbolOf[name] ?? name} = ${configuration[name]}`);
+        this.before = configuration;
+        this.earlier = this.shown.map((column) => column.slice(-remembered)) as Columns;
+        if (at === 0 || changes.length === 0) return;
+        if (this.marks.at(-1)?.at === at) this.marks.pop();
+        this.marks.push({at, text: changes.join(", ")});
+    }
+
+    private show(rotation: Rotation): void {
+        if (Object.keys(this.before).length === 0) this.before = this.lab.configuration;
+        const columns = joined(this.earlier, rotation), blocks = columns[0].length;
+        if (this.lab.isByHand || blocks === this.shown[0].length) return;
+        this.shown = columns;
+        if (this.place.hidden !== blocks < 2) {
+            this.place.hidden = blocks < 2;
+            this.resize();
+        }
+        this.plot.setData(columns);
+        const beyond = columns[1].filter((each) => Math.abs(each ?? 0) > clippedAt).length;
+        this.note.textContent = beyond > 0 ? texts.clipped(beyond, clippedAt) : texts.perPeriod;
+    }
+
+    private drawMarks(plot: Plot): void {
+        const {context, area} = plot;
+        context.fillStyle = context.strokeStyle = ink();
+        context.lineWidth = devicePixelRatio;
+        context.font = `${11 * devicePixelRatio}px Inter, system-ui, sans-serif`;
+        for (const {at, text} of this.marks) {
+            const x = plot.at(at, "x");
+            if (x < area.left) continue;
+            context.beginPath();
+            context.moveTo(x, area.top);
+            context.lineTo(x, area.top + area.height);
+            context.stroke();
+            const isLate = x > area.left + 0.6 * area.width;
+            context.textAlign = isLate ? "right" : "left";
+            context.textBaseline = "alphabetic";
+            context.fillText(text, x + (isLate ? -4 : 4) * devicePixelRatio, area.top + 10 * devicePixelRatio);
+        }
+    }
+
+    private resize(): void {
+        if (!this.place.hidden) this.plot.setWidth(this.place.clientWidth || 300);
+    }
+}

@@ -1,0 +1,250 @@
+// The container on the page: its canvases, and what the pointer, fingers and keys do on them.
+import type {ComparedContainer} from "./compared";
+import type {Laboratory} from "./laboratory";
+import {layerOf, type MapKind} from "./maps";
+import type {Frame, Maps} from "./messages";
+import {byId, dark, element} from "./page";
+import {SectorPaint} from "./paint";
+import {discAt, discOf, draw, pointedAt, recent, type Coloring, type View} from "./scene";
+import {texts} from "./texts";
+
+export type Views = View | "both" | MapKind;
+const mapKinds: readonly string[] = ["density", "flow", "spin"];
+const isMap = (view: Views): view is MapKind => mapKinds.includes(view);
+
+const trailLength = 45; // frames, at most
+const trailPeriods = 0.3; // at most, as in `swirl movie`
+const mapInterval = 700; // milliseconds
+const strobeTrail = 12; // images, one per period
+
+export class Dish {
+    view: Views = "lab";
+    coloring: Coloring = "sector";
+    trails = false;
+    forces = false;
+    private strobes = false;
+    /** The same, while time runs fast to the averages. */
+    isLapse = false;
+    /** Whether another part of the page shows averages of the M-frame. */
+    needsMaps: () => boolean = () => false;
+    compared: ComparedContainer | undefined;
+    /** The container's target when it is moved by hand. */
+    pointer: [number, number] | undefined;
+    /** Called when canvases are replaced. */
+    laidOut: () => void = () => {};
+
+    private readonly canvases: Partial<Record<View, HTMLCanvasElement>> = {};
+    private readonly paint = new SectorPaint();
+    private maps: Maps | undefined;
+    private lastMaps = 0;
+    private shown: Frame | undefined; // with the stroboscope, the last image
+    private history: Float64Array[] = [];
+    private recordedRoom: number | undefined; // while a recording is shown
+    private dragged: number | undefined; // the disc under the pointer
+    private held: number | undefined; // the disc selected by keys
+
+    constructor(private readonly lab: Laboratory, private readonly say: (text: string) => void) {
+        lab.on("begin", () => this.forget());
+        lab.on("changed", () => {
+            this.history = [];
+            this.maps = undefined;
+        });
+        lab.on("maps", (maps) => { this.maps = maps; });
+        lab.on("frame", (frame) => this.receive(frame));
+        addEventListener("resize", () => this.redraw());
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
+    }
+
+    /** Time is paused while a disc is dragged or selected. */
+    get holdsTime(): boolean { return this.dragged !== undefined || this.held !== undefined; }
+    /** The canvas that is saved and recorded. */
+    get canvas(): HTMLCanvasElement | undefined { return this.canvases.lab ?? this.canvases.m; }
+
+    /** One image per period. */
+    get strobe(): boolean { return this.strobes; }
+    set strobe(on: boolean) {
+        this.strobes = on;
+        this.history = [];
+        this.redraw();
+    }
+
+    layOut(): void {
+        const views: View[] = this.view === "both" ? ["lab", "m"] : [isMap(this.view) ? "m" : this.view];
+        byId("views").replaceChildren(...views.map((each) => {
+            const canvas = element("canvas");
+            canvas.setAttribute("role", "img");
+            this.canvases[each] = canvas;
+            if (each === "lab") {
+                this.addPointerControl(canvas);
+                this.addTouchControl(canvas);
+                this.addKeyControl(canvas);
+            }
+            return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
+        }));
+        for (const each of ["lab", "m"] as const) if (!views.includes(each)) delete this.canvases[each];
+        if (this.compared) byId("views").append(this.compared.figure);
+        this.laidOut();
+        this.redraw();
+    }
+
+    setView(view: Views): void {
+        this.view = view;
+        this.layOut();
+    }
+
+    /** Colours the discs by sector, as they are now. */
+    repaint(): void {
+        if (this.shown) this.paint.apply(this.shown.frame);
+        this.redraw();
+    }
+
+    /** Shows a recorded frame instead of the simulation; undefined: the simulation again. */
+    replay(recorded: {frame: Float64Array; room: number} | undefined): void {
+        this.recordedRoom = recorded?.room;
+        if (!recorded) {
+            this.forget();
+            if (this.lab.last) this.show(this.lab.last);
+            return;
+        }
+        this.show({kind: "frame", run: 0, frame: recorded.frame, turns: [0, 0], events: 0, hash: "", command: ""});
+    }
+
+    private forget(): void {
+        this.history = [];
+        this.shown = this.maps = undefined;
+        this.paint.sectors.length = 0;
+    }
+
+    private receive(frame: Frame): void {
+        if (this.recordedRoom !== undefined) return;
+        this.requestMaps();
+        this.show(frame);
+    }
+
+    private show(frame: Frame): void {
+        const before = this.shown?.frame;
+        const stops = (this.strobe || this.isLapse) && !this.lab.isByHand && this.recordedRoom === undefined;
+        // The stroboscope shows the end of each period; its clock is a rounding error from a whole period.
+        const phase = frame.frame[2]! / this.lab.value("period");
+        if (stops && before && phase > 1e-6 && phase < 1 - 1e-6 && !frame.event) return;
+        if (before?.length === frame.frame.length) {
+            this.history.push(before);
+            if (this.history.length > trailLength) this.history.shift();
+        } else {
+            this.history = [];
+            this.paint.extend(frame.frame);
+        }
+        if (!this.isLapse && before?.[1] !== frame.frame[1] && this.paint.isMixed(frame.frame))
+            this.paint.apply(frame.frame);
+        this.shown = frame;
+        this.redraw();
+    }
+
+    private requestMaps(): void {
+        if (this.lab.isByHand || performance.now() - this.lastMaps < mapInterval) return;
+        if (!isMap(this.view) && !this.needsMaps()) return;
+        this.lastMaps = performance.now();
+        this.lab.send({kind: "maps"});
+    }
+
+    private get note(): string {
+        return this.isLapse ? texts.lapseNote : this.strobe && !this.lab.isByHand ? texts.strobeNote : "";
+    }
+
+    redraw(): void {
+        const {lab, shown} = this;
+        if (!shown) return;
+        const period = lab.value("period");
+        const past = this.trails ? recent(this.history, shown.frame, (this.strobe ? strobeTrail : trailPeriods) * period) : [];
+        for (const [each, canvas] of Object.entries(this.canvases) as [View, HTMLCanvasElement][]) {
+            draw(canvas, shown.frame, {
+                view: each, coloring: this.coloring, sectors: this.paint.sectors, trails: past,
+                event: shown.event, next: shown.next, dark: dark(),
+                omega: this.forces && !lab.isByHand ? 2 * Math.PI / period : 0,
+                room: this.recordedRoom ?? lab.maxDistance(), turns: shown.turns[0], held: this.held,
+                map: isMap(this.view) ? layerOf(this.view, this.maps) : undefined, note: this.note});
+            this.compared?.redraw();
+            const label = texts.container(lab.counted(shown.frame[10] ?? 0), texts.views[each]);
+            if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
+        }
+    }
+
+    /** Time is paused while a disc is selected. */
+    private select(disc: number | undefined): void {
+        if (disc === this.held) return;
+        this.held = disc;
+        if (disc !== undefined) this.say(texts.selected(disc + 1));
+        this.redraw();
+    }
+
+    /** Moves a disc, unless the answer to an earlier message is missing. */
+    private moveDisc(disc: number, x: number, y: number): void {
+        if (this.lab.request({kind: "drag", disc, x, y})) this.lab.resetAverages();
+    }
+
+    /** The pointer moves the container in the mode "by hand", otherwise the disc under it. */
+    private addPointerControl(canvas: HTMLCanvasElement): void {
+        const {lab} = this;
+        canvas.title = texts.dragHelp;
+        const point = (event: PointerEvent): [number, number] =>
+            pointedAt(canvas, lab.last!.frame, lab.maxDistance(), event.clientX, event.clientY);
+        canvas.addEventListener("pointerdown", (event) => {
+            if (!lab.last) return;
+            if (lab.isByHand) this.pointer = point(event);
+            else this.dragged = discAt(lab.last.frame, ...point(event));
+            if (this.dragged !== undefined) canvas.setPointerCapture(event.pointerId);
+        });
+        canvas.addEventListener("pointermove", (event) => {
+            if (!lab.last) return;
+            if (lab.isByHand) this.pointer = point(event);
+            if (this.dragged !== undefined) this.moveDisc(this.dragged, ...point(event));
+        });
+        for (const end of ["pointerup", "pointercancel"] as const)
+            canvas.addEventListener(end, () => { this.dragged = undefined; });
+    }
+
+    /** A vertical touch move scrolls the page and cancels the pointer. If the touch starts on a disc,
+     *  this prevents the scrolling. */
+    private addTouchControl(canvas: HTMLCanvasElement): void {
+        canvas.addEventListener("touchstart", (event) => {
+            const finger = event.touches[0], {lab} = this;
+            if (!lab.last || lab.isByHand || !finger || event.touches.length > 1) return;
+            const at = pointedAt(canvas, lab.last.frame, lab.maxDistance(), finger.clientX, finger.clientY);
+            if (discAt(lab.last.frame, ...at) !== undefined) event.preventDefault();
+        }, {passive: false});
+    }
+
+    /** The keys do what the pointer does: [ and ] select a disc, arrows move it, Escape deselects it. In
+     *  the mode "by hand" the arrows move the container. */
+    private addKeyControl(canvas: HTMLCanvasElement): void {
+        const ways: Record<string, [number, number]> = {
+            ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
+        };
+        canvas.tabIndex = 0;
+        canvas.setAttribute("role", "application");
+        canvas.setAttribute("aria-keyshortcuts", "[ ] ArrowLeft ArrowRight ArrowUp ArrowDown Escape");
+        canvas.addEventListener("keydown", (event) => {
+            const {lab} = this, way = ways[event.key];
+            if (!lab.last) return;
+            const frame = lab.last.frame, discs = frame[10] ?? 0;
+            if (way) {
+                event.preventDefault();
+                if (lab.isByHand) {
+                    const [x, y] = this.pointer ?? [frame[3]!, frame[4]!];
+                    const step = 0.1 * lab.maxDistance();
+                    this.pointer = [x + step * way[0], y + step * way[1]];
+                } else if (this.held !== undefined && this.held < discs) {
+                    const {x, y, radius} = discOf(frame, this.held);
+                    const step = (event.shiftKey ? 0.05 : 0.25) * radius;
+                    this.moveDisc(this.held, x + step * way[0], y + step * way[1]);
+                }
+            } else if ((event.key === "[" || event.key === "]") && !lab.isByHand && discs > 0) {
+                const next = this.held === undefined ? 0 : this.held + (event.key === "]" ? 1 : discs - 1);
+                this.select(next % discs);
+            } else if (event.key === "Escape") {
+                this.select(undefined);
+            }
+        });
+        canvas.addEventListener("blur", () => this.select(undefined));
+    }
+}

@@ -1,0 +1,65 @@
+// The legend of the colours, in a lower corner of the image. So saved images and movies have it, too.
+import {mapColor} from "./maps";
+import {diverging, looseColor, pinnedColor, type DrawOptions, type Palette} from "./scene";
+import {texts} from "./texts";
+
+const margin = 10, barWidth = 110, barHeight = 7, row = 17; // pixels of the page
+
+/** `size` is the width of the image in pixels of the page. */
+export function drawLegend(context: CanvasRenderingContext2D, size: number, look: DrawOptions, palette: Palette): void {
+    if (size < 220) return;
+    context.font = "500 12px Inter, system-ui, sans-serif";
+    context.textBaseline = "alphabetic";
+    context.textAlign = "left";
+    let y = size - margin;
+    const say = (text: string, x = margin): void => {
+        context.fillStyle = palette.ink;
+        context.fillText(text, x, y);
+    };
+    /** A bar with a text at each end. */
+    const bar = (shade: (t: number) => string, low: string, high: string): void => {
+        const width = Math.max(barWidth, context.measureText(low).width + context.measureText(high).width + 12);
+        say(low);
+        context.textAlign = "right";
+        say(high, margin + width);
+        context.textAlign = "left";
+        const gradient = context.createLinearGradient(margin, 0, margin + width, 0);
+        for (let k = 0; k <= 8; ++k) gradient.addColorStop(k / 8, shade(k / 8));
+        context.fillStyle = gradient;
+        context.fillRect(margin, y - row - 1, width, barHeight);
+        y -= 2 * row;
+    };
+    const chip = (color: string, text: string, ring = false): void => {
+        context.fillStyle = context.strokeStyle = color;
+        context.lineWidth = 2;
+        context.beginPath();
+        context.arc(margin + 5, y - 4, ring ? 4 : 5, 0, 2 * Math.PI);
+        if (ring) context.stroke();
+        else context.fill();
+        say(text, margin + 15);
+        y -= row;
+    };
+    const ofSpin = (t: number): string => `rgb(${diverging(2 * t - 1).join(" ")})`;
+    if (look.map) {
+        const {kind} = look.map;
+        chip(palette.quiet, texts.loose, true);
+        chip(pinnedColor, texts.pinned, true);
+        if (kind === "density") bar((t) => `rgb(${mapColor(t, look.dark).join(" ")})`, texts.sparse, texts.dense);
+        else if (kind === "spin") bar(ofSpin, texts.spinAgainst, texts.spinWith);
+        else say(texts.flowKey);
+        if (kind === "flow") y -= row;
+        say(look.map.isEmpty ? texts.mapEmpty : texts.maps[kind]);
+    } else if (look.coloring === "spin") {
+        bar(ofSpin, texts.spinAgainst, texts.spinWith);
+    } else if (look.coloring === "speed") {
+        bar(ofSpin, texts.atRest, texts.fast);
+    } else if (look.coloring === "pinned") {
+        chip(looseColor, texts.loose);
+        chip(pinnedColor, texts.pinned);
+    }
+    if (!look.note) return;
+    context.textAlign = "right";
+    y = size - margin;
+    context.fillStyle = palette.quiet;
+    context.fillText(look.note, size - margin, y);
+}

@@ -1,0 +1,265 @@
+// The lesson: in each step the reader predicts, then sees, and then reads why. The next step opens when the
+// result of the present one is there.
+import {searchCrossing, controlling, usualSearch} from "./crossing_search";
+import type {Host, Values} from "./host";
+import {button, element, withError} from "./page";
+import {Runs} from "./runs";
+import type {View} from "./scene";
+import {documentIn} from "./symbols";
+import {lessonSteps, symbols, team, texts, worksheet} from "./texts";
+
+/** How the result of a step is found: the direction of a run, N_c, or an answer that needs no run. */
+type Kind = "direction" | "crossing" | number;
+
+export interface Step {
+    given: Values;
+    view: View | "both";
+    kind: Kind;
+}
+
+export const steps: Step[] = [
+    {given: {discs: "8"}, view: "lab", kind: "direction"},
+    {given: {discs: "48"}, view: "lab", kind: "direction"},
+    {given: {discs: "28"}, view: "lab", kind: "crossing"},
+    {given: {discs: "48"}, view: "m", kind: 0},
+    {given: {discs: "48", mu_disc: "1", mu_wall: "0"}, view: "both", kind: "direction"},
+    {given: {discs: "48"}, view: "m", kind: 2},
+];
+
+/** The options for N_c: first and last number of discs. */
+export const ranges: [number, number][] = [[0, 19], [20, 34], [35, 44], [45, Infinity]];
+const runPeriods = 100;
+const watchTime = 4000; // milliseconds between the prediction and its result
+
+/** The option of texts.lesson.directions that an estimate belongs to. */
+export function directionOf(mean: number, error: number): number {
+    return Math.abs(mean) < 2 * error ? 2 : mean > 0 ? 0 : 1;
+}
+
+/** The option for N_c, which is between whole numbers. */
+export function rangeOf(crossing: number): number {
+    return ranges.findIndex(([, last]) => crossing < last + 0.5);
+}
+
+interface Result {
+    answer: number;
+    text: string;
+}
+
+export class Lesson {
+    private step = -1; // closed
+    private chosen: number | undefined;
+    private result: Result | undefined;
+    private runs: Runs | undefined;
+    private readonly finished = new Map<number, {chosen: number; result: Result}>();
+
+    /** The steps are shown in `place`, the button that begins in `start`, the rest in `panels`. */
+    constructor(private readonly place: HTMLElement, start: HTMLElement, panels: HTMLElement,
+                private readonly host: Host) {
+        start.replaceChildren(button(texts.lesson.start, () => this.go(0), "lesson-open"));
+        panels.append(teachingPanel());
+    }
+
+    private optionsOf(step: number): string[] {
+        const {kind} = steps[step]!;
+        return kind === "direction" ? texts.lesson.directions
+            : kind === "crossing" ? ranges.map(([first, last]) => texts.lesson.ranges(first, last))
+            : lessonSteps[step]!.options ?? [];
+    }
+
+    private go(to: number): void {
+        this.runs?.stop();
+        this.runs = undefined;
+        this.step = to < steps.length ? to : -1;
+        const at = steps[this.step], before = this.finished.get(this.step);
+        this.chosen = before?.chosen;
+        this.result = before?.result;
+        // The answer stays hidden until there is a prediction.
+        const predicted = document.body.classList.contains("predicts");
+        document.body.classList.toggle("predicts", at !== undefined && !before);
+        if (at) this.host.show(at.given, at.view, !before);
+        else if (predicted) this.host.play();
+        this.show();
+        (this.place.querySelector<HTMLElement>("h2") ?? document.getElementById("lesson-open"))?.focus();
+    }
+
+    /** After the prediction: watch, measure, and show the result. */
+    private async predict(option: number): Promise<void> {
+        const step = this.step;
+        this.chosen = option;
+        document.body.classList.remove("predicts");
+        this.host.show(steps[step]!.given, steps[step]!.view);
+        this.show();
+        const [result] = await Promise.all([this.measure(step), this.watched()]);
+        if (this.step !== step) return;
+        this.result = result;
+        this.finished.set(step, {chosen: this.chosen, result});
+        this.show();
+    }
+
+    /** Time to see the motion before the result appears, if there is motion. */
+    private async watched(): Promise<void> {
+        if (this.host.playing()) await new Promise((resolve) => setTimeout(resolve, watchTime));
+    }
+
+    private async measure(step: number): Promise<Result> {
+        const {kind, given} = steps[step]!;
+        if (typeof kind === "number") return {answer: kind, text: this.optionsOf(step)[kind] ?? ""};
+        this.runs ??= new Runs(() => this.host.newWorker());
+        const runs = this.runs;
+        if (kind === "direction") {
+            const {mean, error} = (await runs.run(given, runPeriods)).rotation?.by_time ?? {};
+            const answer = directionOf(mean ?? 0, error ?? 1);
+            return {answer, text: texts.lesson.rotation(withError(mean ?? null, error ?? null, texts.notYet),
+                                                        texts.lesson.directions[answer]!)};
+        }
+        const {discs: _, ...others} = given;
+        const {crossings} = await searchCrossing(usualSearch, {
+            run: (n, seed, periods) => runs.run({...others, discs: String(n), seed: String(seed)}, periods),
+            crossings: (all) => runs.crossings(all),
+        });
+        const {discs, error} = crossings[controlling];
+        return discs === null ? {answer: -1, text: texts.lesson.noCrossing}
+            : {answer: rangeOf(discs), text: texts.lesson.crossing(withError(discs, error, ""))};
+    }
+
+    private show(): void {
+        const at = lessonSteps[this.step];
+        if (!at) {
+            this.place.replaceChildren();
+            return;
+        }
+        const next = button(this.step + 1 < steps.length ? texts.lesson.next : texts.lesson.close,
+                            () => this.go(this.step + 1), "lesson-next");
+        next.className = "main";
+        next.disabled = this.result === undefined;
+        const back = button(texts.lesson.back, () => this.go(this.step - 1), "lesson-back");
+        const heading = element("h2", {textContent: texts.lesson.step(this.step + 1, steps.length, at.title), tabIndex: -1});
+        this.place.replaceChildren(element("div", {className: "lesson"}, heading,
+            element("p", {textContent: at.text}), this.question(at.question), this.outcome(at.explanation),
+            element("div", {className: "bar"}, back, next,
+                    ...(this.step + 1 < steps.length ? [button(texts.lesson.close, () => this.go(-1), "lesson-close")] : []))));
+    }
+
+    private question(text: string): HTMLElement {
+        return element("fieldset", {disabled: this.chosen !== undefined}, element("legend", {textContent: text}),
+            ...this.optionsOf(this.step).map((option, k) => {
+                const radio = element("input", {type: "radio", name: "prediction", value: String(k), checked: this.chosen === k});
+                radio.addEventListener("change", () => void this.predict(k));
+                return element("label", {}, radio, ` ${option}`);
+            }));
+    }
+
+    private outcome(explanation: string): HTMLElement {
+        const place = element("div", {id: "lesson-outcome"});
+        place.setAttribute("aria-live", "polite");
+        if (this.result) {
+            const right = this.result.answer === this.chosen;
+            place.append(
+                element("p", {className: "result", textContent: texts.lesson.result(this.result.text)}),
+                element("p", {}, element("strong", {textContent: right ? texts.lesson.right : texts.lesson.wrong}), " ", explanation));
+        } else place.append(element("p", {className: "quiet",
+                                        textContent: this.chosen === undefined ? texts.lesson.predict : texts.lesson.watch}));
+        return place;
+    }
+}
+
+/** The worksheet, and the notes for tournament teams. */
+function teachingPanel(): HTMLElement {
+    const documentation = documentationOf();
+    const pages = Object.entries(team.pages).map(([page, name]) => element("li", {}, documentation
+        ? element("a", {href: `${documentation}${page}.html`, textContent: name, target: "_top"})
+        : element("span", {}, `${name}: `, element("code", {textContent: documentIn(page)}))));
+    const commands = element("pre", {textContent: team.commands.join("\n"), tabIndex: 0});
+    commands.setAttribute("aria-label", texts.explorer.command);
+    commands.setAttribute("role", "region");
+    return element("details", {id: "teaching"}, element("summary", {textContent: texts.lesson.teaching}),
+        element("p", {textContent: texts.lesson.worksheetHelp}),
+        element("div", {className: "bar"}, button(texts.lesson.worksheet, printWorksheet, "lesson-worksheet")),
+        element("h3", {textContent: texts.lesson.team}), element("p", {textContent: team.intro}),
+        element("ol", {}, ...team.points.map((each) => element("li", {textContent: each}))), commands,
+        element("p", {textContent: team.more}), element("ul", {}, ...pages));
+}
+
+/** The site writes where its documentation is; a single file has none. */
+const documentationOf = (): string =>
+    document.querySelector<HTMLMetaElement>('meta[name="swirl-documentation"]')?.content ?? "";
+
+// --- worksheet ----------------------------------------------------------------------------------
+
+const lines = (count: number): HTMLElement[] => Array.from({length: count}, () => element("div", {className: "write"}));
+
+/** Squared paper with axes: N from 0 to 50, ϖ/Ω from −0.1 to 0.3. */
+function graph(): SVGSVGElement {
+    const space = "http://www.w3.org/2000/svg", width = 500, height = 200;
+    const svg = document.createElementNS(space, "svg");
+    svg.setAttribute("viewBox", `-45 -10 ${width + 55} ${height + 45}`);
+    const add = (name: string, attributes: Record<string, string | number>, text = ""): void => {
+        const made = document.createElementNS(space, name);
+        for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+        made.textContent = text;
+        svg.append(made);
+    };
+    const grid = (x1: number, y1: number, x2: number, y2: number, strong: boolean): void =>
+        add("line", {x1, y1, x2, y2, stroke: strong ? "#000" : "#bbb", "stroke-width": strong ? 1.2 : 0.5});
+    for (let n = 0; n <= 50; n += 2) grid(n * 10, 0, n * 10, height, n === 0);
+    for (let n = 0; n <= 50; n += 10) add("text", {x: n * 10, y: height + 14, "text-anchor": "middle", "font-size": 11}, String(n));
+    for (let k = 0; k <= 20; ++k) grid(0, k * 10, width, k * 10, k === 15);
+    for (const [k, value] of [0.3, 0.2, 0.1, 0, -0.1].entries())
+        add("text", {x: -6, y: k * 50 + 4, "text-anchor": "end", "font-size": 11}, value.toFixed(1).replace("-", "−"));
+    add("text", {x: width / 2, y: height + 30, "text-anchor": "middle", "font-size": 12}, texts.numberOfDiscs);
+    add("text", {x: -34, y: height / 2, "text-anchor": "middle", "font-size": 12, transform: `rotate(-90 -34 ${height / 2})`},
+        symbols.rotation);
+    return svg;
+}
+
+function tableWith(head: string[], rows: number): HTMLTableElement {
+    return element("table", {}, element("tr", {}, ...head.map((each) => element("th", {textContent: each, scope: "col"}))),
+        ...Array.from({length: rows}, () => element("tr", {}, ...head.map(() => element("td", {textContent: "\u00a0"})))));
+}
+
+/** The worksheet as an element. */
+export function worksheetPage(): HTMLElement {
+    const question = (step: number): HTMLElement => {
+        const {kind} = steps[step]!, at = lessonSteps[step]!;
+        const options = kind === "direction" ? texts.lesson.directions
+            : kind === "crossing" ? ranges.map(([first, last]) => texts.lesson.ranges(first, last)) : at.options ?? [];
+        return element("section", {},
+            element("h2", {textContent: `${step + 1}. ${at.title}`}), element("p", {textContent: at.text}),
+            element("p", {}, element("strong", {textContent: at.question})),
+            element("p", {}, `${worksheet.prediction}: `, ...options.map((option) => element("span", {className: "box"}, `☐ ${option}`))),
+            ...(typeof kind === "number" ? [] : [element("p", {className: "fill"}, `${worksheet.measured}: `,
+                kind === "crossing" ? symbols.crossing : symbols.rotation, " = ________ ± ________")]),
+            element("p", {textContent: `${worksheet.explanation}:`}), ...lines(2));
+    };
+    return element("section", {id: "worksheet"},
+        element("header", {}, element("h1", {textContent: worksheet.title}),
+                element("p", {textContent: `${worksheet.name}: ____________________  ${worksheet.date}: __________`})),
+        ...steps.slice(0, 3).map((_, k) => question(k)),
+        element("section", {}, element("h2", {textContent: worksheet.table}),
+                pointsTable(), element("p", {textContent: worksheet.graph}), graph(),
+                element("p", {textContent: `${worksheet.crossing} ________ ± ________`})),
+        ...steps.slice(3).map((_, k) => question(k + 3)),
+        element("section", {}, element("h2", {textContent: worksheet.experiment}), element("p", {textContent: worksheet.experimentText}),
+                tableWith([worksheet.number, worksheet.turns, worksheet.direction], 5),
+                element("p", {textContent: worksheet.question}), ...lines(2)));
+}
+
+/** Two rows: N, and ϖ/Ω with its error. */
+function pointsTable(): HTMLTableElement {
+    const row = (name: string): HTMLElement => element("tr", {}, element("th", {textContent: name, scope: "row"}),
+        ...Array.from({length: 9}, () => element("td", {textContent: "\u00a0"})));
+    return element("table", {className: "points"}, row(symbols.discs), row(symbols.rotation), row("±"));
+}
+
+/** Prints the worksheet instead of the page. */
+export function printWorksheet(): void {
+    document.getElementById("worksheet")?.remove();
+    document.body.append(worksheetPage());
+    document.body.classList.add("prints-worksheet");
+    addEventListener("afterprint", () => {
+        document.body.classList.remove("prints-worksheet");
+        document.getElementById("worksheet")?.remove();
+    }, {once: true});
+    print();
+}

@@ -1,0 +1,323 @@
+// Files of the command line on the page: a result or a checkpoint sets the parameters, and the page repeats the
+// run and compares; a trajectory is replayed on the dish.
+import {rates, type Estimate} from "./engine";
+import type {Host, Values} from "./host";
+import {button, element, withError} from "./page";
+import {Runs} from "./runs";
+import {checkpointLine} from "./symbols";
+import {symbols, texts} from "./texts";
+import {TooLarge, readTrajectory, type Trajectory} from "./trajectory_file";
+
+/** A result of `swirl run --json`, as far as the page reads it. */
+interface Result {
+    config: Record<string, unknown>;
+    events: {total: number};
+    warmup?: {periods: number};
+    rotation?: Record<string, Estimate>;
+    state_hash?: string;
+}
+
+export type Opened =
+    | {kind: "result"; given: Values; result: Result}
+    | {kind: "checkpoint"; given: Values; events: number}
+    | {kind: "trajectory"; given: Values; trajectory: Trajectory};
+
+/** A file that is no file of swirl; `problem` is a key of texts.opened. */
+export class NotReadable extends Error {
+    constructor(readonly problem: "unknown" | "damaged" | "noParameters") { super(problem); }
+}
+
+const maxBytes = 400e6;
+const maxRepeated = 2e7; // events
+const hdf5Signature = [0x89, 0x48, 0x44, 0x46, 0x0d, 0x0a, 0x1a, 0x0a];
+
+/** The parameters of a run, as the page takes them, from the JSON of the command line. Values that follow from
+ *  others, and the length of the run, are omitted. */
+export function givenFrom(config: Record<string, unknown>, known: readonly {name: string; settable: boolean; default: string}[]): Values {
+    const given: Values = {}, fixed = ["events", "periods", "speed"];
+    for (const {name, settable, default: standard} of known) {
+        const value = config[name];
+        if (!settable || fixed.includes(name) || value === null || value === undefined) continue;
+        const text = typeof value === "object" ? mixtureText(value as Record<string, unknown>) : String(value);
+        // Numbers are compared as numbers: "1.0" is the default "1".
+        const isDefault = text === standard || (standard !== "" && Number(text) === Number(standard));
+        if (!isDefault) given[name] = text;
+    }
+    // The default is the name of a value: that of the paper's discs.
+    const {mu_disc, mu_wall, inertia, mass, radius, body = "disc"} = config;
+    if (body === "disc" && inertia === 10 && mass === 1 && radius === 1) delete given["inertia"];
+    if (mu_disc === mu_wall && mu_disc !== undefined) {
+        delete given["mu_disc"];
+        delete given["mu_wall"];
+        if (Number(mu_disc) !== 1) given["mu"] = String(mu_disc);
+    }
+    return given;
+}
+
+const mixtureText = ({count, radius, mass}: Record<string, unknown>): string =>
+    [count, radius, mass].filter((each) => each !== undefined && each !== null).join(":");
+
+const isObject = (value: unknown): value is Record<string, unknown> =>
+    typeof value === "object" && value !== null && !Array.isArray(value);
+
+function parsed(text: string): unknown {
+    try {
+        return JSON.parse(text);
+    } catch {
+        return undefined;
+    }
+}
+
+type Known = Parameters<typeof givenFrom>[1];
+
+/** Throws NotReadable. */
+export function readFile(bytes: ArrayBuffer, name: string, known: Known): Opened {
+    const all = new Uint8Array(bytes);
+    if (hdf5Signature.every((byte, k) => all[k] === byte)) return readHdf5(bytes, name, known);
+    const begin = new TextDecoder("latin1").decode(all.subarray(0, 40));
+    if (begin.startsWith(checkpointLine)) return readCheckpoint(all, known);
+    if (!/^\s*\{/.test(begin)) throw new NotReadable("unknown");
+    const result = parsed(new TextDecoder().decode(all));
+    if (!isObject(result)) throw new NotReadable("damaged");
+    const {config, events} = result;
+    if (!isObject(config) || !isObject(events) || typeof events["total"] !== "number") throw new NotReadable("unknown");
+    const warmup = isObject(result["warmup"]) ? Number(result["warmup"]["periods"]) : NaN;
+    const given = givenFrom(config, known);
+    if (Number.isInteger(warmup) && warmup !== 20) given["warmup"] = String(warmup);
+    else delete given["warmup"];
+    return {kind: "result", given, result: result as unknown as Result};
+}
+
+function readHdf5(bytes: ArrayBuffer, name: string, known: Known): Opened {
+    let trajectory: Trajectory;
+    try {
+        trajectory = readTrajectory(bytes, name);
+    } catch (error) {
+        if (error instanceof TooLarge) throw error;
+        throw new NotReadable("damaged"); // jsfive throws errors of any kind
+    }
+    const config = parsed(trajectory.parameters);
+    return {kind: "trajectory", trajectory, given: isObject(config) ? givenFrom(config, known) : {}};
+}
+
+/** The layout is that of src/swirl/io/checkpoint.hpp. The state begins with the numbers of recorded frames, of
+ *  logged events, and of events. */
+function readCheckpoint(all: Uint8Array, known: Known): Opened {
+    const view = new DataView(all.buffer, all.byteOffset, all.byteLength);
+    const line = all.indexOf(10) + 1;
+    if (line === 0 || all.length < line + 8) throw new NotReadable("damaged");
+    const size = Number(view.getBigUint64(line, true)), state = line + 8 + size;
+    if (!(state + 32 <= all.length)) throw new NotReadable("damaged");
+    const about = parsed(new TextDecoder().decode(all.subarray(line + 8, state)));
+    const identity = isObject(about) ? about["identity"] : undefined;
+    const config = isObject(identity) ? identity["parameters"] : undefined;
+    if (!isObject(config)) throw new NotReadable("noParameters");
+    return {kind: "checkpoint", given: givenFrom(config, known), events: Number(view.getBigUint64(state + 24, true))};
+}
+
+export class OpenedFile {
+    private readonly place = element("section", {id: "opened", hidden: true});
+    private readonly choose = element("input", {type: "file", id: "open-file", accept: ".json,.h5,.hdf5,.checkpoint,.partial"});
+    private runs: Runs | undefined;
+    private replay: Replayer | undefined;
+    private isShowing = false; // sets the parameters itself
+
+    /** The section with the file goes to `place`, the button to `buttons`. */
+    constructor(place: HTMLElement, buttons: HTMLElement, private readonly host: Host,
+                private readonly fail: (message: string) => void) {
+        place.prepend(this.place);
+        this.choose.hidden = true;
+        this.choose.addEventListener("change", () => {
+            const file = this.choose.files?.[0];
+            if (file) void this.open(file);
+            this.choose.value = "";
+        });
+        const open = button(texts.opened.choose, () => this.choose.click(), "open");
+        open.title = texts.opened.help;
+        buttons.append(open, this.choose);
+        this.acceptDrops();
+    }
+
+    private acceptDrops(): void {
+        const hasFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
+        const mark = (on: boolean): void => {
+            document.body.classList.toggle("drops", on);
+            document.body.dataset["drop"] = texts.opened.drop;
+        };
+        document.addEventListener("dragover", (event) => {
+            if (!hasFiles(event)) return;
+            event.preventDefault();
+            mark(true);
+        });
+        document.addEventListener("dragleave", (event) => { if (!event.relatedTarget) mark(false); });
+        document.addEventListener("drop", (event) => {
+            if (!hasFiles(event)) return;
+            event.preventDefault();
+            mark(false);
+            const file = event.dataTransfer?.files[0];
+            if (file) void this.open(file);
+        });
+    }
+
+    async open(file: File): Promise<void> {
+        this.close();
+        if (file.size > maxBytes) return this.fail(texts.opened.tooLarge(file.name, maxBytes / 1e6));
+        try {
+            this.show(readFile(await file.arrayBuffer(), file.name, this.host.parameters()), file.name);
+        } catch (error) {
+            if (error instanceof NotReadable) return this.fail(texts.opened[error.problem](file.name));
+            if (error instanceof TooLarge) return this.fail(texts.opened.tooLarge(file.name, maxBytes / 1e6));
+            throw error;
+        }
+    }
+
+    /** Other parameters end the replay, since the page shows their simulation. */
+    parametersChanged(): void {
+        if (this.replay && !this.isShowing) this.close();
+    }
+
+    private close(): void {
+        this.runs?.stop();
+        this.replay?.stop();
+        this.runs = this.replay = undefined;
+        this.place.hidden = true;
+        this.place.replaceChildren();
+    }
+
+    private show(opened: Opened, name: string): void {
+        this.isShowing = true;
+        this.host.show(opened.given);
+        this.isShowing = false;
+        const end = button("×", () => this.close(), "close-opened");
+        end.setAttribute("aria-label", texts.opened.close);
+        end.title = texts.opened.close;
+        const heading = opened.kind === "result" ? texts.opened.result(name)
+            : opened.kind === "checkpoint" ? texts.opened.checkpoint(name, opened.events)
+            : texts.opened.trajectory(name, opened.trajectory.frames.length, opened.trajectory.discs);
+        const status = element("p", {id: "opened-status", textContent: texts.opened.parametersSet});
+        status.setAttribute("role", "status");
+        this.place.hidden = false;
+        this.place.replaceChildren(element("div", {className: "row-of-caption"}, element("h2", {textContent: heading}), end), status);
+        if (opened.kind === "trajectory") {
+            if (!opened.trajectory.complete) status.textContent = texts.opened.incomplete;
+            this.replay = new Replayer(opened.trajectory, this.host);
+            this.place.append(this.replay.controls);
+        } else {
+            const result = opened.kind === "result" ? opened.result : undefined;
+            void this.compare(opened.given, opened.kind === "result" ? opened.result.events.total : opened.events, result, status);
+        }
+    }
+
+    /** Repeats the run to its last event and shows both results. */
+    private async compare(given: Values, events: number, result: Result | undefined, status: HTMLElement): Promise<void> {
+        if (events > maxRepeated) {
+            status.textContent = texts.opened.tooLong(events, maxRepeated);
+            if (result) this.place.append(comparison(result, undefined));
+            return;
+        }
+        status.textContent = texts.opened.comparing;
+        const runs = this.runs = new Runs(() => this.host.newWorker(), 1);
+        let page: Result;
+        try {
+            page = JSON.parse(await runs.result(given, events)) as Result;
+        } catch (error) {
+            status.textContent = error instanceof Error ? error.message : String(error);
+            return;
+        }
+        if (this.runs !== runs) return;
+        runs.stop();
+        this.runs = undefined;
+        status.textContent = !result?.state_hash ? texts.opened.parametersSet
+            : result.state_hash === page.state_hash ? texts.opened.sameHash : texts.opened.otherHash;
+        this.place.append(comparison(result ?? page, result ? page : undefined));
+    }
+}
+
+/** A table of the rotation rates, the events and the hash; the page's column is optional. */
+function comparison(file: Result, page: Result | undefined): HTMLElement {
+    const estimate = (result: Result, rate: string): string => {
+        const {mean = null, error = null} = result.rotation?.[rate] ?? {};
+        return withError(mean, error, texts.notYet);
+    };
+    const names: Record<string, string> = texts.rateNames;
+    const rows: [string, (result: Result) => string][] = [
+        ...rates.map((rate): [string, (result: Result) => string] =>
+            [`${symbols.rotation} ${names[rate]}`, (result) => estimate(result, rate)]),
+        [texts.opened.events, ({events}) => String(events.total)],
+        [texts.opened.hash, ({state_hash}) => state_hash ?? texts.notYet],
+    ];
+    const cells = (of: (result: Result) => string): string[] => [of(file), ...(page ? [of(page)] : [])];
+    const head = [texts.opened.quantity, texts.opened.inFile,
+                  ...(page ? [texts.opened.onPage] : [])];
+    return element("table", {id: "comparison"},
+        element("tr", {}, ...head.map((each) => element("th", {textContent: each, scope: "col"}))),
+        ...rows.map(([name, of]) => element("tr", {}, element("th", {textContent: name, scope: "row"}),
+                                            ...cells(of).map((each) => element("td", {textContent: each})))));
+}
+
+/** Plays the frames of a trajectory at one period per second. */
+class Replayer {
+    readonly controls: HTMLElement;
+    private readonly slider = element("input", {type: "range", min: "0", step: "1", value: "0", id: "replay-frame"});
+    private readonly caption = element("span", {id: "replay-caption"});
+    private readonly toggle = button(texts.opened.pause, () => this.setPlaying(!this.playing), "replay-play");
+    private playing = false;
+    private stopped = false;
+    private at = 0; // in periods of the recording
+    private before = 0;
+
+    constructor(private readonly trajectory: Trajectory, private readonly host: Host) {
+        this.slider.max = String(trajectory.frames.length - 1);
+        this.slider.setAttribute("aria-label", texts.opened.position);
+        this.slider.addEventListener("input", () => {
+            this.setPlaying(false);
+            this.at = this.periodsAt(Number(this.slider.value));
+            this.draw(Number(this.slider.value));
+        });
+        this.controls = element("div", {className: "bar"}, this.toggle, this.slider, this.caption);
+        this.at = this.periodsAt(0);
+        this.setPlaying(host.playing()); // before the simulation is paused for the recording
+        this.draw(0);
+        const animate = (now: number): void => {
+            if (this.stopped) return;
+            requestAnimationFrame(animate);
+            this.advance(now);
+        };
+        requestAnimationFrame(animate);
+    }
+
+    stop(): void {
+        this.stopped = true;
+        this.host.replay(undefined);
+    }
+
+    private periodsAt(frame: number): number {
+        return (this.trajectory.frames[frame]?.[0] ?? 0) / this.trajectory.period;
+    }
+
+    private setPlaying(on: boolean): void {
+        this.playing = on;
+        this.before = 0;
+        this.toggle.textContent = on ? texts.opened.pause : texts.opened.play;
+    }
+
+    private advance(now: number): void {
+        const elapsed = this.before > 0 ? Math.min(now - this.before, 100) / 1000 : 0;
+        this.before = now;
+        if (!this.playing) return;
+        const last = this.trajectory.frames.length - 1;
+        this.at += elapsed;
+        if (this.at > this.periodsAt(last)) this.at = this.periodsAt(0);
+        let frame = Number(this.slider.value);
+        if (this.periodsAt(frame) > this.at) frame = 0;
+        while (frame < last && this.periodsAt(frame + 1) <= this.at) ++frame;
+        if (frame !== Number(this.slider.value)) this.draw(frame);
+    }
+
+    private draw(frame: number): void {
+        const {frames, room} = this.trajectory;
+        this.slider.value = String(frame);
+        this.caption.textContent = texts.opened.frame(frame + 1, frames.length, this.periodsAt(frame).toFixed(2));
+        this.host.replay({frame: frames[frame]!, room});
+    }
+}

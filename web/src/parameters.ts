@@ -1,0 +1,136 @@
+// The controls of the parameters: large sliders for the most important ones, and the others in groups.
+import type {Parameter} from "./engine";
+import type {Laboratory} from "./laboratory";
+import {byId, element} from "./page";
+import {texts} from "./texts";
+
+/** The inputs of a parameter: a text or a choice of words, and an optional slider. */
+interface Field {
+    row: HTMLElement;
+    text: HTMLInputElement | HTMLSelectElement;
+    slider?: HTMLInputElement;
+}
+
+const main = ["discs", "mu", "amplitude"];
+/** The length of a run has no meaning on the page. */
+const lengthParameters = ["events", "periods"];
+const groups = {
+    friction: ["mu_disc", "mu_wall"],
+    particles: ["preset", "body", "radius", "mass", "inertia", "mixture"],
+    collisions: ["restitution", "tangential_restitution", "contact_duration"],
+    floor: ["floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc", "vertical_wall"],
+    container: ["container_radius", "period", "speed", "path", "sides"],
+    run: ["warmup", "seed"],
+};
+
+/** Whether a parameter has an effect with these values in effect. */
+function applies(name: string, {body, floor, restitution, path}: Record<string, string>): boolean {
+    const sphere = body === "sphere", onFloor = floor !== undefined && floor !== "none";
+    switch (name) {
+        case "contact_duration": return Number(restitution) < 1;
+        case "floor_friction": case "gravity": return onFloor;
+        case "rolling_resistance": return onFloor && sphere;
+        case "vertical_disc": case "vertical_wall": return sphere;
+        case "sides": return path !== "circle";
+        default: return true;
+    }
+}
+
+/** At most four significant digits. */
+const shortened = (value: string): string => /^\d*\.\d{4,}$/.test(value) ? String(Number(Number(value).toPrecision(4))) : value;
+
+/** The words among the values of a parameter, from its form: "none|sliding", "NUMBER|paper|solid". */
+const wordsOf = ({form}: Parameter): string[] => form.split("|").filter((word) => /^[a-z]+$/.test(word));
+
+/** A list of choices if all values are words; a text field with suggestions if numbers are allowed, too. */
+function textField(row: Parameter, id: string): [Field["text"], ...HTMLElement[]] {
+    const words = wordsOf(row);
+    if (words.length > 0 && words.length === row.form.split("|").length)
+        return [element("select", {id}, ...(words.includes(row.default) ? words : ["", ...words])
+            .map((word) => element("option", {value: word, textContent: word})))];
+    const text = element("input", {type: "text", id, spellcheck: false, autocomplete: "off",
+                                   inputMode: words.length === 0 && row.slider ? "decimal" : "text"});
+    if (words.length === 0) return [text];
+    text.setAttribute("list", `${id}-words`);
+    return [text, element("datalist", {id: `${id}-words`},
+                          ...words.map((word) => element("option", {value: word})))];
+}
+
+export class Parameters {
+    private readonly fields: Record<string, Field> = {};
+    private readonly groups: HTMLElement[] = [];
+    private readonly spheres = element("input", {type: "checkbox", id: "rolling-spheres"});
+
+    constructor(private readonly lab: Laboratory) {
+        lab.on("ready", () => this.build());
+        lab.on("given", () => this.show());
+        lab.on("started", () => this.show());
+        lab.on("changed", () => this.show());
+    }
+
+    private build(): void {
+        const shown = this.lab.parameters.filter((row) => row.settable && !lengthParameters.includes(row.name));
+        const byName = (name: string): Parameter[] => shown.filter((row) => row.name === name);
+        this.spheres.addEventListener("change", () => this.lab.set(
+            {preset: this.spheres.checked ? "experiment" : "", body: "", floor: ""}, {restart: true}));
+        byId("main-controls").replaceChildren(
+            ...main.flatMap(byName).map((row, k) => this.control(row, k < 2 ? "control large" : "control")),
+            element("label", {className: "control check", title: texts.spheresHelp}, this.spheres, ` ${texts.spheres}`));
+        const listed = [...main, ...Object.values(groups).flat()];
+        const others = shown.filter((row) => !listed.includes(row.name)).map((row) => row.name);
+        this.groups.splice(0, Infinity, ...Object.entries({...groups, run: [...groups.run, ...others]}).map(
+            ([group, names]) => element("fieldset", {},
+                element("legend", {textContent: texts.groups[group] ?? group}),
+                ...names.flatMap(byName).map((row) => this.control(row, "control")))));
+        byId("more").replaceChildren(element("details", {id: "parameters"},
+            element("summary", {textContent: texts.more}),
+            element("div", {className: "groups"}, ...this.groups)));
+        this.show();
+    }
+
+    private control(row: Parameter, className: string): HTMLElement {
+        const id = `parameter-${row.name}`;
+        const [text, ...proposed] = textField(row, id), [symbol, index] = row.symbol.split("_");
+        const title = `${texts.descriptions[row.name] ?? row.description}${row.unit ? ` (${row.unit})` : ""}\n` +
+            `--${row.name.replaceAll("_", "-")}`;
+        const label = element("label", {htmlFor: id, title}, texts.labels[row.name] ?? row.name,
+            ...(symbol ? [" ", element("i", {}, symbol, ...(index ? [element("sub", {textContent: index})] : []))] : []));
+        text.title = title;
+        text.addEventListener("input", () => this.change(row.name, text.value.trim()));
+        const made = element("div", {className}, label, text, ...proposed);
+        this.fields[row.name] = {row: made, text};
+        if (!row.slider) return made;
+        const [min, max, step] = row.slider.map(String) as [string, string, string];
+        const slider = element("input", {type: "range", id: `slider-${row.name}`, min, max, step, title});
+        slider.setAttribute("aria-label", `${texts.labels[row.name] ?? row.name}, ${row.name}`);
+        slider.addEventListener("input", () => this.change(row.name, slider.value));
+        made.append(slider);
+        this.fields[row.name]!.slider = slider;
+        return made;
+    }
+
+    private change(name: string, value: string): void {
+        // One friction coefficient replaces the two others.
+        this.lab.set({...(name === "mu" ? {mu_disc: "", mu_wall: ""} : {}), [name]: value});
+    }
+
+    private show(): void {
+        const {lab, fields} = this;
+        for (const [name, {row, text, slider}] of Object.entries(fields)) {
+            const value = lab.given[name] ?? "", holds = lab.effectiveValue(name);
+            const isChoice = text instanceof HTMLSelectElement;
+            if (text instanceof HTMLInputElement) text.placeholder = shortened(holds);
+            const wanted = isChoice ? value || holds : value;
+            if (text.value.trim() !== wanted) text.value = wanted; // unless it is being typed
+            if (slider) {
+                slider.value = value || holds || slider.value;
+                const share = (Number(slider.value) - Number(slider.min)) / (Number(slider.max) - Number(slider.min));
+                slider.style.setProperty("--share", `${100 * share}%`);
+            }
+            row.hidden = !main.includes(name) && value === "" && !applies(name, lab.configuration);
+        }
+        for (const group of this.groups) group.hidden = [...group.querySelectorAll<HTMLElement>(".control")].every((row) => row.hidden);
+        this.spheres.checked = (lab.given["preset"] ?? lab.configuration["preset"]) === "experiment" &&
+            (lab.given["body"] ?? "sphere") === "sphere";
+    }
+}

@@ -1,0 +1,135 @@
+// Time on the page: playing, its pace, single events, and the fast run to the averages.
+import type {Dish} from "./dish";
+import type {Laboratory} from "./laboratory";
+
+/** In the time-lapse, one image per period. */
+const lapsePace = 16; // periods per second
+const averagedInLapse = 12; // periods after the warm-up
+/** A period of more discs takes too long for a time-lapse. */
+const lapseDiscs = 300;
+/** A change of parameters is shown at the usual pace for so long, before the time-lapse to its averages. */
+const watched = 3000; // milliseconds
+
+export class Player {
+    isPlaying: boolean;
+    pace = 1; // periods per second
+    /** The time-lapse starts by itself at the beginning and after a change of parameters. */
+    lapsesByItself = true;
+    /** Period at which the time-lapse ends; 0: there is none. */
+    private lapseEnd = 0;
+    private lapseBegin: ReturnType<typeof setTimeout> | undefined;
+    private playsAfterError = false;
+    private lastTick = 0;
+    private readonly listeners: (() => void)[] = [];
+
+    constructor(private readonly lab: Laboratory, private readonly dish: Dish, readonly reducedMotion: boolean) {
+        this.isPlaying = !reducedMotion;
+        lab.on("frame", () => {
+            if (this.lapseEnd > 0 && this.period >= this.lapseEnd - 1e-6) this.endLapse();
+        });
+        lab.on("begin", () => {
+            clearTimeout(this.lapseBegin);
+            this.endLapse();
+            if (this.playsAfterError) this.setPlaying(true);
+            this.playsAfterError = false;
+        });
+        lab.on("changed", (byParameters) => {
+            clearTimeout(this.lapseBegin);
+            this.endLapse();
+            if (byParameters && this.lapsesByItself && this.isPlaying)
+                this.lapseBegin = setTimeout(() => { if (this.isPlaying) this.lapse(); }, watched);
+        });
+        lab.on("error", () => {
+            this.playsAfterError ||= this.isPlaying;
+            this.setPlaying(false);
+        });
+    }
+
+    /** Starts the frames. */
+    start(): void {
+        const animate = (now: number): void => {
+            requestAnimationFrame(animate);
+            this.animate(now);
+        };
+        requestAnimationFrame(animate);
+    }
+
+    onChange(listener: () => void): void {
+        this.listeners.push(listener);
+    }
+
+    setPlaying(on: boolean): void {
+        this.isPlaying = on;
+        this.lastTick = 0;
+        if (!on) this.endLapse();
+        this.report();
+    }
+
+    /** Executes one event. */
+    step(): void {
+        this.setPlaying(false);
+        this.lab.send({kind: "step"});
+    }
+
+    private get period(): number {
+        const {last} = this.lab;
+        return last ? last.frame[1]! + last.frame[2]! / this.lab.value("period") : 0;
+    }
+
+    /** Runs until there are averages, or further; draws one image per period, or none with reduced motion. */
+    lapse(): void {
+        const {lab} = this;
+        if (!lab.last || lab.isByHand || this.lapseEnd > 0 || lab.last.frame[10]! > lapseDiscs) return;
+        const now = Math.floor(this.period + 1e-6), warmup = Number(lab.averages?.warmup ?? 0);
+        const end = Math.max(now, warmup) + averagedInLapse;
+        if (this.reducedMotion) {
+            lab.request({kind: "skip", periods: end - now});
+            return;
+        }
+        this.lapseEnd = end;
+        this.isPlaying = true;
+        this.dish.isLapse = true;
+        this.report();
+    }
+
+    private endLapse(): void {
+        if (this.lapseEnd === 0) return;
+        this.lapseEnd = 0;
+        this.lastTick = 0;
+        this.dish.isLapse = false;
+        this.report();
+    }
+
+    private report(): void {
+        for (const listener of this.listeners) listener();
+    }
+
+    private animate(now: number): void {
+        const {lab, dish} = this;
+        if (dish.holdsTime) this.lastTick = 0;
+        if (!this.isPlaying || lab.isWaiting || !lab.last || dish.holdsTime) return;
+        // After a pause, or a while in the background, time continues from here.
+        const elapsed = this.lastTick > 0 ? Math.min(now - this.lastTick, 100) : 0;
+        this.lastTick = now;
+        const periods = elapsed / 1000 * (this.lapseEnd > 0 ? lapsePace : this.pace);
+        if (dish.compared) {
+            dish.compared.coloring = dish.coloring;
+            dish.compared.tick(periods);
+        }
+        if (lab.isByHand && dish.pointer) this.steerTo(dish.pointer, lab.last.frame, periods);
+        else lab.request({kind: "tick", periods, strobe: dish.strobe || dish.isLapse});
+    }
+
+    /** Moves the container straight to the pointer, at most four times as fast as on its path, and not
+     *  out of the image. */
+    private steerTo([x, y]: [number, number], frame: Float64Array, periods: number): void {
+        const {lab} = this, amplitude = lab.value("amplitude");
+        const period = lab.value("period"), duration = Math.max(periods, 1e-4) * period;
+        const [fromX, fromY] = [frame[3]!, frame[4]!];
+        const outside = Math.max(1, Math.hypot(x, y) / lab.maxDistance());
+        const [dx, dy] = [x / outside - fromX, y / outside - fromY];
+        const usual = 2 * Math.PI * (amplitude || 0.2 * lab.value("container_radius")) / period;
+        const share = Math.min(1, 4 * usual * duration / (Math.hypot(dx, dy) || 1));
+        lab.request({kind: "steer", x: fromX + share * dx, y: fromY + share * dy, duration});
+    }
+}

@@ -1,0 +1,105 @@
+// Whole runs in the background, on all cores. Each worker makes one run at a time.
+import {UsageError, perRate, type Crossing, type Estimate, type Rate, type Rotation, type RunNumbers} from "./engine";
+import type {FromWorker, ToWorker} from "./messages";
+
+/** A collapsed run has no rotation rate, since its averages end at the collapse. */
+export interface FinishedRun {
+    rotation: Rotation | undefined;
+}
+
+/** A run for the evaluation of N_c. */
+export interface EvaluatedRun {
+    discs: number;
+    periods: number;
+    rotation: Record<Rate, Estimate>;
+}
+export type Crossings = Record<Rate, Crossing>;
+
+/** Runs without a mean or an error are omitted. */
+function numbersOf(discs: number, periods: number, {mean, error, effective_samples}: Estimate): RunNumbers[] {
+    return mean === null || error === null ? [] : [[discs, mean, error, periods, effective_samples ?? 0]];
+}
+
+interface Task {
+    message: ToWorker;
+    resolve: (answer: FromWorker) => void;
+    reject: (error: Error) => void;
+}
+
+const maxWorkers = 16;
+
+export class Runs {
+    private readonly queue: Task[] = [];
+    private readonly idle: Worker[] = [];
+    private readonly workers = new Map<Worker, Task | undefined>();
+    private readonly size: number;
+
+    /** `begin` creates a worker that gets the engine. */
+    constructor(private readonly begin: () => Worker, cores = navigator.hardwareConcurrency || 1) {
+        this.size = Math.max(1, Math.min(cores, maxWorkers));
+    }
+
+    /** A run of so many periods after the warm-up. Rejects with UsageError. */
+    async run(given: Record<string, string>, periods: number): Promise<FinishedRun> {
+        const answer = await this.ask({kind: "point", given, periods});
+        if (answer.kind !== "point") throw new Error(answer.kind);
+        return {rotation: answer.collapsed ? undefined : answer.rotation};
+    }
+
+    /** N_c by each rotation rate. */
+    async crossings(runs: EvaluatedRun[]): Promise<Crossings> {
+        const answer = await this.ask({kind: "crossing", runs: perRate((rate) => runs.flatMap(
+            ({discs, periods, rotation}) => numbersOf(discs, periods, rotation[rate])))});
+        if (answer.kind !== "crossing") throw new Error(answer.kind);
+        return answer.crossings;
+    }
+
+    /** The result of a run to exactly this event, as JSON. Rejects with UsageError. */
+    async result(given: Record<string, string>, events: number): Promise<string> {
+        const answer = await this.ask({kind: "repeat", given, events});
+        if (answer.kind !== "result") throw new Error(answer.kind);
+        return answer.text;
+    }
+
+    get busy(): boolean {
+        return this.queue.length > 0 || [...this.workers.values()].some(Boolean);
+    }
+
+    /** Ends all workers; the promises of unfinished runs stay pending. */
+    stop(): void {
+        for (const worker of this.workers.keys()) worker.terminate();
+        this.workers.clear();
+        this.idle.length = this.queue.length = 0;
+    }
+
+    /** The message waits for a free worker. */
+    private ask(message: ToWorker): Promise<FromWorker> {
+        return new Promise((resolve, reject) => {
+            this.queue.push({message, resolve, reject});
+            if (this.idle.length === 0 && this.workers.size < this.size) this.add();
+            this.next();
+        });
+    }
+
+    private add(): void {
+        const worker = this.begin();
+        this.workers.set(worker, undefined);
+        worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
+            const task = this.workers.get(worker);
+            if (data.kind === "progress" || data.kind === "started") return;
+            this.workers.set(worker, undefined);
+            this.idle.push(worker);
+            if (data.kind === "rejected") task?.reject(new UsageError(data.message));
+            else task?.resolve(data); // "ready" answers no task
+            this.next();
+        };
+    }
+
+    private next(): void {
+        while (this.queue.length > 0 && this.idle.length > 0) {
+            const worker = this.idle.pop()!, task = this.queue.shift()!;
+            this.workers.set(worker, task);
+            worker.postMessage(task.message);
+        }
+    }
+}

@@ -1,0 +1,77 @@
+// The menu for saving and sharing, and the command that reproduces the state.
+import type {Dish} from "./dish";
+import {icon} from "./icons";
+import type {Laboratory} from "./laboratory";
+import {button, byId, element, save} from "./page";
+import {Recording} from "./recording";
+import {tableOf} from "./series";
+import {pageEntries} from "./start";
+import {texts} from "./texts";
+
+const copyButton = (): HTMLButtonElement => byId("copy") as HTMLButtonElement;
+
+/** The address of the page with the given parameters, in the language that was chosen. */
+export function addressOf(given: Record<string, string>): string {
+    const query = new URLSearchParams({...given, ...pageEntries()}), text = query.toString();
+    return text ? `?${text}` : location.pathname;
+}
+
+export class Share {
+    private readonly recording: Recording;
+
+    constructor(private readonly lab: Laboratory, dish: Dish) {
+        this.recording = new Recording(() => dish.canvas);
+        dish.laidOut = (): void => this.recording.stop();
+        const link = button(texts.link, () => void this.copy(
+            new URL(addressOf(lab.given), location.href).href, link, texts.link), "copy-link");
+        link.hidden = location.protocol === "about:"; // a frame in a notebook has no address
+        const menu = element("details", {},
+            element("summary", {title: texts.share}, icon("share"), element("span", {textContent: texts.share})),
+            element("div", {className: "menu"}, link,
+                button(texts.image, () => {
+                    if (dish.canvas) save("swirl.png", {href: dish.canvas.toDataURL("image/png")});
+                }, "save-image"),
+                button(texts.table, () => save("rotation.csv", {text: tableOf(lab.averages), type: "text/csv"}), "save-table"),
+                button(texts.result, () => lab.send({kind: "result"}), "save-result"),
+                this.recording.panel));
+        byId("share").replaceChildren(menu);
+        menu.addEventListener("keydown", (event) => {
+            if (event.key !== "Escape") return;
+            menu.open = false;
+            menu.querySelector("summary")?.focus();
+        });
+        document.addEventListener("pointerdown", (event) => {
+            if (!menu.contains(event.target as Node)) menu.open = false;
+        });
+        copyButton().addEventListener("click", () =>
+            void this.copy(byId("command").textContent ?? "", copyButton(), texts.copy));
+        lab.on("begin", () => {
+            this.recording.stop();
+            for (const ofState of ["event-count", "state-hash"]) byId(ofState).textContent = "";
+            this.offerCommand();
+        });
+        lab.on("error", () => this.offerCommand());
+        lab.on("changed", () => this.offerCommand());
+        lab.on("frame", (frame) => {
+            this.recording.add(frame.frame);
+            byId("event-count").textContent = String(frame.events);
+            byId("state-hash").textContent = frame.hash;
+            this.offerCommand(frame.command);
+        });
+        lab.on("result", (text) => save("result.json", {
+            text: JSON.stringify(JSON.parse(text), null, 2) + "\n", type: "application/json"}));
+        this.offerCommand();
+    }
+
+    private async copy(text: string, from: HTMLButtonElement, label: string): Promise<void> {
+        await navigator.clipboard.writeText(text);
+        from.textContent = texts.copied;
+        setTimeout(() => { from.textContent = label; }, 2000);
+    }
+
+    /** Without a running simulation there is no command. */
+    private offerCommand(command = ""): void {
+        byId("command").textContent = this.lab.wasChanged ? texts.noCommand : command;
+        copyButton().disabled = this.lab.wasChanged || command === "";
+    }
+}

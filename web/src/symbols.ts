@@ -1,0 +1,21 @@
+// The symbols and commands of the page, the same in every language.
+
+/** As in the paper. */
+export const symbols = {
+    rotation: "ϖ/Ω", rotationM: "ϖ_M/Ω", theta: "θ", discs: "N", friction: "μ", crossing: "N_c",
+    // Points: the centre of the path, the centre of the container, the point of the wall farthest from S.
+    swirl: "S", container: "C", farthest: "M",
+};
+
+/** Command lines, which are the same in every language. */
+export const commands = {
+    run: (options: string): string => `./swirl run ${options}`,
+    crossing: (options: string): string => `./swirl crossing ${options}`,
+    sweep: (options: string, folder: string): string => `./swirl sweep ${options} --out ${folder} && ./swirl collect ${folder}`,
+};
+
+/** A page of the documentation in the folder of the sources. */
+export const documentIn = (page: string): string => `docs/${page}.md`;
+
+/** The first line of a checkpoint begins with it (src/swirl/io/checkpoint.hpp). */
+export const checkpointLine = "swirl checkpoint ";

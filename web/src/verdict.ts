@@ -1,0 +1,167 @@
+// The direction in which the cluster rotates: as a sentence, on a signed gauge and as numbers.
+import type {Rotation} from "./engine";
+import type {Laboratory} from "./laboratory";
+import {byId, element, signed, withError} from "./page";
+import {symbols, texts} from "./texts";
+
+export type Direction = "with" | "against";
+export interface Finding {
+    /** ϖ/Ω, from periods after the warm-up if there are any; null without any data. */
+    mean: number | null;
+    /** Half the 95 % interval; null if it is not known yet. */
+    interval: number | null;
+    direction: Direction | undefined;
+    /** The interval excludes zero. */
+    isFirm: boolean;
+}
+
+/** Student's t for 95 % (Abramowitz and Stegun 26.7.5), within 1 % from three degrees of freedom on. */
+export function student95(freedom: number): number {
+    const z = 1.959964, z2 = z * z;
+    return z * (1 + (z2 + 1) / (4 * freedom) + ((5 * z2 + 16) * z2 + 3) / (96 * freedom ** 2) +
+        (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * freedom ** 3));
+}
+
+const minBlocks = 5; // for an interval
+
+/** `turns` in the `periods` so far count while there is no complete period. */
+export function findingOf(rotation: Rotation | undefined, turns: number, periods: number): Finding {
+    const of = (mean: number | null, interval: number | null = null): Finding => ({
+        mean, interval, direction: mean ? (mean > 0 ? "with" : "against") : undefined,
+        isFirm: mean !== null && interval !== null && Math.abs(mean) > interval});
+    if (rotation) {
+        const {mean, error, blocks} = rotation.by_time;
+        if (mean !== null && blocks > 0)
+            return of(mean, error !== null && blocks >= minBlocks ? student95(blocks - 1) * error : null);
+        // In the warm-up the later half of the periods is closer to the steady state.
+        const early = rotation.blocks.filter((each) => each !== null);
+        const late = early.slice(Math.floor(early.length / 2));
+        if (late.length > 0) return of(late.reduce((sum, each) => sum + each, 0) / late.length);
+    }
+    return of(periods > 0.25 ? turns / periods : null);
+}
+
+const gaugeFrom = -0.4, gaugeTo = 1.1; // ϖ/Ω; clusters without wall friction rotate at 1
+/** Square roots: counterrotation of some hundredths is visible, too. */
+const root = (x: number): number => Math.sign(x) * Math.sqrt(Math.abs(x));
+const position = (x: number): number =>
+    100 * Math.max(0, Math.min(1, (root(x) - root(gaugeFrom)) / (root(gaugeTo) - root(gaugeFrom))));
+const percent = (x: number): string => `${x.toFixed(2)}%`;
+
+export class Verdict {
+    private readonly band = element("div", {className: "band"});
+    private readonly needle = element("div", {className: "needle"});
+    private readonly gauge = byId("gauge");
+    private said = "";
+
+    constructor(private readonly lab: Laboratory) {
+        const mark = (at: number, text: string): HTMLElement => {
+            const made = element("span", {className: "mark", textContent: text});
+            made.style.left = percent(position(at));
+            return made;
+        };
+        const side = (direction: Direction): HTMLElement =>
+            element("span", {className: `side ${direction}`, textContent: texts.sides[direction]});
+        this.gauge.replaceChildren(
+            element("div", {className: "sides"}, side("against"), side("with")),
+            element("div", {className: "track"}, this.band, this.needle),
+            element("div", {className: "marks"}, ...[-0.3, -0.1, 0, 0.1, 0.3, 1].map((at) => mark(at, signed(at, at % 1 ? 1 : 0)))));
+        this.gauge.style.setProperty("--zero", percent(position(0)));
+        this.gauge.setAttribute("role", "meter");
+        this.gauge.setAttribute("aria-label", symbols.rotation);
+        this.gauge.setAttribute("aria-valuemin", String(gaugeFrom));
+        this.gauge.setAttribute("aria-valuemax", String(gaugeTo));
+        lab.on("begin", () => this.clear());
+        lab.on("changed", () => this.clear());
+        lab.on("averages", () => this.show());
+        lab.on("error", () => this.say(texts.noSimulation));
+        lab.on("progress", (unit, done, all) => this.say(texts.running[unit](done, all)));
+    }
+
+    /** A text that stands in place of the verdict until the next one. */
+    say(text: string): void {
+        if (text === this.said) return;
+        this.said = text;
+        byId("headline").textContent = text;
+    }
+
+    get finding(): Finding {
+        const {lab} = this, {last} = lab;
+        const periods = last ? last.frame[1]! + last.frame[2]! / lab.value("period") : 0;
+        return findingOf(lab.averages, last?.turns[0] ?? 0, periods);
+    }
+
+    private clear(): void {
+        this.drawGauge({mean: null, interval: null, direction: undefined, isFirm: false});
+        byId("numbers").replaceChildren();
+        const discs = Number(this.lab.given["discs"]);
+        // Many discs, or discs close to the densest packing, take seconds.
+        this.say(!this.lab.last && discs > 0
+            ? texts.placing(this.lab.counted(discs, this.lab.given)) : "…");
+    }
+
+    private show(): void {
+        const {lab, finding} = this, n = lab.last?.frame[10] ?? 0, particles = lab.counted(n);
+        this.drawGauge(finding);
+        this.showNumbers();
+        if (lab.isByHand) return this.say(texts.byHandHeadline(signed(lab.last?.turns[0] ?? 0, 2)));
+        const {direction, isFirm, interval} = finding, strong = element("strong");
+        if (!direction) return this.say(texts.undecided(particles));
+        strong.textContent = texts.sides[direction];
+        strong.className = direction;
+        const blocks = lab.averages?.by_time.blocks ?? 0;
+        const words = isFirm ? texts.verdict(n, particles)
+            : interval !== null && blocks >= 40 ? texts.nearZero(particles) : texts.soFar(particles);
+        const key = words.join(direction);
+        if (key === this.said) return;
+        this.said = key;
+        byId("headline").replaceChildren(words[0], strong, words[1]);
+        byId("verdict").classList.toggle("firm", isFirm);
+    }
+
+    private drawGauge({mean, interval, direction}: Finding): void {
+        this.gauge.dataset["direction"] = direction ?? "";
+        this.needle.hidden = this.band.hidden = mean === null;
+        this.gauge.setAttribute("aria-valuetext", this.rotationText());
+        this.gauge.setAttribute("aria-valuenow", String(mean ?? 0));
+        if (mean === null) return;
+        this.needle.style.left = percent(position(mean));
+        const [from, to] = [position(mean - (interval ?? 0)), position(mean + (interval ?? 0))];
+        this.band.style.left = percent(from);
+        this.band.style.width = percent(to - from);
+        this.band.classList.toggle("unknown", interval === null);
+    }
+
+    private rotationText(): string {
+        const {mean, interval} = this.finding;
+        if (mean === null) return texts.notYet;
+        return interval === null ? signed(mean, 2) : withError(mean, this.lab.averages!.by_time.error, texts.notYet);
+    }
+
+    private showNumbers(): void {
+        const {lab} = this, {last, averages} = lab;
+        if (!last) return;
+        const [turns, rigid] = last.turns, time = last.frame[0]!;
+        const differ = Math.abs(turns - rigid) > Math.max(0.1, 0.15 * Math.abs(turns));
+        const pairs: [string, string, string, string][] = [
+            [symbols.rotation, this.rotationText(),
+             texts.rotationHelp, "rotation"],
+            [texts.turned, texts.turns(signed(turns, 2)), texts.turnedHelp, "turned"],
+            [texts.periods, (time / lab.value("period")).toFixed(1), texts.periodsHelp, "period-count"],
+        ];
+        if (lab.isByHand) pairs.splice(0, 1), pairs.splice(1, 1); // no period, so no averages
+        const warmup = averages && averages.by_time.blocks === 0 && !lab.isByHand ? texts.warmup(averages.warmup) : "";
+        byId("numbers").replaceChildren(
+            element("dl", {id: "estimates"}, ...pairs.map(([name, value, title, id]) => element("div", {title},
+                element("dt", {textContent: name}), element("dd", {id, textContent: value})))),
+            element("p", {id: "note", textContent: warmup || (differ ? texts.differ(signed(rigid, 2)) : "")}),
+            element("p", {id: "caution", textContent: this.caution()}));
+    }
+
+    /** A warning about the averages; empty if there is none. */
+    private caution(): string {
+        const {lab} = this, energyGrows = lab.conservesEnergy() && lab.value("amplitude") > 0 &&
+            lab.configuration["path"] !== "circle";
+        return energyGrows && !lab.isByHand ? texts.grows : "";
+    }
+}

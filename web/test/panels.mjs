@@ -1,0 +1,241 @@
+// Unit tests of discovery, explorer, search, lesson, opened files, plots and texts: node panels.mjs
+// PARAMETERS.json [FOLDER]. PARAMETERS is the engine's table; FOLDER has files of the command line. Exits with 1
+// and a message if a test fails.
+import assert from "node:assert/strict";
+import {mkdtempSync, readFileSync, rmSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {dirname, join} from "node:path";
+import {fileURLToPath, pathToFileURL} from "node:url";
+import {build} from "esbuild";
+
+const [table, files] = process.argv.slice(2);
+const parameters = JSON.parse(readFileSync(table, "utf-8"));
+const web = join(dirname(fileURLToPath(import.meta.url)), ".."), sources = join(web, "src");
+const folder = mkdtempSync(join(tmpdir(), "swirl-panels-"));
+// As in vite.config.js.
+const small = {name: "small", setup: (made) => {
+    made.onResolve({filter: /^jsfive$/}, () => ({path: join(web, "node_modules/jsfive/esm/high-level.js")}));
+    made.onResolve({filter: /pako\.esm\.mjs$/}, () => ({path: join(sources, "inflate.ts")}));
+}};
+const load = async (name) => {
+    const outfile = join(folder, `${name}.mjs`);
+    await build({entryPoints: [join(sources, `${name}.ts`)], bundle: true, format: "esm", outfile, logLevel: "error",
+                 plugins: [small], loader: {".gz": "empty"}, external: ["./worker?worker&inline", "*.gz?url"]});
+    return import(pathToFileURL(outfile).href);
+};
+
+/** All keys of an object with those of its objects; functions are called with numbers and texts. */
+const shapeOf = (value, path = "") => {
+    if (typeof value === "function") return [[`${path}()`, value]];
+    if (typeof value !== "object" || value === null) return [[path, value]];
+    return Object.entries(value).flatMap(([key, each]) => shapeOf(each, `${path}.${key}`));
+};
+/** Numbers, names of options and parameters, and commands in a text. */
+const marksIn = (text) => (text.match(/\d+(?:\.\d+)?|--[a-z-]+|\bmu_\w+|N_c|\.\/swirl \w+|ϖ/g) ?? []).sort();
+/** Words that are the same in both languages. */
+const sameInBoth = /^[\W\d_]*$|^(?:swirl|CSV|Link|Start|Name|Amplitude|\.\/swirl .*|sphere|N_c.*|[A-Zμe](?:_\w)?|Frustration)$/;
+
+try {
+    // Both languages have the same keys, and their texts the same numbers and names.
+    const [en, de] = await Promise.all([load("texts.en"), load("texts.de")]);
+    const [english, german] = [en, de].map((each) => new Map(shapeOf({...each})));
+    const described = [...german.keys()].filter((key) => key.startsWith(".texts.descriptions."));
+    assert.deepEqual([...german.keys()].filter((key) => !described.includes(key)).sort(), [...english.keys()].sort());
+    const arguments_ = [["48", "7", "3"], [48, 7, 3], [0, 19], [1, ["a", "b"]], [45, Infinity]];
+    const untranslated = [];
+    for (const [key, value] of english) {
+        const other = german.get(key);
+        for (const given of typeof value === "function" ? arguments_ : [[]]) {
+            let [a, b] = [value, other];
+            if (typeof value === "function") {
+                try {
+                    [a, b] = [value(...given), other(...given)].map(String);
+                } catch {
+                    continue; // arguments of another type
+                }
+            }
+            if (typeof a !== "string" || key.endsWith("language")) continue;
+            assert.deepEqual(marksIn(b), marksIn(a), `${key}: '${b}' and '${a}' have other numbers or names`);
+            if (a === b && typeof value !== "function" && !key.includes(".given.") && !sameInBoth.test(a)) untranslated.push(`${key}: ${a}`);
+        }
+    }
+    assert.deepEqual(untranslated, []);
+    // Descriptions and labels exist for exactly the parameters that the page shows.
+    const shown = parameters.filter((row) => row.settable && !["events", "periods"].includes(row.name)).map((row) => row.name);
+    assert.deepEqual(Object.keys(de.texts.descriptions).sort(), shown.sort());
+    assert.deepEqual(Object.keys(en.texts.labels).sort(), shown);
+
+    const {languageOf} = await load("start");
+    assert.equal(languageOf("de", ["en"]), "de");
+    assert.equal(languageOf(null, ["de-AT", "en"]), "de");
+    assert.equal(languageOf(null, ["fr", "de"]), "de");
+    assert.equal(languageOf("en", ["de"]), "en");
+    assert.equal(languageOf("xx", ["de"]), "en");
+    assert.equal(languageOf(null, []), "en");
+
+    const {ticksOf, labelsOf} = await load("plot");
+    assert.deepEqual(ticksOf(0, 1, 5), [0, 0.2, 0.4, 0.6, 0.8, 1]);
+    assert.deepEqual(ticksOf(-0.31, 0.29, 6), [-0.3, -0.2, -0.1, 0, 0.1, 0.2]);
+    assert.deepEqual(ticksOf(7, 53, 5), [10, 20, 30, 40, 50]);
+    assert.deepEqual(ticksOf(3, 3, 5), []);
+    assert.deepEqual(labelsOf([-0.5, 0, 0.25]), ["−0.50", "0.00", "0.25"]);
+
+    const {parseNumbers, parseCurves, merged, listOf, proposedValues, tableOf, densestSearch} = await load("explorer");
+    assert.deepEqual(parseNumbers("5, 8:2:12"), [5, 8, 10, 12]);
+    assert.deepEqual(parseNumbers("0:0.1:0.3, 0.3"), [0, 0.1, 0.2, 0.3]);
+    for (const wrong of ["", "5:x", "1:0:5", "1:2", ":1:3", "1::3", "1:1:3:5", "1:1:1000"])
+        assert.equal(parseNumbers(wrong), undefined, wrong);
+    const curves = (parameter, text) => parseCurves(parameter, text)?.map((each) => each.given);
+    assert.deepEqual(curves("mu", "0.1, 0:0.5:1, 1:0 ,1:1"),
+                     [{mu: "0.1"}, {mu: "0"}, {mu: "0.5"}, {mu: "1"}, {mu_disc: "1", mu_wall: "0"}]);
+    assert.deepEqual(curves("radius", "0.5, 1"), [{radius: "0.5"}, {radius: "1"}]);
+    assert.deepEqual(curves("", "what"), [{}]);
+    for (const wrong of ["", " , ", "1:x", ":1", "x", "1:2:3:4", "0.1, 1:y"]) assert.equal(parseCurves("mu", wrong), undefined, wrong);
+    assert.equal(parseCurves("radius", "1:0"), undefined);
+    assert.deepEqual(merged({mu: "1", seed: "2"}, {mu_disc: "1", mu_wall: "0"}, {discs: "5"}),
+                     {mu: "1", seed: "2", mu_disc: "1", mu_wall: "0", discs: "5"});
+    assert.deepEqual(merged({mu_disc: "0.2"}, {mu: "1"}), {mu: "1"});
+    assert.equal(listOf([5, 11, 17]), "5:6:17");
+    assert.equal(listOf([0.1, 0.2, 0.3]), "0.1:0.1:0.3");
+    assert.equal(listOf([1, 2, 4]), "1,2,4");
+    assert.equal(listOf([3]), "3");
+    for (const row of parameters.filter(({slider}) => slider)) {
+        const values = parseNumbers(proposedValues(row));
+        assert.ok(values?.length >= 4, row.name);
+        const isLimited = row.highest > row.lowest; // the seed is not
+        assert.ok(!isLimited || values.every((each) => each >= row.lowest && each <= row.highest), row.name);
+    }
+    assert.equal(densestSearch({container_radius: "8.6", radius: "1"}), 48);
+    const estimates = (mean) => Object.fromEntries(["by_time", "by_event", "rigid_by_time", "rigid_by_event"]
+        .map((rate, k) => [rate, {mean: mean + k, error: 0.5, effective_samples: 10, blocks: 10}]));
+    const [curve] = parseCurves("mu", "0.5");
+    assert.equal(tableOf([{curve, x: 5, given: {}, done: true, rotation: estimates(1), command: "./swirl run --discs 5"},
+                          {curve, x: 6, given: {}, done: true, collapsed: true, command: "c"}, {curve, x: 7, given: {}}],
+                         "discs", "rotation"),
+        "mu,discs,collapsed,varpi_by_time,varpi_by_time_error,varpi_by_event,varpi_by_event_error,varpi_rigid_by_time," +
+        "varpi_rigid_by_time_error,varpi_rigid_by_event,varpi_rigid_by_event_error,command\n" +
+        "0.5,5,0,1,0.5,2,0.5,3,0.5,4,0.5,\"./swirl run --discs 5\"\n0.5,6,1,,,,,,,,,\"c\"\n");
+
+    const {optionsOf, shellWord} = await load("host");
+    assert.equal(optionsOf({mu_disc: "0.5", discs: "5", seed: ""}, [{name: "discs"}, {name: "mu_disc"}, {name: "seed"}]),
+                 "--discs 5 --mu-disc 0.5");
+    assert.equal(shellWord("it's"), "'it'\\''s'");
+
+    const {settingOf, settingFrom, linkTextOf, tableOf: pointsTable} = await load("discovery");
+    assert.equal(settingOf({discs: "48", mu: "0.5", events: "3", seed: ""}), "mu=0.5");
+    assert.equal(settingOf({seed: "2", mu: "1"}), settingOf({mu: "1", seed: "2"}));
+    const points = new Map([[48, {mean: -0.03720, error: 0.0013, periods: 200}], [8, {mean: 0.25, error: 0.03, periods: 50}]]);
+    assert.deepEqual([...settingFrom(linkTextOf(points))].sort(), [...points].sort());
+    for (const wrong of ["", "x", "8_1_2", "8_1_0_50", "-1_1_1_50", "8_Infinity_1_50", "8.5_1_1_50", "8__1_50"])
+        assert.equal(settingFrom(wrong).size, 0, wrong);
+    assert.equal(pointsTable(new Map([["mu=0.5", points]])),
+                 "discs,varpi,varpi_error,periods,other_parameters\n8,0.25,0.03,50,\"mu=0.5\"\n48,-0.0372,0.0013,200,\"mu=0.5\"\n");
+
+    const {directionOf, rangeOf, ranges, steps} = await load("lesson");
+    assert.deepEqual([directionOf(0.1, 0.01), directionOf(-0.1, 0.01), directionOf(0.015, 0.01)], [0, 1, 2]);
+    assert.deepEqual([10, 19.6, 38.4, 44.4, 44.6].map(rangeOf), [0, 1, 2, 2, 3]);
+    assert.equal(ranges.length, 4);
+    assert.equal(steps.length, 6);
+    assert.deepEqual([en, de].map((each) => each.lessonSteps.length), [6, 6]);
+    for (const [k, {kind}] of steps.entries()) if (typeof kind === "number")
+        assert.ok(kind < en.lessonSteps[k].options.length);
+
+    // The search for N_c: runs of a known line ϖ = slope (38.4 − N), with errors of white noise. The evaluation is
+    // that of the line between two neighbours.
+    const {searchCrossing, usualSearch} = await load("crossing_search");
+    const line = (n) => 0.004 * (38.4 - n);
+    const evaluated = (runs) => {
+        const by = new Map();
+        for (const {discs, periods, rotation} of runs) by.set(discs, [...(by.get(discs) ?? []), [periods, rotation.by_time]]);
+        const all = [...by].sort(([a], [b]) => a - b).map(([n, each]) => {
+            const total = each.reduce((sum, [periods]) => sum + periods, 0);
+            return [n, each[0][1].mean, 0.02 / Math.sqrt(total)];
+        });
+        const sign = ([, mean, error]) => (Math.abs(mean) > 3 * error ? Math.sign(mean) : 0);
+        const before = all.findLast((point) => sign(point) > 0)?.[0] ?? null, after = all.find((point) => sign(point) < 0)?.[0] ?? null;
+        const undetermined = all.filter((point) => sign(point) === 0).map(([n]) => n);
+        const crosses = before !== null && after !== null;
+        const known = crosses && all.filter(([n]) => n >= before && n <= after).length === after - before + 1;
+        const near = all.findLast(([n]) => n <= 38) ?? all[0];
+        return {verdict: crosses ? "crosses" : undetermined.length ? "undecided" : before ? "always_rotates" : "always_counterrotates",
+                discs: known ? 38.4 : null, error: known ? near[2] / 0.004 : null, lower: before, upper: after, before, after,
+                undetermined, points: all};
+    };
+    const searched = async (mean, settings = {}) => {
+        const calls = [];
+        const found = await searchCrossing({...usualSearch, ...settings}, {
+            run: async (discs, seed, periods) => {
+                calls.push([discs, seed, periods]);
+                const one = {mean: mean(discs), error: 0.02 / Math.sqrt(periods), effective_samples: periods, blocks: periods};
+                return {rotation: {by_time: one, by_event: one, rigid_by_time: one, rigid_by_event: one}};
+            },
+            crossings: async (runs) => {
+                const one = evaluated(runs);
+                return {by_time: one, by_event: one, rigid_by_time: one, rigid_by_event: one};
+            }});
+        return {found, calls};
+    };
+    const {found, calls} = await searched(line);
+    assert.equal(found.crossings.by_time.discs, 38.4);
+    assert.ok(found.withinTolerance && found.crossings.by_time.error <= usualSearch.tolerance);
+    assert.equal(found.runs, calls.length);
+    // A number gets each seed once, and a repeated run is twice as long as the one before.
+    assert.equal(new Set(calls.map(String)).size, calls.length);
+    for (const n of new Set(calls.map(([discs]) => discs))) {
+        const own = calls.filter(([discs]) => discs === n);
+        assert.deepEqual(own.map(([, seed]) => seed), own.map((_, k) => 1 + k));
+        assert.deepEqual(own.map(([, , periods]) => periods), own.map((_, k) => usualSearch.periods * 2 ** k));
+    }
+    assert.deepEqual((await searched(line)).calls, calls); // reproducible
+    // One sign only: the coarse scan is enough.
+    const positive = await searched(() => 0.5);
+    assert.deepEqual([positive.found.crossings.by_time.verdict, positive.calls.length, positive.found.withinTolerance],
+                     ["always_rotates", 8, true]);
+    // A tolerance that cannot be reached ends after the rounds.
+    const strict = await searched(line, {tolerance: 1e-9, rounds: 2});
+    assert.equal(strict.found.withinTolerance, false);
+    assert.equal(Math.max(...strict.calls.map(([, , periods]) => periods)), 4 * usualSearch.periods);
+
+    const {givenFrom, readFile} = await load("opened_file");
+    const configured = {discs: 40, mu_disc: 0.5, mu_wall: 0.5, inertia: 10.0, mass: 1.0, radius: 1.0, restitution: 1.0,
+                        mixture: {count: 20, radius: 0.6, mass: 1}, speed: 1.0000001, omega: 0.5, path: "circle", periods: 3, seed: 7};
+    assert.deepEqual(givenFrom(configured, parameters), {discs: "40", mu: "0.5", mixture: "20:0.6:1", path: "circle", seed: "7"});
+    assert.deepEqual(givenFrom({discs: 48, mu_disc: 1, mu_wall: 0}, parameters), {mu_disc: "1", mu_wall: "0"});
+    const bytes = (text) => new TextEncoder().encode(text).buffer;
+    for (const [text, problem] of [["hello", "unknown"], ["", "unknown"], ["{\"a\": 1}", "unknown"], ["{\"config\": ", "damaged"],
+                                   ["swirl checkpoint 8", "damaged"], ["swirl checkpoint 8\n0123", "damaged"],
+                                   ["\u0001", "unknown"], ["[1]", "unknown"]])
+        assert.throws(() => readFile(bytes(text), "a", parameters), {problem}, text);
+    if (files) {
+        const read = (name) => {
+            const all = readFileSync(join(files, name));
+            return readFile(all.buffer.slice(all.byteOffset, all.byteOffset + all.length), name, parameters);
+        };
+        const {kind, given, result} = read("run.json");
+        assert.deepEqual([kind, given], ["result", {discs: "12", mu: "0.3", warmup: "2"}]);
+        const {events, ...checkpoint} = read("run.checkpoint");
+        assert.deepEqual(checkpoint, {kind: "checkpoint", given: {discs: "12", mu: "0.3", warmup: "2"}});
+        assert.equal(events, result.events.total);
+        // The replayed frames have the values of the table that swirl export made of the same file.
+        const rows = readFileSync(join(files, "table.csv"), "utf-8").trim().split("\n");
+        const names = rows[0].split(","), column = (name) => names.findIndex((each) => each.startsWith(name));
+        for (const name of ["plain.h5", "packed.h5"]) {
+            const {trajectory, given: own} = read(name);
+            assert.deepEqual([own.discs, own.body, own.floor], ["6", "sphere", "sliding"], name);
+            assert.deepEqual([trajectory.discs, trajectory.complete], [6, true]);
+            assert.equal(trajectory.frames.length * 6, rows.length - 1);
+            for (const [t, frame] of trajectory.frames.entries()) for (let i = 0; i < 6; ++i) {
+                const row = rows[1 + 6 * t + i].split(",").map(Number), k = 11 + 8 * i, q = 11 + 8 * 6 + 4 * i;
+                const seen = [frame[0], frame[k], frame[k + 1], frame[k + 3], ...frame.subarray(q, q + 4)];
+                const columns = ["time", "x (", "y (", "spin (", "turned w", "turned x", "turned y", "turned z"];
+                // The export rounds a quaternion to length 1; the rest is exact.
+                for (const [c, each] of columns.entries())
+                    assert.ok(Math.abs(seen[c] - row[column(each)]) <= (c < 4 ? 0 : 1e-15), `${name}: ${each} at ${t}`);
+            }
+        }
+        const cut = readFileSync(join(files, "plain.h5")).subarray(0, 3000);
+        assert.throws(() => readFile(cut.buffer.slice(cut.byteOffset, cut.byteOffset + 3000), "cut", parameters), {problem: "damaged"});
+    }
+} finally {
+    rmSync(folder, {recursive: true});
+}

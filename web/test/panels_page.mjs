@@ -1,0 +1,244 @@
+// Tests discovery, explorer, lesson, languages and opened files in a real browser: node panels_page.mjs FILE.html
+// CHROMIUM FILES [FOLDER]. FILES has files of the command line (tests/cli/lab_test.py), downloads are stored in
+// FOLDER. Exits with 1 and a message if a test fails.
+import assert from "node:assert/strict";
+import {readFileSync, writeFileSync} from "node:fs";
+import {createRequire} from "node:module";
+import {join} from "node:path";
+import {pathToFileURL} from "node:url";
+import {chromium} from "playwright-core";
+
+const [file, executablePath, files, folder] = process.argv.slice(2);
+const address = pathToFileURL(file).href;
+const browser = await chromium.launch({executablePath, args: [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync"]});
+const errors = [];
+const newPage = async (options = {}) => {
+    const page = await browser.newPage({viewport: {width: 1280, height: 900}, locale: "en-GB", ...options});
+    page.setDefaultTimeout(90_000); // a busy machine is slow
+    page.on("pageerror", (error) => errors.push(error.message));
+    page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+    return page;
+};
+let page = await newPage();
+const text = (id) => page.textContent(`#${id}`);
+const open = async (query) => {
+    await page.goto("about:blank"); // another fragment alone would not load the page
+    await page.goto(address + query);
+    await page.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
+        !document.getElementById("error").hidden);
+};
+/** Fails if axe-core finds a violation of WCAG 2.1, levels A and AA. */
+const requireAccessible = async (where) => {
+    await page.addScriptTag({path: createRequire(import.meta.url).resolve("axe-core/axe.min.js")});
+    const {violations} = await page.evaluate(() => globalThis.axe.run(
+        {runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}));
+    assert.deepEqual(violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`), [], where);
+};
+const downloaded = async (button, as) => {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
+    const bytes = Buffer.concat(await (await download.createReadStream()).toArray());
+    if (folder) writeFileSync(join(folder, as ?? download.suggestedFilename()), bytes);
+    return [download.suggestedFilename(), bytes];
+};
+const rowsOf = (bytes) => bytes.toString().trim().split("\n").map((line) => line.split(","));
+/** The number of different points that the plot describes. */
+const pointsShown = async () => Number(/with (\d+) points/.exec(await page.getAttribute("#discovery-plot [role=img]", "aria-label"))[1]);
+
+// Discovery: each number that is visited drops a point, and the points give the bracket of N_c.
+await open("?discs=8");
+await page.waitForFunction(() => /with 1 points/.test(document.querySelector("#discovery-plot [role=img]").ariaLabel));
+for (const [k, n] of ["20", "48"].entries()) {
+    await page.fill("#parameter-discs", n);
+    await page.waitForFunction((wanted) => document.querySelector("#discovery-plot [role=img]").ariaLabel
+        .includes(`with ${wanted} points`), k + 2);
+}
+await page.waitForFunction(() => /between N = 20 and N = 48/.test(document.getElementById("discovery-finding").textContent));
+const [name, table] = await downloaded("#discovery-table");
+assert.equal(name, "discovery.csv");
+assert.deepEqual(rowsOf(table)[0], ["discs", "varpi", "varpi_error", "periods", "other_parameters"]);
+assert.deepEqual(rowsOf(table).slice(1).map(([discs]) => discs), ["8", "20", "48"]);
+for (const [discs, mean, error, periods] of rowsOf(table).slice(1)) {
+    assert.equal(Math.sign(mean), discs === "48" ? -1 : 1, `${discs}: ${mean}`);
+    assert.ok(error > 0 && [50, 200, 800].includes(Number(periods)), `${discs}: ${error}, ${periods}`);
+}
+// Points of other parameters stay in the background, with a plot of their own.
+await page.fill("#parameter-mu", "0.5");
+await page.waitForFunction(() => document.querySelectorAll("#discovery-plot .legend span").length >= 2);
+// A link contains the parameters and the points, and opens with both.
+const link = await page.evaluate(async () => {
+    let copied;
+    Object.defineProperty(navigator, "clipboard", {value: {writeText: async (text) => { copied = text; }}});
+    document.getElementById("discovery-link").click();
+    await new Promise((resolve) => setTimeout(resolve));
+    return copied;
+});
+assert.match(link, /\?discs=48&mu=0\.5/);
+await open("?discs=48&mu=0.5&seed=2#points=8_0.3_0.02_800,48_-0.02_0.001_200,bad");
+assert.equal(await pointsShown(), 2);
+await page.click("#discovery-clear");
+await page.waitForFunction(() => /with [01] points/.test(document.querySelector("#discovery-plot [role=img]").ariaLabel));
+
+// Explorer: ϖ against N for two curves (Figure 5b), its table, its picture, its command line.
+await open("?discs=5&seed=3");
+await page.click("#explorer summary");
+const explore = async (fields, rows) => {
+    for (const [field, value] of Object.entries(fields))
+        await (/quantity|-x$|-curve$/.test(field) ? page.selectOption(`#${field}`, value) : page.fill(`#${field}`, value));
+    await page.click("#explorer-start");
+    await page.waitForFunction((wanted) => document.querySelectorAll("#explorer-findings tr").length === wanted &&
+        document.getElementById("explorer-start").textContent === "Start", rows);
+};
+await explore({"explorer-values": "5, 8:2:10", "explorer-curves": "0, 1, 1:0", "explorer-periods": "20"}, 4);
+assert.match(await text("explorer-status"), /^9 of 9 runs/);
+assert.match(await text("explorer-command"), /^\.\/swirl sweep --discs 5,8,10 --mu 0,1 --periods 40 --warmup 20 --seed 3 --out study && /);
+assert.match(await text("explorer-command"), /\n\.\/swirl sweep --discs 5,8,10 --mu-disc 1 --mu-wall 0 /);
+await requireAccessible("the explorer");
+const [tableName, bytes] = await downloaded("#explorer-table", "rotation_explored.csv");
+assert.equal(tableName, "explorer.csv");
+assert.equal(rowsOf(bytes).length, 10);
+const [pictureName, picture] = await downloaded("#explorer-picture");
+assert.equal(pictureName, "explorer.png");
+assert.ok(picture.subarray(1, 4).toString() === "PNG" && picture.readUInt32BE(16) >= 300);
+
+// N_c against a parameter.
+await explore({"explorer-quantity": "crossing", "explorer-x": "mu", "explorer-curve": "", "explorer-values": "0.5"}, 2);
+const [, found] = await page.$$eval("#explorer-findings tr", (rows) => rows.map((row) => [...row.cells].map((each) => each.textContent)));
+assert.match(found[1], /^4\d\.\d+ ± 0\.\d+ \(95 %: 4\d\.\d to 4\d\.\d\)$/);
+assert.match(await text("explorer-command"), /^\.\/swirl crossing --mu 0\.5 --seed 3 --to 48$/);
+const [[...head], values] = rowsOf((await downloaded("#explorer-table"))[1]);
+assert.deepEqual([head.slice(0, 4), values.slice(0, 2)], [["mu", "verdict", "N_c_by_time", "N_c_error_by_time"], ["0.5", "crosses"]]);
+// Wrong input is an error message; so is a parameter that the engine rejects.
+for (const [fields, said] of [[{"explorer-values": "x"}, /FROM:STEP:TO/], [{"explorer-values": "1:1:1000"}, /limit is 400/],
+                              [{"explorer-values": "-1"}, /\bmu\b.*-1/]]) {
+    for (const [field, value] of Object.entries(fields)) await page.fill(`#${field}`, value);
+    await page.click("#explorer-start");
+    await page.waitForFunction((wanted) => new RegExp(wanted).test(document.getElementById("explorer-status").textContent), said.source);
+}
+await page.selectOption("#explorer-quantity", "rotation");
+await page.fill("#explorer-values", "1");
+await page.fill("#explorer-periods", "5");
+await page.click("#explorer-start");
+assert.match(await text("explorer-status"), /from 10 to 100000/);
+
+// Lesson: the next step opens when the result is there. The prediction hides the answer until then.
+await open("");
+await page.click("#lesson-open");
+for (let step = 1; step <= 6; ++step) {
+    await page.waitForFunction((wanted) => document.querySelector("#lesson h2")?.textContent.startsWith(`Step ${wanted} of 6`), step);
+    assert.equal(await page.isDisabled("#lesson-next"), true);
+    assert.equal(await page.isVisible("#headline"), false);
+    if (step === 1) await requireAccessible("the lesson");
+    await page.click(`#lesson input[value="${step % 3}"]`);
+    await page.waitForFunction(() => !document.getElementById("lesson-next").disabled);
+    const outcome = await text("lesson-outcome");
+    const expected = [/with the swirl/, /against the swirl/, /N_c = 3\d\.\d+ ± 0/, /clockwise/, /with the swirl/, /block each other/][step - 1];
+    assert.match(outcome, expected);
+    // The predictions: against, against it or never, and so on; only the second is right.
+    assert.match(outcome, step === 2 ? /was different|was right/ : /was/);
+    await page.click("#lesson-next");
+}
+assert.equal(await page.$("#lesson h2"), null);
+assert.equal(await page.isVisible("#headline"), true);
+// The worksheet replaces the page in print, and disappears after it.
+await page.click("#teaching summary");
+await page.evaluate(() => { globalThis.print = () => {}; });
+await page.click("#lesson-worksheet");
+await page.emulateMedia({media: "print"});
+assert.equal(await page.isVisible("main"), false);
+assert.equal(await page.locator("#worksheet section").count(), 8);
+assert.ok(await page.isVisible("#worksheet svg"));
+if (folder) await page.pdf({path: join(folder, "worksheet.pdf"), preferCSSPageSize: true});
+await page.emulateMedia({media: "screen"});
+await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+assert.deepEqual([await page.$("#worksheet"), await page.isVisible("main")], [null, true]);
+
+// Files of the command line: the page repeats the run of a result.
+await open("");
+await page.setInputFiles("#open-file", join(files, "run.json"));
+await page.waitForFunction(() => /bitwise identical/.test(document.getElementById("opened-status")?.textContent));
+const wanted = JSON.parse(readFileSync(join(files, "run.json"), "utf-8"));
+const cells = await page.$$eval("#comparison tr", (rows) => rows.slice(1).map((row) => [...row.cells].slice(1).map((each) => each.textContent)));
+for (const [inFile, onPage] of cells) assert.equal(inFile, onPage);
+assert.equal(cells.at(-1)[0], wanted.state_hash);
+await page.waitForFunction(() => document.getElementById("command").textContent.includes("--discs 12 --mu 0.3"));
+await requireAccessible("a result");
+// A result with another state is reported.
+const changed = JSON.stringify({...wanted, state_hash: "0123456789abcdef"});
+await page.setInputFiles("#open-file", {name: "changed.json", mimeType: "application/json", buffer: Buffer.from(changed)});
+await page.waitForFunction(() => /differs/.test(document.getElementById("opened-status")?.textContent));
+await page.setInputFiles("#open-file", join(files, "run.checkpoint"));
+await page.waitForFunction((events) => document.querySelector("#opened h2")?.textContent.includes(`after ${events} events`) &&
+    document.getElementById("comparison"), wanted.events.total);
+// A dropped trajectory is replayed on the dish.
+const dropped = readFileSync(join(files, "packed.h5")).toString("base64");
+await page.evaluate(async (base64) => {
+    const bytes = await (await fetch(`data:application/octet-stream;base64,${base64}`)).blob();
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([bytes], "packed.h5"));
+    for (const kind of ["dragover", "drop"])
+        document.body.dispatchEvent(new DragEvent(kind, {dataTransfer, bubbles: true, cancelable: true}));
+}, dropped);
+await page.waitForSelector("#replay-frame");
+assert.match(await page.textContent("#opened h2"), /packed\.h5: 20 frames of 6 particles/);
+await page.waitForFunction(() => Number(document.getElementById("replay-frame").value) > 3); // it plays
+await page.fill("#replay-frame", "7");
+assert.match(await text("replay-caption"), /^Frame 8 of 20, 0\.70 periods/);
+await page.waitForSelector('canvas[aria-label^="6 spheres"]');
+// Other parameters end the replay.
+await page.fill("#parameter-discs", "9");
+await page.waitForSelector('canvas[aria-label^="9 spheres"]');
+assert.equal(await page.isVisible("#opened"), false);
+for (const [buffer, said] of [["no such thing", /'a\.txt' is no result/], ["{\"config\": {", /'a\.txt' cannot be read/],
+                              ["\x89HDF\r\n\x1a\n1234", /'a\.txt' cannot be read/]]) {
+    await page.setInputFiles("#open-file", {name: "a.txt", mimeType: "text/plain", buffer: Buffer.from(buffer, "latin1")});
+    await page.waitForFunction((wanted) => new RegExp(wanted).test(document.getElementById("error").textContent), said.source);
+}
+
+// German, by the address and by the browser; the address keeps its language.
+await open("?lang=de&discs=8");
+const german = async () => {
+    assert.equal(await page.getAttribute("html", "lang"), "de");
+    assert.match(await page.title(), /Scheiben/);
+    assert.match(await page.textContent("label[for=parameter-discs]"), /^Anzahl der Scheiben/);
+    await page.waitForFunction(() => /^8 Scheiben/.test(document.getElementById("headline").textContent));
+    const shown = await page.evaluate(() => document.body.innerText);
+    for (const english of [" the ", " discs", "Number of", "Save", "swirl\\."]) assert.ok(!new RegExp(english).test(shown), english);
+};
+await german();
+await page.fill("#parameter-seed", "2").catch(() => {});
+await page.fill("#parameter-discs", "9");
+await page.waitForFunction(() => /discs=9/.test(location.search));
+assert.match(page.url(), /lang=de/);
+await requireAccessible("the German page");
+await open("?lang=de&discs=30000&radius=0.01");
+assert.match(await text("error"), /^30000 Scheiben sind zu viele/);
+page = await newPage({locale: "de-DE"});
+await open("?discs=8");
+await german();
+// Without ?lang, another language gets English.
+page = await newPage({locale: "fr-FR"});
+await open("?discs=8");
+assert.equal(await page.getAttribute("html", "lang"), "en");
+
+// A file with parameters starts with them; in a frame without an address it runs as well, as in a notebook.
+const page1 = readFileSync(file, "utf-8").replace('<meta charset="utf-8">', '$&<meta name="swirl-start" content="discs=7&amp;mu=0.2&amp;lang=de">');
+page = await newPage();
+await page.setContent(`<iframe id="in" width="900" height="600" sandbox="allow-scripts allow-downloads allow-modals"></iframe>`);
+await page.evaluate((html) => { document.getElementById("in").srcdoc = html; }, page1);
+const frame = page.frameLocator("#in");
+await frame.locator('canvas[aria-label^="7 Scheiben"]').first().waitFor();
+await frame.locator("#command").filter({hasText: "--discs 7 --mu 0.2"}).waitFor();
+await frame.locator("#parameter-discs").fill("6");
+await frame.locator('canvas[aria-label^="6 Scheiben"]').first().waitFor();
+
+// Embedded: the dish and the large sliders only.
+await open("?embed=1");
+assert.deepEqual([await page.isVisible("#views canvas"), await page.isVisible("#parameter-discs"), await page.isVisible("#headline")],
+                 [true, true, true]);
+assert.deepEqual([await page.isVisible("#panels"), await page.isVisible("footer"), await page.isVisible("#discovery")],
+                 [false, false, false]);
+
+assert.deepEqual(errors, []);
+await browser.close();

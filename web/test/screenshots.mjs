@@ -1,0 +1,91 @@
+// Writes the images of docs/how-to/browser_page.md: node screenshots.mjs FILE.html CHROMIUM FOLDER. Each shows the
+// page in one state; the exact number of periods depends on the machine. ffmpeg reduces their colours.
+import {execFileSync} from "node:child_process";
+import {mkdtempSync, rmSync, statSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {join} from "node:path";
+import {pathToFileURL} from "node:url";
+import {chromium} from "playwright-core";
+
+const [file, executablePath, folder] = process.argv.slice(2);
+const address = pathToFileURL(file).href;
+const mostBytes = 120_000;
+
+const hasPeriods = (page, periods) => page.waitForFunction(
+    (wanted) => Number(document.getElementById("period-count")?.textContent) > wanted, periods, {timeout: 120_000});
+const choose = (page, id, value) => page.evaluate(([name, wanted]) => {
+    const select = document.getElementById(name);
+    select.value = wanted;
+    select.dispatchEvent(new Event("change"));
+}, [id, value]);
+const click = (page, id) => page.evaluate((name) => document.getElementById(name).click(), id);
+const setPace = (page, pace) => page.evaluate((value) => {
+    const speed = document.getElementById("speed");
+    speed.value = String(Math.log10(value));
+    speed.dispatchEvent(new Event("input"));
+}, pace);
+
+/** Name, query, what happens, and options of the page. */
+const states = [
+    ["start", "", (page) => hasPeriods(page, 36)],
+    ["few", "?discs=8", (page) => hasPeriods(page, 36), {colorScheme: "dark"}],
+    ["time_lapse", "", (page) => hasPeriods(page, 12)],
+    ["strobe", "", async (page) => {
+        await hasPeriods(page, 33);
+        await choose(page, "choose-view", "both");
+        await click(page, "strobe");
+        await click(page, "trails");
+        await setPace(page, 4);
+        await hasPeriods(page, 52);
+    }],
+    ["density", "", async (page) => {
+        await choose(page, "choose-view", "density");
+        await setPace(page, 10);
+        await hasPeriods(page, 150);
+    }],
+    ["flow", "?discs=28", async (page) => {
+        await choose(page, "choose-view", "flow");
+        await setPace(page, 10);
+        await hasPeriods(page, 150);
+    }, {colorScheme: "dark"}],
+    ["spheres", "?preset=experiment&discs=36", (page) => hasPeriods(page, 36)],
+    ["change", "?discs=30", async (page) => {
+        await hasPeriods(page, 36);
+        await page.fill("#parameter-discs", "44");
+        await page.waitForSelector('canvas[aria-label^="44 discs"]');
+        await hasPeriods(page, 33);
+        await page.evaluate(() => document.getElementById("curve").scrollIntoView({block: "end"}));
+    }],
+    ["parameters", "", async (page) => {
+        await hasPeriods(page, 33);
+        await page.keyboard.press("m");
+        await page.evaluate(() => document.getElementById("more").scrollIntoView({block: "center"}));
+    }],
+    ["phone", "", (page) => hasPeriods(page, 36), {viewport: {width: 390, height: 844}, hasTouch: true}],
+];
+
+const browser = await chromium.launch({executablePath, args: ["--no-sandbox", "--disable-gpu"]});
+const temporary = mkdtempSync(join(tmpdir(), "swirl-screenshots-"));
+try {
+    for (const [name, query, act, options] of states) {
+        const page = await browser.newPage({viewport: {width: 1280, height: 800}, locale: "en-GB", ...options});
+        await page.goto(address + query);
+        await act(page);
+        await page.evaluate(() => document.activeElement.blur());
+        const raw = join(temporary, `${name}.png`), image = join(folder, `lab_${name}.png`);
+        await page.screenshot({path: raw});
+        await page.close();
+        // Fewer colours, until the image is small enough.
+        const size = [256, 64, 32, 16].reduce((bytes, colors) => {
+            if (bytes <= mostBytes) return bytes;
+            execFileSync("ffmpeg", ["-loglevel", "error", "-y", "-i", raw, "-vf", "split[a][b];[a]palettegen=max_colors=" +
+                                    `${colors}:reserve_transparent=0[p];[b][p]paletteuse=dither=none`, image]);
+            return statSync(image).size;
+        }, Infinity);
+        console.log(`${image}: ${size} bytes`);
+        if (size > mostBytes) throw new Error(`${image} is larger than ${mostBytes} bytes`);
+    }
+} finally {
+    rmSync(temporary, {recursive: true});
+    await browser.close();
+}

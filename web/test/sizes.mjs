@@ -1,0 +1,57 @@
+// Tests the page's layout at the sizes of laptops and phones: node sizes.mjs FILE.html CHROMIUM. Exits with 1
+// and a message if a test fails.
+import assert from "node:assert/strict";
+import {createRequire} from "node:module";
+import {pathToFileURL} from "node:url";
+import {chromium} from "playwright-core";
+
+const [file, executablePath] = process.argv.slice(2);
+const address = pathToFileURL(file).href;
+const browser = await chromium.launch({executablePath, args: [
+    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync"]});
+const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+
+for (const [width, height] of [[1440, 900], [1024, 768], [390, 844], [360, 640]]) {
+    for (const colorScheme of ["light", "dark"]) {
+        for (const lang of ["en", "de"]) {
+            const where = `${width} × ${height}, ${colorScheme}, ${lang}`;
+            const page = await browser.newPage({viewport: {width, height}, colorScheme, reducedMotion: "reduce"});
+            await page.goto(`${address}?lang=${lang}`);
+            await page.waitForFunction(() => Number(document.getElementById("period-count")?.textContent.replace(",", ".")) >= 30,
+                                       null, {timeout: 60_000});
+            // Nothing extends beyond the page. The dish, the verdict and both main sliders are in the first screen.
+            const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+            assert.ok(wide <= width, `${where}: the page is ${wide} wide`);
+            for (const id of ["views", "headline", "gauge", "play", "slider-discs", "slider-mu"]) {
+                const {x, y, width: w, height: h} = await page.locator(`#${id}`).boundingBox();
+                assert.ok(x >= 0 && y >= 0 && x + w <= width && y + h <= height, `${where}: #${id} ends at ${x + w}, ${y + h}`);
+            }
+            const dish = await page.locator("#views canvas").boundingBox();
+            assert.ok(dish.width >= 0.42 * Math.min(width, height), `${where}: the dish is ${dish.width} wide`);
+            // A name is broken between words only: no word of a label is wider than its place.
+            const broken = await page.$$eval("label, button, legend, summary, dt", (all) => all.filter((each) =>
+                each.offsetParent !== null && each.scrollWidth > each.clientWidth + 1).map((each) => each.outerHTML.slice(0, 80)));
+            assert.deepEqual(broken, [], where);
+            // On a phone the dish stays while the controls scroll.
+            await page.evaluate(() => scrollTo(0, 600));
+            if (width < 768) {
+                const stays = await page.locator("#views canvas").boundingBox();
+                assert.ok(stays.y >= 0, `${where}: the dish is at ${stays.y}`);
+            }
+            await page.evaluate(() => {
+                scrollTo(0, 0);
+                for (const each of document.querySelectorAll("#panels details, #view-options")) each.open = true;
+            });
+            const wideOpen = await page.evaluate(() => document.documentElement.scrollWidth);
+            assert.ok(wideOpen <= width, `${where}: the open page is ${wideOpen} wide`);
+            await page.addScriptTag({path: axe});
+            const violations = await page.evaluate(async () => (await globalThis.axe.run(
+                {runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]})).violations
+                .map(({id, nodes}) => `${id}: ${nodes[0].html}`));
+            assert.deepEqual(violations, [], where);
+            await page.close();
+        }
+    }
+}
+await browser.close();
