@@ -109,9 +109,7 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
     CrossingSettings settings;
     settings.rate = rate_named(rate);
     settings.config = resolve(texts);
-    if (!settings.config.ramps.empty())
-        throw UsageError(
-            "ramp is given, but a search for N_c needs a steady state.\nhint: omit it.");
+    require_crossing(settings.config);
     settings.from = minimum;
     settings.to = maximum;
     settings.tolerance = tolerance;

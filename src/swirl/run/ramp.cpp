@@ -7,6 +7,7 @@
 
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/reading.hpp"
 
 namespace swirl {
 namespace {
@@ -19,12 +20,6 @@ constexpr auto last_ramp_period = static_cast<std::int64_t>(max_periods) - 1;
         fmt::format("--ramp is '{}', but {}\nhint: a ramp is NAME=FROM:TO@P..Q with periods P and "
                     "Q, for example mu=0.1:1@20..220, or mu=0.1:1:0.1@20..420 up and down.",
                     text, why));
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (text.starts_with(' ')) text.remove_prefix(1);
-    while (text.ends_with(' ')) text.remove_suffix(1);
-    return text;
 }
 
 /// Calls visit(part) for the parts between separators.

@@ -313,11 +313,18 @@ void validate(const CrossingSettings& settings) {
                         settings.tolerance));
 }
 
-CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {
-    if (!has_m_frame(settings.config))
+void require_crossing(const RunConfig& config) {
+    if (!has_m_frame(config))
         throw UsageError(
             "on this path there is no swirl with which the discs could rotate or counterrotate, so "
             "there is no N_c.\nhint: use a counter-clockwise path that is nearly a circle.");
+    if (!config.ramps.empty())
+        throw UsageError(
+            "ramp is given, but a search for N_c needs a steady state.\nhint: omit it.");
+}
+
+CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {
+    require_crossing(settings.config);
     validate(settings);
     return Searcher(settings, control).search();
 }

@@ -99,6 +99,10 @@ void validate_range(const CrossingSettings& settings);
 /// Throws UsageError if the range is empty, the discs do not fit, or another setting is invalid.
 void validate(const CrossingSettings& settings);
 
+/// Throws UsageError if runs of this configuration have no N_c: on a path without an M-frame there
+/// is no swirl to rotate with, and in a ramp there is no steady state.
+void require_crossing(const RunConfig& config);
+
 /// Validates the settings and searches. Throws Interrupted when stopped. The result has no points
 /// if every run failed.
 CrossingSearch search_crossing(const CrossingSettings& settings,

@@ -160,6 +160,7 @@ SweepPlan make_map_plan(const MapSettings& s) {
                             option_name(axis.name)));
     if (!target.is_of_crossing() && !is_rotation_rate(target.of))
         plan.measure = {measurement_of(target.of)};
+    if (target.is_of_crossing()) require_crossing(plan.config(0));
     plan.map = target;
     return plan;
 }
