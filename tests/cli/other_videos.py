@@ -29,7 +29,7 @@ USUAL = {
     "grain": 0.0,              # of the container's floor, moves with it
     # The camera.
     "noise": 2.0, "blur": 0.8, "gamma": 1.0, "exposure": 0.2, "flicker": 0.0, "grey": False,
-    "shake": 0.0,
+    "shake": 0.0,              # of the camera, rms of a coordinate, pixels
     # The file.
     "fps": "30", "codec": ("libx264", "-crf", "18"), "pixels": "yuv420p", "filter": None,
     "after": (),               # options for a second pass
@@ -160,6 +160,17 @@ def blurred(image, sigma):
     return image
 
 
+def moved_image(image, shift):
+    """The image moved right and down by a fraction of pixels, by linear interpolation."""
+    height, width = image.shape[:2]
+    for axis, size, by in ((1, width, shift[0]), (0, height, shift[1])):
+        at = numpy.clip(numpy.arange(size) - by, 0, size - 1)
+        low = numpy.minimum(at.astype(int), size - 2)
+        share = (at - low).reshape((-1, 1) if axis == 1 else (-1, 1, 1))
+        image = (1 - share) * numpy.take(image, low, axis) + share * numpy.take(image, low + 1, axis)
+    return image
+
+
 class Painter:
     def __init__(self, s, radii, rng):
         self.s, self.radii, self.rng = s, radii, rng
@@ -197,9 +208,9 @@ class Painter:
         return numpy.array(s["colours"][i % len(s["colours"])], float) if s["colours"] else \
             s["ball"] * numpy.array(s["tint"])
 
-    def paint(self, middle, positions, turned):
+    def paint(self, middle, positions, turned, shake):
         s = self.s
-        image = self.table.copy()
+        image = moved_image(self.table, shake)
         far = numpy.hypot(self.x - middle[0], self.y - middle[1])
         inner, outer = s["dish"], s["dish"] + s["rim_width"]
         in_dish = numpy.clip(inner - far + 0.5, 0.0, 1.0)[..., None]
@@ -311,7 +322,8 @@ def make(path, **faults):
         for shift, o in between:
             v = positions[min(k + 1, s["frames"] - 1)] - positions[max(k - 1, 0)]
             sum_of = sum_of + painter.paint(middle + shake + course(s, k) + shift,
-                                            positions[k] + 0.5 * o * v + middle + shake, rotations[k])
+                                            positions[k] + 0.5 * o * v + middle + shake, rotations[k],
+                                            shake)
         image = painter.finished(sum_of / len(between), k)
         for _ in range(0 if k in s["drop"] else 2 if k in s["double"] else 1):
             writer.stdin.write(image.tobytes())

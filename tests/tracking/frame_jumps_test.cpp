@@ -16,11 +16,13 @@ std::vector<FrameJump> jumps_with(const std::vector<int>& shown, double omega, R
     const TrackedPath truth{{310.0, 250.0}, 40.0, omega, 0.7, false};
     std::vector<Vec2> centres;
     std::vector<std::size_t> frames;
+    std::vector<double> changes;  // of the pixels: less than noise if a frame is there twice
     for (const int k : shown) {
+        changes.push_back(frames.empty() ? -1.0 : k == shown[frames.size() - 1] ? 3.0 : 60.0);
         frames.push_back(centres.size());
         centres.push_back(truth.at(k) + Vec2{0.1 * deviate(random), 0.1 * deviate(random)});
     }
-    return find_frame_jumps(centres, frames, truth);
+    return find_frame_jumps(centres, frames, truth, changes);
 }
 
 TEST(FrameJumps, ShakingCameraIsNoDuplicatedFrame) {
@@ -34,10 +36,25 @@ TEST(FrameJumps, ShakingCameraIsNoDuplicatedFrame) {
             frames.push_back(centres.size());
             centres.push_back(truth.at(k) + Vec2{1.7 * deviate(random), 1.7 * deviate(random)});
         }
-        EXPECT_TRUE(find_frame_jumps(centres, frames, truth).empty()) << trial;
+        EXPECT_TRUE(find_frame_jumps(centres, frames, truth, {}).empty()) << trial;
         // A median of 198 values, which share frames: within a quarter of the true value.
         EXPECT_NEAR(camera_shake(centres, frames, truth), 1.7, 0.25 * 1.7);
     }
+}
+
+TEST(FrameJumps, RimThatStandsStillInChangedPixelsIsNoDuplicate) {
+    // By chance a shake cancels the motion of the container between two frames.
+    const TrackedPath truth{{310.0, 250.0}, 26.0, 2.0 * pi / 64.0, 0.7, false};
+    std::vector<Vec2> centres;
+    std::vector<std::size_t> frames;
+    for (int k = 0; k < 100; ++k) {
+        frames.push_back(centres.size());
+        centres.push_back(truth.at(k == 50 ? 49 : k));
+    }
+    std::vector<double> changes(100, 60.0);
+    EXPECT_TRUE(find_frame_jumps(centres, frames, truth, changes).empty());
+    changes[50] = 2.0;
+    EXPECT_EQ(find_frame_jumps(centres, frames, truth, changes).size(), 1u);
 }
 
 TEST(FrameJumps, PolygonIsNoShake) {
@@ -78,6 +95,14 @@ TEST(FrameJumps, FindsDroppedAndDuplicatedFrames) {
     ASSERT_EQ(repeated.size(), 1u);
     EXPECT_EQ(repeated[0].before, 70u);
     EXPECT_NEAR(repeated[0].steps, 0.0, 0.4);
+    EXPECT_TRUE(repeated[0].duplicate && repeated[0].inserted);
+    // A duplicate that replaces the frame after it does not delay the later ones.
+    std::vector<int> replaced = all;
+    replaced[91] = 90;
+    const auto one = jumps_with(replaced, 0.05, random);
+    ASSERT_EQ(one.size(), 1u);
+    EXPECT_EQ(one[0].after, 91u);
+    EXPECT_TRUE(one[0].duplicate && !one[0].inserted);
     EXPECT_EQ(jumps_with(all_duplicated, 0.05, random).size(), 100u);
 }
 
@@ -94,7 +119,7 @@ TEST(FrameJumps, NoiseAndUnevenSwirlingAreNoJumps) {
         centres.push_back(truth.at(k + 8.0 * std::sin(0.05 * k)));  // 40 % faster, and slower
         if (k % 40 == 7) centres.back() = centres.back() + Vec2{4.0, -3.0};  // an outlier
     }
-    EXPECT_TRUE(find_frame_jumps(centres, frames, truth).empty());
+    EXPECT_TRUE(find_frame_jumps(centres, frames, truth, {}).empty());
 }
 
 }  // namespace

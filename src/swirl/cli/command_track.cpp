@@ -34,7 +34,8 @@ struct TrackCall {
     std::string out, json, overlay, report;
     std::optional<double> fps;
     std::optional<std::int64_t> discs, frames;
-    std::string tilt;
+    std::optional<std::int64_t> from, to;
+    std::string skip, accept, tilt;
     std::optional<double> view_angle;
     bool spin = false, quiet = false, overwrite = false;
 };
@@ -70,6 +71,59 @@ KnownCamera known_camera(const TrackCall& call) {
     return camera;
 }
 
+/// Frame ranges such as "40,60-64". Throws UsageError.
+std::vector<FrameRange> frame_ranges(const std::string& text) {
+    std::vector<FrameRange> ranges;
+    for (std::size_t begin = 0; !text.empty() && begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string part = text.substr(begin, end - begin);
+        const std::size_t dash = part.find('-');
+        const auto first = read_whole_number(part.substr(0, dash));
+        const auto last = dash == part.npos ? first : read_whole_number(part.substr(dash + 1));
+        if (!first || !last || *first < 0 || *last < *first)
+            throw UsageError(fmt::format(
+                "--skip is '{}', but it must be numbers of frames, for example 40,60-64.", text));
+        ranges.push_back({*first, *last});
+        begin = end + 1;
+    }
+    return ranges;
+}
+
+/// The frames to track, and what to accept. Throws UsageError.
+void set_frames(const TrackCall& call, TrackingSettings& settings) {
+    if (call.from && *call.from < 0)
+        throw UsageError(fmt::format("--from is {}, but it must be at least 0.", *call.from));
+    settings.first_frame = call.from.value_or(0);
+    if (call.to) {
+        if (call.frames) throw UsageError("--to and --frames exclude each other.");
+        if (*call.to < settings.first_frame)
+            throw UsageError(fmt::format("--to is {}, but it must be at least {}, the first frame.",
+                                         *call.to, settings.first_frame));
+        settings.max_frames = *call.to - settings.first_frame + 1;
+    }
+    settings.skip = frame_ranges(call.skip);
+    if (call.accept.empty()) return;
+    settings.accept_duplicates = call.accept.find("duplicates") != call.accept.npos;
+    settings.accept_missing = call.accept.find("missing") != call.accept.npos;
+    if (call.accept != "duplicates" && call.accept != "missing" &&
+        call.accept != "duplicates,missing" && call.accept != "missing,duplicates")
+        throw UsageError(fmt::format(
+            "--accept is '{}', but it must be duplicates, missing or duplicates,missing.",
+            call.accept));
+}
+
+/// The camera's motion, if it was removed.
+std::string camera_motion_text(const TrackedVideo& video) {
+    const CameraMotion& camera = video.camera;
+    if (camera.poses.empty()) return "";
+    std::string text =
+        fmt::format("  shake       {:.2f} pixels from frame to frame, drift {:.1f} pixels",
+                    camera.shake, camera.drift);
+    if (!camera.from_rim) text += fmt::format(", zoom {:.2f} %", 100.0 * camera.zoom);
+    return text +
+           (camera.from_rim ? "; removed, from the rim\n" : "; removed, from the background\n");
+}
+
 std::string species_text(const TrackedVideo& video) {
     std::string text;
     for (const TrackedSpecies& one : video.species)
@@ -96,6 +150,7 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
         "  phase       {} degrees in the first frame\n"
         "  lens        distortion {}{}\n"
         "  camera      {}\n"
+        "{}"
         "  complete    {:.2f} % of frames have all discs; {} positions filled in\n"
         "  error       {:.3f} pixels per position, from {}\n",
         call.source.video, counted(std::int64_t(video.number), "disc"), video.frame_count,
@@ -111,8 +166,8 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
         with_error(video.path.omega, video.path.omega_error), unit,
         with_error(first_phase(video), video.path.phase_error * 180.0 / pi),
         with_error(video.lens.k, video.lens.k_error), video.lens.k != 0.0 ? ", corrected" : "",
-        tilt_text(video), 100.0 * video.complete_share, video.filled, video.position_error,
-        video.position_error > video.overlap_error ? "edges" : "overlaps");
+        tilt_text(video), camera_motion_text(video), 100.0 * video.complete_share, video.filled,
+        video.position_error, video.position_error > video.overlap_error ? "edges" : "overlaps");
     if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm per pixel, from the discs\n",
                             *call.source.disc_diameter / (2.0 * video.radius));
@@ -210,9 +265,12 @@ void warn_of_contradictory_diameters(const VideoSource& source, TrackedVideo& vi
 
 void track(const TrackCall& call) {
     const KnownCamera camera = known_camera(call);
+    TrackingSettings frames;  // only for the checks
+    set_frames(call, frames);
     validate(call);
     ProgressLine line(call.source.video, call.quiet);
     TrackingSettings settings = tracking_settings(call.source.video, call.fps, call.frames, line);
+    set_frames(call, settings);
     settings.discs = call.discs;
     settings.camera = camera;
     TrackedVideo video = track_video(settings);
@@ -257,6 +315,10 @@ void add_track_command(Subcommand& subcommand) {
     add("--view-angle", call->view_angle, "DEG",
         "Vertical view angle of the camera [found if tilted]");
     add("--frames", call->frames, "N", "Number of frames to track [all]");
+    add("--from", call->from, "K", "First frame to track, counted from 0 [0]");
+    add("--to", call->to, "K", "Last frame to track [the last one]");
+    add("--skip", call->skip, "LIST", "Frames that are not used, such as 40,60-64");
+    add("--accept", call->accept, "FAULTS", "Correct the times of duplicates, missing, or both");
     add("--overlay", call->overlay, "FILE", "Movie of the video with the discs drawn over it");
     add("--report", call->report, "DIR", "Folder for a report on the tracking, report.html");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");

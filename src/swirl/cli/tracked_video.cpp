@@ -44,6 +44,11 @@ using Json = nlohmann::ordered_json;
 double degrees(double radians) { return radians * 180.0 / pi; }
 double whole_turn(double angle) { return angle - 360.0 * std::floor(angle / 360.0); }
 
+Json camera_motion_source(const TrackedVideo& video) {
+    if (video.camera.poses.empty()) return nullptr;
+    return video.camera.from_rim ? "rim" : "background";
+}
+
 Json vector_json(const Vec2& v) { return Json::array({v.x, v.y}); }
 
 Json lens_json(const TrackedVideo& video) {
@@ -87,6 +92,12 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
               {"rim_support", video.rim_support},
               {"frames_without_rim", video.rims_missed},
               {"shake", video.shake}}},
+            {"camera_motion",
+             {{"source", camera_motion_source(video)},
+              {"shake", video.camera.shake},
+              {"drift", video.camera.drift},
+              {"zoom", video.camera.zoom},
+              {"frames_without", video.frames_without_pose}}},
             {"path",
              {{"centre", vector_json(video.path.centre)},
               {"centre_error", video.path.centre_error},
@@ -124,7 +135,7 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
               {"scale", scale.pixels_per_radius},
               {"omega", video.path.omega},
               {"centre", vector_json(scale.swirl_centre)},
-              {"phase", first_phase(video)},
+              {"phase", whole_turn(degrees(scale.phase))},
               {"amplitude", scale.amplitude},
               {"container-radius", scale.container_radius},
               {"clockwise", scale.clockwise}}},
@@ -144,7 +155,7 @@ std::vector<TrackColumn> extra_columns(const TrackedVideo& video, const VideoSpi
         columns.push_back(std::move(column));
     };
     const auto seen = [&](std::size_t k, std::size_t i) {
-        return video.lens.seen(video.tracks.frames[k].position[i]);
+        return video.in_image(k, video.tracks.frames[k].position[i]);
     };
     add("x_seen", [&](std::size_t k, std::size_t i) { return seen(k, i).x; });
     add("y_seen", [&](std::size_t k, std::size_t i) { return seen(k, i).y; });

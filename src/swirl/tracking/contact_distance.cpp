@@ -141,6 +141,16 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
                    log_likelihood(seen, spread) / double(used)};
 }
 
+std::optional<Contact> contact_of_discs(const std::vector<double>& ratios) {
+    constexpr double range = 0.1, max_soft_off = 0.15;  // from 1: more is no contact
+    if (const auto found = contact_of(ratios, 1.0 - range, 1.0 + range);
+        found && std::abs(found->at - 1.0) < max_contact_off)
+        return found;
+    const auto soft = contact_of(ratios, 1.0 - contact_range, 1.0 + contact_range);
+    if (!soft || std::abs(soft->at - 1.0) >= max_soft_off) return std::nullopt;
+    return soft;
+}
+
 std::optional<Distortion> distortion_of(const std::vector<DiscPair>& pairs, const Vec2& middle,
                                         double half) {
     constexpr double maximum = 0.12, coarse = 0.02, fine = 0.005;

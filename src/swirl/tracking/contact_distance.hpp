@@ -34,6 +34,13 @@ struct Contact {
 std::optional<Contact> contact_of(const std::vector<double>& distances, double nearest,
                                   double farthest);
 
+/// The contact of discs, from distances in sums of radii: near 1, or farther off if their edges are
+/// soft and their radii wrong. Uses distances within `contact_range` of 1.
+std::optional<Contact> contact_of_discs(const std::vector<double>& ratios);
+inline constexpr double contact_range = 0.2;
+/// A contact that is farther from 1 implies another radius.
+inline constexpr double max_contact_off = 0.05;
+
 /// Two neighbouring discs of one frame.
 struct DiscPair {
     Vec2 one, other;

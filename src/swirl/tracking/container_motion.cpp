@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "swirl/math/unit_circle.hpp"
@@ -35,21 +36,20 @@ void add_lens_error(const RimCentres& rims, TrackedVideo& tracked) {
 
 }  // namespace
 
-void fit_container_motion(const TrackingSettings& settings, const Detections& all,
-                          bool uneven_times, TrackedVideo& tracked) {
+namespace {
+
+RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked) {
     RimCentres rims;
-    std::vector<double> supports;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        if (!all[k].rim.good) {
-            ++tracked.rims_missed;
-            continue;
-        }
+        if (!all[k].rim.good) continue;
         rims.centres.push_back(all[k].rim.centre);
         rims.times.push_back(tracked.times[k]);
         rims.frames.push_back(k);
-        supports.push_back(all[k].rim.support);
     }
-    if (uneven_times) reject_time_gaps(settings, rims, tracked);
+    return rims;
+}
+
+void fit_path(const RimCentres& rims, TrackedVideo& tracked) {
     const auto path = fit_container_path(rims.centres, rims.times);
     if (!path)
         throw Failure(
@@ -57,13 +57,35 @@ void fit_container_motion(const TrackingSettings& settings, const Detections& al
                         no_circle_hint));
     tracked.path = *path;
     add_lens_error(rims, tracked);
-    if (!uneven_times) check_frame_jumps(rims, tracked);
+}
+
+}  // namespace
+
+void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
+                          TrackedVideo& tracked) {
+    RimCentres rims = rim_centres(all, tracked);
+    if (uneven_times) reject_time_gaps(settings, rims, tracked);
+    fit_path(rims, tracked);
+    if (!uneven_times && check_frame_jumps(settings, rims, all, tracked)) {
+        rims = rim_centres(all, tracked);
+        fit_path(rims, tracked);
+    }
+    const auto used = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const FrameDetections& f) { return f.used; }));
+    tracked.rims_missed = used - rims.centres.size();
     tracked.shake = camera_shake(rims.centres, rims.frames, tracked.path);
+    if (remove_shake_of_rim(all, tracked)) {
+        tracked.shake = 0.0;
+        rims = rim_centres(all, tracked);
+    }
     tracked.polygon = find_path_polygon(rims.centres, rims.times, tracked.path);
-    tracked.rim_support = quantile(supports, 0.5);
-    for (std::size_t k = 0; k < all.size(); ++k)
+    std::vector<double> supports;
+    for (std::size_t k = 0; k < all.size(); ++k) {
         tracked.rim_offsets.push_back(
             all[k].rim.good ? length(all[k].rim.centre - tracked.container(k)) : -1.0);
+        if (all[k].rim.good) supports.push_back(all[k].rim.support);
+    }
+    tracked.rim_support = quantile(supports, 0.5);
 }
 
 }  // namespace swirl

@@ -46,20 +46,27 @@ class RimSurvey {
           stride_(std::max<std::size_t>(1, frames.size() / sample_size)),
           sampled_(std::ceil(double(frames.size()) / double(stride_))) {}
 
-    ContainerRim run() const {
+    /// `shaken`: a rough path is better than none.
+    std::optional<ContainerRim> run(bool shaken) {
         std::vector<RimCandidate> candidates = distinct(candidates_by_votes());
         const RimCandidate* moving = nullptr;
         double best_score = 0.0;
         for (RimCandidate& c : candidates) {
             fit_in_all_frames(c);
-            if (c.centres.size() < min_centres) continue;
-            c.path = circle_through(c.centres);
-            if (!moves(c)) continue;
-            const double score = c.support * double(c.centres.size()) / double(frames_.size());
-            if (score > best_score) best_score = score, moving = &c;
+            if (c.centres.size() >= min_centres) c.path = circle_through(c.centres);
         }
-        if (!moving) throw_not_moving(candidates.front());
+        largest_ = candidates.front();
+        for (const double max_scatter : {steady_scatter, shaken_scatter}) {
+            if (moving || (!shaken && max_scatter == shaken_scatter)) break;
+            for (const RimCandidate& c : candidates) {
+                if (c.centres.size() < min_centres || !moves(c, max_scatter)) continue;
+                const double score = c.support * double(c.centres.size()) / double(frames_.size());
+                if (score > best_score) best_score = score, moving = &c;
+            }
+        }
+        if (!moving) return std::nullopt;
         ContainerRim rim;
+        rim.rough = !moves(*moving, steady_scatter);
         rim.polarity = moving->polarity;
         rim.support = moving->support / sampled_;
         rim.path_centre = moving->path.centre;
@@ -68,10 +75,29 @@ class RimSurvey {
         rim.second_container = second_container(rim);
         return rim;
     }
+    /// After run() without a result: reports why.
+    [[noreturn]] void throw_not_moving() const {
+        constexpr double still_scatter = 1.0, still_reach = 3.0;  // pixels: errors of a still rim
+        constexpr double shown_reach = 0.1;                       // pixels: as it is printed
+        const RimCandidate& best = largest_;
+        const double reach = best.reach();
+        if (best.centres.size() >= min_centres && best.path.scatter < still_scatter &&
+            reach < still_reach)
+            throw Failure(fmt::format(
+                "the container stands still: its centre stays within {:.1f} pixels\n"
+                "hint: fix the camera to the floor, not to the container, and swirl the container",
+                std::max(reach, shown_reach)));
+        throw Failure(fmt::format(
+            "the largest circle in the frames, with a radius of about {:.0f} pixels, does not move "
+            "along a circle, as a swirled container does\n{}",
+            best.radius / shrink_, no_circle_hint));
+    }
 
   private:
-    static constexpr std::size_t sample_size = 16;    // frames that vote; twice as many at most
-    static constexpr std::size_t min_centres = 4;     // three always lie on a circle
+    static constexpr std::size_t sample_size = 16;  // frames that vote; twice as many at most
+    static constexpr std::size_t min_centres = 4;   // three always lie on a circle
+    // Scatter of the centres about their path, of its radius: for a camera at rest, and at most.
+    static constexpr double steady_scatter = 0.1, shaken_scatter = 0.25;
     static constexpr std::size_t max_candidates = 8;  // the container is among the best ones
 
     /// All radii and polarities, best first.
@@ -142,29 +168,13 @@ class RimSurvey {
 
     /// True if the centres go round a circle. They must cover a part of it, since a short arc fits
     /// many circles.
-    bool moves(const RimCandidate& c) const {
-        constexpr double min_reach = 0.7;  // of the path's radius: an arc of 40 degrees
-        constexpr double max_scatter = 0.1, scatter_allowed = 1.0;  // of the radius; pixels
-        constexpr double max_amplitude = 1.5;                       // of the container's radius
+    bool moves(const RimCandidate& c, double max_scatter) const {
+        constexpr double min_reach = 0.7;        // of the path's radius: an arc of 40 degrees
+        constexpr double scatter_allowed = 1.0;  // pixels
+        constexpr double max_amplitude = 1.5;    // of the container's radius
         return c.path.radius > min_path_amplitude && c.reach() > min_reach * c.path.radius &&
                c.path.scatter < std::max(scatter_allowed, max_scatter * c.path.radius) &&
                c.path.radius < max_amplitude * c.radius / shrink_;
-    }
-
-    [[noreturn]] void throw_not_moving(const RimCandidate& best) const {
-        constexpr double still_scatter = 1.0, still_reach = 3.0;  // pixels: errors of a still rim
-        constexpr double shown_reach = 0.1;                       // pixels: as it is printed
-        const double reach = best.reach();
-        if (best.centres.size() >= min_centres && best.path.scatter < still_scatter &&
-            reach < still_reach)
-            throw Failure(fmt::format(
-                "the container stands still: its centre stays within {:.1f} pixels\n"
-                "hint: fix the camera to the floor, not to the container, and swirl the container",
-                std::max(reach, shown_reach)));
-        throw Failure(fmt::format(
-            "the largest circle in the frames, with a radius of about {:.0f} pixels, does not move "
-            "along a circle, as a swirled container does\n{}",
-            best.radius / shrink_, no_circle_hint));
     }
 
     /// True if most frames show another circle of the rim's size next to it.
@@ -192,6 +202,7 @@ class RimSurvey {
     double shrink_;
     std::size_t stride_;
     double sampled_;  // number of frames that vote
+    RimCandidate largest_{};
 };
 
 CircleFit fit_rim(const PreparedFrame& frame, const ContainerRim& rim, const Vec2& centre,
@@ -215,7 +226,14 @@ CircleFit fit_rim(const PreparedFrame& frame, const ContainerRim& rim, const Vec
 }  // namespace
 
 ContainerRim survey_container_rim(const std::vector<PreparedFrame>& frames) {
-    return RimSurvey(frames).run();
+    RimSurvey survey(frames);
+    const std::optional<ContainerRim> rim = survey.run(false);
+    if (!rim) survey.throw_not_moving();
+    return *rim;
+}
+
+std::optional<ContainerRim> find_moving_rim(const std::vector<PreparedFrame>& frames, bool shaken) {
+    return RimSurvey(frames).run(shaken);
 }
 
 CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim) {

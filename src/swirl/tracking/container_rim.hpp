@@ -27,12 +27,16 @@ struct ContainerRim {
     double support = 0.0;
     Vec2 path_centre{0.0, 0.0};
     double amplitude = 0.0;         // of the path, approximately
+    bool rough = false;             // its centres are far from a circle, as if the camera shook
     bool second_container = false;  // another circle of this size moves as well
     std::optional<Lens> lens;       // set if the camera is tilted
 };
 
 /// `frames` spread over the video. Throws Failure with the likely cause if no rim is found.
 ContainerRim survey_container_rim(const std::vector<PreparedFrame>& frames);
+/// The same, but returns none if no rim moves along a circle. If `shaken`, a rough path is better
+/// than none.
+std::optional<ContainerRim> find_moving_rim(const std::vector<PreparedFrame>& frames, bool shaken);
 
 /// The rim in one frame; `good` is false if it was not found.
 CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim);

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
 #include <future>
 
 #include "swirl/run/failure.hpp"
@@ -10,17 +14,44 @@
 
 namespace swirl {
 
+namespace {
+
+/// The difference of two frames that 1 % of their pixels exceed. Edges that move by a fraction of a
+/// pixel change by tens of grey levels, the compression of a duplicate changes hardly any pixel.
+double change_between(const cv::Mat& before, const cv::Mat& after) {
+    constexpr std::size_t one_in = 100;
+    std::array<std::size_t, 256> number{};
+    for (int row = 0; row < after.rows; ++row) {
+        const std::uint8_t *a = before.ptr(row), *b = after.ptr(row);
+        for (int column = 0; column < after.cols; ++column)
+            ++number[static_cast<std::size_t>(std::abs(int(a[column]) - int(b[column])))];
+    }
+    std::size_t level = number.size(), above = 0;
+    while (level > 1 && above * one_in <= after.total()) above += number[--level];
+    return double(level);
+}
+
+bool is_skipped(const TrackingSettings& settings, std::size_t index) {
+    const std::int64_t number = settings.first_frame + static_cast<std::int64_t>(index);
+    return std::any_of(settings.skip.begin(), settings.skip.end(), [&](const FrameRange& range) {
+        return number >= range.first && number <= range.last;
+    });
+}
+
+}  // namespace
+
 // A batch of frames is shared between the threads while the next one is read.
 Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& survey,
                          std::int64_t expected, TrackedVideo& tracked) {
     constexpr std::size_t per_thread = 4;  // frames: threads wait little for the slowest one
     const unsigned threads = thread_count(settings);
-    Video video(settings.video);
+    Video video(settings.video, 1, settings.first_frame);
     Detections all;
     struct Batch {
         std::vector<cv::Mat> images;
         std::size_t number = 0;
     } now, next;
+    cv::Mat previous;
     now.images.resize(per_thread * threads);
     next.images.resize(per_thread * threads);
     const auto read = [&](Batch& batch) {
@@ -42,15 +73,27 @@ Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& su
             now.number,
             [&](std::size_t k) {
                 settings.throw_if_stopped();
-                const PreparedFrame frame(now.images[k], survey.reduction(),
-                                          survey.appearance.blur);
                 FrameDetections& found = all[begin + k];
+                cv::Mat image = now.images[k];
+                if (const cv::Mat& before = k > 0 ? now.images[k - 1] : previous; !before.empty())
+                    found.change = change_between(before, image);
+                if (is_skipped(settings, begin + k)) {
+                    found.used = false;
+                    return;
+                }
+                if (survey.background) {
+                    found.pose = survey.background->pose(image);
+                    if (!found.pose) return;
+                    stabilise(image, *found.pose);
+                }
+                const PreparedFrame frame(image, survey.reduction(), survey.appearance.blur);
                 found.rim = find_container_rim(frame, survey.rim);
                 if (found.rim.good)
                     found.particles = find_particles(frame, found.rim, survey.appearance);
             },
             threads);
         reading.get();
+        previous = now.images[now.number - 1].clone();
         const auto done = std::int64_t(all.size());
         settings.report_progress("finding discs",
                                  double(done) / double(std::max(expected, done + 1)));

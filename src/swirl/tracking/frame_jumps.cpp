@@ -48,59 +48,89 @@ AngleSteps angle_steps(const std::vector<Vec2>& centres, const std::vector<std::
     return steps;
 }
 
+/// For each frame, whether its pixels are nearly those of the frame before. Even compression leaves
+/// a fraction of the usual change.
+std::vector<bool> same_pixels(const std::vector<double>& changes) {
+    constexpr double max_share = 0.15;     // of the usual change; 0.04 for strong compression
+    constexpr double usual_change = 0.85;  // quantile: most frames of a window may be duplicates
+    constexpr std::size_t around = 16;     // frames to each side
+    std::vector<bool> same;
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+        std::vector<double> window;
+        for (std::size_t j = k < around ? 0 : k - around;
+             j < std::min(changes.size(), k + around + 1); ++j)
+            if (changes[j] >= 0.0) window.push_back(changes[j]);
+        same.push_back(changes[k] >= 0.0 &&
+                       changes[k] < max_share * quantile(window, usual_change));
+    }
+    return same;
+}
+
+/// For each step, whether it leads to a duplicate: the same pixels, and the rim does not move.
+std::vector<bool> duplicate_steps(const AngleSteps& steps, const std::vector<Vec2>& centres,
+                                  const std::vector<std::size_t>& frames,
+                                  const std::vector<double>& changes) {
+    constexpr double standstill = 0.35;  // of a usual step
+    constexpr double usual_step = 0.85;  // quantile
+    constexpr double min_usual = 0.4;    // pixels: several errors of the rim
+    const std::vector<bool> same = same_pixels(changes);
+    std::vector<double> lengths;
+    for (const std::size_t k : steps.first) lengths.push_back(length(centres[k + 1] - centres[k]));
+    const double usual = quantile(lengths, usual_step);
+    std::vector<bool> duplicate;
+    for (std::size_t n = 0; n < steps.first.size(); ++n) {
+        const std::size_t frame = frames[steps.first[n] + 1];
+        duplicate.push_back(frame < same.size() && same[frame] && usual > min_usual &&
+                            lengths[n] < standstill * usual);
+    }
+    return duplicate;
+}
+
 }  // namespace
 
 std::vector<FrameJump> find_frame_jumps(const std::vector<Vec2>& centres,
                                         const std::vector<std::size_t>& frames,
-                                        const TrackedPath& path) {
+                                        const TrackedPath& path,
+                                        const std::vector<double>& changes) {
     constexpr std::size_t around = 5, min_steps = 12;  // two windows of neighbours, and more
     constexpr double stands_out = 6.0;                 // standard deviations of a step
-    constexpr double min_jump = 0.6;       // steps: a dropped or duplicated frame is one step
-    constexpr double standstill = 0.15;    // steps: the image moved no more than this
-    constexpr double outlier_share = 0.5;  // of a jump that an opposite one cancels
+    constexpr double min_jump = 0.6;                   // steps: a dropped frame is one step
+    constexpr double outlier_share = 0.5;              // of a jump that an opposite one cancels
+    constexpr double replaced = 1.5;  // steps after a duplicate that replaces another frame
     const AngleSteps all = angle_steps(centres, frames, path);
     const std::vector<double>& steps = all.angles;
     if (steps.size() < min_steps) return {};
+    const std::vector<bool> duplicate = duplicate_steps(all, centres, frames, changes);
     std::vector<double> usual, off;
     for (std::size_t k = 0; k < steps.size(); ++k) {
-        const std::size_t from = k < around ? 0 : k - around,
-                          to = std::min(steps.size(), k + around + 1);
-        usual.push_back(median({steps.begin() + static_cast<std::ptrdiff_t>(from),
-                                steps.begin() + static_cast<std::ptrdiff_t>(to)}));
-        off.push_back(std::abs(steps[k] - usual.back()));
+        std::vector<double> window;
+        for (std::size_t j = k < around ? 0 : k - around;
+             j < std::min(steps.size(), k + around + 1); ++j)
+            if (!duplicate[j]) window.push_back(steps[j]);
+        usual.push_back(window.empty() ? 0.0 : median(window));
+        if (!duplicate[k]) off.push_back(std::abs(steps[k] - usual.back()));
     }
-    const double scatter = mad_to_sigma * median(off);
+    const double scatter = off.empty() ? 0.0 : mad_to_sigma * median(off);
     std::vector<FrameJump> jumps;
-    const auto add = [&](std::size_t k, double step) {
-        jumps.push_back({frames[all.first[k]], frames[all.first[k] + 1], steps[k] / step});
-    };
-    // If every other frame is a duplicate, half of the steps vanish and the median step is
-    // meaningless. The ninth decile then is the true step. Steps of a shaking camera vanish by
-    // chance, so this holds for a steady camera only.
-    std::vector<double> sorted = steps;
-    std::sort(sorted.begin(), sorted.end());
-    const double large = sorted[sorted.size() * 9 / 10];
-    const bool steady =
-        large * path.amplitude > stands_out * std::sqrt(2.0) * camera_shake(centres, frames, path);
-    const auto moves = [&](std::size_t k) {
-        return k >= steps.size() || (steps[k] > 0.5 * large && steps[k] < 1.5 * large);
-    };
     for (std::size_t k = 0; k < steps.size(); ++k) {
-        const bool duplicate = steady && std::abs(steps[k]) < standstill * large &&
-                               large * path.amplitude > min_path_amplitude && moves(k - 1) &&
-                               moves(k + 1);
-        if (duplicate) {
-            add(k, large);
+        FrameJump jump{frames[all.first[k]], frames[all.first[k] + 1],
+                       usual[k] > 0.0 ? steps[k] / usual[k] : 0.0};
+        if (duplicate[k]) {
+            jump.duplicate = true;
+            jump.inserted = k + 1 >= steps.size() || steps[k + 1] < replaced * usual[k];
+            jumps.push_back(jump);
             continue;
         }
-        if (!(usual[k] > stands_out * scatter) || off[k] < min_jump * usual[k]) continue;
-        // A single wrong centre makes two opposite jumps.
+        const double excess = steps[k] - usual[k];
+        if (!(usual[k] > stands_out * scatter) || excess < min_jump * usual[k]) continue;
+        // A single wrong centre makes two opposite jumps, and so does a duplicate that replaces a
+        // frame.
         const auto cancels = [&](std::size_t j) {
             return j < steps.size() &&
-                   std::abs(steps[k] + steps[j] - 2.0 * usual[k]) < outlier_share * off[k];
+                   std::abs(steps[k] + steps[j] - 2.0 * usual[k]) < outlier_share * excess;
         };
         if (cancels(k + 1) || (k > 0 && cancels(k - 1))) continue;
-        add(k, usual[k]);
+        jumps.push_back(jump);
     }
     return jumps;
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "swirl/math/unit_circle.hpp"
@@ -17,23 +18,25 @@ bool set_frame_times(const TrackingSettings& settings, const VideoTimes& times, 
     tracked.fps = settings.fps.value_or(times.fps);
     tracked.jitter = times.jitter;
     const std::size_t frames = all.size();
-    const bool known = times.seconds.size() == frames ||
-                       (settings.max_frames > 0 && times.seconds.size() > frames);
+    const auto first = static_cast<std::size_t>(settings.first_frame);
+    const bool known = times.seconds.size() == first + frames ||
+                       (settings.max_frames > 0 && times.seconds.size() > first + frames);
     if (settings.fps || times.jitter <= max_jitter || !known) {
         for (std::size_t k = 0; k < frames; ++k)
-            tracked.times.push_back(double(k) / (tracked.fps > 0.0 ? tracked.fps : 1.0));
+            tracked.times.push_back(double(k + first) / (tracked.fps > 0.0 ? tracked.fps : 1.0));
         return false;
     }
     const AscendingTimes own =
-        ascending_times({times.seconds.begin(), times.seconds.begin() + std::ptrdiff_t(frames)});
-    for (const double second : own.seconds) tracked.times.push_back(second - own.seconds.front());
+        ascending_times({times.seconds.begin() + std::ptrdiff_t(first),
+                         times.seconds.begin() + std::ptrdiff_t(first + frames)});
+    for (const double second : own.seconds) tracked.times.push_back(second - times.seconds.front());
     tracked.warnings.push_back(fmt::format(
         "the frame rate varies: steps between frames differ by up to {:.0f} % from their mean, as "
         "with phones in poor light; the video's own times are used, but a fixed frame rate is "
         "better",
         100.0 * times.jitter));
     if (own.untimed.empty()) return true;
-    for (const std::size_t k : own.untimed) all[k] = {{}, {}, false};
+    for (const std::size_t k : own.untimed) all[k] = {{}, {}, false, {}, -1.0};
     const std::string what = fmt::format(
         "{} of the {} frames of '{}' have no valid time, the first at frame {}: their times do not "
         "advance",
@@ -53,48 +56,145 @@ void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
     const auto by_frame =
         fit_container_path(rims.centres, {rims.frames.begin(), rims.frames.end()});
     if (!by_frame) return;
+    const auto number = [&](std::size_t k) {
+        return settings.first_frame + static_cast<std::int64_t>(k);
+    };
     const double half_period = pi / by_frame->omega * tracked.step();
     for (std::size_t k = 1; k < tracked.times.size(); ++k)
         if (const double step = tracked.times[k] - tracked.times[k - 1]; step >= half_period)
             throw Failure(fmt::format(
                 "{:.3g} s pass between frames {} and {} of '{}', {:.3g} periods: discs cannot be "
                 "followed across half a period or more\n"
-                "hint: cut the video there, or give --fps if its frames are equally spaced in time",
-                step, k - 1, k, settings.video, 0.5 * step / half_period));
+                "hint: track the part before or after it (--to {}, --from {}), or give --fps if "
+                "frames are equally spaced in time",
+                step, number(k - 1), number(k), settings.video, 0.5 * step / half_period,
+                number(k - 1), number(k)));
 }
 
-void check_frame_jumps(const RimCentres& rims, TrackedVideo& tracked) {
-    constexpr double max_share = 0.003;  // of the video: the error of Ω that a warning may leave
-    constexpr double duplicate = 0.5;    // steps: less is a frame that is there twice
-    const std::vector<FrameJump> jumps = find_frame_jumps(rims.centres, rims.frames, tracked.path);
-    if (jumps.empty()) return;
-    double wrong = 0.0;  // steps
-    std::size_t begin = 0, longest = 0, longest_begin = 0, duplicates = 0;
+namespace {
+
+/// "40, 41, 60 and 12 more", as numbers of frames of the video.
+std::string frame_list(const TrackingSettings& settings, const std::vector<std::size_t>& frames) {
+    constexpr std::size_t shown = 10;
+    std::string text;
+    for (std::size_t n = 0; n < std::min(shown, frames.size()); ++n)
+        text += fmt::format("{}{}", n == 0 ? "" : ", ",
+                            settings.first_frame + static_cast<std::int64_t>(frames[n]));
+    if (frames.size() > shown) text += fmt::format(" and {} more", frames.size() - shown);
+    return text;
+}
+
+/// Frames that are duplicates, frames that follow dropped ones, and the longest part without any.
+struct JumpSummary {
+    std::vector<std::size_t> duplicates, after_missing;
+    std::size_t longest = 0, longest_begin = 0;
+    double wrong = 0.0;  // steps by which times are off
+};
+
+JumpSummary summary_of(const std::vector<FrameJump>& jumps, std::size_t frames) {
+    JumpSummary summary;
+    std::size_t begin = 0;
     for (std::size_t n = 0; n <= jumps.size(); ++n) {
-        const std::size_t end = n < jumps.size() ? jumps[n].before + 1 : tracked.times.size();
-        if (end - begin > longest) longest = end - begin, longest_begin = begin;
+        const std::size_t end = n < jumps.size() ? jumps[n].after : frames;
+        if (end - begin > summary.longest)
+            summary.longest = end - begin, summary.longest_begin = begin;
         if (n == jumps.size()) break;
-        begin = jumps[n].after;
-        wrong += std::abs(jumps[n].steps - 1.0);
-        duplicates += jumps[n].steps < duplicate ? 1 : 0;
+        const FrameJump& jump = jumps[n];
+        // A duplicate is not a part of what follows.
+        begin = jump.duplicate ? std::min(jump.after + 1, frames) : jump.after;
+        if (jump.duplicate)
+            summary.duplicates.push_back(jump.after);
+        else
+            summary.after_missing.push_back(jump.after);
+        summary.wrong += std::abs(jump.steps - 1.0);
     }
-    const std::string what = fmt::format(
-        "the container moves unevenly: {} at {} position{} of the video (first between frames {} "
-        "and {}, {:.1f} times the usual step)",
-        duplicates == jumps.size() ? "frames are duplicated"
-        : duplicates == 0          ? "frames are missing"
-                                   : "frames are missing or duplicated",
-        jumps.size(), jumps.size() == 1 ? "" : "s", jumps.front().before, jumps.front().after,
-        jumps.front().steps);
-    const double share = wrong / double(tracked.times.size());
-    if (share >= max_share)
+    return summary;
+}
+
+std::string jumps_text(const TrackingSettings& settings, const JumpSummary& found) {
+    std::string text;
+    if (!found.duplicates.empty())
+        text += fmt::format(
+            "{} duplicated (number{} {})",
+            found.duplicates.size() == 1 ? "1 frame is"
+                                         : fmt::format("{} frames are", found.duplicates.size()),
+            found.duplicates.size() == 1 ? "" : "s", frame_list(settings, found.duplicates));
+    if (!found.after_missing.empty())
+        text += fmt::format("{}frames are missing before {}", text.empty() ? "" : ", and ",
+                            frame_list(settings, found.after_missing));
+    return text;
+}
+
+/// Counts time in steps of the camera: a step for each dropped frame, none for an inserted
+/// duplicate. If many frames are duplicates, they are regular, and the file's times are right.
+void correct_times(const std::vector<FrameJump>& jumps, TrackedVideo& tracked) {
+    constexpr std::size_t regular = 10;  // one in ten frames
+    const std::size_t frames = tracked.times.size();
+    const bool many = std::size_t(std::count_if(jumps.begin(), jumps.end(),
+                                                [](const FrameJump& j) { return j.duplicate; })) *
+                          regular >
+                      frames;
+    std::vector<double> steps(frames, 1.0);
+    for (const FrameJump& jump : jumps) {
+        if (!jump.duplicate) {
+            steps[jump.after] = std::max(1.0, std::round(jump.steps));
+        } else if (jump.inserted && !many) {
+            // The duplicate itself is not used; its time is between those of its neighbours.
+            steps[jump.after] = 0.5;
+            if (jump.after + 1 < frames) steps[jump.after + 1] -= 0.5;
+        }
+    }
+    const double step = tracked.step();
+    for (std::size_t k = 1; k < frames; ++k)
+        tracked.times[k] = tracked.times[k - 1] + steps[k] * step;
+}
+
+}  // namespace
+
+bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims, Detections& all,
+                       TrackedVideo& tracked) {
+    constexpr double max_share = 0.003;  // of the video: the error of Ω that a warning may leave
+    std::vector<double> changes;
+    for (const FrameDetections& found : all) changes.push_back(found.change);
+    const std::vector<FrameJump> jumps =
+        find_frame_jumps(rims.centres, rims.frames, tracked.path, changes);
+    if (jumps.empty()) return false;
+    const JumpSummary found = summary_of(jumps, tracked.times.size());
+    const std::string what = jumps_text(settings, found);
+    const double share = found.wrong / double(tracked.times.size());
+    const bool accepted = (found.duplicates.empty() || settings.accept_duplicates) &&
+                          (found.after_missing.empty() || settings.accept_missing);
+    if (accepted) {
+        correct_times(jumps, tracked);
+        for (const std::size_t k : found.duplicates) {
+            const double change = all[k].change;
+            all[k] = {{}, {}, false, {}, change};
+        }
+        tracked.warnings.push_back(what +
+                                   "; accepted: duplicates are not used, and times are corrected");
+        return true;
+    }
+    if (share >= max_share) {
+        const char* accept = found.duplicates.empty()      ? "missing"
+                             : found.after_missing.empty() ? "duplicates"
+                                                           : "duplicates,missing";
+        const std::int64_t begin =
+            settings.first_frame + static_cast<std::int64_t>(found.longest_begin);
         throw Failure(fmt::format(
-            "{}; times and Ω would be off by up to {:.1f} %\n"
-            "hint: cut the video to frames {} to {}, which have no such position, or record with a "
-            "constant frame rate",
-            what, 100.0 * share, longest_begin, longest_begin + longest - 1));
+            "the container moves unevenly: {}; times and Ω would be off by up to {:.1f} %\n"
+            "hint: swirl track --accept {} corrects the times and leaves duplicates out; --from {} "
+            "--to {} tracks the longest part without any; record with a constant frame rate",
+            what, 100.0 * share, accept, begin,
+            begin + static_cast<std::int64_t>(found.longest) - 1));
+    }
     tracked.warnings.push_back(
-        fmt::format("{}; times and Ω are off by up to {:.2f} %", what, 100.0 * share));
+        fmt::format("the container moves unevenly: {}; times and Ω are off by up to {:.2f} %; "
+                    "swirl track --accept {} corrects that",
+                    what, 100.0 * share,
+                    found.duplicates.empty()      ? "missing"
+                    : found.after_missing.empty() ? "duplicates"
+                                                  : "duplicates,missing"));
+    return false;
 }
 
 }  // namespace swirl

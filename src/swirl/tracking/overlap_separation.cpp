@@ -24,10 +24,8 @@ std::vector<Particle*> linked_particles(const Links& links, Detections& all, std
 }
 
 Contacts find_contacts(const Links& links, Detections& all, TrackedVideo& tracked) {
-    constexpr double nearest = 0.9, farthest = 1.1;  // sums of radii
     constexpr Contact assumed{0.985,
                               0.004};       // if distances do not determine it: error of the radii
-    constexpr double max_off = 0.05;        // from 1: more is no contact
     constexpr double wall_range = 0.4;      // radii inwards from the outermost disc
     constexpr double max_wall_error = 1.3;  // times that of a distance: the wall is a circle
     const auto radius = [&](const Particle* p) { return tracked.species[p->species].radius; };
@@ -40,14 +38,15 @@ Contacts find_contacts(const Links& links, Detections& all, TrackedVideo& tracke
             for (std::size_t b = a + 1; b < here.size(); ++b) {
                 const double ratio =
                     length(here[a]->centre - here[b]->centre) / (radius(here[a]) + radius(here[b]));
-                if (ratio > nearest && ratio < farthest) distances.push_back(ratio);
+                if (std::abs(ratio - 1.0) < contact_range) distances.push_back(ratio);
             }
         }
     }
     Contacts contacts{assumed, {}};
-    if (const auto found = contact_of(distances, nearest, farthest);
-        found && std::abs(found->at - 1.0) < max_off) {
+    if (const auto found = contact_of_discs(distances)) {
         contacts.discs = *found;
+        tracked.contact_ratio = found->at;
+        tracked.contact_fitted = true;
         // The error of a distance, in pixels, is 2 radii times this; a coordinate's is that by √2.
         tracked.overlap_error = found->error * tracked.radius * std::sqrt(2.0);
     }

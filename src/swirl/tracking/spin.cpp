@@ -332,10 +332,11 @@ void mask_highlights(double radius, const cv::Mat& original, MeanDisc& all) {
 MeanDiscs mean_discs(const TrackedVideo& tracked, const TrackingSettings& settings) {
     constexpr std::int64_t frames = 40;  // in the mean
     const std::int64_t every = std::max<std::int64_t>(1, tracked.frame_count / frames);
-    Video video(settings.video, every);
+    Video video(settings.video, every, settings.first_frame);
     MeanDiscs means;
     cv::Mat grey;
     for (std::int64_t k = 0; k < tracked.frame_count && video.next(grey); k += every) {
+        tracked.stabilise(static_cast<std::size_t>(k), grey);
         const cv::Mat image = smoothed(grey);
         const TrackFrame& f = tracked.tracks.frames[static_cast<std::size_t>(k)];
         for (std::size_t i = 0; i < f.id.size(); ++i) {
@@ -398,7 +399,7 @@ using Steps =
 
 Steps measure_steps(const TrackedVideo& tracked, const TrackingSettings& settings, int step) {
     const MeanDiscs means = mean_discs(tracked, settings);
-    Video video(settings.video);
+    Video video(settings.video, 1, settings.first_frame);
     Steps steps(tracked.tracks.frames.size());
     std::vector<std::vector<DiscPatch>> recent(static_cast<std::size_t>(step) + 1);
     cv::Mat grey;
@@ -406,6 +407,7 @@ Steps measure_steps(const TrackedVideo& tracked, const TrackingSettings& setting
         settings.throw_if_stopped();
         if (settings.progress && k % 8 == 0)
             settings.progress("measuring spins", double(k) / double(steps.size()));
+        tracked.stabilise(k, grey);
         std::vector<DiscPatch>& now = recent[k % recent.size()];
         now = disc_patches(smoothed(grey), tracked, k, means);
         if (k < static_cast<std::size_t>(step)) continue;

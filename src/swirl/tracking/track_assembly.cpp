@@ -5,7 +5,8 @@
 
 namespace swirl {
 
-void assemble_tracks(const Detections& all, const Links& links, TrackedVideo& tracked) {
+void assemble_tracks(const Detections& all, const Links& links, std::int64_t first_frame,
+                     TrackedVideo& tracked) {
     constexpr std::size_t min_frames = 4;   // a shorter track is no disc
     constexpr double max_gap_share = 12.0;  // of a period: gaps of 30 degrees are filled
     constexpr double min_gap = 2.0;         // frames, filled whatever the frame rate
@@ -24,7 +25,7 @@ void assemble_tracks(const Detections& all, const Links& links, TrackedVideo& tr
     tracked.errors.resize(frames);
     tracked.seen.resize(frames);
     for (std::size_t k = 0; k < frames; ++k)
-        tracked.tracks.frames[k].number = static_cast<std::int64_t>(k);
+        tracked.tracks.frames[k].number = first_frame + static_cast<std::int64_t>(k);
     const double per_period = 2.0 * pi / tracked.path.omega / tracked.step();
     const auto max_gap = static_cast<std::size_t>(std::max(min_gap, per_period / max_gap_share));
     std::int64_t id = 0;

@@ -12,7 +12,7 @@ namespace {
 void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
     constexpr std::size_t min_gaps = 100, min_overlaps = 50;  // for an onset; for a median
     constexpr double window = 0.02;                           // radii
-    if (gaps.size() > min_gaps)
+    if (gaps.size() > min_gaps && !tracked.contact_fitted)
         tracked.contact_ratio = 1.0 + onset(gaps, window * tracked.radius) / (2.0 * tracked.radius);
     if (tracked.overlap_error > 0.0) return;  // known from the distances of contact, and better
     std::vector<double> overlaps;
@@ -29,12 +29,13 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
     constexpr double most_frames = 0.8, nearly_all_frames = 0.95;
     constexpr double wall_spread = 0.15;  // radii by which these may differ at a wall
     constexpr double no_neighbour = 1e300;
-    std::size_t complete = 0, count = 0;
+    std::size_t complete = 0, count = 0, used = 0;
     double square = 0.0;
     std::vector<double> reaches, gaps;  // gaps: to the nearest disc
     for (std::size_t k = 0; k < all.size(); ++k) {
         const TrackFrame& f = tracked.tracks.frames[k];
         const std::vector<std::uint8_t>& seen = tracked.seen[k];
+        if (all[k].used) ++used;
         if (std::size_t(std::count(seen.begin(), seen.end(), 1)) == tracked.number) ++complete;
         double reach = 0.0;
         const Vec2 c = tracked.container(k);
@@ -52,23 +53,28 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
         }
         if (reach > 0.0) reaches.push_back(reach);
     }
-    tracked.complete_share = double(complete) / double(all.size());
+    tracked.complete_share = double(complete) / double(std::max<std::size_t>(used, 1));
     tracked.position_error = count ? std::sqrt(square / double(count)) : 0.0;
     tracked.reach = quantile(reaches, most_frames);
     tracked.wall_reached =
         quantile(reaches, nearly_all_frames) - tracked.reach < wall_spread * tracked.radius;
     measure_contacts(gaps, tracked);
     // An edge determines how far its rays scatter, but not what shade, texture and compression do
-    // to all of them at once. If overlaps imply larger errors, these replace those of the edges.
-    if (!(tracked.position_error > 0.0) || tracked.overlap_error <= tracked.position_error) return;
+    // to all of them at once. If overlaps imply larger errors, these replace those of the edges. The
+    // rays of a soft edge scatter by more than the circle errs, so a fit to all distances replaces
+    // larger ones, too.
+    if (!(tracked.position_error > 0.0) ||
+        (tracked.overlap_error <= tracked.position_error && !tracked.contact_fitted))
+        return;
     for (auto& errors : tracked.errors)
         for (double& error : errors) error *= tracked.overlap_error / tracked.position_error;
     tracked.position_error = tracked.overlap_error;
 }
 
 void set_radii(TrackedVideo& tracked) {
-    constexpr double max_off = 0.02, min_ratio = 0.5;  // of the contact ratio: correct; plausible
-    constexpr double same_radius = 0.06;               // disc radii
+    // Of the contact ratio: correct; plausible. A fit to all distances errs by about 0.2 %.
+    const double max_off = tracked.contact_fitted ? 0.004 : 0.02, min_ratio = 0.5;
+    constexpr double same_radius = 0.06;  // disc radii
     // If edges are soft, the shaded side of a ball looks like the floor, and the ball too small.
     if (std::abs(tracked.contact_ratio - 1.0) > max_off && tracked.contact_ratio > min_ratio) {
         tracked.reach += (tracked.contact_ratio - 1.0) * tracked.radius;

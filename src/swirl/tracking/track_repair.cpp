@@ -105,7 +105,7 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
     std::vector<std::optional<Vec2>> last(links.species.size());  // relative to the container
     std::vector<std::size_t> last_frame(links.species.size(), all.size());
     for_each_linked(links, [&](std::size_t k, std::size_t t, std::size_t) { last_frame[t] = k; });
-    Video video(settings.video);
+    Video video(settings.video, 1, settings.first_frame);
     cv::Mat grey;
     for (std::size_t k = 0; k < all.size() && video.next(grey); ++k) {
         settings.throw_if_stopped();
@@ -126,7 +126,8 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
             others.back().centre = tracked.lens.seen(particles[d].centre);
             others.back().sure = true;
         }
-        if (here.empty() || !all[k].timed) continue;
+        if (here.empty() || !all[k].used) continue;
+        tracked.stabilise(k, grey);
         const PreparedFrame frame(grey, survey.reduction(), survey.appearance.blur);
         CircleFit rim = all[k].rim;
         rim.centre = tracked.lens.seen(rim.good ? rim.centre : container);

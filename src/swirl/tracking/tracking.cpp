@@ -35,7 +35,7 @@ TrackScale TrackedVideo::scale() const {
     s.swirl_centre = path.centre;
     s.period = 2.0 * pi / path.omega;
     s.amplitude = path.amplitude / radius;
-    s.phase = path.angle(times.empty() ? 0.0 : times.front());
+    s.phase = path.angle(0.0);
     s.container_radius = container_radius / radius;
     s.clockwise = path.clockwise;
     return s;
@@ -87,6 +87,10 @@ TrackedVideo track_video(const TrackingSettings& settings) {
     cv::setNumThreads(1);  // the frames are distributed over our threads
     const VideoTimes times = video_times(settings.video);
     std::int64_t expected = times.frame_count;
+    if (expected > 0 && settings.first_frame >= expected)
+        throw Failure(fmt::format("frame {} is the first to be tracked, but '{}' has {} frames",
+                                  settings.first_frame, settings.video, expected));
+    if (expected > 0) expected -= settings.first_frame;
     if (settings.max_frames > 0)
         expected = expected > 0 ? std::min(expected, settings.max_frames) : settings.max_frames;
     const VideoSurvey survey = survey_video(settings, expected > 0 ? expected : assumed_frames);
@@ -100,18 +104,19 @@ TrackedVideo track_video(const TrackingSettings& settings) {
         tracked.warnings.emplace_back(
             "there is a second circle of the container's size: of two containers in the frame, the "
             "one with the clearer rim was followed; crop the video to one of them");
+    collect_camera_motion(all, tracked);
     correct_lens(survey, all, tracked);
     tracked.frame_count = static_cast<std::int64_t>(all.size());
     if (all.size() < min_frames)
         throw Failure(fmt::format("'{}' has {} frames, too few to determine the path: at least {}",
                                   settings.video, all.size(), min_frames));
     const bool uneven_times = set_frame_times(settings, times, all, tracked);
-    fit_container_motion(settings, all, uneven_times, tracked);
+    fit_container_motion(settings, uneven_times, all, tracked);
     set_species(settings, survey.appearance, all, tracked);
 
     const Links links = link_detections(settings, survey, all, tracked);
     separate_overlaps(links, all, tracked);
-    assemble_tracks(all, links, tracked);
+    assemble_tracks(all, links, settings.first_frame, tracked);
     if (tracked.number == 0) throw Failure("no disc could be followed through the video");
 
     if (tracked.lens.tilted()) move_path_to_wall(tracked);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "swirl/io/tracks.hpp"
+#include "swirl/tracking/camera_motion.hpp"
 #include "swirl/tracking/lens.hpp"
 #include "swirl/tracking/path_polygon.hpp"
 #include "swirl/tracking/tilt.hpp"
@@ -24,13 +25,21 @@
 
 namespace swirl {
 
+/// Numbers of frames of the video, both included.
+struct FrameRange {
+    std::int64_t first = 0, last = 0;
+};
+
 struct TrackingSettings {
     std::string video;
     std::optional<double> fps;  // replaces the video's own times
     std::optional<std::int64_t> discs;
     KnownCamera camera;
-    std::int64_t max_frames = 0;  // 0: all
-    unsigned threads = 0;         // 0: one for each core
+    std::int64_t first_frame = 0;
+    std::int64_t max_frames = 0;                             // 0: all
+    std::vector<FrameRange> skip;                            // frames that are not used
+    bool accept_duplicates = false, accept_missing = false;  // correct the times instead
+    unsigned threads = 0;                                    // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string& step, double share)> progress;
 
@@ -62,7 +71,9 @@ struct TrackedVideo {
     double container_radius = 0.0;  // one of these two
     bool wall_reached = false;      // discs are hardly ever beyond `reach`: the wall stops them
     std::size_t rims_missed = 0;
-    double shake = 0.0;        // of the camera from frame to frame, rms of a coordinate
+    CameraMotion camera;  // removed from all positions
+    double shake = 0.0;   // what is left of it, from frame to frame, rms of a coordinate
+    std::size_t frames_without_pose = 0;  // not used: the camera's motion is unknown
     Vec2 rim_shift{0.0, 0.0};  // of the path's centre from the rim's to the discs', pixels
     double rim_support = 0.0;
     std::vector<double> rim_offsets;  // distance of the rim from the path; −1 if not found
@@ -76,6 +87,7 @@ struct TrackedVideo {
     std::vector<std::vector<std::uint8_t>> seen;  // 0: interpolated
     std::size_t number = 0;                       // of discs
     double contact_ratio = 0.0;                   // distance of discs in contact / sum of radii
+    bool contact_fitted = false;                  // from the distribution of all distances
 
     double complete_share = 0.0;  // of the frames: every disc was detected
     double position_error = 0.0;  // rms of `errors`: from the edges, or from overlaps if larger
@@ -89,6 +101,15 @@ struct TrackedVideo {
     double step() const;
     /// Centre of the container in this frame.
     Vec2 container(std::size_t frame) const { return path.at(times[frame]); }
+    /// Where the frame as recorded shows the position.
+    Vec2 in_image(std::size_t frame, const Vec2& position) const {
+        const Vec2 p = lens.seen(position);
+        return camera.poses.empty() ? p : camera.poses[frame].seen(p);
+    }
+    /// Removes the camera's motion from a frame as it was read.
+    void stabilise(std::size_t frame, cv::Mat& grey) const {
+        if (!camera.poses.empty()) swirl::stabilise(grey, camera.poses[frame]);
+    }
     TrackScale scale() const;  // for series_of()
 };
 

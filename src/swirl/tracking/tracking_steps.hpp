@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "swirl/tracking/container_rim.hpp"
@@ -27,7 +29,8 @@ struct VideoSurvey {
     ContainerRim rim;
     ParticleAppearance appearance;
     Tilt tilt;
-    cv::Size size;  // of the frames
+    std::shared_ptr<const StaticBackground> background;  // set if the camera moves
+    cv::Size size;                                       // of the frames
 
     static constexpr double vote_radius = 12.0;  // of a disc, pixels: more only costs time
     /// Reduction of the frames in which votes for discs are counted.
@@ -41,7 +44,10 @@ VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_co
 struct FrameDetections {
     CircleFit rim;
     std::vector<Particle> particles;
-    bool timed = true;  // false: the frame has no time of its own, and nothing of it is used
+    bool used =
+        true;  // false: a frame without a time of its own, a duplicate, or one to be skipped
+    std::optional<CameraPose> pose;  // of the frame, if the camera moves
+    double change = -1.0;  // of the pixels since the frame before, grey levels; −1: unknown
 };
 using Detections = std::vector<FrameDetections>;  // for each frame
 /// Positions as seen through the lens. `expected` frames, for the progress; 0: unknown.
@@ -50,6 +56,14 @@ Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& su
 
 /// Sets the final lens, corrects all positions by it, and sets the radius of the rim.
 void correct_lens(const VideoSurvey& survey, Detections& all, TrackedVideo& tracked);
+
+// camera_steps.cpp
+
+/// Sets the camera's motion from the poses of the frames. Frames without one are not used.
+void collect_camera_motion(Detections& all, TrackedVideo& tracked);
+/// If the camera shakes and the background does not show it, takes the motion from the rim: removes
+/// its deviation from the path from all positions. True if it did.
+bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked);
 
 // frame_times.cpp
 
@@ -68,13 +82,15 @@ struct RimCentres {
 /// Throws Failure if the video's clock advances by half a period or more between two frames.
 void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
                       const TrackedVideo& tracked);
-/// Warns of a few dropped or duplicated frames. Throws Failure if they are many.
-void check_frame_jumps(const RimCentres& rims, TrackedVideo& tracked);
+/// Warns of a few dropped or duplicated frames. If they are many, throws Failure, or corrects the
+/// times if the settings accept them. Duplicates are then no longer used. True if times changed.
+bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims, Detections& all,
+                       TrackedVideo& tracked);
 // container_motion.cpp
 
 /// Sets all that the rim determines: path, polygon, shake. Throws Failure.
-void fit_container_motion(const TrackingSettings& settings, const Detections& all,
-                          bool uneven_times, TrackedVideo& tracked);
+void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
+                          TrackedVideo& tracked);
 
 // track_repair.cpp
 
@@ -96,7 +112,8 @@ void for_each_linked(const Links& links, Use&& use) {
 /// error that overlaps imply.
 void separate_overlaps(const Links& links, Detections& all, TrackedVideo& tracked);
 /// Writes the tracks, with short gaps filled.
-void assemble_tracks(const Detections& all, const Links& links, TrackedVideo& tracked);
+void assemble_tracks(const Detections& all, const Links& links, std::int64_t first_frame,
+                     TrackedVideo& tracked);
 
 /// Seen at an angle, the rim is shifted relative to the discs, and larger: moves the path to where
 /// the wall stops discs.

@@ -167,6 +167,11 @@ void add_warnings(TrackedVideo& tracked) {
              "the container",
              std::max(100.0 * outside, min_percent));
     warn_about_discs(outside, tracked);
+    if (tracked.frames_without_pose > 0)
+        warn(tracked,
+             "the camera moves, and in {} of {} frames the background does not show by how much; "
+             "they are not used, and positions are filled in",
+             tracked.frames_without_pose, tracked.frame_count);
     if (tracked.shake > std::max(min_shake, shake_factor * tracked.position_error))
         warn(
             tracked,

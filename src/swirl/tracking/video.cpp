@@ -188,11 +188,15 @@ AscendingTimes ascending_times(const std::vector<double>& seconds) {
     return found;
 }
 
-Video::Video(std::string source, std::int64_t every) : video_(std::move(source)) {
+Video::Video(std::string source, std::int64_t every, std::int64_t first)
+    : video_(std::move(source)) {
     std::vector<std::string> arguments = input_arguments(video_);
     append(arguments, {"-an", "-fps_mode", "passthrough"});
     // Frames get new times, since ffmpeg reports errors for times that do not advance.
-    const std::string select = every > 1 ? fmt::format("select=not(mod(n\\,{})),", every) : "";
+    const std::string select =
+        every > 1 || first > 0
+            ? fmt::format("select=gte(n\\,{0})*not(mod(n-{0}\\,{1})),", first, every)
+            : "";
     append(arguments, {"-vf", select + "settb=1/25,setpts=N", "-enc_time_base", "1:25"});
     append(arguments, {"-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1"});
     ffmpeg_ = std::make_unique<Ffmpeg>(arguments, Ffmpeg::Side::output, missing_ffmpeg);

@@ -40,8 +40,8 @@ AscendingTimes ascending_times(const std::vector<double>& seconds);
 
 class Video {
   public:
-    /// Every `every`th frame, starting with the first one. Throws Failure.
-    explicit Video(std::string source, std::int64_t every = 1);
+    /// Every `every`th frame from number `first` on. Throws Failure.
+    explicit Video(std::string source, std::int64_t every = 1, std::int64_t first = 0);
 
     /// The next frame (8 bits a pixel), or false at the end. Throws Failure if there are no frames.
     bool next(cv::Mat& grey);

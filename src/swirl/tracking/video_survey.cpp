@@ -6,6 +6,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/tracking/appearance_template.hpp"
+#include "swirl/tracking/contact_distance.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
 namespace swirl {
@@ -14,8 +15,11 @@ namespace {
 
 std::vector<cv::Mat> read_survey_frames(const TrackingSettings& settings,
                                         std::int64_t frame_count) {
-    constexpr std::size_t maximum = survey_frames + 2;  // the division below rounds down
-    Video video(settings.video, std::max<std::int64_t>(1, frame_count / survey_frames));
+    const std::int64_t every = std::max<std::int64_t>(1, frame_count / survey_frames);
+    std::size_t maximum = survey_frames + 2;  // the division rounds down
+    if (settings.max_frames > 0)
+        maximum = std::min(maximum, static_cast<std::size_t>((frame_count + every - 1) / every));
+    Video video(settings.video, every, settings.first_frame);
     cv::Mat grey;
     std::vector<cv::Mat> images;
     while (images.size() < maximum && video.next(grey)) {
@@ -63,9 +67,9 @@ ParticleAppearance survey_appearance(const std::vector<cv::Mat>& images,
     return survey_particles(part, rims, thread_count(settings));
 }
 
-/// Learns the discs' mean appearance, for videos with poor edges.
-void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings& settings,
-                      VideoSurvey& survey) {
+std::vector<AppearanceTemplate::Example> find_examples(const std::vector<cv::Mat>& images,
+                                                       const TrackingSettings& settings,
+                                                       const VideoSurvey& survey) {
     std::vector<std::optional<AppearanceTemplate::Example>> found(images.size());
     parallel_for(
         images.size(),
@@ -81,10 +85,84 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
     for (auto& example : found)
         if (example) examples.push_back(std::move(*example));
     settings.throw_if_stopped();
+    return examples;
+}
+
+/// Soft edges give a wrong radius, and circles of that radius are displaced. If the
+/// commonest distance of neighbours is far from the diameter, halves the difference: the outline
+/// that is seen lies between the edge and the contact. True if the radius changed.
+bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& examples,
+                                ParticleAppearance& appearance) {
+    std::vector<double> ratios;
+    for (const AppearanceTemplate::Example& example : examples) {
+        const std::vector<Particle>& discs = example.particles;
+        for (std::size_t a = 0; a < discs.size(); ++a)
+            for (std::size_t b = a + 1; b < discs.size(); ++b) {
+                if (!discs[a].sure || !discs[b].sure) continue;
+                const double radii = appearance.species[discs[a].species].radius +
+                                     appearance.species[discs[b].species].radius;
+                const double ratio = length(discs[a].centre - discs[b].centre) / radii;
+                if (std::abs(ratio - 1.0) < contact_range) ratios.push_back(ratio);
+            }
+    }
+    const auto contact = contact_of_discs(ratios);
+    if (!contact || std::abs(contact->at - 1.0) < max_contact_off) return false;
+    for (ParticleSpecies& species : appearance.species) species.radius *= 0.5 * (1.0 + contact->at);
+    appearance.lens.ball_radius = appearance.radius();
+    return true;
+}
+
+/// Learns the discs' mean appearance, for videos with poor edges.
+void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings& settings,
+                      VideoSurvey& survey) {
+    std::vector<AppearanceTemplate::Example> examples = find_examples(images, settings, survey);
+    if (correct_radius_by_contacts(examples, survey.appearance))
+        examples = find_examples(images, settings, survey);
     if (auto learned =
             AppearanceTemplate::learned(examples, survey.appearance, thread_count(settings)))
         survey.appearance.appearance_template =
             std::make_shared<const AppearanceTemplate>(std::move(*learned));
+}
+
+/// If the background shows that the camera moves, stabilises the images and surveys the rim again.
+void remove_camera_motion(const TrackingSettings& settings, double reduction,
+                          std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
+                          VideoSurvey& survey) {
+    constexpr double min_motion = 0.3;     // pixels, rms: about ten errors of a pose
+    constexpr double min_known = 0.7;      // of the frames
+    constexpr double rim_width = 0.1;      // of the radius: the outer edge of the wall
+    constexpr double min_amplitude = 0.5;  // of the path: less if the background moves with it
+    const double reach = survey.rim.amplitude + (1.0 + rim_width) * survey.rim.radius;
+    const auto background = std::make_shared<const StaticBackground>(images[images.size() / 2],
+                                                                     survey.rim.path_centre, reach);
+    if (!background->usable()) return;
+    std::vector<std::optional<CameraPose>> poses(images.size());
+    parallel_for(
+        images.size(),
+        [&](std::size_t k) {
+            settings.throw_if_stopped();
+            poses[k] = background->pose(images[k]);
+        },
+        thread_count(settings));
+    double square = 0.0;
+    std::vector<cv::Mat> stable;
+    for (std::size_t k = 0; k < images.size(); ++k) {
+        if (!poses[k]) continue;
+        const Vec2 moved = poses[k]->seen(survey.rim.path_centre) - survey.rim.path_centre;
+        square += dot(moved, moved);
+        stable.push_back(images[k]);
+        stabilise(stable.back(), *poses[k]);
+    }
+    if (double(stable.size()) < min_known * double(images.size()) ||
+        square < min_motion * min_motion * double(stable.size()))
+        return;
+    std::vector<PreparedFrame> again = prepare_all(stable, reduction, settings);
+    const std::optional<ContainerRim> rim = find_moving_rim(again, false);
+    if (!rim || rim->amplitude < min_amplitude * survey.rim.amplitude) return;
+    survey.rim = *rim;
+    survey.background = background;
+    images = std::move(stable);
+    frames = std::move(again);
 }
 
 }  // namespace
@@ -93,16 +171,19 @@ VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_co
     constexpr double min_side = 64.0;      // pixels: smaller frames show no discs
     constexpr double rim_side = 300.0;     // pixels: enough to find the rim
     constexpr double particle_side = 1.3;  // times that, for discs: they are smaller
-    const std::vector<cv::Mat> images = read_survey_frames(settings, frame_count);
+    std::vector<cv::Mat> images = read_survey_frames(settings, frame_count);
     VideoSurvey survey;
     survey.size = images.front().size();
     const double side = std::min(survey.size.width, survey.size.height);
     if (side < min_side)
         throw Failure(fmt::format("the frames of '{}' have {}x{} pixels, too few to show discs",
                                   settings.video, survey.size.width, survey.size.height));
-    const std::vector<PreparedFrame> frames =
-        prepare_all(images, std::min(1.0, rim_side / side), settings);
-    survey.rim = survey_container_rim(frames);
+    const double reduction = std::min(1.0, rim_side / side);
+    std::vector<PreparedFrame> frames = prepare_all(images, reduction, settings);
+    const std::optional<ContainerRim> moving = find_moving_rim(frames, true);
+    survey.rim = moving ? *moving : survey_container_rim(frames);
+    remove_camera_motion(settings, reduction, images, frames, survey);
+    if (survey.rim.rough) survey.rim = survey_container_rim(frames);
     survey.appearance = survey_appearance(
         images, frames, std::min(1.0, particle_side * rim_side / side), survey.rim, settings);
     settings.throw_if_stopped();
