@@ -16,7 +16,7 @@ namespace swirl {
 /// A JSON number; null if it is not finite.
 inline std::string number(double x) { return std::isfinite(x) ? fmt::format("{}", x) : "null"; }
 
-inline std::string quoted(std::string_view text) {
+inline std::string json_text(std::string_view text) {
     std::string json = "\"";
     for (const char c : text) {
         if (c == '\n') {
@@ -33,7 +33,7 @@ inline std::string quoted(std::string_view text) {
 class JsonObject {
   public:
     JsonObject& add(std::string_view name, std::string_view value) {
-        text_ += fmt::format("{}{}:{}", text_.empty() ? "" : ",", quoted(name), value);
+        text_ += fmt::format("{}{}:{}", text_.empty() ? "" : ",", json_text(name), value);
         return *this;
     }
     JsonObject& add(std::string_view name, double value) { return add(name, number(value)); }
@@ -62,7 +62,7 @@ inline std::string row_json(const ReportRow& row) {
     std::string json = estimate_json(row.estimate);
     json.pop_back();
     for (const ReportDetail& detail : row.details)
-        json += fmt::format(",{}:{}", quoted(detail.name), number(detail.value));
+        json += fmt::format(",{}:{}", json_text(detail.name), number(detail.value));
     return json + '}';
 }
 

@@ -151,7 +151,7 @@ struct ValueJson {
             .add("mass", m.mass)
             .text();
     }
-    std::string operator()(const std::string& word) const { return quoted(word); }
+    std::string operator()(const std::string& word) const { return json_text(word); }
     std::string operator()(const auto& value) const { return fmt::format("{}", value); }
 };
 
@@ -201,9 +201,9 @@ std::string parameter_json(const Parameter& p) {
     return fmt::format(
         R"({{"name":{},"symbol":{},"unit":{},"form":{},"description":{},"group":{},"default":{},)"
         R"("lowest":{},"highest":{},"slider":{},"settable":{}}})",
-        quoted(p.name), quoted(p.symbol), quoted(p.unit), quoted(p.form), quoted(p.description),
-        quoted(p.group), quoted(default_of(p)), number(p.range.lowest), number(p.range.highest),
-        slider_json(p.slider), p.is_settable());
+        json_text(p.name), json_text(p.symbol), json_text(p.unit), json_text(p.form),
+        json_text(p.description), json_text(p.group), json_text(default_of(p)),
+        number(p.range.lowest), number(p.range.highest), slider_json(p.slider), p.is_settable());
 }
 
 }  // namespace
@@ -481,7 +481,7 @@ EXPORTED(crossing) std::uint32_t crossing() {
     for (const double n : c.undetermined)
         undetermined += fmt::format("{}{}", undetermined.empty() ? "" : ",", n);
     return answer(JsonObject()
-                      .add("verdict", quoted(name_of(c.verdict)))
+                      .add("verdict", json_text(name_of(c.verdict)))
                       .add("discs", c.discs)
                       .add("error", c.error)
                       .add("lower", c.lower)
@@ -512,8 +512,8 @@ EXPORTED(result) std::uint32_t result() {
         .add("elastic_by_tc_model", double(r.events.elastic_by_tc));
     if (r.events.begins_to_roll > 0) events.add("begins_to_roll", double(r.events.begins_to_roll));
     warmup.add("periods", double(r.warmup)).add("events", double(r.warmup_events.total()));
-    steady.add("verdict", quoted(verdict(r.steady_state())))
-        .add("found", quoted(steady_state_found(r)));
+    steady.add("verdict", json_text(verdict(r.steady_state())))
+        .add("found", json_text(steady_state_found(r)));
     r.report([&](std::string_view group, const ReportRow& row) {
         JsonObject& into = group == "rotation"       ? rotation
                            : group == "steady_state" ? steady
@@ -524,7 +524,7 @@ EXPORTED(result) std::uint32_t result() {
         measured.add(name, report_json(report));
     std::string joined;
     for (const std::string& warning : warnings(r))
-        joined += (joined.empty() ? "" : ",") + quoted(warning);
+        joined += (joined.empty() ? "" : ",") + json_text(warning);
     return answer(JsonObject()
                       .add("format", fmt::format("{}", result_format))
                       .add("config", given.text())
@@ -535,9 +535,9 @@ EXPORTED(result) std::uint32_t result() {
                       .add("rotation", rotation.text())
                       .add("steady_state", steady.text())
                       .add(others)
-                      .add("state_hash", quoted(fmt::format("{:016x}", r.state_hash)))
+                      .add("state_hash", json_text(fmt::format("{:016x}", r.state_hash)))
                       .add("warnings", '[' + joined + ']')
-                      .add("generator", quoted(random_generator))
+                      .add("generator", json_text(random_generator))
                       .add("measured", measured.text())
                       .text());
 }

@@ -161,10 +161,18 @@ class MovieTest(InFolder):
             made |= {os.path.basename(word) for word in words if word.startswith("docs/images/")}
             if "--figure" in words:
                 made |= {f"figure_{word}.png" for word in words}
+        made |= self.screenshots()
         stored = {name for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
                 if name.endswith((".png", ".gif"))}
         self.assertGreater(len(stored), 5)
         self.assertEqual(stored - made, set())
+
+    @staticmethod
+    def screenshots():
+        """The images of the browser page, which docs/how-to/browser_page.md makes with one command."""
+        with open(os.path.join(SOURCE, "web", "test", "screenshots.mjs"), encoding="utf-8") as file:
+            states = re.findall(r'^    \["(\w+)", "', file.read(), re.MULTILINE)
+        return {f"lab_{state}.png" for state in states}
 
     def test_image_of_the_spheres_is_made_by_the_documented_command(self):
         call, = {tuple(words[1:]) for words in commands_in_the_documents()
