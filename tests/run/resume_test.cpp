@@ -208,7 +208,7 @@ TEST(Resume, AShortDefaultWarmupIsRejectedForALongerRun) {
     config.periods = 20;
     ASSERT_EQ(recorded(config, files).warmup, 4);
     config.periods = 40;
-    EXPECT_NE(problem_with(config, files).find("only 4 periods"), std::string::npos);
+    EXPECT_NE(problem_with(config, files).find("shortened to 4 periods"), std::string::npos);
     std::filesystem::remove(files.checkpoint);
     config.warmup = 4;
     config.periods = 20;

@@ -41,6 +41,7 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
         const std::string text = default_of(*find_parameter(name));
         const std::string value = name == "mixture"   ? "2:1.2"
                                   : name == "sizes"   ? "uniform:0.9:1.1"
+                                  : name == "ramp"    ? "mu=0.5:0.7@2..9"
                                   : name == "warmup"  ? "7"
                                   : name == "periods" ? "50"
                                   : name == "preset"  ? "experiment"

@@ -12,14 +12,14 @@ interface Field {
 }
 
 const main = ["discs", "mu", "amplitude"];
-/** The length of a run has no meaning on the page. */
-const lengthParameters = ["events", "periods"];
+/** The page has runs of any length, without ramps: moving a slider is the ramp. */
+const notShown = ["events", "periods", "ramp"];
 const groups = {
     friction: ["mu_disc", "mu_wall"],
-    particles: ["preset", "body", "radius", "mass", "inertia", "mixture"],
+    particles: ["preset", "body", "radius", "mass", "inertia", "mixture", "sizes"],
     collisions: ["restitution", "tangential_restitution", "contact_duration"],
     floor: ["floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc", "vertical_wall"],
-    container: ["container_radius", "period", "speed", "path", "sides"],
+    container: ["container_radius", "period", "speed", "path", "sides", "direction", "path_phase"],
     run: ["warmup", "seed"],
 };
 
@@ -40,7 +40,7 @@ function applies(name: string, {body, floor, restitution, path}: Record<string, 
 const shortened = (value: string): string => /^\d*\.\d{4,}$/.test(value) ? String(Number(Number(value).toPrecision(4))) : value;
 
 /** The words among the values of a parameter, from its form: "none|sliding", "NUMBER|paper|solid". */
-const wordsOf = ({form}: Parameter): string[] => form.split("|").filter((word) => /^[a-z]+$/.test(word));
+const wordsOf = ({form}: Parameter): string[] => form.split("|").filter((word) => /^[a-z-]+$/.test(word));
 
 /** A list of choices if all values are words; a text field with suggestions if numbers are allowed, too. */
 function textField(row: Parameter, id: string): [Field["text"], ...HTMLElement[]] {
@@ -69,7 +69,7 @@ export class Parameters {
     }
 
     private build(): void {
-        const shown = this.lab.parameters.filter((row) => row.settable && !lengthParameters.includes(row.name));
+        const shown = this.lab.parameters.filter((row) => row.settable && !notShown.includes(row.name));
         const byName = (name: string): Parameter[] => shown.filter((row) => row.name === name);
         this.spheres.addEventListener("change", () => this.lab.set(
             {preset: this.spheres.checked ? "experiment" : "", body: "", floor: ""}, {restart: true}));

@@ -76,8 +76,9 @@ class SweepWorker {
     SweepOutcome run() {
         std::vector<std::vector<std::size_t>> own, others;
         const auto add = [&](const std::vector<std::size_t>& chain, std::size_t k) {
-            const auto to_do = std::count_if(chain.begin(), chain.end(),
-                                             [&](std::size_t point) { return !done_before_[point]; });
+            const auto to_do = std::count_if(chain.begin(), chain.end(), [&](std::size_t point) {
+                return !done_before_[point];
+            });
             if (to_do == 0) return;
             const bool is_own = k % share_.parts == share_.part - 1;
             (is_own ? own : others).push_back(chain);
