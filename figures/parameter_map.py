@@ -22,7 +22,6 @@ LABELS = {"by_time": r"$\varpi/\Omega$", "by_event": r"$\varpi/\Omega$ by event"
           "mu_wall": r"wall friction $\mu_w$", "amplitude": r"amplitude $A$", "discs": r"number of discs $N$",
           "restitution": r"restitution $e$", "inertia": r"moment of inertia $I$", "period": r"period $T$",
           "container_radius": r"container radius $R$"}
-RATES = ("by_time", "by_event", "rigid_by_time", "rigid_by_event")
 BAND = 1.96  # errors: 95 %
 
 
@@ -67,7 +66,7 @@ def color_scale(values, of, level):
     if of == "N_c":
         return {"cmap": "viridis"}
     reach = float(np.max(np.abs(values - level))) or 1.0
-    if of in RATES and level == 0.0 and reach > 0.04:
+    if of in tables.RATES and level == 0.0 and reach > 0.04:
         # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.
         return {"cmap": "PuOr_r",
                 "norm": plt.matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-reach, vmax=reach)}

@@ -10,8 +10,9 @@ import os
 import sys
 
 import style
+import tables
 
-MOST_CURVES = 24
+MAX_CURVES = 24
 
 
 def parameters_of(rows):
@@ -69,8 +70,8 @@ def main():
     x = along_x(rows, parameters)
     others = [name for name in parameters if len({row[name] for row in rows}) > 1 and name != x]
     groups = curves(rows, others)
-    if len(groups) > MOST_CURVES:
-        sys.exit(f"the sweep would have {len(groups)} curves, but at most {MOST_CURVES} can be told apart.\n"
+    if len(groups) > MAX_CURVES:
+        sys.exit(f"the sweep would have {len(groups)} curves, but at most {MAX_CURVES} can be told apart.\n"
                  "hint: draw a part of the table.")
     drawing, axes = style.figure()
     for k, (values, points) in enumerate(groups.items()):
@@ -82,7 +83,7 @@ def main():
             style.curve(axes, points, x, quantity, **look)
         else:
             axes.plot(style.column(points, x), style.column(points, quantity), **look)
-    if quantity in ("by_time", "by_event", "rigid_by_time", "rigid_by_event"):
+    if quantity in tables.RATES:
         axes.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     axes.set_xlabel("number of discs $N$" if x == "discs" else x.replace("_", " "))
     axes.set_ylabel(label_of(quantity))

@@ -2,6 +2,9 @@
 
 import csv
 
+# The columns of the rotation rates.
+RATES = ("by_time", "by_event", "rigid_by_time", "rigid_by_event")
+
 
 def read(table):
     """The rows of a CSV table as dictionaries: numbers are floats, an empty cell is NaN, anything else is text."""

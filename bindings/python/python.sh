@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs the system's python3 with the module `swirl` on its path. Builds the module first if it is out of
-# date.
+# Runs the system's python3 with the module `swirl` on its path. Builds the module first if it is out
+# of date.
 set -eu
 home=$(dirname "$(dirname "$(dirname "$(readlink -f "$0")")")")
 me=swirl

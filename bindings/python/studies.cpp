@@ -1,4 +1,5 @@
-// swirl.sweep(), swirl.crossing(), swirl.parameter_map() and swirl.map(): many runs, planned and executed by swirl/study.
+// swirl.sweep(), swirl.crossing(), swirl.parameter_map() and swirl.map(): many runs, planned and
+// executed by swirl/study.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 

@@ -8,7 +8,7 @@
 
 namespace swirl {
 
-/// Whether a disc of this radius at `p` overlaps no disc (except disc `i`) and not the wall.
+/// True if a disc of this radius at `p` overlaps no disc (except disc `i`) and not the wall.
 inline bool is_free(const InitialState& state, const Vec2& p, double radius, std::size_t i) {
     constexpr double gap = 1e-9;  // above the rounding error of a computed contact
     const Vec2 centre = state.path.segments.front().start;

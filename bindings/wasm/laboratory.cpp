@@ -28,6 +28,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
@@ -134,7 +135,7 @@ Change change_between(const RunConfig& a, const RunConfig& b) {
     like.rolling_resistance = a.rolling_resistance;
     like.warmup = a.warmup;
     const std::int64_t discs = b.discs;
-    if (!a.mixture && a.discs > 0 && discs > 0 && a.discs <= most && discs <= most)
+    if (!has_unequal_sizes(a) && a.discs > 0 && discs > 0 && a.discs <= most && discs <= most)
         like.discs = a.discs;
     if (texts_of(a) != texts_of(like)) return Change::needs_new_simulation;
     return texts_of(b) == texts_of(with_path_of(a, b)) ? Change::at_once

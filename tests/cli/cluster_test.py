@@ -13,13 +13,7 @@ POINTS = 60
 
 class Cluster(InFolder):
     def test_a_failed_node_does_not_change_the_table(self):
-        reason = private_slurm.why_not()
-        if reason:
-            self.skipTest(reason)
-        slurm = private_slurm.Slurm(self.path("slurm"), nodes=3, cpus=1)
-        self.addCleanup(slurm.stop)
-        slurm.start()
-        environment = {"SLURM_CONF": f"{self.path('slurm')}/slurm.conf"}
+        slurm, environment = private_slurm.started_for(self, nodes=3)
         out = self.path("a cluster, 100 % ours")  # the script must quote this name
         submitted = swirl(*PLAN, "--out", out, "--slurm", "--nodes", 3, environment=environment)
         self.assertEqual(submitted.returncode, 0, submitted.stderr)

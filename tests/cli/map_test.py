@@ -13,7 +13,7 @@ import unittest
 import private_slurm
 from program import ONE_ERROR, SOURCE, SWIRL, InFolder, swirl
 
-# A small map: rotation of a few discs, a coarse grid and short runs. Level 0.8 crosses it.
+# A small map: rotation of a few discs, a coarse grid and short runs. It crosses the level 0.5.
 MAP = ["map", "--x", "mu=0:1", "--y", "discs=4:40", "--steps", "7", "--level", "0.5", "--periods", "12", "--seeds",
        "4", "--no-figure", "--quiet"]
 
@@ -192,13 +192,7 @@ class Figure(InFolder):
 
 class Cluster(InFolder):
     def test_tasks_of_a_cluster_share_a_map(self):
-        reason = private_slurm.why_not()
-        if reason:
-            self.skipTest(reason)
-        slurm = private_slurm.Slurm(self.path("slurm"), nodes=2, cpus=1)
-        self.addCleanup(slurm.stop)
-        slurm.start()
-        environment = {"SLURM_CONF": f"{self.path('slurm')}/slurm.conf"}
+        _, environment = private_slurm.started_for(self, nodes=2)
         out = self.path("a map")
         call = [word for word in MAP if word not in ("--no-figure", "--quiet")]
         done = swirl(*call, "--out", out, "--slurm", "--nodes", 2, environment=environment)

@@ -189,3 +189,14 @@ SlurmdParameters=config_overrides
                 time.sleep(0.1)
             else:
                 os.kill(pid, signal.SIGKILL)
+
+
+def started_for(test, nodes):
+    """A Slurm in the folder of a test (InFolder), and the environment to use it. Skips the test where none can run."""
+    reason = why_not()
+    if reason:
+        test.skipTest(reason)
+    slurm = Slurm(test.path("slurm"), nodes=nodes, cpus=1)
+    test.addCleanup(slurm.stop)
+    slurm.start()
+    return slurm, {"SLURM_CONF": f"{test.path('slurm')}/slurm.conf"}

@@ -23,9 +23,6 @@ class Series(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
     def test_each_period_is_a_row_with_the_value_of_its_ramp(self):
         self.run_swirl("run", *RAMP, "--series", "s.csv", "--measure", "slip", "--json", "r.json")
         table = rows(self.path("s.csv"))

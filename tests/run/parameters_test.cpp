@@ -9,21 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "run/rejected_parameters.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 
 namespace swirl {
 namespace {
-
-std::string error_of(const ParameterTexts& given) {
-    try {
-        resolve(given);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 TEST(RunParameters, DefaultsAreTheValuesOfThePaper) {
     const RunConfig config = resolve({});

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "run/rejected_parameters.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -16,15 +17,6 @@
 
 namespace swirl {
 namespace {
-
-std::string error_of(const ParameterTexts& given) {
-    try {
-        resolve(given);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 /// The vertices of a path as the text of --path.
 std::string points_of(const ContainerPath& path) {

@@ -145,7 +145,7 @@ export class Laboratory {
     /** The share of the container that discs of one size cover. */
     private packing(): number {
         const of = (name: string): number => Number(this.given[name] || this.effectiveValue(name));
-        return this.given["mixture"] ? 0 : of("discs") * (of("radius") / of("container_radius")) ** 2;
+        return this.given["mixture"] || this.given["sizes"] ? 0 : of("discs") * (of("radius") / of("container_radius")) ** 2;
     }
 
     private endPlacing(): void {

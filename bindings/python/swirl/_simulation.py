@@ -77,7 +77,8 @@ class Simulation:
         Columns of time: whole_periods, clock (the time since the last whole period) and time. Columns
         of the contact: kind (EventKind), i and j (the discs; j = i at the wall), normal_x and normal_y
         (unit vector from i to j, or to the wall), and overlap (a rounding error). Columns of the
-        impulse on j or on the wall: normal_impulse and tangential_impulse. After Ctrl-C the simulation is at the last executed event.
+        impulse on j or on the wall: normal_impulse and tangential_impulse. After Ctrl-C the simulation
+        is at the last executed event.
         """
         return self._engine.step(_whole("count", count))
 

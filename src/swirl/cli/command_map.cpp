@@ -235,14 +235,12 @@ void add_map_command(Subcommand& subcommand) {
     call->parameters = add_run_options(subcommand, {"seed"}, map_defaults);
     add_map_options(subcommand, *call);
     subcommand.explain(
-        "An axis has the values FROM:TO (--steps of them), FROM:STEP:TO, or a list. First a coarse "
-        "grid "
-        "is computed, then the cells in which the quantity crosses --level or is undetermined. A "
-        "point "
-        "gets two runs, and more near the level: their number doubles until its sign is certain. "
-        "The "
-        "figure shows the level with its 95 % band. With --of N_c, each point is a search for the "
-        "number of discs at which the rotation changes its sign.\n");
+        "An axis has the values FROM:TO (--steps of them), FROM:STEP:TO, or a list. First a "
+        "coarse grid is computed, then the cells in which the quantity crosses --level or is "
+        "undetermined. A point gets two runs, and more near the level: their number doubles "
+        "until its sign is certain. The figure shows the level with its 95 % band. With --of "
+        "N_c, each point is a search for the number of discs at which the rotation changes its "
+        "sign.\n");
     subcommand.set_main_options({"--discs", "--mu", "--periods", "--x", "--y", "--of", "--out",
                                  "--steps", "--seeds", "--threads", "--status"});
     subcommand.set_examples({"swirl map --x mu=0:1 --y amplitude=0.5:4 --out map",

@@ -205,8 +205,7 @@ void add_measure_command(Subcommand& subcommand) {
                           camera);
     subcommand.explain(
         "FILE is a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text "
-        "dump. "
-        "--misfit also counts frames with discs outside the container.\n");
+        "dump. --misfit also counts frames with discs outside the container.\n");
     subcommand.set_main_options({"--measure", "--tables", "--json", "--skip", "--camera-fps",
                                  "--scale", "--omega", "--centre", "--amplitude",
                                  "--container-radius"});

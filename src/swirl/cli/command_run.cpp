@@ -258,8 +258,7 @@ void add_run_command(Subcommand& subcommand) {
                              "swirl run --discs 48 --events 1e9 --json out.json --resume"});
     subcommand.explain(
         "Details of the parameters: docs/reference/parameters.md\n\nMeasurements (details: "
-        "--measure "
-        "help):\n" +
+        "--measure help):\n" +
         measurement_list_text());
     subcommand.callback([call] { run_and_report(*call); });
 }

@@ -52,8 +52,7 @@ std::vector<std::string> further_measurements(const SweepCall& call) {
     if (!call.frames.empty() || call.series || !call.chain.empty())
         throw UsageError(
             "--frames, --series and --chain cannot be used with --grow: they apply to all runs of "
-            "a "
-            "sweep or to none.");
+            "a sweep or to none.");
     if (call.measure.empty()) return {};
     return read_measurement_list(call.measure);
 }

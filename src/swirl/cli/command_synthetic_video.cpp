@@ -182,8 +182,7 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     if (!has_m_frame(config))
         throw UsageError(
             "a synthetic video states the amplitude and the phase of a circular path, but this "
-            "path "
-            "is none.\nhint: use a counter-clockwise path that is nearly a circle.");
+            "path is none.\nhint: use a counter-clockwise path that is nearly a circle.");
     const CameraSettings camera = camera_settings(call, config);
     const std::int64_t frames = call.frames.value_or(static_cast<std::int64_t>(
         call.periods * static_cast<double>(camera.frames_per_period) + 0.5));

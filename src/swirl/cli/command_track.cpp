@@ -74,9 +74,8 @@ KnownCamera known_camera(const TrackCall& call) {
 /// Frame ranges such as "40,60-64". Throws UsageError.
 std::vector<FrameRange> frame_ranges(const std::string& text) {
     std::vector<FrameRange> ranges;
-    for (std::size_t begin = 0; !text.empty() && begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string part = text.substr(begin, end - begin);
+    if (text.empty()) return ranges;
+    for (const std::string_view part : split(text, ",")) {
         const std::size_t dash = part.find('-');
         const auto first = read_whole_number(part.substr(0, dash));
         const auto last = dash == part.npos ? first : read_whole_number(part.substr(dash + 1));
@@ -84,7 +83,6 @@ std::vector<FrameRange> frame_ranges(const std::string& text) {
             throw UsageError(fmt::format(
                 "--skip is '{}', but it must be numbers of frames, for example 40,60-64.", text));
         ranges.push_back({*first, *last});
-        begin = end + 1;
     }
     return ranges;
 }
@@ -265,12 +263,10 @@ void warn_of_contradictory_diameters(const VideoSource& source, TrackedVideo& vi
 
 void track(const TrackCall& call) {
     const KnownCamera camera = known_camera(call);
-    TrackingSettings frames;  // only for the checks
-    set_frames(call, frames);
-    validate(call);
     ProgressLine line(call.source.video, call.quiet);
     TrackingSettings settings = tracking_settings(call.source.video, call.fps, call.frames, line);
     set_frames(call, settings);
+    validate(call);
     settings.discs = call.discs;
     settings.camera = camera;
     TrackedVideo video = track_video(settings);

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -127,6 +128,11 @@ void write_output(const std::filesystem::path& file, const std::string& text) {
     const int stream = open_for_writing(file);
     write_all(stream, file, text);
     if (close(stream) != 0) fail_to_write(file);
+}
+
+std::size_t terminal_width(int file, std::size_t otherwise) {
+    winsize size{};
+    return ioctl(file, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : otherwise;
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -22,6 +22,9 @@ void reject_same_files(const std::vector<std::filesystem::path>& files);
 /// or Failure.
 void write_output(const std::filesystem::path& file, const std::string& text);
 
+/// Columns of the terminal that a file descriptor refers to; `otherwise` if it is no terminal.
+std::size_t terminal_width(int file, std::size_t otherwise);
+
 /// Creates the folder if it does not exist. Throws Failure if it cannot be written to, or
 /// UsageError if its name looks like an option.
 void make_folder(const std::filesystem::path& folder);

@@ -1,8 +1,6 @@
 #include "swirl/cli/parser.hpp"
 
 #include <fmt/format.h>
-
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "swirl/cli/commands.hpp"
+#include "swirl/cli/output.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/version.hpp"
@@ -22,10 +21,7 @@ namespace {
 /// The width of the terminal; a constant if the help goes to a file or a pipe.
 std::size_t help_width() {
     constexpr std::size_t narrowest = 40, widest = 100;
-    winsize size{};
-    if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
-        return widest;
-    return std::clamp<std::size_t>(size.ws_col, narrowest, widest);
+    return std::clamp(terminal_width(STDOUT_FILENO, widest), narrowest, widest);
 }
 
 /// The number of characters of UTF-8 text.

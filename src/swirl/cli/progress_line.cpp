@@ -1,7 +1,6 @@
 #include "swirl/cli/progress_line.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+
+#include "swirl/cli/output.hpp"
 
 namespace swirl {
 namespace {
@@ -26,12 +27,6 @@ bool is_set(const char* variable) {
 bool is_capable_terminal() {
     const char* const kind = std::getenv("TERM");
     return isatty(STDERR_FILENO) && kind && std::string(kind) != "dumb";
-}
-
-std::size_t terminal_width() {
-    winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-    return size.ws_col;
 }
 
 }  // namespace
@@ -85,7 +80,7 @@ void ProgressLine::show_events(double fraction, std::uint64_t events) {
 
 void ProgressLine::draw_bar(double fraction, const std::string& rate, const std::string& left) {
     const std::string tail = fmt::format(" {:3.0f} %  {}  {} left", 100.0 * fraction, rate, left);
-    const std::size_t width = terminal_width();
+    const std::size_t width = terminal_width(STDERR_FILENO, 80);
     const std::size_t taken = label_.size() + tail.size() + 2;
     constexpr std::size_t min_bar = 8, max_bar = 40;  // characters
     const std::size_t bar = width > taken + min_bar ? std::min(width - taken - 1, max_bar) : 0;

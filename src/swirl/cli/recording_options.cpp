@@ -185,8 +185,7 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
     if (call.resume && call.overwrite)
         throw UsageError(
             "--resume and --overwrite exclude each other.\nhint: --resume continues a run, "
-            "--overwrite "
-            "starts it again; give one of them.");
+            "--overwrite starts it again; give one of them.");
     files.checkpoint_every = number(call, "checkpoint_every", files.checkpoint_every, 0.0,
                                     "a number of seconds, or 0 for no checkpoints");
     files.checkpoint = text_of(call, "checkpoint");

@@ -193,8 +193,7 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
             throw UsageError(fmt::format(
                 "'{}' has no calibration next to it (a .camera.json file), so --{} is required.\n"
                 "hint: also check the defaults --camera-fps 1, --scale 1, --centre 0,0, "
-                "--amplitude 0 "
-                "and --phase 0.",
+                "--amplitude 0 and --phase 0.",
                 file, name));
     TrackScale scale;
     scale.frames_per_time = parse_number(texts, "camera-fps");

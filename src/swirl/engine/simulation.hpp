@@ -81,10 +81,10 @@ class Simulation {
     /// The same, but executes at most `maximum` events. Returns whether the time was reached.
     bool advance_to(std::int64_t periods, double clock, std::uint64_t maximum);
 
-    /// At the start of a period: continues with the discs and the time of now in other surroundings
-    /// (path, surfaces, floor; those of `scene`, whose discs are ignored). Discs keep their
-    /// velocities, and their positions relative to the container: they are shifted by the
-    /// difference of the two paths' starting points.
+    /// At the start of a period: replaces path, surfaces and floor by those of `scene`, whose discs
+    /// are ignored. Time and counts of events continue. Discs keep their velocities, and their
+    /// positions relative to the container: they are shifted by the difference of the two paths'
+    /// starting points.
     void change_surroundings(InitialState scene, const Tuning& tuning = {});
 
     std::int64_t periods() const;

@@ -203,6 +203,16 @@ void add_array(Text& text, const char* type, const char* name, int components,
         type, name, components, base64(bytes));
 }
 
+/// The start of a file with one piece, up to its points.
+void begin_vtp(Text& text, std::size_t points, std::size_t vertices, std::size_t lines) {
+    add(text,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
+        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" "
+        "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
+        points, vertices, lines);
+}
+
 std::string vtp_of(const Snapshot& s) {
     const std::size_t n = s.size();
     std::vector<double> points(3 * n), velocity(3 * n), angle(n);
@@ -218,12 +228,7 @@ std::string vtp_of(const Snapshot& s) {
         offsets[i] = std::int64_t(i + 1);
     }
     Text text;
-    add(text,
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
-        "<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
-        "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
-        n);
+    begin_vtp(text, n, n, 0);
     add_array(text, "Float64", "Points", 3, points);
     add(text, "</Points>\n<Verts>\n");
     add_array(text, "Int64", "connectivity", 1, connectivity);
@@ -264,12 +269,7 @@ std::string container_vtp_of(const Snapshot& s) {
     }
     connectivity.push_back(0);
     Text text;
-    add(text,
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
-        "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"1\" "
-        "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n",
-        sides);
+    begin_vtp(text, sides, 0, 1);
     add_array(text, "Float64", "Points", 3, points);
     add(text, "</Points>\n<Lines>\n");
     add_array(text, "Int64", "connectivity", 1, connectivity);

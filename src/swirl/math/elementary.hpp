@@ -15,8 +15,8 @@ inline constexpr double ln2_high = 6.93147180369123816490e-01, ln2_low = 1.90821
 /// eˣ for |x| ≤ 700. With x = k ln 2 + f and |f| ≤ ln 2 / 2, the first omitted term of the Taylor
 /// series is f¹⁵/15! < 10⁻¹⁹.
 constexpr double exponential(double x) {
-    const double turns = x * 1.4426950408889634;
-    const auto k = static_cast<std::int64_t>(turns >= 0.0 ? turns + 0.5 : turns - 0.5);
+    const double binary = x * 1.4426950408889634;  // x / ln 2
+    const auto k = static_cast<std::int64_t>(binary >= 0.0 ? binary + 0.5 : binary - 0.5);
     const double f = (x - static_cast<double>(k) * ln2_high) - static_cast<double>(k) * ln2_low;
     double sum = 1.0;
     for (int n = 14; n > 0; --n) sum = 1.0 + sum * f / n;

@@ -14,9 +14,7 @@ void ContactNetwork::sample(const MFrameView& view) {
     if (samples_++ % every_ != 0 || view.size() == 0) return;
     const std::size_t count = view.size();
     const auto n = static_cast<double>(count);
-    double mean_radius = 0.0;
-    for (const double r : view.radius) mean_radius += r / n;
-    const double gap = gap_ * mean_radius;
+    const double gap = gap_ * view.mean_radius();
 
     parent_.resize(count);
     for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);

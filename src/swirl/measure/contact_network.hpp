@@ -37,8 +37,8 @@ class ContactNetwork : public BlockAverages<ContactNetwork> {
         return std::tie(s.coordination_, s.wall_, s.isolated_, s.rattlers_, s.groups_, s.largest_,
                         s.loops_, s.contacts_);
     }
-    static constexpr std::size_t max_contacts =
-        12;  // more are counted here; only mixtures have them
+    /// More contacts, which only mixtures have, are counted here.
+    static constexpr std::size_t max_contacts = 12;
 
     explicit ContactNetwork(double gap = 0.1, int every = 64) : gap_(gap), every_(every) {}
 

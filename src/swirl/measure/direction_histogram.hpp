@@ -42,7 +42,7 @@ class DirectionHistogram {
     std::vector<double> counts_ = std::vector<double>(slices);
 };
 
-/// The table of the positions where discs become pinned and free.
+/// The table of the positions where discs pin and depin.
 inline ReportTable positions_table(const char* description, const DirectionHistogram& pinned,
                                    const DirectionHistogram& free) {
     ReportTable table{

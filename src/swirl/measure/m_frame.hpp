@@ -101,8 +101,13 @@ class MFrameView {
     Vec2 velocity(std::size_t i) const {
         return relative_velocity(i) - frame.omega * perpendicular(position(i));
     }
-    /// Computed by every call: most measurements do not need it.
+    /// Computed by every call: most measurements do not need them.
     CentreOfMass centre_of_mass() const;
+    double mean_radius() const {
+        double mean = 0.0;
+        for (const double r : radius) mean += r / static_cast<double>(size());
+        return mean;
+    }
     /// The discs with a finite position in ascending order of x; equal x in order of the index.
     void order_by_x(std::vector<std::uint32_t>& order) const;
 

@@ -23,12 +23,11 @@ double PairCorrelation::contact_weight(double gap, double cell, double contact_d
 void PairCorrelation::sample(const MFrameView& view) {
     if (samples_++ % every_ != 0) return;
     const auto n = static_cast<double>(view.size());
-    double inside = 0.0, area = 0.0, radii = 0.0, at_contact = 0.0;
+    double inside = 0.0, area = 0.0, at_contact = 0.0;
     is_inside_.resize(view.size());
     for (std::size_t i = 0; i < view.size(); ++i) {
         const Vec2 p = view.position(i);
         is_inside_[i] = dot(p, p) < inner_radius_ * inner_radius_ ? 1 : 0;
-        radii += view.radius[i];
         if (is_inside_[i] == 0) continue;
         inside += 1.0;
         area += view.radius[i] * view.radius[i];
@@ -36,8 +35,9 @@ void PairCorrelation::sample(const MFrameView& view) {
     inside_.add(inside);
     packing_.add(area / (inner_radius_ * inner_radius_));
     if (view.size() < 2) return;
-    radius_.add(radii / n);
-    const double cell = 0.1 * radii / n;
+    const double mean_radius = view.mean_radius();
+    radius_.add(mean_radius);
+    const double cell = 0.1 * mean_radius;
     pairs_.add_weight(0.5 * n * (n - 1.0));
     partners_.add_weight(inside);
     for_each_close_pair(

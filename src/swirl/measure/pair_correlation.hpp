@@ -23,8 +23,8 @@
 // By default only every 64th sample is used: neighbouring samples hardly differ. Units: none. Errors:
 // from blocks of periods; that of ρ is added to those of g_inner. Limits: bins that reach out of the
 // circles (r > 2a for g, r > R/2 − (mean radius) for g_inner) and fewer than two discs give NaN.
-// Distances are at most 20. Overlapping discs (a camera's errors) do not count at contact. If the radii differ, a and the inner circle are those of the mean radius,
-// and g shows the distances of all species.
+// Distances are at most 20. Overlapping discs (a camera's errors) do not count at contact. If the
+// radii differ, a is that of the mean radius, and g shows the distances of all species.
 #pragma once
 
 #include <array>

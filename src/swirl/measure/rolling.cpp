@@ -16,9 +16,7 @@ void add_pair(BlockMean& correlation, double product, double square) {
 
 void Rolling::sample_in_lab(const Snapshot& lab) {
     if (!lab.are_spheres() || lab.size() == 0 || samples_++ % every_ != 0) return;
-    double mean_radius = 0.0;
     for (std::size_t i = 0; i < lab.size(); ++i) {
-        mean_radius += lab.radius[i] / static_cast<double>(lab.size());
         const Disc d = lab.disc(i);
         const bool rolls = lab.rolls(i);
         const Vec2 c = slip_on_floor(d, lab.container_velocity);
@@ -29,7 +27,7 @@ void Rolling::sample_in_lab(const Snapshot& lab) {
         slip_.add(rolls ? 0.0 : square_root(dot(c, c)));
     }
     view_.update(lab);
-    for (const Pair& pair : touching_.find(view_, gap_ * mean_radius)) {
+    for (const Pair& pair : touching_.find(view_, gap_ * view_.mean_radius())) {
         const Vec2 a = horizontal_spin(lab, pair.i), b = horizontal_spin(lab, pair.j);
         const Vec2 s = lab.position(pair.j) - lab.position(pair.i);
         const double h_i = cross(a, s), h_j = cross(b, s);  // |s| cancels

@@ -9,8 +9,6 @@ void SpinFrustration::sample(const MFrameView& view, PinnedFlags pinned) {
     if (samples_++ % every_ != 0) return;
     const std::size_t n = view.size();
     if (n == 0) return;
-    double mean_radius = 0.0;
-    for (const double r : view.radius) mean_radius += r / static_cast<double>(n);
 
     // A pending pair has a disc in the layer, so without pending spins there are no pairs either.
     const bool nothing_pending = pending_spins_.empty();
@@ -25,7 +23,7 @@ void SpinFrustration::sample(const MFrameView& view, PinnedFlags pinned) {
         if (is_pinned(pinned, i)) pinned_wall_spin_.add(spin);
     }
 
-    const std::vector<Pair>& pairs = touching_.find(view, gap_ * mean_radius);
+    const std::vector<Pair>& pairs = touching_.find(view, gap_ * view.mean_radius());
     coordination_.add(2.0 * static_cast<double>(pairs.size()) / static_cast<double>(n));
     neighbours_.resize(n);
     for (auto& list : neighbours_) list.clear();

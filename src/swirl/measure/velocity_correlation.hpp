@@ -48,9 +48,7 @@ class VelocityCorrelation : public BlockAverages<VelocityCorrelation> {
     void sample(const MFrameView& view) {
         if (samples_++ % every_ != 0 || view.size() < 2) return;
         const Vec2 mean = view.centre_of_mass().velocity;
-        double radii = 0.0;
-        for (const double r : view.radius) radii += r;
-        const double near = 0.5 * radii / static_cast<double>(view.size());
+        const double near = 0.5 * view.mean_radius();
         for_each_close_pair(
             view, bins_.reach, order_, [&](std::uint32_t i, std::uint32_t j, double distance) {
                 const Vec2 direction = (1.0 / distance) * (view.position(j) - view.position(i));

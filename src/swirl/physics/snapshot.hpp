@@ -35,9 +35,8 @@ struct Snapshot {
     std::vector<double> radius, mass, inertia;
     // For spheres (empty for discs): the other two spins, and the acceleration by the floor.
     std::vector<double> spin_x, spin_y, ax, ay;
-    // The orientation of each sphere at its time `held_at`. To follow
-    // orientations, an observer starts with one quaternion per sphere; otherwise the column is
-    // empty.
+    // The orientation of each sphere at its time `held_at`. To follow orientations, an observer
+    // starts with one quaternion per sphere; otherwise the column is empty.
     std::vector<Quaternion> turned;
     bool on_floor = false;  // friction against the floor acts on the centre of mass
     bool lie_flat = false;  // coins: they have the columns of spheres, but only one spin

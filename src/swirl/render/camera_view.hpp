@@ -66,7 +66,7 @@ struct CameraSettings {
 
 /// Settings by name; nothing for any other name.
 std::optional<CameraSettings> camera_preset(const std::string& name);
-/// The names, separated by commas.
+/// Their names.
 std::vector<std::string> camera_presets();
 
 class CameraView {

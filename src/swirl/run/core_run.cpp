@@ -145,8 +145,7 @@ std::string CoreRun::reason_for_collapse() const {
     return fmt::format(
         "friction has dissipated the relative motion of {}s that are pressed together, and they "
         "collide ever faster (frictional collapse; docs/explanation/physics.md). The model has no "
-        "state "
-        "after it.\nhint: another --seed than {} may avoid it.",
+        "state after it.\nhint: another --seed than {} may avoid it.",
         body_word(config_), config_.seed);
 }
 

@@ -111,10 +111,15 @@ class NumberTable {
     std::vector<std::size_t> take_;  // indices of the columns, once they are known
 };
 
-std::string table_text(const std::string& option, const std::string& file) {
+bool is_there(const std::string& file) {
     std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
+    return std::filesystem::exists(file, ignored);
+}
+
+std::string table_text(const std::string& option, const std::string& file) {
+    if (!is_there(file))
         throw UsageError(fmt::format("{} is '{}', but there is no such file.", option, file));
+    std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored))
         throw UsageError(fmt::format("{} is '{}', but that is not a regular file.", option, file));
     std::string text;
@@ -127,11 +132,6 @@ std::string table_text(const std::string& option, const std::string& file) {
         throw UsageError(fmt::format("{} '{}' has more than {} MB, which is the most allowed.",
                                      option, file, max_table_bytes >> 20));
     return text;
-}
-
-bool is_there(const std::string& file) {
-    std::error_code ignored;
-    return std::filesystem::exists(file, ignored);
 }
 
 /// True if a file has this name, or if it looks like one: "a/b", "a.csv". A misspelled shape is not

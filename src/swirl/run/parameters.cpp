@@ -290,6 +290,20 @@ void read_speed(std::string_view text, const ParameterTexts& given, RunConfig& c
 ParameterValue write_speed(const RunConfig& config) { return container_speed(config); }
 ParameterValue write_omega(const RunConfig& config) { return config.omega(); }
 
+void read_sides(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    const std::int64_t sides = whole_number_from("sides", text);
+    if (config.path == PathShape::circle || config.path == PathShape::points)
+        throw_usage_error(fmt::format("--sides is {}, but {}.\nhint: omit one of the two.", sides,
+                                      config.path == PathShape::circle
+                                          ? "--path circle has no sides"
+                                          : "the file of --path defines its segments"));
+    config.sides = clamped(sides);
+}
+ParameterValue write_sides(const RunConfig& config) {
+    if (config.path == PathShape::circle || config.path == PathShape::points) return {};
+    return std::int64_t{config.sides};
+}
+
 ParameterValue write_events(const RunConfig& config) {
     return config.periods ? ParameterValue() : ParameterValue(config.events);
 }

@@ -30,7 +30,7 @@ namespace swirl {
 /// All but the circle consist of straight segments.
 enum class PathShape { polygon, circle, line, ellipse, lissajous, points };
 
-/// What the shape of a path needs besides its amplitude, period and number of sides.
+/// The properties of a path other than its shape, amplitude, period and number of sides.
 struct PathCurve {
     double axis_ratio = 1.0;                  // of an ellipse: y axis over x axis
     std::int64_t x_cycles = 1, y_cycles = 1;  // of a Lissajous figure, per period

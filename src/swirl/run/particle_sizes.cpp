@@ -224,8 +224,7 @@ std::optional<std::string> problem_with_sizes(const RunConfig& c) {
     if (!c.sizes) return {};
     if (c.mixture)
         return "--sizes and --mixture are both given, but both define the radii.\nhint: omit one "
-               "of "
-               "them, or list all particles with --sizes file:FILE.";
+               "of them, or list all particles with --sizes file:FILE.";
     const auto& [a, b, last] = c.sizes->numbers;
     switch (c.sizes->law) {
         case SizeLaw::listed:

@@ -15,15 +15,15 @@ namespace swirl {
 namespace {
 
 constexpr std::string_view points_word = "points";
+/// The shapes that a user can give.
+const std::vector<std::string> shape_words{"polygon", "circle", "line", "ellipse", "lissajous"};
 constexpr std::int64_t max_cycles = 1000;
 
 [[noreturn]] void reject_path(std::string_view text) {
     throw_usage_error(
         fmt::format("--path is '{}', but it must be polygon, circle, line, ellipse:RATIO, "
                     "lissajous:P:Q[:DEGREES] or a file.{}",
-                    text,
-                    nearest_value_hint(text.substr(0, text.find(':')),
-                                       {"polygon", "circle", "line", "ellipse", "lissajous"})));
+                    text, nearest_value_hint(text.substr(0, text.find(':')), shape_words)));
 }
 
 void read_ellipse(std::string_view text, RunConfig& config) {
@@ -207,8 +207,8 @@ bool is_nearly_circular(const ContainerPath& path, double amplitude) {
 
 bool is_path_shape(std::string_view text) {
     const std::string_view word = text.substr(0, text.find_first_of(": "));
-    return word == "polygon" || word == "circle" || word == "line" || word == "ellipse" ||
-           word == "lissajous" || word == points_word;
+    return word == points_word ||
+           std::find(shape_words.begin(), shape_words.end(), word) != shape_words.end();
 }
 
 void read_path(std::string_view text, const ParameterTexts& given, RunConfig& config) {
@@ -266,24 +266,6 @@ ParameterValue write_direction(const RunConfig& config) {
     return config.clockwise ? ParameterValue("clockwise") : ParameterValue();
 }
 
-void read_sides(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    const auto sides = read_whole_number(text);
-    if (!sides)
-        throw_usage_error(fmt::format(
-            "--sides is '{}', but it must be a whole number below 10^18, for example 48 or 1e6.",
-            text));
-    if (config.path == PathShape::circle || config.path == PathShape::points)
-        throw_usage_error(fmt::format("--sides is {}, but {}.\nhint: omit one of the two.", *sides,
-                                      config.path == PathShape::circle
-                                          ? "--path circle has no sides"
-                                          : "the file of --path defines its segments"));
-    config.sides = static_cast<int>(std::clamp<std::int64_t>(*sides, -1, 1'000'000'000));
-}
-ParameterValue write_sides(const RunConfig& config) {
-    if (config.path == PathShape::circle || config.path == PathShape::points) return {};
-    return std::int64_t{config.sides};
-}
-
 std::optional<std::string> problem_with_path(const RunConfig& c) {
     if (c.path == PathShape::circle && c.shape() != Shape::disc)
         return "--path is circle, but on it floor friction changes direction while a particle "
@@ -293,10 +275,10 @@ std::optional<std::string> problem_with_path(const RunConfig& c) {
         return fmt::format(
             "--sides is {}, but a Lissajous figure with {} cycles needs at least {}.", c.sides,
             cycles, 4 * cycles);
-    const double largest = c.amplitude * (c.path == PathShape::ellipse ? c.curve.axis_ratio : 1.0);
-    if (largest > largest_value)
-        return fmt::format("the y axis of --path ellipse is {}, but it must not exceed {}.",
-                           largest, largest_value);
+    const double y_axis = c.amplitude * c.curve.axis_ratio;
+    if (c.path == PathShape::ellipse && y_axis > largest_value)
+        return fmt::format("the y axis of --path ellipse is {}, but it must not exceed {}.", y_axis,
+                           largest_value);
     return {};
 }
 
@@ -304,7 +286,7 @@ ContainerPath make_path(const RunConfig& c) {
     ContainerPath path = unshifted_path(c);
     if (c.path_phase != 0.0 && c.path != PathShape::circle && c.amplitude > 0.0) {
         double clock = c.period * (c.path_phase / 360.0);
-        // A vertex that the phase means is met exactly.
+        // If the phase is that of a vertex, the run starts exactly there.
         for (const Segment& segment : path.segments)
             for (const double vertex : {segment.begin, segment.end})
                 if (std::fabs(clock - vertex) <= 1e-9 * c.period) clock = vertex;

@@ -3,8 +3,8 @@
 // Fixed columns: the number of the period, from 0; whether it counts in the averages of the run
 // (after the warm-up); the four rotation rates; the mean spin; the mean kinetic energy; the mean
 // centre of mass in the M-frame; the number of events. Then one column for each parameter with a
-// ramp, and one for each row of the measurements of the run. Such a row is what the measurement
-// reports for this period alone. So it is n/a where a measurement needs more than one period.
+// ramp, and one for each row of the measurements of the run, evaluated for this period alone. The
+// value is n/a if a measurement needs more than one period.
 //
 // Energy and centre are means over the 64 samples by time of the rotation (cluster_rotation.hpp).
 // A value that is not available is NaN, and an empty cell in the file.
@@ -35,7 +35,7 @@ struct SeriesAverage {
     double autocorrelation_time;  // integrated, in periods; at least 1 (block_average.hpp)
 };
 
-/// What a run knows of a period at its end.
+/// The averages of one period that a run itself has at its end.
 struct PeriodAverages {
     std::int64_t period;
     bool is_counted;
@@ -67,7 +67,7 @@ class PeriodSeries {
     /// Row by row.
     const std::vector<double>& values() const { return values_; }
 
-    /// Of the columns that are averages: all but the first two and those of ramps.
+    /// Estimates for the columns that are averages: all but the first two and those of ramps.
     std::vector<SeriesAverage> averages() const;
 
     /// Writes the table as CSV, atomically. Throws FileError.
@@ -90,7 +90,7 @@ class PeriodSeries {
     std::vector<double> values_;
     std::uint64_t events_ = 0;  // up to the last period
 
-    // Of the present period.
+    // Sums over the present period.
     double energy_ = 0.0;
     Vec2 centre_{0.0, 0.0};
     double samples_ = 0.0;

@@ -22,17 +22,6 @@ constexpr auto last_ramp_period = static_cast<std::int64_t>(max_periods) - 1;
                     text, why));
 }
 
-/// Calls visit(part) for the parts between separators.
-template <class Visit>
-void for_each_part(std::string_view text, char separator, const Visit& visit) {
-    for (;;) {
-        const std::size_t end = text.find(separator);
-        visit(text.substr(0, end));
-        if (end == text.npos) return;
-        text.remove_prefix(end + 1);
-    }
-}
-
 std::string name_of_ramp(std::string_view text, std::string_view given) {
     const std::string name = plain_name(given);
     const std::vector<std::string> names = ramp_parameter_names();
@@ -56,11 +45,11 @@ Ramp read_ramp_text(std::string_view text) {
     if (equals == text.npos) reject(text, "it has no '='.");
     Ramp ramp{.name = name_of_ramp(text, trimmed(text.substr(0, equals))), .values = {}};
     if (at == text.npos || at < equals) reject(text, "it has no '@' with periods.");
-    for_each_part(text.substr(equals + 1, at - equals - 1), ':', [&](std::string_view part) {
+    for (const std::string_view part : split(text.substr(equals + 1, at - equals - 1), ":")) {
         const auto value = read_number(part);
         if (!value) reject(text, fmt::format("'{}' is not a finite number.", part));
         ramp.values.push_back(*value);
-    });
+    }
     if (ramp.values.size() < 2) reject(text, "it has only one value.");
     if (ramp.values.size() > max_ramp_values)
         reject(text, fmt::format("it has more than {} values.", max_ramp_values));
@@ -141,22 +130,20 @@ double Ramp::value_in(std::int64_t period) const {
 
 std::vector<Ramp> read_ramps(std::string_view text) {
     std::vector<Ramp> ramps;
-    for_each_part(text, ';',
-                  [&](std::string_view part) { ramps.push_back(read_ramp_text(trimmed(part))); });
+    for (const std::string_view part : split(text, ";"))
+        ramps.push_back(read_ramp_text(trimmed(part)));
     reject_two_ramps_of_one_parameter(text, ramps);
     return ramps;
 }
 
 std::vector<std::string> parameters_set_by_ramps(std::string_view text) {
     std::vector<std::string> names;
-    for_each_part(text, ',', [&](std::string_view several) {
-        for_each_part(several, ';', [&](std::string_view ramp) {
-            const std::string name = plain_name(trimmed(ramp.substr(0, ramp.find('='))));
-            names.push_back(name);
-            if (name == "mu") names.insert(names.end(), {"mu_disc", "mu_wall"});
-            if (name == "amplitude" || name == "period") names.emplace_back("speed");
-        });
-    });
+    for (const std::string_view ramp : split(text, ",;")) {
+        const std::string name = plain_name(trimmed(ramp.substr(0, ramp.find('='))));
+        names.push_back(name);
+        if (name == "mu") names.insert(names.end(), {"mu_disc", "mu_wall"});
+        if (name == "amplitude" || name == "period") names.emplace_back("speed");
+    }
     return names;
 }
 

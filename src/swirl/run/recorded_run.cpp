@@ -225,8 +225,7 @@ class Recorder {
                 throw UsageError(fmt::format(
                     "the checkpoint '{}' belongs to a run of another length, and the length of a "
                     "recorded run cannot be changed.\nhint: start again with --overwrite, or "
-                    "repeat "
-                    "the call without --trajectory and --log-events.",
+                    "repeat the call without --trajectory and --log-events.",
                     files_.checkpoint.string()));
             extended_ = resolve(parameters_in(about.at("identity").at("parameters").dump()));
         } else if (about.at("identity") != here)

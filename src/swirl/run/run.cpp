@@ -34,9 +34,7 @@ struct SavedTrajectory {
     std::vector<Disc> discs;
 
     static SavedTrajectory of(const Simulation& simulation) {
-        SavedTrajectory saved{simulation.progress(), {}};
-        saved.discs = discs_of(simulation);
-        return saved;
+        return {simulation.progress(), discs_of(simulation)};
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
@@ -148,8 +146,7 @@ std::optional<std::string> Run::problem_with_length(const RunConfig& shorter) co
     if (config_.warmup_found ? share < 0.5 : run_.warmup() >= default_warmup) return {};
     return fmt::format(
         "its warm-up was shortened to {}, and a longer run has a longer warm-up.\nhint: start "
-        "again, "
-        "or use --warmup in both calls",
+        "again, or use --warmup in both calls",
         counted(run_.warmup(), "period"));
 }
 

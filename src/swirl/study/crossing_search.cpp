@@ -104,12 +104,8 @@ class Searcher {
     /// The number without runs that is nearest to the middle of a bracket. Numbers at which all
     /// runs failed do not end the search in their bracket.
     std::optional<std::int64_t> next_number_in(const SignChange& change) const {
-        const auto left = std::int64_t(change.before), right = std::int64_t(change.after);
-        std::optional<std::int64_t> nearest;
-        const auto distance = [&](std::int64_t n) { return std::abs(2 * n - left - right); };
-        for (std::int64_t n = left + 1; n < right; ++n)
-            if (!groups_.contains(n) && (!nearest || distance(n) < distance(*nearest))) nearest = n;
-        return nearest;
+        return middle_number(std::int64_t(change.before), std::int64_t(change.after),
+                             [&](std::int64_t n) { return !groups_.contains(n); });
     }
 
     /// The numbers that get more runs: undetermined ones outside every bracket, and the bracket of

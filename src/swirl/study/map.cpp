@@ -28,7 +28,7 @@ class MapResults {
                                       folder.string()));
     }
 
-    /// Looks at the folder again.
+    /// Reads the folder again.
     void update() {
         const std::size_t points = plan_.points();
         done_ = numbered_files(part_of_sweep(folder_, "results", plan_), ".json", points);
@@ -69,12 +69,6 @@ class MapResults {
 std::size_t decided_sites(const MapState& state) {
     return static_cast<std::size_t>(std::count_if(state.sites.begin(), state.sites.end(),
                                                   [](const MapSite& s) { return s.decided; }));
-}
-
-const std::vector<std::string>* axis_values(const SweepPlan& plan, const std::string& name) {
-    for (const SweepAxis& axis : plan.axes)
-        if (axis.name == name) return &axis.values;
-    return nullptr;
 }
 
 /// Waits a moment for the runs of other processes; false if stopped.
@@ -129,18 +123,17 @@ MapOutcome run_map(const fs::path& folder, const SweepPlan& plan, const SweepSha
 
 Table map_table(const SweepPlan& plan, const MapState& state) {
     const MapTarget& target = *plan.map;
-    const std::vector<std::string>*const xs = axis_values(plan, target.x), *const ys = axis_values(
-                                                                               plan, target.y);
+    const SweepAxis *const x = plan.axis(target.x), *const y = plan.axis(target.y);
     std::vector<std::string> columns{target.x};
-    if (ys) columns.push_back(target.y);
+    if (y) columns.push_back(target.y);
     columns.insert(columns.end(), {target.of, target.of + "_error"});
     if (target.is_of_crossing()) columns.insert(columns.end(), {"N_c_lower", "N_c_upper"});
     columns.insert(columns.end(), {"verdict", "periods", "seeds", "failed"});
     Table table(columns);
     for (const MapSite& s : state.sites) {
         if (!s.decided) continue;
-        std::vector<Table::Cell> row{cell_of((*xs)[s.x])};
-        if (ys) row.push_back(cell_of((*ys)[s.y]));
+        std::vector<Table::Cell> row{cell_of(x->values[s.x])};
+        if (y) row.push_back(cell_of(y->values[s.y]));
         row.insert(row.end(), {s.value.mean, s.value.error});
         if (target.is_of_crossing()) row.insert(row.end(), {s.lower, s.upper});
         row.emplace_back(s.verdict);
@@ -153,8 +146,7 @@ Table map_table(const SweepPlan& plan, const MapState& state) {
 }
 
 std::string map_summary(const SweepPlan& plan, const MapState& state) {
-    const std::vector<std::string>* const xs = axis_values(plan, plan.map->x);
-    const std::vector<std::string>* const ys = axis_values(plan, plan.map->y);
+    const SweepAxis *const x = plan.axis(plan.map->x), *const y = plan.axis(plan.map->y);
     std::map<std::string, int> verdicts;
     std::int64_t runs = 0, failed = 0;
     for (const MapSite& s : state.sites) {
@@ -168,7 +160,7 @@ std::string map_summary(const SweepPlan& plan, const MapState& state) {
     const std::size_t decided = decided_sites(state);
     const bool complete = decided == state.sites.size();
     return fmt::format("{} of {} points needed{}{}; {} runs{}", state.sites.size(),
-                       xs->size() * (ys ? ys->size() : 1),
+                       x->values.size() * (y ? y->values.size() : 1),
                        complete ? "" : fmt::format(" so far, {} decided", decided),
                        counts.empty() ? "" : " (" + counts + ")", runs,
                        failed > 0 ? fmt::format(", {} failed", failed) : "");

@@ -76,9 +76,7 @@ class MapSearch {
           max_runs_(static_cast<std::size_t>(plan.replicas)),
           sites_(x_.values * y_.values) {
         if (!target_.is_of_crossing()) return;
-        for (const SweepAxis& axis : plan.axes)
-            if (axis.name == "discs")
-                first_number_ = static_cast<double>(*read_whole_number(axis.values.front()));
+        first_number_ = static_cast<double>(*read_whole_number(plan.axis("discs")->values.front()));
     }
 
     MapState explore() {
@@ -197,7 +195,7 @@ class MapSearch {
     std::size_t more_than(std::size_t runs) const { return std::min(2 * runs, max_runs_); }
 
     void find_value_at(MapSite& s) {
-        for (std::size_t count = std::min(first_runs, max_runs_);; count = more_than(count)) {
+        for (std::size_t count = first();; count = more_than(count)) {
             const PointRuns all = runs_at(s, 0, count);
             s.value = all.value;
             s.periods = all.periods;
@@ -317,14 +315,11 @@ class MapSearch {
 
     /// The number without runs that is nearest to the middle of a bracket.
     bool add_middle(Counts& counts, const SignChange& change) const {
-        const std::size_t left = index_of(change.before), right = index_of(change.after);
-        std::optional<std::size_t> nearest;
-        const auto distance = [&](std::size_t n) {
-            return std::abs(2.0 * double(n) - double(left) - double(right));
-        };
-        for (std::size_t n = left + 1; n < right; ++n)
-            if (!counts.contains(n) && (!nearest || distance(n) < distance(*nearest))) nearest = n;
-        if (nearest) counts.emplace(*nearest, first());
+        const auto nearest = middle_number(
+            static_cast<std::int64_t>(index_of(change.before)),
+            static_cast<std::int64_t>(index_of(change.after)),
+            [&](std::int64_t n) { return !counts.contains(static_cast<std::size_t>(n)); });
+        if (nearest) counts.emplace(static_cast<std::size_t>(*nearest), first());
         return nearest.has_value();
     }
 

@@ -1,4 +1,4 @@
-// Which runs an adaptive map needs. A map is a sweep (sweep.hpp) of which only some points are run. The
+// Finds the runs that an adaptive map needs. A map is a sweep (sweep.hpp) of which only some points are run. The
 // answer depends on the results alone, so any number of processes may work on one map, in any order.
 //
 // Sites. The values of the axes x and y span a grid of sites. First, sites about five steps apart in
@@ -31,7 +31,7 @@
 
 namespace swirl {
 
-/// What a map needs of a run.
+/// The part of a run's result that a map uses.
 struct MapRun {
     Estimate value = {};
     double periods = 0.0;

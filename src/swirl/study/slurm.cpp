@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <sstream>
 
@@ -94,8 +93,6 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder, const char
     text +=
         fmt::format("exec {} {} --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\"",
                     shell_word(program.string()), command, shell_word(sweep.string()), job.nodes);
-    // A task of a map makes the runs of the others in any case.
-    if (std::strcmp(command, "sweep") == 0) text += " --rest";
     text += job.cpus > 0 ? fmt::format(" --threads {}\n", job.cpus) : std::string("\n");
     return text;
 }

@@ -75,23 +75,27 @@ class SweepWorker {
 
     SweepOutcome run() {
         std::vector<std::vector<std::size_t>> own, others;
-        const auto add = [&](const std::vector<std::size_t>& chain, std::size_t k) {
+        // Without chains, each point is one.
+        const auto add = [&](std::vector<std::size_t> chain, std::size_t k) {
             const auto to_do = std::count_if(chain.begin(), chain.end(), [&](std::size_t point) {
                 return !done_before_[point];
             });
             if (to_do == 0) return;
             const bool is_own = k % share_.parts == share_.part - 1;
-            (is_own ? own : others).push_back(chain);
-            if (!is_own && !share_.rest) return;
-            total_ += double(to_do);
-            for (const std::size_t point : chain)
-                if (!done_before_[point]) total_cost_ += cost_of(plan_, point);
+            if (is_own || share_.rest) {
+                total_ += double(to_do);
+                for (const std::size_t point : chain)
+                    if (!done_before_[point]) total_cost_ += cost_of(plan_, point);
+            }
+            (is_own ? own : others).push_back(std::move(chain));
         };
-        if (share_.only) {
+        if (!plan_.chain.empty()) {
+            std::vector<std::vector<std::size_t>> chains = chains_of(plan_);
+            for (std::size_t k = 0; k < chains.size(); ++k) add(std::move(chains[k]), k);
+        } else if (share_.only) {
             for (const std::size_t point : *share_.only) add({point}, point);
         } else {
-            const std::vector<std::vector<std::size_t>> chains = chains_of(plan_);
-            for (std::size_t k = 0; k < chains.size(); ++k) add(chains[k], k);
+            for (std::size_t point = 0; point < plan_.points(); ++point) add({point}, point);
         }
         work_on(own);
         if (share_.rest) work_on(others);
@@ -124,7 +128,7 @@ class SweepWorker {
         }
     }
 
-    /// Where a run of a chain starts and ends.
+    /// Start and end of a run of a chain.
     struct ChainLink {
         std::optional<std::size_t> from;  // the point before
         std::optional<FinalState> begin;

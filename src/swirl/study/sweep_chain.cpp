@@ -22,7 +22,7 @@ fs::path state_file(const fs::path& folder, const SweepPlan& plan, std::size_t p
     return part_of_sweep(folder, "states", plan) / (number_of_point(point) + ".state");
 }
 
-/// What identifies the run that led to the state: its configuration and its place in the chain.
+/// Identifies the run that led to the state: its configuration and its place in the chain.
 std::string identity_of_state(const SweepPlan& plan, std::size_t point) {
     return fmt::format("{} chain {} {}", config_text(plan.config(point)), plan.chain,
                        plan.direction(point));
@@ -32,10 +32,6 @@ std::string identity_of_state(const SweepPlan& plan, std::size_t point) {
 
 std::vector<std::vector<std::size_t>> chains_of(const SweepPlan& plan) {
     std::vector<std::vector<std::size_t>> chains;
-    if (plan.chain.empty()) {
-        for (std::size_t point = 0; point < plan.points(); ++point) chains.push_back({point});
-        return chains;
-    }
     std::map<std::pair<ParameterTexts, std::int64_t>, std::size_t> index;
     std::vector<double> values(plan.points());
     for (std::size_t point = 0; point < plan.points(); ++point) {

@@ -15,7 +15,7 @@
 
 namespace swirl {
 
-/// The points of each chain, in the order in which they run. Without a chain, each point is one.
+/// The points of each chain, in the order in which they run.
 std::vector<std::vector<std::size_t>> chains_of(const SweepPlan& plan);
 
 void write_final_state(const std::filesystem::path& folder, const SweepPlan& plan,

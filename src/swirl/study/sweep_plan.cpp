@@ -213,6 +213,12 @@ MapTarget map_target_of(const Json& json) {
 
 }  // namespace
 
+const SweepAxis* SweepPlan::axis(std::string_view name) const {
+    const auto found = std::find_if(axes.begin(), axes.end(),
+                                    [&](const SweepAxis& axis) { return axis.name == name; });
+    return found == axes.end() ? nullptr : &*found;
+}
+
 std::size_t SweepPlan::points() const {
     std::size_t count = static_cast<std::size_t>(replicas) * directions();
     for (const SweepAxis& axis : axes) count *= axis.values.size();
@@ -287,25 +293,20 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
 
 void set_chain(SweepPlan& plan, std::string_view parameter) {
     const std::string name = plain_name(parameter);
-    const auto axis = std::find_if(plan.axes.begin(), plan.axes.end(),
-                                   [&](const SweepAxis& a) { return a.name == name; });
+    const SweepAxis* const axis = plan.axis(name);
     const std::vector<std::string> names = ramp_parameter_names();
     if (std::find(names.begin(), names.end(), name) == names.end())
         throw UsageError(fmt::format("--chain is '{}', but it must be one of: {}.{}", parameter,
                                      fmt::join(names, ", "), nearest_value_hint(name, names)));
-    if (axis == plan.axes.end() || axis->values.size() < 2)
+    if (!axis || axis->values.size() < 2)
         throw UsageError(
             fmt::format("--chain is '{}', but the sweep has no list of values of it.\nhint: give "
                         "{} with several values, for example {} 0.1:0.1:1.",
                         parameter, option_name(name), option_name(name)));
-    const auto is_axis = [&](const char* other) {
-        return std::any_of(plan.axes.begin(), plan.axes.end(),
-                           [&](const SweepAxis& a) { return a.name == other; });
-    };
-    if (!is_axis("periods"))
+    if (!plan.axis("periods"))
         throw UsageError(
             "a chain needs runs of whole periods.\nhint: give their length with --periods.");
-    if (is_axis("ramp"))
+    if (plan.axis("ramp"))
         throw UsageError("--chain and --ramp cannot be combined.\nhint: omit one of them.");
     plan.chain = name;
     validate(plan);

@@ -40,8 +40,8 @@ struct SweepStage {
     bool operator==(const SweepStage&) const = default;
 };
 
-/// What an adaptive map asks for. Of the product of the axes it needs the points that map_search.hpp
-/// names; `replicas` is the maximum at one point.
+/// The target of an adaptive map. It needs only some points of the product of the axes
+/// (map_search.hpp); `replicas` is the maximum at one point.
 struct MapTarget {
     std::string x, y = {};         // axes; y is empty for a curve
     std::string of = "by_time";    // a rotation rate, a measured number, or N_c
@@ -68,6 +68,8 @@ struct SweepPlan {
     /// Empty if the index is the number of the point. Follows from the other members.
     std::vector<std::size_t> product_indices = {};
 
+    /// The axis of this name, or null.
+    const SweepAxis* axis(std::string_view name) const;
     std::size_t points() const;
     std::size_t product_index(std::size_t point) const {
         return product_indices.empty() ? point : product_indices[point];

@@ -1,4 +1,4 @@
-// The motion of the camera, from what is at rest behind the container.
+// The motion of the camera, from the background, which is at rest.
 //
 // Patches of a reference frame that lie outside the circle swept by the container are searched in
 // each frame, by normalised correlation: first in a reduced image, then to a fraction of a pixel.
@@ -17,7 +17,7 @@
 
 namespace swirl {
 
-/// Where a frame shows what the reference frame shows at another position.
+/// Maps positions of the reference frame (`fixed`) to those of another frame (`seen`).
 struct CameraPose {
     Vec2 about{0.0, 0.0};     // the image centre, in pixels
     Vec2 shift{0.0, 0.0};     // of the image centre

@@ -15,7 +15,7 @@ void collect_camera_motion(Detections& all, TrackedVideo& tracked) {
     if (!last) return;
     for (FrameDetections& found : all) {
         if (!found.pose && found.used) {
-            found = {{}, {}, false, {}, found.change};
+            found.discard();
             ++tracked.frames_without_pose;
         }
         if (found.pose) last = found.pose;

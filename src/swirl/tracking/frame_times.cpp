@@ -36,7 +36,7 @@ bool set_frame_times(const TrackingSettings& settings, const VideoTimes& times, 
         "better",
         100.0 * times.jitter));
     if (own.untimed.empty()) return true;
-    for (const std::size_t k : own.untimed) all[k] = {{}, {}, false, {}, -1.0};
+    for (const std::size_t k : own.untimed) all[k].discard();
     const std::string what = fmt::format(
         "{} of the {} frames of '{}' have no valid time, the first at frame {}: their times do not "
         "advance",
@@ -166,18 +166,15 @@ bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims,
                           (found.after_missing.empty() || settings.accept_missing);
     if (accepted) {
         correct_times(jumps, tracked);
-        for (const std::size_t k : found.duplicates) {
-            const double change = all[k].change;
-            all[k] = {{}, {}, false, {}, change};
-        }
+        for (const std::size_t k : found.duplicates) all[k].discard();
         tracked.warnings.push_back(what +
                                    "; accepted: duplicates are not used, and times are corrected");
         return true;
     }
+    const char* const accept = found.duplicates.empty()      ? "missing"
+                               : found.after_missing.empty() ? "duplicates"
+                                                             : "duplicates,missing";
     if (share >= max_share) {
-        const char* accept = found.duplicates.empty()      ? "missing"
-                             : found.after_missing.empty() ? "duplicates"
-                                                           : "duplicates,missing";
         const std::int64_t begin =
             settings.first_frame + static_cast<std::int64_t>(found.longest_begin);
         throw Failure(fmt::format(
@@ -190,10 +187,7 @@ bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims,
     tracked.warnings.push_back(
         fmt::format("the container moves unevenly: {}; times and Ω are off by up to {:.2f} %; "
                     "swirl track --accept {} corrects that",
-                    what, 100.0 * share,
-                    found.duplicates.empty()      ? "missing"
-                    : found.after_missing.empty() ? "duplicates"
-                                                  : "duplicates,missing"));
+                    what, 100.0 * share, accept));
     return false;
 }
 

@@ -306,10 +306,10 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
         for (const double c : row)
             if (is_allowed(c)) maximum = std::max(maximum, c), min_cost = std::min(min_cost, c);
     // Shortest augmenting paths need at least as many columns as rows; added columns cost more than
-    // any allowed pair. A forbidden pair costs more than the largest
-    // possible difference between two assignments without forbidden pairs. So the result has as few
-    // of them as possible, and they are removed at the end. All costs of the search are
-    // finite, so every pass of its inner loop adds a column, and it terminates.
+    // any allowed pair. A forbidden pair costs more than the largest possible difference between two
+    // assignments without forbidden pairs. So the result has as few of them as possible, and they
+    // are removed at the end. All costs of the search are finite, so every pass of its inner loop
+    // adds a column, and it terminates.
     const std::size_t width = std::max(rows, columns);
     const double forbidden = (maximum - min_cost + 1.0) * static_cast<double>(width + 1);
     const auto at = [&](std::size_t r, std::size_t c) {

@@ -101,7 +101,7 @@ struct TrackedVideo {
     double step() const;
     /// Centre of the container in this frame.
     Vec2 container(std::size_t frame) const { return path.at(times[frame]); }
-    /// Where the frame as recorded shows the position.
+    /// The position in the frame as recorded.
     Vec2 in_image(std::size_t frame, const Vec2& position) const {
         const Vec2 p = lens.seen(position);
         return camera.poses.empty() ? p : camera.poses[frame].seen(p);

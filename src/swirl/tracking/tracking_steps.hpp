@@ -44,10 +44,18 @@ VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_co
 struct FrameDetections {
     CircleFit rim;
     std::vector<Particle> particles;
-    bool used =
-        true;  // false: a frame without a time of its own, a duplicate, or one to be skipped
+    /// False for a frame without a time of its own, a duplicate, and one to be skipped.
+    bool used = true;
     std::optional<CameraPose> pose;  // of the frame, if the camera moves
     double change = -1.0;  // of the pixels since the frame before, grey levels; −1: unknown
+
+    /// Drops all that was found in the frame.
+    void discard() {
+        rim = {};
+        particles.clear();
+        used = false;
+        pose.reset();
+    }
 };
 using Detections = std::vector<FrameDetections>;  // for each frame
 /// Positions as seen through the lens. `expected` frames, for the progress; 0: unknown.

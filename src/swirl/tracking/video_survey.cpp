@@ -88,9 +88,9 @@ std::vector<AppearanceTemplate::Example> find_examples(const std::vector<cv::Mat
     return examples;
 }
 
-/// Soft edges give a wrong radius, and circles of that radius are displaced. If the
-/// commonest distance of neighbours is far from the diameter, halves the difference: the outline
-/// that is seen lies between the edge and the contact. True if the radius changed.
+/// Soft edges give a wrong radius, and circles of that radius are displaced. If the commonest
+/// distance of neighbours is far from the diameter, halves the difference: the visible outline is
+/// between the edge and the contact. True if the radius changed.
 bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& examples,
                                 ParticleAppearance& appearance) {
     std::vector<double> ratios;

@@ -1,0 +1,21 @@
+// The message for parameters that are rejected.
+#pragma once
+
+#include <string>
+
+#include "swirl/run/config.hpp"
+#include "swirl/run/failure.hpp"
+
+namespace swirl {
+
+/// "" if resolve() accepts them.
+inline std::string error_of(const ParameterTexts& given) {
+    try {
+        resolve(given);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace swirl
