@@ -155,15 +155,27 @@ std::string python_message(std::string_view message) {
     return plain;
 }
 
+namespace {
+
+bool is_exiting() {
+#if PY_VERSION_HEX >= 0x030d0000  // Python 3.13 made the function public and removed the old name.
+    return Py_IsFinalizing();
+#else
+    return _Py_IsFinalizing();
+#endif
+}
+
+}  // namespace
+
 WithoutInterpreter::~WithoutInterpreter() {
     // While Python exits, it would terminate a daemon thread inside this destructor, and thereby
     // the whole program. The thread waits for the end of the process instead.
-    while (_Py_IsFinalizing()) pause();
+    while (is_exiting()) pause();
     PyEval_RestoreThread(state_);
 }
 
 void PendingError::check_signals(const std::function<void()>& more) {
-    if (error_ || _Py_IsFinalizing()) return;
+    if (error_ || is_exiting()) return;
     const py::gil_scoped_acquire interpreter;
     try {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
