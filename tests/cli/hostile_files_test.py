@@ -4,6 +4,7 @@ error."""
 
 import json
 import os
+import re
 import shutil
 import signal
 import struct
@@ -14,6 +15,8 @@ import unittest
 from program import SWIRL, InFolder, swirl
 
 DISCS = ["run", "--discs", "4", "--periods", "3", "--frames", "5", "--warmup", "1", "--quiet"]
+# HDF5 1.14 itself rejects what 1.10 opens.
+WRONG_SHAPE = re.compile("does not match its shape|cannot be read as a dataset")
 SPHERES = [*DISCS, "--body", "sphere", "--floor", "sliding"]
 
 
@@ -47,7 +50,7 @@ f.close()
     def expect_error(self, saying, *call):
         done = swirl(*call, timeout=150)
         self.assertEqual(done.returncode, 1, (call, done.stdout, done.stderr))
-        self.assertIn(saying, done.stderr, call)
+        self.assertRegex(done.stderr, saying if isinstance(saying, re.Pattern) else re.escape(saying), call)
         return done
 
     # --- impossible values ----------------------------------------------------------------------
@@ -106,7 +109,7 @@ f.close()
         self.recorded(*DISCS)
         # The shape 4 × 2 of /initial/position, and as many rows as make 4 GB.
         file = self.forged("e.h5", struct.pack("<QQ", 4, 2), struct.pack("<QQ", 1 << 28, 2))
-        self.expect_error("does not match its shape", "verify", file)
+        self.expect_error(WRONG_SHAPE, "verify", file)
 
     def test_a_compact_dataset_smaller_than_its_shape_is_rejected(self):
         self.recorded(*DISCS)
@@ -120,7 +123,7 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
         os.rename(copy, self.path("compact.h5"))
         file = self.forged("compact.h5", struct.pack("<QQ", 57, 57), struct.pack("<QQ", 5000, 5000))
         for verb in (["verify"], ["measure"]):
-            self.expect_error("does not match its shape", *verb, file)
+            self.expect_error(WRONG_SHAPE, *verb, file)
 
     @unittest.skipUnless(shutil.which("cc"), "no C compiler")
     def test_a_crash_inside_the_library_becomes_an_error(self):

@@ -5,6 +5,7 @@ processes are ended by their process IDs.
 """
 
 import os
+import re
 import shutil
 import signal
 import socket
@@ -99,8 +100,16 @@ SlurmdParameters=config_overrides
             for k, node in enumerate(self.nodes):
                 conf.write(f"NodeName={node} NodeHostname={host} NodeAddr=127.0.0.1 "
                            f"Port={port + 101 + k} CPUs={cpus} RealMemory=500 State=UNKNOWN\n")
+            # From Slurm 23.11 on, a node needs control groups unless this plugin is disabled.
+            if self.version() >= (23, 11):
+                with open(f"{folder}/cgroup.conf", "w") as cgroup:
+                    cgroup.write("CgroupPlugin=disabled\n")
             conf.write(f"PartitionName=main Nodes={','.join(self.nodes)} Default=YES "
                        "MaxTime=INFINITE State=UP OverSubscribe=NO\n")
+
+    def version(self):
+        text = subprocess.run(["slurmd", "-V"], capture_output=True, text=True, check=True).stdout
+        return tuple(int(number) for number in re.search(r"(\d+)\.(\d+)", text).groups())
 
     def run(self, *command):
         return subprocess.run(command, env=self.environment, capture_output=True, text=True,

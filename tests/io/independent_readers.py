@@ -313,7 +313,7 @@ def product(a, b):
 def read_gsd():
     need("gsd.hoomd")
     import gsd.hoomd
-    with gsd.hoomd.open(FILE, "rb") as frames:
+    with gsd.hoomd.open(FILE) as frames:
         assert len(frames) == FRAMES
         for k, frame in enumerate(frames):
             x, y, vx, vy, angle, spin = expected(k)

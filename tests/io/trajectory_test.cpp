@@ -401,7 +401,7 @@ TEST(Export, EveryFormatCanStartAtALaterFrame) {
     }
     const auto ran = run_command("/usr/bin/python3 -c \"import gsd.hoomd as g; f = g.open('" +
                                  (scratch / "lategsd.gsd").string() +
-                                 "', 'rb')[0]; print(f.configuration.step, f.particles.mass[1], "
+                                 "')[0]; print(f.configuration.step, f.particles.mass[1], "
                                  "f.particles.types)\"");
     if (ran.output.find("ModuleNotFound") != std::string::npos) GTEST_SKIP() << ran.output;
     EXPECT_EQ(ran.output, "2 1.0 ['D1', 'D2']\n");

