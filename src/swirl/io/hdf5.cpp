@@ -461,7 +461,8 @@ Column Hdf5File::column(const std::string& name) const {
     const Locked lock;
     if (!has(name)) throw FileError(fmt::format("'{}' has no {}.", state_->path, name));
     const hid_t id = H5Dopen2(state_->id, name.c_str(), H5P_DEFAULT);
-    if (id < 0) throw FileError(fmt::format("'{}': {} cannot be read as a dataset.", state_->path, name));
+    if (id < 0)
+        throw FileError(fmt::format("'{}': {} cannot be read as a dataset.", state_->path, name));
     const auto handle = std::make_shared<Column::Handle>(state_, id);
     state_->require_consistent_storage(id, name);
     return {handle, name};
