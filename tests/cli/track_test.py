@@ -354,13 +354,21 @@ class TrackTest(InFolder):
         self.assert_rejected(1, "no frames named",
                              call=swirl("track", self.path("no%05d.png"), "--out", out))
 
-    def track_changed(self, video, name, *arguments):
-        subprocess.run(["ffmpeg", "-v", "error", "-i", video, *arguments, self.path(name)], check=True)
+    def track_changed(self, video, name, *arguments, of_input=()):
+        subprocess.run(["ffmpeg", "-v", "error", *of_input, "-i", video, *arguments, self.path(name)],
+                       check=True)
         return self.track(self.path(name), name=name[:-4] + ".csv")
 
     def test_the_rotation_flag_of_a_video_is_applied(self):
-        tracks, _ = self.track_changed(self.video(), "turned.mp4", "-c", "copy", "-metadata:s:v:0",
-                                       "rotate=90")
+        help_text = subprocess.run(["ffmpeg", "-hide_banner", "-h", "full"], capture_output=True,
+                                   text=True).stdout
+        if "-display_rotation" in help_text:  # from ffmpeg 6 on, instead of the metadata
+            turn = dict(of_input=["-display_rotation:v:0", "90"])
+            metadata = []
+        else:
+            turn = {}
+            metadata = ["-metadata:s:v:0", "rotate=90"]
+        tracks, _ = self.track_changed(self.video(), "turned.mp4", "-c", "copy", *metadata, **turn)
         with open(tracks[:-4] + ".camera.json", encoding="utf-8") as file:
             found = json.load(file)
         self.assertEqual(found["discs"], 20)
