@@ -37,8 +37,9 @@ def what_is_missing():
 
 
 def create(release, folder, packages=()):
-    subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", "--include=" + ",".join(packages), release,
-                    folder, mirror()], check=True, stdin=subprocess.DEVNULL)
+    include = ["--include=" + ",".join(packages)] if packages else []
+    subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", *include, release, folder, mirror()],
+                   check=True, stdin=subprocess.DEVNULL)
 
 
 def run(folder, *command, inside="/root", **variables):

@@ -17,7 +17,7 @@ def snapshot_svg(snapshot: _engine.Snapshot, width: int = 320) -> str:
              f'viewBox="{cx - reach:.6g} {-cy - reach:.6g} {2 * reach:.6g} {2 * reach:.6g}">',
              f'<circle cx="{cx:.6g}" cy="{-cy:.6g}" r="{R:.6g}" fill="#f7f7f5" stroke="#333" '
              f'stroke-width="{0.01 * R:.4g}"/>']
-    for (x, y), r, angle in zip(snapshot.position, snapshot.radius, snapshot.angle):
+    for x, y, r, angle in zip(*snapshot.position.T, snapshot.radius, snapshot.angle):
         parts.append(f'<circle cx="{x:.6g}" cy="{-y:.6g}" r="{r:.6g}" fill="#9db9d4" '
                      f'stroke="#2c4a66" stroke-width="{0.006 * R:.4g}"/>')
         if math.isfinite(angle):

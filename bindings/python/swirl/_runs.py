@@ -161,13 +161,13 @@ def split_measure(measure: Optional[Measure]) -> tuple[list[str], list[CustomMea
         if isinstance(each, str):
             names += [name for name in _engine.measurement_list(each) if name not in names]
             continue
-        if isinstance(each, type):
-            each = each()
-        if not (hasattr(each, "block") or hasattr(each, "sample") or callable(each)):
-            raise TypeError(f"measure contains {each!r}, but each element must be a name or have a "
+        kind: Any = each  # a class or an object
+        one = kind() if isinstance(each, type) else kind
+        if not (hasattr(one, "block") or hasattr(one, "sample") or callable(one)):
+            raise TypeError(f"measure contains {one!r}, but each element must be a name or have a "
                             "method sample(snapshot) or block(frames).\n"
                             "hint: swirl.measurements() lists the names.")
-        custom.append(each)
+        custom.append(one)
     return names, custom
 
 

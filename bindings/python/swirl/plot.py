@@ -42,8 +42,8 @@ def snapshot(source: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes
     if m_frame:
         s = s.m_frame()
     axes = _axes(axes)
-    centre = s.container_centre
-    axes.add_patch(Circle(centre, s.container_radius, facecolor="none", edgecolor="0.2", lw=1.5))
+    x, y = s.container_centre
+    axes.add_patch(Circle((x, y), s.container_radius, facecolor="none", edgecolor="0.2", lw=1.5))
     widths = 2.0 * s.radius
     # matplotlib stores and modifies its argument, but views of a snapshot are read-only.
     discs = EllipseCollection(widths, widths, np.zeros(len(s)), units="x", offsets=s.position.copy(),
@@ -71,7 +71,7 @@ def snapshot(source: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes
         axes.quiver(*s.position.T, *(0.1 * s.period * s.velocity.T), angles="xy", scale_units="xy",
                     scale=1, width=0.003)
     reach = 1.04 * s.container_radius
-    axes.set(xlim=(centre[0] - reach, centre[0] + reach), ylim=(centre[1] - reach, centre[1] + reach),
+    axes.set(xlim=(x - reach, x + reach), ylim=(y - reach, y + reach),
              aspect="equal", xlabel="x / r", ylabel="y / r")
     return axes
 
