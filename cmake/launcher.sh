@@ -180,19 +180,20 @@ is_locked() {
     owner=$(readlink "$1" 2>/dev/null) && is_running "$owner"
 }
 
-# Waits for the lock $1 and takes it. The lock of a process that ended without removing it is removed.
+# Waits for the lock $1 and takes it. The lock of a process that ended without removing it is removed, and
+# so is a file with this name, which names no process.
 take_lock() {
     failed=0
     until ln -s $$ "$1" 2>/dev/null; do
         owner=$(readlink "$1") || owner=
-        if [ -z "$owner" ]; then
+        if [ -n "$owner" ] && is_running "$owner"; then
+            sleep 1
+        elif { [ -n "$owner" ] || [ -f "$1" ]; } && mv "$1" "$1.$$" 2>/dev/null; then
+            # Another process may have replaced the lock in between.
+            if [ "$(readlink "$1.$$")" = "$owner" ]; then rm -f "$1.$$"; else mv "$1.$$" "$1"; fi
+        else
             failed=$((failed + 1))
             [ $failed -lt 100 ] || give_up "cannot create the lock '$1'."
-        elif is_running "$owner"; then
-            sleep 1
-        elif mv "$1" "$1.$$" 2>/dev/null; then
-            # Another process may have replaced the lock in between.
-            if [ "$(readlink "$1.$$")" = "$owner" ]; then rm "$1.$$"; else mv "$1.$$" "$1"; fi
         fi
     done
 }

@@ -394,6 +394,11 @@ No block of text.
         self.assertEqual(self.word(), "first")
         self.assertFalse(os.path.lexists(self.path("build/.building")))
 
+    def test_a_file_in_place_of_the_lock_is_removed(self):
+        self.write("build/.building", "from another version\n")
+        self.assertEqual(self.word(), "first")
+        self.assertEqual([name for name in os.listdir(self.path("build")) if name.startswith(".building")], [])
+
     def test_packages_of_a_subcommand_are_installed_once(self):
         self.write("packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n"
                                "[images]\ng++\n")

@@ -67,7 +67,7 @@ class Stop(InFolder):
 
     def test_during_placement(self):
         self.assertGreaterEqual(
-            self.count_clean_stops([0.1, 0.5], "run", "--discs", 60, "--events", 100), 1)
+            self.count_clean_stops([0.1, 0.5], "run", "--discs", 250, "--radius", 0.5, "--events", 100), 1)
 
     def test_during_preparation_and_run_of_a_million_discs(self):
         radius = 8.6 * (1e6 / 48) ** 0.5

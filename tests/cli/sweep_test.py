@@ -167,9 +167,9 @@ class Sweep(InFolder):
         self.assertEqual(status(), "0 of 4 runs done, 0 running, 0 failed, 4 to do\n")
 
     def test_a_failed_run_does_not_stop_the_others(self):
-        done = swirl("sweep", "--discs", "5,60,6", "--events", 1000, "--out", self.path("a"))
+        done = swirl("sweep", "--discs", "5,250,6", "--radius", 0.5, "--events", 1000, "--out", self.path("a"))
         self.assertEqual(done.returncode, 1)
-        self.assertIn("point 1: 60 discs", done.stderr)
+        self.assertIn("point 1: 250 discs", done.stderr)
         self.assertIn("2 of 3 runs done, 0 running, 1 failed",
                       swirl("sweep", "--out", self.path("a"), "--status").stdout)
         self.assertEqual(len(self.table(self.path("a")).splitlines()), 3)

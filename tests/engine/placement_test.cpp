@@ -93,6 +93,31 @@ TEST(Placement, OlersBoundIsNotBelowKnownPackings) {
     EXPECT_EQ(max_discs_in_container(1.0, 1.0), 1.0);
 }
 
+TEST(Placement, DensestKnownArrangements) {
+    const auto known = discs_in_densest_known_arrangement;
+    // Nineteen in (1 + √2 + √6) r. Eighteen need the same container.
+    EXPECT_EQ(known(1.0, 1.0 + std::sqrt(2.0) + std::sqrt(6.0)), 19);
+    EXPECT_EQ(known(0.5, 4.83 / 2.0), 17);
+    EXPECT_EQ(known(1.0, 8.6), 59);
+    EXPECT_EQ(known(1.0, 8.6613), 61);
+    EXPECT_EQ(known(1.0, 3.0), std::nullopt);
+    EXPECT_EQ(known(1.0, 9.1), std::nullopt);
+    // All of these numbers can be placed in a container wider by 0.45 %.
+    for (double R = 3.9; R < 9.05; R += 0.1) {
+        const auto n = known(1.0, R / 1.0045);
+        if (n) expect_placed(std::vector<double>(static_cast<std::size_t>(*n), 1.0), R, 1);
+    }
+}
+
+TEST(Placement, SlowNoArrangementDenserThanTheKnownOnesIsFound) {
+    // The container holds one disc less than is placed.
+    for (const double R : {4.6, 6.1, 8.6}) {
+        const auto n = discs_in_densest_known_arrangement(1.0, R);
+        ASSERT_TRUE(n);
+        EXPECT_FALSE(place_discs(std::vector<double>(static_cast<std::size_t>(*n) + 1, 1.0), R, 1));
+    }
+}
+
 TEST(Placement, LargeContainersHoldTheSamePackingFraction) {
     for (const double radius : {17.2, 86.0, 300.0}) {
         const auto n = static_cast<std::size_t>(48.0 / (8.6 * 8.6) * radius * radius);

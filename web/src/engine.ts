@@ -5,6 +5,11 @@ import {workerTexts} from "./texts";
 /** An error message of the engine, with an optional hint in a second line. */
 export class UsageError extends Error {}
 
+/** The parameter that an error message names first: "--mu is …", or a number of discs. */
+export function parameterOf(message: string): string | undefined {
+    return /^\d+ /.test(message) ? "discs" : /^.*?--([a-z-]+)/.exec(message)?.[1]?.replaceAll("-", "_");
+}
+
 export interface Parameter {
     name: string;
     symbol: string;

@@ -2,10 +2,10 @@
 // the parts of the page listen to what it reports.
 import engineUrl from "../generated/swirl.wasm.gz?url";
 import EngineWorker from "./worker?worker&inline";
-import type {Parameter, Rotation} from "./engine";
+import {parameterOf, type Parameter, type Rotation} from "./engine";
 import type {Frame, FromWorker, Maps, ToWorker} from "./messages";
 import {language} from "./start";
-import {texts} from "./texts";
+import {engineMessage, texts} from "./texts";
 
 /** What the laboratory reports, and to whom: each part of the page listens to some of these. */
 export interface Reports {
@@ -25,7 +25,8 @@ export interface Reports {
     reversed: [];
     result: [text: string];
     progress: [unit: "events" | "periods", done: number, all: number];
-    error: [message: string];
+    /** `parameter` is the name of the one whose value is wrong, if it is known. */
+    error: [message: string, parameter?: string];
 }
 type Listeners = {[Kind in keyof Reports]?: ((...report: Reports[Kind]) => void)[]};
 
@@ -152,7 +153,7 @@ export class Laboratory {
         this.renewWorker();
         this.placing = undefined;
         this.fail(texts.tooDense(this.counted(Number(this.given["discs"] || this.effectiveValue("discs")), this.given),
-                                 Math.round(100 * this.packing())));
+                                 Math.round(100 * this.packing())), "discs");
     }
 
     private renewWorker(message?: ToWorker): void {
@@ -176,10 +177,10 @@ export class Laboratory {
         this.resetAverages();
     }
 
-    fail(message: string): void {
+    fail(message: string, parameter?: string): void {
         this.isWaiting = false;
         this.hasFailed = true;
-        this.report("error", message);
+        this.report("error", message, parameter);
     }
 
     /** The value in effect if none is given: the preset's, or the default. */
@@ -250,7 +251,7 @@ export class Laboratory {
             case "rejected":
                 clearTimeout(this.placing);
                 this.placing = undefined;
-                return this.fail(data.message);
+                return this.fail(engineMessage(data.message), parameterOf(data.message));
             case "progress":
                 return this.report("progress", data.unit, data.done, data.all);
             case "frame":

@@ -3,7 +3,7 @@ import {mapColor} from "./maps";
 import {diverging, looseColor, pinnedColor, type DrawOptions, type Palette} from "./scene";
 import {texts} from "./texts";
 
-const margin = 10, barWidth = 110, barHeight = 7, row = 17; // pixels of the page
+const margin = 10, barWidth = 110, barHeight = 7, row = 17, narrow = 450; // pixels of the page
 
 /** `size` is the width of the image in pixels of the page. */
 export function drawLegend(context: CanvasRenderingContext2D, size: number, look: DrawOptions, palette: Palette): void {
@@ -42,12 +42,15 @@ export function drawLegend(context: CanvasRenderingContext2D, size: number, look
     const ofSpin = (t: number): string => `rgb(${diverging(2 * t - 1).join(" ")})`;
     if (look.map) {
         const {kind} = look.map;
-        chip(palette.quiet, texts.loose, true);
+        // The corner is widest at the bottom, so long rows are there.
+        if (kind === "flow") {
+            say(texts.flowKey);
+            y -= row;
+        }
         chip(pinnedColor, texts.pinned, true);
+        chip(palette.quiet, texts.loose, true);
         if (kind === "density") bar((t) => `rgb(${mapColor(t, look.dark).join(" ")})`, texts.sparse, texts.dense);
         else if (kind === "spin") bar(ofSpin, texts.spinAgainst, texts.spinWith);
-        else say(texts.flowKey);
-        if (kind === "flow") y -= row;
         say(look.map.isEmpty ? texts.mapEmpty : texts.maps[kind]);
     } else if (look.coloring === "spin") {
         bar(ofSpin, texts.spinAgainst, texts.spinWith);
@@ -59,7 +62,8 @@ export function drawLegend(context: CanvasRenderingContext2D, size: number, look
     }
     if (!look.note) return;
     context.textAlign = "right";
-    y = size - margin;
     context.fillStyle = palette.quiet;
-    context.fillText(look.note, size - margin, y);
+    // In a small image M would be behind one long row.
+    const rows = size < narrow ? look.note.split(/(?<=:) /) : [look.note];
+    for (const [k, text] of rows.reverse().entries()) context.fillText(text, size - margin, size - margin - k * row);
 }

@@ -31,13 +31,16 @@ const verdict = new Verdict(lab);
 const dish = new Dish(lab, (text) => verdict.say(text));
 const player = new Player(lab, dish, matchMedia("(prefers-reduced-motion: reduce)").matches);
 const transport = new Transport(lab, dish, player);
-new Parameters(lab);
+const parameters = new Parameters(lab);
 new Curve(lab);
 new Share(lab, dish);
 const host = hostOf(lab, dish, player, transport);
 const discovery = new Discovery(byId("discovery"), host);
 const explorer = new Explorer(byId("explorer"), host);
 new Lesson(byId("lesson"), byId("lesson-start"), byId("panels"), host);
+const lessonButton = byId("lesson-open") as HTMLButtonElement;
+lessonButton.disabled = true; // until the page has read the parameters in its address, which would replace the lesson's
+lab.on("ready", () => { lessonButton.disabled = false; });
 const opened = new OpenedFile(byId("controls"), byId("options"), host, (message) => showError(message));
 for (const kind of ["started", "changed"] as const) lab.on(kind, () => { if (lab.missing === 0) discovery.visit(); });
 lab.on("given", () => opened.parametersChanged());
@@ -46,12 +49,17 @@ lab.on("ready", () => explorer.parametersKnown());
 byId("options").append(...experiments(lab, dish, player, transport));
 addShortcuts(lab, player, transport);
 
-function showError(message: string): void {
-    byId("error").textContent = message;
-    byId("error").hidden = false;
+const error = byId("error");
+/** Shows a message below the parameter whose value is wrong, or at the top. */
+function showError(message: string, parameter?: string): void {
+    const row = parameters.rowOf(parameter);
+    if (row) row.append(error);
+    else byId("top").after(error);
+    error.textContent = message;
+    error.hidden = false;
 }
 lab.on("error", showError);
-lab.on("begin", () => { byId("error").hidden = true; });
+lab.on("begin", () => { error.hidden = true; });
 
 let isFirst = false; // frame of a simulation
 let isExact = false; // the address asks for an event, so time stops there

@@ -109,6 +109,12 @@ export class Parameters {
         return made;
     }
 
+    /** The visible row of a parameter. */
+    rowOf(name = ""): HTMLElement | undefined {
+        const row = this.fields[name]?.row;
+        return row?.offsetParent ? row : undefined;
+    }
+
     private change(name: string, value: string): void {
         // One friction coefficient replaces the two others.
         this.lab.set({...(name === "mu" ? {mu_disc: "", mu_wall: ""} : {}), [name]: value});
@@ -119,7 +125,7 @@ export class Parameters {
         for (const [name, {row, text, slider}] of Object.entries(fields)) {
             const value = lab.given[name] ?? "", holds = lab.effectiveValue(name);
             const isChoice = text instanceof HTMLSelectElement;
-            if (text instanceof HTMLInputElement) text.placeholder = shortened(holds);
+            if (text instanceof HTMLInputElement) text.placeholder = shortened(holds.split(",")[0]!);
             const wanted = isChoice ? value || holds : value;
             if (text.value.trim() !== wanted) text.value = wanted; // unless it is being typed
             if (slider) {

@@ -12,6 +12,8 @@ export interface Axis {
     labelSize?: number;
     /** The range of the axis for the lowest and the highest value on it. */
     range?: (lowest: number, highest: number) => [number, number];
+    /** Whether only whole numbers are labelled. */
+    isWhole?: () => boolean;
 }
 
 export interface Line {
@@ -121,7 +123,8 @@ export class Plot {
         context.font = `${font * ratio}px Inter, system-ui, sans-serif`;
         context.lineWidth = ratio;
         const bottom = area.top + area.height;
-        const xs = ticksOf(...this.ranges.x, area.width / (52 * ratio)), ys = ticksOf(...this.ranges.y, area.height / (30 * ratio));
+        const {x: span} = this.ranges, most = area.width / (52 * ratio);
+        const xs = ticksOf(...span, x.isWhole?.() ? Math.min(most, span[1] - span[0]) : most), ys = ticksOf(...this.ranges.y, area.height / (30 * ratio));
         for (const [axis, ticks] of [[x, xs], [y, ys]] as const) {
             const vertical = axis === x;
             for (const [k, text] of labelsOf(ticks).entries()) {

@@ -95,7 +95,7 @@ export class PointsPlot {
         this.plot?.canvas.remove();
         this.plot = new Plot({
             width: this.place.clientWidth || 320, height: this.height,
-            x: {label: labels[0], color: ink, grid: line, range: () => this.range("x")},
+            x: {label: labels[0], color: ink, grid: line, range: () => this.range("x"), isWhole: () => this.marks.at !== undefined},
             y: {label: labels[1], color: ink, grid: line, range: () => this.range("y")},
             lines: [], draw: (plot) => this.drawAll(plot),
         }, this.area);
@@ -121,7 +121,7 @@ export class PointsPlot {
             [low, high] = [Math.max(low - reach, Math.min(low, ...ends)),
                            Math.min(high + reach, Math.max(high, ...ends))];
         }
-        const margin = 0.06 * (high - low) || 0.1 * Math.abs(high) || 1;
+        const margin = 0.06 * (high - low) || Math.max(0.1 * Math.abs(high), axis === "x" && this.marks.at !== undefined ? 2 : 0) || 1;
         return [low - margin, high + margin];
     }
 

@@ -1,6 +1,7 @@
 // Whole runs in the background, on all cores. Each worker makes one run at a time.
 import {UsageError, perRate, type Crossing, type Estimate, type Rate, type Rotation, type RunNumbers} from "./engine";
 import type {FromWorker, ToWorker} from "./messages";
+import {engineMessage} from "./texts";
 
 /** A collapsed run has no rotation rate, since its averages end at the collapse. */
 export interface FinishedRun {
@@ -89,7 +90,7 @@ export class Runs {
             if (data.kind === "progress" || data.kind === "started") return;
             this.workers.set(worker, undefined);
             this.idle.push(worker);
-            if (data.kind === "rejected") task?.reject(new UsageError(data.message));
+            if (data.kind === "rejected") task?.reject(new UsageError(engineMessage(data.message)));
             else task?.resolve(data); // "ready" answers no task
             this.next();
         };

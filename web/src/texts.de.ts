@@ -55,15 +55,15 @@ export const texts: typeof en.texts = {
     speed: "Tempo",
     speedHelp: "Umläufe pro Sekunde",
     view: "Ansicht",
-    views: {lab: "Laborsystem", m: "M-System", both: "Beide", density: "Karte der Dichte", flow: "Karte der Strömung",
-        spin: "Karte der Eigendrehung"},
+    views: {lab: "Laborsystem", m: "M-System", both: "Beide", density: "Karte: Dichte", flow: "Karte: Strömung",
+        spin: "Karte: Eigendrehung"},
     color: "Farbe",
     colors: {sector: "nach Sektor", spin: "Eigendrehung", speed: "Geschwindigkeit", pinned: "haftend", id: "Scheibe"},
     pinned: "haftend: bewegt sich mit der Wand",
     loose: "frei",
     sparse: "leer",
     dense: "dicht",
-    spinAgainst: "Eigendrehung dagegen",
+    spinAgainst: "dagegen",
     spinWith: "im Schwenksinn",
     atRest: "in Ruhe",
     fast: "schnell",
@@ -157,7 +157,8 @@ export const texts: typeof en.texts = {
     explorer: {
         title: "Erkunden: Drehrate oder N_c gegen einen beliebigen Parameter",
         help: "Läufe auf allen Kernen dieses Rechners, mit den übrigen Parametern wie auf der Seite eingestellt. Die Punkte erscheinen mit " +
-            "ihren 95-%-Intervallen. Mit der Anzahl der Scheiben auf der Achse ist das Abbildung 5b der Veröffentlichung.",
+            "ihren 95-%-Intervallen. Mit der Anzahl der Scheiben auf der Achse ist das Abbildung 5b der Veröffentlichung. N_c ist die " +
+            "Anzahl der Scheiben, bei der sich die Richtung umkehrt.",
         quantity: "Zeige",
         crossing: "N_c",
         against: "gegen",
@@ -167,9 +168,9 @@ export const texts: typeof en.texts = {
         curvesHelp: "Wie für die Achse. Bei mu setzt SCHEIBE:WAND die Zahlen zwischen Scheiben und an der Wand getrennt",
         oneCurve: "(eine Kurve)",
         invalid: (most: number): string => "Werte müssen Zahlen oder Bereiche VON:SCHRITT:BIS sein, durch Kommas getrennt; " +
-            `mu darf Paare SCHEIBE:WAND haben. Höchstens ${most} Punkte.\nhint: zum Beispiel discs 5:6:53 und mu 0.1, 1, 1:0.`,
+            `mu darf Paare SCHEIBE:WAND haben. Höchstens ${most} Punkte.\nTipp: zum Beispiel discs 5:6:53 und mu 0.1, 1, 1:0.`,
         sameParameter: (name: string): string =>
-            `Der Parameter ${name} steht auf der Achse und bei den Kurven.\nhint: Wähle für die Kurven einen anderen.`,
+            `Der Parameter ${name} steht auf der Achse und bei den Kurven.\nTipp: Wähle für die Kurven einen anderen.`,
         searches: (done: number, all: number, runs: number): string =>
             `${done} von ${all} Suchen fertig, bisher ${runs} Läufe.`,
         imprecise: "Die Unsicherheit liegt über dem Ziel von 0.25.",
@@ -185,9 +186,9 @@ export const texts: typeof en.texts = {
         drop: "Ergebnis, Checkpoint oder Aufzeichnung von swirl hier ablegen",
         close: "Datei schließen",
         unknown: (name: string): string => `'${name}' ist kein Ergebnis, kein Checkpoint und keine Aufzeichnung von swirl.\n` +
-            "hint: Öffne eine Datei von swirl run --json, --checkpoint oder --trajectory.",
+            "Tipp: Öffne eine Datei von swirl run --json, --checkpoint oder --trajectory.",
         tooLarge: (name: string, most: number): string => `'${name}' ist größer als ${most} MB.\n` +
-            "hint: Nimm swirl movie oder swirl export auf der Kommandozeile.",
+            "Tipp: Nimm swirl movie oder swirl export auf der Kommandozeile.",
         damaged: (name: string): string => `'${name}' ist nicht lesbar: beschädigt oder unvollständig.`,
         noParameters: (name: string): string => `'${name}' enthält keine Parameter eines Laufs.`,
         notOfThePage: (name: string, parameter: string): string =>
@@ -201,7 +202,7 @@ export const texts: typeof en.texts = {
         comparing: "Die Seite wiederholt den Lauf …",
         sameHash: "Die Seite hat den Lauf wiederholt. Der Zustand nach dem letzten Ereignis ist bitgenau derselbe.",
         otherHash: "Die Seite hat den Lauf wiederholt. Der Zustand nach dem letzten Ereignis ist ein anderer.\n" +
-            "hint: Vielleicht stammt die Datei von einer anderen Version von swirl.",
+            "Tipp: Vielleicht stammt die Datei von einer anderen Version von swirl.",
         tooLong: (events: number, most: number): string =>
             `Der Lauf hat ${events} Ereignisse; die Seite wiederholt Läufe bis ${most}.`,
         quantity: "Größe",
@@ -239,7 +240,7 @@ export const texts: typeof en.texts = {
     },
     copied: "Kopiert",
     noWebAssembly: "Dieser Browser kann kein WebAssembly mit SIMD, das die Simulation braucht.\n" +
-        "hint: Nimm Chrome 91, Firefox 113, Safari 16.4 oder neuer.",
+        "Tipp: Nimm Chrome 91, Firefox 113, Safari 16.4 oder neuer.",
     unknownParameter: (name: string): string => `Die Adresse enthält '${name}', aber diesen Parameter gibt es nicht.`,
     invalidEvents: (text: string): string =>
         `Die Adresse enthält events=${text}, aber es muss eine ganze Zahl von 0 bis 10000000 sein.`,
@@ -313,11 +314,11 @@ export const texts: typeof en.texts = {
 };
 
 export const workerTexts: typeof en.workerTexts = {
-    stopped: (error: string): string => `Das Programm ist stehen geblieben: ${error}.\nhint: Lade die Seite neu.`,
+    stopped: (error: string): string => `Das Programm ist stehen geblieben: ${error}.\nTipp: Lade die Seite neu.`,
     control: (name: string, code: number): string => `--${name.replaceAll("_", "-")} enthält das Steuer` +
         `zeichen U+${code.toString(16).toUpperCase().padStart(4, "0")}, aber ein Wert muss eine Zeile Text sein.`,
     tooMany: (discs: string, most: number): string => `${discs} Scheiben sind zu viele für die Seite; höchstens ` +
-        `${most} gehen.\nhint: Nimm die Kommandozeile: ./swirl run --discs ${discs}.`,
+        `${most} gehen.\nTipp: Nimm die Kommandozeile: ./swirl run --discs ${discs}.`,
 };
 
 export const lessonSteps: en.StepTexts[] = [

@@ -158,7 +158,7 @@ export const texts = {
     explorer: {
         title: "Explorer: rotation or N_c against any parameter",
         help: "Runs on all cores of this computer, with the other parameters as set on the page. Points appear with their " +
-            "95 % intervals. With the number of discs on the axis, this is the paper's Figure 5b.",
+            "95 % intervals. With the number of discs on the axis, this is the paper's Figure 5b. N_c is the number of discs at which the direction changes.",
         quantity: "Show",
         crossing: "N_c",
         against: "against",

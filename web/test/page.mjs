@@ -1,6 +1,6 @@
-// Tests the page in a real browser: node page.mjs FILE.html CHROMIUM HASH IMAGE.svg [FOLDER]. IMAGE is
-// from `swirl image --bare` of the state with this HASH; downloads are stored in FOLDER. Exits with 1 and
-// a message if a test fails.
+// Tests the page in a real browser: node page.mjs FILE.html CHROMIUM HASH IMAGE.svg FOLDER [--all]. IMAGE is
+// from `swirl image --bare` of the state with this HASH; downloads are stored in FOLDER. Without --all it omits
+// what takes long (`all` below). Exits with 1 and a message if a test fails.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import {createRequire} from "node:module";
@@ -8,6 +8,7 @@ import {pathToFileURL} from "node:url";
 import {chromium} from "playwright-core";
 
 const [file, executablePath, wantedHash, image, folder] = process.argv.slice(2);
+const all = process.argv.includes("--all");
 const address = pathToFileURL(file).href;
 const args = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
               "--disable-background-networking", "--disable-component-update", "--disable-sync"];
@@ -221,32 +222,41 @@ for (const events of ["&events=300000", ""]) {
 }
 
 // Long computations show their progress.
-await page.goto(`${address}?discs=48&events=1000000`);
-await page.waitForFunction(
-    () => /^\d+ of 1000000 events done\.$/.test(document.getElementById("headline").textContent));
-await page.waitForFunction(() => document.getElementById("event-count").textContent === "1000000", null,
-                           {timeout: 60_000});
-await page.evaluate(() => {
-    globalThis.headlines = [];
-    const headline = document.getElementById("headline");
-    new MutationObserver(() => globalThis.headlines.push(headline.textContent))
-        .observe(headline, {childList: true});
-});
-await page.evaluate(() => { document.getElementById("keep").click(); });
-await openParameters();
-await page.fill("#parameter-inertia", "solid");
-await page.fill("#parameter-radius", "0.14");
-await page.fill("#parameter-discs", "2000");
-await page.waitForSelector('canvas[aria-label^="2000 discs"]');
-assert.ok((await page.evaluate(() => globalThis.headlines)).includes("Placing 2000 discs…"));
+if (all) {
+    await page.goto(`${address}?discs=48&events=1000000`);
+    await page.waitForFunction(
+        () => /^\d+ of 1000000 events done\.$/.test(document.getElementById("headline").textContent));
+    await page.waitForFunction(() => document.getElementById("event-count").textContent === "1000000", null,
+                               {timeout: 60_000});
+    await page.evaluate(() => {
+        globalThis.headlines = [];
+        const headline = document.getElementById("headline");
+        new MutationObserver(() => globalThis.headlines.push(headline.textContent))
+            .observe(headline, {childList: true});
+    });
+    await page.evaluate(() => { document.getElementById("keep").click(); });
+    await openParameters();
+    await page.fill("#parameter-inertia", "solid");
+    await page.fill("#parameter-radius", "0.14");
+    await page.fill("#parameter-discs", "2000");
+    await page.waitForSelector('canvas[aria-label^="2000 discs"]');
+    assert.ok((await page.evaluate(() => globalThis.headlines)).includes("Placing 2000 discs…"));
+}
 
 // Too many discs are rejected soon, also while another number is being placed; a correction is not.
 await open("?discs=48");
 await page.fill("#parameter-discs", "60");
-await page.waitForFunction(() => /^60 discs would cover 81 % .*\nhint: /s.test(document.getElementById("error").textContent),
+await page.waitForFunction(() => /^60 discs do not fit .* 59\.\nhint: /.test(document.getElementById("error").textContent));
+assert.equal(await page.$eval("#error", (shown) => shown.closest(".control").querySelector("input").id), "parameter-discs");
+await page.fill("#parameter-discs", "8");
+await page.waitForSelector('canvas[aria-label^="8 discs"]');
+await openParameters();
+await page.fill("#parameter-radius", "0.5");
+await page.fill("#parameter-discs", "250"); // no arrangement is known to the page
+await page.waitForFunction(() => /^250 discs would cover 85 % .*\nhint: /s.test(document.getElementById("error").textContent),
                            null, {timeout: 8000});
-await page.fill("#parameter-discs", "61");
-await page.waitForFunction(() => document.getElementById("headline").textContent === "Placing 61 discs…");
+await page.fill("#parameter-discs", "251");
+await page.waitForFunction(() => document.getElementById("headline").textContent === "Placing 251 discs…");
 await page.fill("#parameter-discs", "20");
 await page.waitForSelector('canvas[aria-label^="20 discs"]');
 await page.waitForTimeout(1500);
@@ -279,152 +289,155 @@ assert.equal(await page.isHidden("#error"), true);
 await page.click("#play");
 await press("keep");
 
-// Averages are drawn behind the discs: the map covers most of the container with its shades.
-for (const kind of ["density", "flow", "spin"]) {
-    await page.selectOption("#choose-view", kind);
-    await page.waitForFunction(() => {
+// Maps, the stroboscope, moving by hand and dragging, reversed time and a second container.
+if (all) {
+    // Averages are drawn behind the discs: the map covers most of the container with its shades.
+    for (const kind of ["density", "flow", "spin"]) {
+        await page.selectOption("#choose-view", kind);
+        await page.waitForFunction(() => {
+            const canvas = document.querySelector("#views canvas");
+            const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+            return new Set(Array.from({length: data.length / 40}, (_, k) => data[40 * k])).size > 40;
+        }, null, {timeout: 60_000});
+    }
+    await page.selectOption("#choose-view", "lab");
+    await page.click("#profile-panel summary");
+    await page.waitForSelector("#profile canvas");
+    await page.click("#profile-panel summary");
+
+    // The stroboscope shows one image per period: between two of them the container does not move.
+    await open("?discs=12");
+    await page.click("#strobe");
+    await setPace(2);
+    const images = await page.evaluate(() => new Promise((resolve) => {
+        const canvas = document.querySelector("#views canvas"), seen = new Set(), begun = performance.now();
+        const look = () => {
+            // The centre of the container, from the last full circle of its wall.
+            const wall = globalThis.drawnCircles.filter(([, , r]) => r > 0.3 * canvas.width).at(-1);
+            globalThis.drawnCircles = wall ? [wall] : [];
+            if (wall) seen.add(`${wall[0].toFixed(1)} ${wall[1].toFixed(1)}`);
+            if (performance.now() - begun < 3000) requestAnimationFrame(look);
+            else resolve([...seen]);
+        };
+        setTimeout(look, 1000);
+    }));
+    assert.equal(images.length, 1, images.join("; "));
+    await page.click("#strobe");
+
+    // By hand: the container follows the pointer until the mode is switched off.
+    await open("?discs=9");
+    await press("by-hand");
+    const dish = await page.locator("#views canvas").boundingBox();
+    for (let k = 0; k < 40; ++k) {
+        await page.mouse.move(dish.x + dish.width * (0.5 + 0.1 * Math.cos(k / 3)),
+                              dish.y + dish.height * (0.5 + 0.1 * Math.sin(k / 3)));
+        await page.waitForTimeout(20);
+    }
+    assert.match(await text("headline"), /^Move the container/);
+    await press("by-hand");
+    await page.waitForFunction(() => /^9 discs/.test(document.getElementById("headline").textContent));
+
+    // Time can be reversed only if energy is conserved.
+    await open("?discs=8");
+    assert.equal(await page.isDisabled("#backwards"), true);
+    await open("?discs=8&mu=0");
+    assert.match(await text("caution"), /^Without friction the energy grows without bound on the polygon\. /);
+    await open("?discs=8&mu=0&body=sphere&floor=sliding"); // the floor dissipates energy
+    assert.equal(await text("caution"), "");
+    await open("?discs=8&mu=0");
+    await press("backwards");
+    await page.waitForFunction(() => document.getElementById("backwards").textContent === "Time forwards");
+    assert.match(await text("command"), /^none/);
+    await press("backwards");
+    await page.waitForFunction(() => document.getElementById("backwards").textContent === "Reverse time");
+
+    // A dragged disc follows the pointer.
+    await open("?discs=1&events=20");
+    const table1 = await page.locator("#views canvas").boundingBox();
+    const centroid = (of = page) => of.evaluate(() => { // of the pixels in the disc's colour
         const canvas = document.querySelector("#views canvas");
         const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-        return new Set(Array.from({length: data.length / 40}, (_, k) => data[40 * k])).size > 40;
-    }, null, {timeout: 60_000});
-}
-await page.selectOption("#choose-view", "lab");
-await page.click("#profile-panel summary");
-await page.waitForSelector("#profile canvas");
-await page.click("#profile-panel summary");
+        let n = 0, x = 0, y = 0;
+        for (let k = 0; k < data.length / 4; ++k) {
+            if (data[4 * k] !== 0 || data[4 * k + 1] !== 114 || data[4 * k + 2] !== 178) continue;
+            n += 1;
+            x += k % canvas.width;
+            y += Math.floor(k / canvas.width);
+        }
+        return [(x / n + 0.5) / canvas.width, (y / n + 0.5) / canvas.height];
+    });
+    await page.selectOption("#choose-coloring", "id");
+    const held = await centroid();
+    await page.mouse.move(table1.x + held[0] * table1.width, table1.y + held[1] * table1.height);
+    await page.mouse.down();
+    await page.mouse.move(table1.x + 0.5 * table1.width, table1.y + 0.45 * table1.height, {steps: 10});
+    await page.waitForTimeout(300);
+    await page.mouse.move(table1.x + 0.5 * table1.width, table1.y + 0.45 * table1.height);
+    await page.waitForTimeout(300);
+    const put = await centroid();
+    await page.mouse.up();
+    // The orientation mark and the rim have another colour, so the tolerance is 0.01 of the image.
+    assert.ok(Math.hypot(put[0] - 0.5, put[1] - 0.45) < 0.01, `dragged to ${put}`);
 
-// The stroboscope shows one image per period: between two of them the container does not move.
-await open("?discs=12");
-await page.click("#strobe");
-await setPace(2);
-const images = await page.evaluate(() => new Promise((resolve) => {
-    const canvas = document.querySelector("#views canvas"), seen = new Set(), begun = performance.now();
-    const look = () => {
-        // The centre of the container, from the last full circle of its wall.
-        const wall = globalThis.drawnCircles.filter(([, , r]) => r > 0.3 * canvas.width).at(-1);
-        globalThis.drawnCircles = wall ? [wall] : [];
-        if (wall) seen.add(`${wall[0].toFixed(1)} ${wall[1].toFixed(1)}`);
-        if (performance.now() - begun < 3000) requestAnimationFrame(look);
-        else resolve([...seen]);
-    };
-    setTimeout(look, 1000);
-}));
-assert.equal(images.length, 1, images.join("; "));
-await page.click("#strobe");
-
-// By hand: the container follows the pointer until the mode is switched off.
-await open("?discs=9");
-await press("by-hand");
-const dish = await page.locator("#views canvas").boundingBox();
-for (let k = 0; k < 40; ++k) {
-    await page.mouse.move(dish.x + dish.width * (0.5 + 0.1 * Math.cos(k / 3)),
-                          dish.y + dish.height * (0.5 + 0.1 * Math.sin(k / 3)));
-    await page.waitForTimeout(20);
-}
-assert.match(await text("headline"), /^Move the container/);
-await press("by-hand");
-await page.waitForFunction(() => /^9 discs/.test(document.getElementById("headline").textContent));
-
-// Time can be reversed only if energy is conserved.
-await open("?discs=8");
-assert.equal(await page.isDisabled("#backwards"), true);
-await open("?discs=8&mu=0");
-assert.match(await text("caution"), /^Without friction the energy grows without bound on the polygon\. /);
-await open("?discs=8&mu=0&body=sphere&floor=sliding"); // the floor dissipates energy
-assert.equal(await text("caution"), "");
-await open("?discs=8&mu=0");
-await press("backwards");
-await page.waitForFunction(() => document.getElementById("backwards").textContent === "Time forwards");
-assert.match(await text("command"), /^none/);
-await press("backwards");
-await page.waitForFunction(() => document.getElementById("backwards").textContent === "Reverse time");
-
-// A dragged disc follows the pointer.
-await open("?discs=1&events=20");
-const table1 = await page.locator("#views canvas").boundingBox();
-const centroid = (of = page) => of.evaluate(() => { // of the pixels in the disc's colour
-    const canvas = document.querySelector("#views canvas");
-    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-    let n = 0, x = 0, y = 0;
-    for (let k = 0; k < data.length / 4; ++k) {
-        if (data[4 * k] !== 0 || data[4 * k + 1] !== 114 || data[4 * k + 2] !== 178) continue;
-        n += 1;
-        x += k % canvas.width;
-        y += Math.floor(k / canvas.width);
+    // Keys do the same: select, move, deselect. Time is paused while a disc is selected.
+    const lab = page.locator("#views canvas").first();
+    await lab.focus();
+    await page.keyboard.press("]");
+    assert.match(await text("headline"), /^Disc 1 is selected/);
+    const lifted = await centroid();
+    for (let k = 0; k < 4; ++k) {
+        await page.keyboard.press("ArrowLeft");
+        await page.waitForTimeout(150);
     }
-    return [(x / n + 0.5) / canvas.width, (y / n + 0.5) / canvas.height];
-});
-await page.selectOption("#choose-coloring", "id");
-const held = await centroid();
-await page.mouse.move(table1.x + held[0] * table1.width, table1.y + held[1] * table1.height);
-await page.mouse.down();
-await page.mouse.move(table1.x + 0.5 * table1.width, table1.y + 0.45 * table1.height, {steps: 10});
-await page.waitForTimeout(300);
-await page.mouse.move(table1.x + 0.5 * table1.width, table1.y + 0.45 * table1.height);
-await page.waitForTimeout(300);
-const put = await centroid();
-await page.mouse.up();
-// The orientation mark and the rim have another colour, so the tolerance is 0.01 of the image.
-assert.ok(Math.hypot(put[0] - 0.5, put[1] - 0.45) < 0.01, `dragged to ${put}`);
+    const pushed = await centroid();
+    // Four quarters of its radius, in units of the image width, which is R + A with a border of 20 pixels.
+    const radius = (0.5 - 20 / table1.width) / (8.6 + 1.892);
+    assert.ok(Math.hypot(lifted[0] - pushed[0] - radius, pushed[1] - lifted[1]) < 0.1 * radius,
+        `moved from ${lifted} to ${pushed}`);
+    await page.keyboard.press("Escape");
+    await page.selectOption("#choose-coloring", "spin");
 
-// Keys do the same: select, move, deselect. Time is paused while a disc is selected.
-const lab = page.locator("#views canvas").first();
-await lab.focus();
-await page.keyboard.press("]");
-assert.match(await text("headline"), /^Disc 1 is selected/);
-const lifted = await centroid();
-for (let k = 0; k < 4; ++k) {
-    await page.keyboard.press("ArrowLeft");
-    await page.waitForTimeout(150);
+    // A touch drags a disc vertically. Elsewhere the same touch scrolls the page.
+    const phone = await browser.newPage({viewport: {width: 360, height: 740}, hasTouch: true,
+                                         reducedMotion: "reduce"});
+    await phone.goto(`${address}?discs=1&events=20`);
+    await phone.waitForFunction(() => document.getElementById("state-hash").textContent !== "");
+    await phone.click("#view-options summary"); // on a phone the bar has the rest of its controls here
+    await phone.selectOption("#choose-coloring", "id");
+    await phone.click("#view-options summary");
+    await phone.locator("#views canvas").scrollIntoViewIfNeeded();
+    const small = await phone.locator("#views canvas").boundingBox();
+    const touched = await centroid(phone);
+    const fingers = await phone.context().newCDPSession(phone);
+    const touch = (type, y) => fingers.send("Input.dispatchTouchEvent", {type, touchPoints: y === undefined ? [] :
+        [{x: small.x + touched[0] * small.width, y: small.y + y * small.height}]});
+    const way = touched[1] > 0.5 ? -0.2 : 0.2;
+    await touch("touchStart", touched[1]);
+    for (let k = 1; k <= 20; ++k) {
+        await touch("touchMove", touched[1] + way * k / 20);
+        await phone.waitForTimeout(30);
+    }
+    const led = await centroid(phone);
+    await touch("touchEnd");
+    assert.ok(Math.hypot(led[0] - touched[0], led[1] - touched[1] - way) < 0.02, `the touch moved it to ${led}`);
+
+    // If reduced motion is enabled in the system, the page is paused, after the warm-up and some periods.
+    await phone.goto(`${address}?discs=8`);
+    await phone.waitForFunction(() => Number(document.getElementById("period-count")?.textContent) >= 30, null, {timeout: 60_000});
+    assert.equal(await phone.getAttribute("#play", "aria-label"), "Play (space)");
+    await phone.close();
+
+    // A compared container keeps its parameters.
+    await open("?discs=12");
+    await press("compare");
+    await page.fill("#parameter-discs", "20");
+    await page.waitForFunction(() => /^12 discs: ϖ/.test(
+        document.querySelector("#compared figcaption")?.textContent ?? ""), null, {timeout: 60_000});
+    await page.waitForSelector('canvas[aria-label^="20 discs"]');
+    await requireAccessible("two containers");
+    await page.click("#close-compared");
+    assert.equal(await page.locator("#compared").count(), 0);
 }
-const pushed = await centroid();
-// Four quarters of its radius, in units of the image width, which is R + A with a border of 20 pixels.
-const radius = (0.5 - 20 / table1.width) / (8.6 + 1.892);
-assert.ok(Math.hypot(lifted[0] - pushed[0] - radius, pushed[1] - lifted[1]) < 0.1 * radius,
-    `moved from ${lifted} to ${pushed}`);
-await page.keyboard.press("Escape");
-await page.selectOption("#choose-coloring", "spin");
-
-// A touch drags a disc vertically. Elsewhere the same touch scrolls the page.
-const phone = await browser.newPage({viewport: {width: 360, height: 740}, hasTouch: true,
-                                     reducedMotion: "reduce"});
-await phone.goto(`${address}?discs=1&events=20`);
-await phone.waitForFunction(() => document.getElementById("state-hash").textContent !== "");
-await phone.click("#view-options summary"); // on a phone the bar has the rest of its controls here
-await phone.selectOption("#choose-coloring", "id");
-await phone.click("#view-options summary");
-await phone.locator("#views canvas").scrollIntoViewIfNeeded();
-const small = await phone.locator("#views canvas").boundingBox();
-const touched = await centroid(phone);
-const fingers = await phone.context().newCDPSession(phone);
-const touch = (type, y) => fingers.send("Input.dispatchTouchEvent", {type, touchPoints: y === undefined ? [] :
-    [{x: small.x + touched[0] * small.width, y: small.y + y * small.height}]});
-const way = touched[1] > 0.5 ? -0.2 : 0.2;
-await touch("touchStart", touched[1]);
-for (let k = 1; k <= 20; ++k) {
-    await touch("touchMove", touched[1] + way * k / 20);
-    await phone.waitForTimeout(30);
-}
-const led = await centroid(phone);
-await touch("touchEnd");
-assert.ok(Math.hypot(led[0] - touched[0], led[1] - touched[1] - way) < 0.02, `the touch moved it to ${led}`);
-
-// If reduced motion is enabled in the system, the page is paused, after the warm-up and some periods.
-await phone.goto(`${address}?discs=8`);
-await phone.waitForFunction(() => Number(document.getElementById("period-count")?.textContent) >= 30, null, {timeout: 60_000});
-assert.equal(await phone.getAttribute("#play", "aria-label"), "Play (space)");
-await phone.close();
-
-// A compared container keeps its parameters.
-await open("?discs=12");
-await press("compare");
-await page.fill("#parameter-discs", "20");
-await page.waitForFunction(() => /^12 discs: ϖ/.test(
-    document.querySelector("#compared figcaption")?.textContent ?? ""), null, {timeout: 60_000});
-await page.waitForSelector('canvas[aria-label^="20 discs"]');
-await requireAccessible("two containers");
-await page.click("#close-compared");
-assert.equal(await page.locator("#compared").count(), 0);
 
 // Every action has a key, and the list of keys is a dialog. Keys do nothing while it is open, or if they are off.
 await open("?discs=12");

@@ -65,6 +65,19 @@ try {
     assert.deepEqual(Object.keys(de.texts.descriptions).sort(), shown.sort());
     assert.deepEqual(Object.keys(en.texts.labels).sort(), shown);
 
+    // Error messages of the engine are in German, with their numbers.
+    const {translated} = await load("texts.engine.de");
+    for (const message of JSON.parse(readFileSync(join(files, "messages.json"), "utf-8"))) {
+        const shown = translated(message, de.texts.labels), of = (text) => text.match(/\d+(?:\.\d+)?(?:e[-+]?\d+)?/g) ?? [];
+        assert.doesNotMatch(shown, /\b(?:the|is|are|must|but|with|use|hint|container|discs)\b|--|\$|undefined/, message);
+        const missing = of(message.split("\n")[0]).filter((number) => !of(shown).includes(number));
+        assert.deepEqual(missing, [], `'${shown}' lacks numbers of '${message}'`);
+    }
+    const {parameterOf} = await load("engine");
+    for (const [message, name] of [["--mu-disc is -1, but …", "mu_disc"], ["60 discs do not fit into …", "discs"],
+                                   ["the count in --mixture is 3, but …", "mixture"], ["a disc does not fit: --container-radius must be larger than --radius.", "container_radius"], ["the last 100 events …\nhint: another --seed", undefined]])
+        assert.equal(parameterOf(message), name, message);
+
     const {languageOf} = await load("start");
     assert.equal(languageOf("de", ["en"]), "de");
     assert.equal(languageOf(null, ["de-AT", "en"]), "de");

@@ -1,20 +1,21 @@
-// Tests the page's layout at the sizes of laptops and phones: node sizes.mjs FILE.html CHROMIUM. Exits with 1
-// and a message if a test fails.
+// Tests the page's layout at the sizes of laptops and phones: node sizes.mjs FILE.html CHROMIUM [--all]. Without
+// --all it tests the smallest phone only. Exits with 1 and a message if a test fails.
 import assert from "node:assert/strict";
 import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
 import {chromium} from "playwright-core";
 
 const [file, executablePath] = process.argv.slice(2);
+const all = process.argv.includes("--all");
 const address = pathToFileURL(file).href;
 const browser = await chromium.launch({executablePath, args: [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync"]});
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
-for (const [width, height] of [[1440, 900], [1024, 768], [390, 844], [360, 640]]) {
-    for (const colorScheme of ["light", "dark"]) {
-        for (const lang of ["en", "de"]) {
+for (const [width, height] of all ? [[1440, 900], [1024, 768], [390, 844], [360, 640]] : [[360, 640]]) {
+    for (const colorScheme of all ? ["light", "dark"] : ["light"]) {
+        for (const lang of all ? ["en", "de"] : ["de"]) {
             const where = `${width} × ${height}, ${colorScheme}, ${lang}`;
             const page = await browser.newPage({viewport: {width, height}, colorScheme, reducedMotion: "reduce"});
             await page.goto(`${address}?lang=${lang}`);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -540,6 +541,16 @@ std::vector<Vec2> numbered_along_curve(const std::vector<Vec2>& centres,
     return numbered;
 }
 
+/// The radii of the smallest known circles around N circles of radius 1000, from N = 10 on, rounded
+/// down (Graham et al. 1998, doi:10.1016/S0012-365X(97)00050-2; E. Specht, "The best known packings
+/// of equal circles in a circle", packomania.com).
+constexpr std::int64_t first_known = 10;
+constexpr std::uint16_t smallest_known_containers[] = {
+    3813, 3923, 4029, 4236, 4328, 4521, 4615, 4792, 4863, 4863, 5122, 5252, 5439, 5545,
+    5651, 5752, 5828, 5906, 6014, 6138, 6197, 6291, 6429, 6486, 6610, 6697, 6746, 6758,
+    6961, 7057, 7123, 7260, 7346, 7419, 7498, 7572, 7650, 7724, 7791, 7886, 7947, 8027,
+    8084, 8179, 8203, 8211, 8383, 8447, 8524, 8592, 8646, 8661, 8829, 8892, 8961, 9017};
+
 /// Up to this many discs fit into the processor's nearest caches, so their order does not matter.
 constexpr std::size_t max_in_any_order = 4000;
 
@@ -548,6 +559,19 @@ constexpr std::size_t max_in_any_order = 4000;
 double max_discs_in_container(double radius, double container_radius) {
     const double rho = (container_radius - radius) / (2.0 * radius);
     return std::floor(pi * rho * rho / row_height + pi * rho + 1.0);
+}
+
+std::optional<std::int64_t> discs_in_densest_known_arrangement(double radius,
+                                                               double container_radius) {
+    // place_discs() finds no arrangement in a container narrower than this share of the smallest
+    // known one, and finds one in a container wider by 0.4 %.
+    constexpr double tolerance = 0.999;
+    const double ratio = 1000.0 * container_radius / (tolerance * radius);
+    const auto* const begin = std::begin(smallest_known_containers);
+    const auto* const end = std::end(smallest_known_containers);
+    const std::int64_t fit = std::upper_bound(begin, end, ratio) - begin;
+    if (fit == 0 || begin + fit == end) return std::nullopt;
+    return first_known - 1 + fit;
 }
 
 std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,

@@ -15,6 +15,12 @@ namespace swirl {
 /// 2A/√3 + P/2 + 1 points at distances of at least 1 (Oler 1961, doi:10.1007/BF02546388).
 double max_discs_in_container(double radius, double container_radius);
 
+/// The number of discs of this radius in the densest known arrangement in the container. Known for
+/// containers that hold at least 10 and at most 64 discs, else no value. Only for some of these
+/// numbers the arrangement is proven to be the densest.
+std::optional<std::int64_t> discs_in_densest_known_arrangement(double radius,
+                                                               double container_radius);
+
 /// Returns one centre for each radius, relative to the centre of the container, without overlaps of
 /// discs or with the wall. Returns nothing in three cases: the discs do not fit; no arrangement was
 /// found within a fixed amount of work of some seconds (near the densest packing); or `is_stopped`,

@@ -73,6 +73,18 @@ std::optional<std::string> problem_with_area(const RunConfig& c) {
         hint_on_capacity(c));
 }
 
+/// The largest number of discs of one size, by the known arrangements or, in larger containers, by a
+/// bound for all arrangements.
+struct Capacity {
+    const char* known;  // "known " if it holds for the known arrangements
+    double maximum;
+};
+Capacity capacity(const RunConfig& c) {
+    if (const auto n = discs_in_densest_known_arrangement(c.radius, c.container_radius))
+        return {"known ", static_cast<double>(*n)};
+    return {"", max_discs_in_container(c.radius, c.container_radius)};
+}
+
 /// In radii of the smallest disc. The centres of Verlet skins are stored in single precision. The
 /// narrowest skin, 0.005 radii, must exceed their rounding error, 6·10⁻⁸ of the distance.
 constexpr double max_container_ratio = 5e4;
@@ -92,11 +104,11 @@ std::optional<std::string> problem_with_size(const RunConfig& c) {
             "--container-radius.",
             R, max_container_ratio, body_word(c), smallest);
     if (has_unequal_sizes(c)) return problem_with_area(c);
-    const double maximum = max_discs_in_container(c.radius, R);
+    const auto [known, maximum] = capacity(c);
     if (static_cast<double>(c.discs) <= maximum) return {};
     return fmt::format(
-        "{} {} not fit into a container of radius {}: no arrangement holds more than {:.0f}.{}",
-        counted(c.discs, body_word(c)), c.discs == 1 ? "does" : "do", R, maximum,
+        "{} {} not fit into a container of radius {}: no {}arrangement holds more than {:.0f}.{}",
+        counted(c.discs, body_word(c)), c.discs == 1 ? "does" : "do", R, known, maximum,
         hint_on_capacity(c));
 }
 
@@ -215,13 +227,14 @@ InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
 namespace {
 
 std::string no_placement_message(const RunConfig& c) {
-    const std::string bound =
-        has_unequal_sizes(c)
-            ? ""
-            : fmt::format(
-                  " No arrangement holds more than {:.0f}, and close to that number the "
-                  "placement may fail.",
-                  max_discs_in_container(c.radius, c.container_radius));
+    std::string bound;
+    if (!has_unequal_sizes(c)) {
+        const auto [known, maximum] = capacity(c);
+        bound = fmt::format(
+            " No {}arrangement holds more than {:.0f}, and close to that number the placement may "
+            "fail.",
+            known, maximum);
+    }
     return fmt::format(
         "{} of {} could not be placed in a container of radius {} without overlap.{}{}",
         counted(c.discs, body_word(c)), radii_text(c), c.container_radius, bound,
