@@ -1,5 +1,7 @@
 """bench/ratios.py FOLDER ROUNDS: prints the median ratios for compare.sh, from old-K.json and new-K.json."""
 
+import argparse
+import csv
 import json
 import statistics
 import sys
@@ -29,11 +31,33 @@ def words(key):
     return key if isinstance(key, str) else f"{key[0]}, N = {key[1]}, {key[2]}"
 
 
-def main(folder, rounds):
+def instruction_ratios(folder):
+    """Instructions per event, new / old, of the scenes of instructions_test.py."""
+    counts = []
+    for which in ("old", "new"):
+        with open(f"{folder}/{which}-instructions.json") as f:
+            counts.append(json.load(f))
+    return {scene: [counts[1][scene] / old] for scene, old in counts[0].items() if scene in counts[1]}
+
+
+def write_csv(file, tables):
+    with open(file, "w", newline="") as f:
+        lines = csv.writer(f)
+        lines.writerow(["what", "scene", "ratio", "lowest", "highest", "pairs"])
+        for title, found in tables.items():
+            for key, r in found.items():
+                lines.writerow([title.split(",")[0], words(key), f"{statistics.median(r):.4f}",
+                                f"{min(r):.4f}", f"{max(r):.4f}", len(r)])
+
+
+def main(folder, rounds, csv_file, with_instructions):
     runs = [[measured(f"{folder}/{which}-{k}.json") for which in ("old", "new")]
             for k in range(1, rounds + 1)]
-    for title, part in (("rates, new / old", 0), ("other values, new / old", 1)):
-        found = ratios([(old[part], new[part]) for old, new in runs])
+    tables = {title: ratios([(old[part], new[part]) for old, new in runs])
+              for title, part in (("rates, new / old", 0), ("other values, new / old", 1))}
+    if with_instructions:
+        tables["instructions per event, new / old"] = instruction_ratios(folder)
+    for title, found in tables.items():
         if found:
             print(title)
         for key, r in found.items():
@@ -42,7 +66,16 @@ def main(folder, rounds):
     for title, keys in (("only new", new.keys() - old.keys()), ("only old", old.keys() - new.keys())):
         if keys:
             print(f"{title}: " + "; ".join(sorted(map(words, keys))))
+    if csv_file:
+        write_csv(csv_file, tables)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder")
+    parser.add_argument("rounds", type=int)
+    parser.add_argument("--csv", help="file for all ratios")
+    parser.add_argument("--instructions", action="store_true",
+                        help="also compare old-instructions.json and new-instructions.json")
+    given = parser.parse_args()
+    main(given.folder, given.rounds, given.csv, given.instructions)

@@ -80,7 +80,8 @@ RunResult run_with_custom(Run& run, const CustomMeasurement& custom, RunMonitor&
 }
 
 RunResult run_plain(Run& run) {
-    while (run.next_event()) run.pass_event();
+    while (run.execute_events() > 0) {
+    }
     return run.result();
 }
 

@@ -183,6 +183,20 @@ TEST_F(Paper, UndecidedClaimGetsMoreSeedsUntilDecided) {
                 Contains("3 seeds"));
 }
 
+// The number of first seeds changes neither the budget nor the runs that are made in the end.
+TEST_F(Paper, FewerFirstSeedsAreDoubledWithinTheSameBudget) {
+    settings.quick = true;
+    settings.first_seeds = 2;
+    calls = 0;
+    EXPECT_EQ(settings.max_seeds(), 12);
+    const PaperResult made =
+        make_figures({{"x", "one point", one_undecided_point}}, settings, {}, true);
+    // 2: 0.1 ± 0.15; 4: 0.1 ± 0.075; 8: 0.1 ± 0.0375, 2.7 errors. 16 exceed the budget of 12.
+    EXPECT_THAT(made.figures.front().outcome.findings, Contains("8 seeds"));
+    EXPECT_EQ(calls, 8);
+    EXPECT_EQ(made.undecided_points, 1u);
+}
+
 TEST_F(Paper, FailedRunIsNotRepeatedWhenSeedsAreAdded) {
     settings.quick = true;
     calls = 0;

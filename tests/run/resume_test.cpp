@@ -2,13 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstring>
 
 #include "io/scratch.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/state_archive.hpp"
+#include "swirl/run/core_run.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/period_series.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/run.hpp"
 
@@ -27,6 +30,11 @@ RunConfig short_run() {
 std::string result_without_time(RunResult result) {
     result.seconds = 1.0;
     return result_json(result).dump();
+}
+
+void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0);
 }
 
 struct Sample {
@@ -78,14 +86,115 @@ TEST(Resume, AnInterruptedRunEndsWithTheSameResult) {
     expect_interruptions_do_not_change(short_run());
 }
 
-// Interrupted between two samples of the average by event: 1700 is not a multiple of three.
+// Interrupted between two samples of the average by event: 1700 is not a multiple of 38.
 TEST(Resume, AnInterruptedRunOfALargeContainerEndsWithTheSameResult) {
     RunConfig config = short_run();
     config.discs = 150;
     config.container_radius = 15.5;
     config.warmup = 1;
-    ASSERT_EQ(events_per_rotation_sample(150), 3u);
+    ASSERT_EQ(events_per_rotation_sample(150), 38u);
     expect_interruptions_do_not_change(config);
+}
+
+/// Scenes with many and with few events per sample, with each search and each kind of particle.
+std::vector<RunConfig> scenes_for_spans() {
+    std::vector<RunConfig> scenes(8, short_run());
+    for (RunConfig& config : scenes) {
+        config.discs = 48;
+        config.warmup = 1;
+    }
+    scenes[0].discs = 24;
+    scenes[1].warmup_found = true;
+    scenes[1].warmup.reset();
+    scenes[2] =
+        resolve({{"mixture", "20:0.7"}, {"path", "circle"}, {"events", "30000"}, {"warmup", "1"}});
+    scenes[3] = resolve(
+        {{"preset", "experiment"}, {"body", "sphere"}, {"events", "30000"}, {"warmup", "1"}});
+    scenes[4].discs = 200;
+    scenes[4].container_radius = 18.0;
+    scenes[4].warmup = 1;
+    scenes[5].events_per_sample = 7;
+    scenes[5].periods = 9;
+    // A parameter changes at the start of a period. With a shorter period, sample times change.
+    scenes[6] =
+        resolve({{"discs", "48"},
+                 {"periods", "9"},
+                 {"warmup", "2"},
+                 {"ramp", "mu=1:0.5@1..6; amplitude=1.892:2.4@2..7; period=11.866071:9@1..8"}});
+    scenes[7] = resolve({{"preset", "experiment"},
+                         {"discs", "48"},
+                         {"periods", "9"},
+                         {"warmup", "2"},
+                         {"events_per_sample", "11"},
+                         {"ramp", "floor_friction=0.3:0.5@1..6; amplitude=1.9:1.2@2..6"}});
+    return scenes;
+}
+
+struct ObservedRun {
+    std::string result, measured;
+    std::vector<double> series;
+};
+
+/// In spans, or event by event; interrupted after each `part` events.
+ObservedRun observed(const RunConfig& config, const std::vector<std::string>& measured,
+                     bool in_spans, std::uint64_t part) {
+    std::optional<std::string> state;
+    for (;;) {
+        Observation observation = observation_of(config, measured);
+        PeriodSeries series(config, measured);
+        RunControl control;
+        control.observation = &observation;
+        control.series = &series;
+        control.resume = state;
+        swirl::Run run(config, control);
+        std::uint64_t last = 1;
+        for (std::uint64_t done = 0; done < part && last > 0; done += last) {
+            if (in_spans) {
+                last = run.execute_events();
+                continue;
+            }
+            last = run.next_event() ? 1 : 0;
+            if (last > 0) run.pass_event();
+        }
+        if (last == 0)
+            return {result_without_time(run.result()), measured_json(observation.report()).dump(),
+                    series.values()};
+        state = run.state();
+    }
+}
+
+// Events in spans, with an interruption after each 1000, have the results of single events.
+TEST(Spans, HaveTheResultsOfSingleEventsAlsoIfResumed) {
+    for (const RunConfig& config : scenes_for_spans()) {
+        RunResult plain = run(config);
+        for (const char* names : {"", "density", "order", "collisions"}) {
+            const auto measured =
+                *names == 0 ? std::vector<std::string>() : read_measurement_list(names);
+            const ObservedRun single = observed(config, measured, false, 1'000'000);
+            const ObservedRun spans = observed(config, measured, true, 1'000);
+            EXPECT_EQ(spans.result, single.result);
+            EXPECT_EQ(spans.measured, single.measured);
+            expect_same_bits(spans.series, single.series);
+            // Neither the series nor the measurements change the averages.
+            EXPECT_EQ(result_without_time(plain), single.result);
+        }
+    }
+}
+
+// A span ends before the end of its period, where a ramp changes the scene.
+TEST(Spans, NoSpanCrossesTheEndOfAPeriod) {
+    for (const RunConfig& config : scenes_for_spans()) {
+        CoreRun run(config, make_initial_state(config));
+        for (std::int64_t period = 0; !run.complete();) {
+            run.is_check_due();
+            const std::uint64_t events = run.execute_events();
+            const std::int64_t now = run.simulation().periods();
+            if (now == period) continue;
+            EXPECT_EQ(now, period + 1);
+            EXPECT_EQ(events, 1u);
+            period = now;
+        }
+    }
 }
 
 // For all measurements: fields() must include all accumulated data.

@@ -180,26 +180,54 @@ TEST(Run, TheAverageByEventOfManyDiscsSamplesEveryFewEvents) {
     RunConfig config = small(200, 3);
     config.container_radius = 18.0;
     config.warmup = 0;
-    const std::uint64_t every = events_per_rotation_sample(200);
-    ASSERT_EQ(every, 4u);
-    double sum = 0.0, samples = 0.0, whole_sum = 0.0;
+    // The first period has a sample after every 50 events, the others about 128 samples. Each sample
+    // has the weight of its events.
+    double sum = 0.0, weights = 0.0, whole_sum = 0.0, samples = 0.0;
+    std::uint64_t every = events_per_rotation_sample(200), to_sample = every;
+    std::uint64_t events = 0, before = 0;
+    ASSERT_EQ(every, 50u);
+    swirl::Run run(config);
+    while (run.next_event()) {
+        const std::int64_t period = run.snapshot().periods;
+        run.pass_event();
+        ++events;
+        const double rotation = cluster_rotation(run.snapshot()).individual / config.omega();
+        whole_sum += rotation;
+        if (--to_sample == 0) {
+            to_sample = every;
+            sum += rotation * static_cast<double>(every);
+            weights += static_cast<double>(every);
+            samples += 1.0;
+        }
+        if (run.snapshot().periods == period) continue;
+        every = std::max<std::uint64_t>(50, (events - before) / 128);
+        to_sample = std::min(to_sample, every);
+        before = events;
+    }
+    const RunResult result = run.result();
+    const double mean = result.rotation.by_event.mean;
+    // 1e-11: the sums are rounded in another order.
+    EXPECT_NEAR(mean, sum / weights, 1e-11);
+    EXPECT_EQ(result.events_per_rotation_sample, every);
+    // An event changes two of 200 discs by about Ω each, a hundredth of the mean with random sign.
+    // The average is over hundreds of samples.
+    EXPECT_GT(samples, 600.0);
+    EXPECT_NEAR(mean, whole_sum / static_cast<double>(events), 3e-3);
+}
+
+TEST(Run, EventsPerSampleOneSamplesEveryEvent) {
+    RunConfig config = small(48, 3);
+    config.events_per_sample = 1;
+    double sum = 0.0;
     std::uint64_t events = 0;
     swirl::Run run(config);
     while (run.next_event()) {
         run.pass_event();
-        const double rotation = cluster_rotation(run.snapshot()).individual / config.omega();
-        whole_sum += rotation;
-        if (++events % every != 0) continue;
-        sum += rotation;
-        samples += 1.0;
+        sum += cluster_rotation(run.snapshot()).individual / config.omega();
+        ++events;
     }
-    const double mean = run.result().rotation.by_event.mean;
     // 1e-11: the sums are rounded in another order, about an updated centre of mass.
-    EXPECT_NEAR(mean, sum / samples, 1e-11);
-    // An event changes two of 200 discs by about Ω each, a hundredth of the mean with random sign;
-    // the average is over thousands of samples.
-    EXPECT_GT(samples, 5000.0);
-    EXPECT_NEAR(mean, whole_sum / static_cast<double>(events), 1e-3);
+    EXPECT_NEAR(run.result().rotation.by_event.mean, sum / static_cast<double>(events), 1e-11);
 }
 
 TEST(Run, AutomaticWarmupCoversASlowSpinTransient) {

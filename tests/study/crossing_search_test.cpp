@@ -127,6 +127,7 @@ TEST(CrossingSearch, ReportsWhyItStoppedBeforeTheTolerance) {
     CrossingSettings settings;
     settings.tolerance = 0.001;
     settings.rounds = 4;
+    settings.min_periods = 100;  // so that four rounds resolve the bracket
     const CrossingSearch search = search_crossing(settings, planted(bent, 0.004));
     EXPECT_FALSE(search.within_tolerance);
     EXPECT_GT(search.crossing().error, 0.001);

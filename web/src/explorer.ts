@@ -179,7 +179,7 @@ export class Explorer {
     /** Fills the choices; call it when the table of parameters is there. */
     parametersKnown(): void {
         const numeric = this.host.parameters().filter(({slider, name, settable}) =>
-            slider && settable && !["events", "periods", "warmup"].includes(name));
+            slider && settable && !["events", "events_per_sample", "periods", "warmup"].includes(name));
         const option = ({name}: Parameter): HTMLElement =>
             element("option", {value: name, textContent: this.labelOf(name), title: `--${name.replaceAll("_", "-")}`});
         this.x.replaceChildren(...numeric.map(option));

@@ -12,8 +12,8 @@ interface Field {
 }
 
 const main = ["discs", "mu", "amplitude"];
-/** The page has runs of any length, without ramps: moving a slider is the ramp. */
-const notShown = ["events", "periods", "ramp"];
+/** The page has runs of any length, without ramps: moving a slider is the ramp. Samples are chosen by the engine. */
+const notShown = ["events", "events_per_sample", "periods", "ramp"];
 const groups = {
     friction: ["mu_disc", "mu_wall"],
     particles: ["preset", "body", "radius", "mass", "inertia", "mixture", "sizes"],

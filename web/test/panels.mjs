@@ -61,7 +61,7 @@ try {
     }
     assert.deepEqual(untranslated, []);
     // Descriptions and labels exist for exactly the parameters that the page shows.
-    const shown = parameters.filter((row) => row.settable && !["events", "periods", "ramp"].includes(row.name)).map((row) => row.name);
+    const shown = parameters.filter((row) => row.settable && !["events", "events_per_sample", "periods", "ramp"].includes(row.name)).map((row) => row.name);
     assert.deepEqual(Object.keys(de.texts.descriptions).sort(), shown.sort());
     assert.deepEqual(Object.keys(en.texts.labels).sort(), shown);
 
@@ -216,7 +216,7 @@ try {
     assert.deepEqual(givenFrom({discs: 48, mu_disc: 1, mu_wall: 0}, parameters), {mu_disc: "1", mu_wall: "0"});
     const bytes = (text) => new TextEncoder().encode(text).buffer;
     for (const [text, problem] of [["hello", "unknown"], ["", "unknown"], ["{\"a\": 1}", "unknown"], ["{\"config\": ", "damaged"],
-                                   ["swirl checkpoint 8", "damaged"], ["swirl checkpoint 8\n0123", "damaged"],
+                                   ["swirl checkpoint 9", "damaged"], ["swirl checkpoint 8\n0123", "damaged"],
                                    ["\u0001", "unknown"], ["[1]", "unknown"]])
         assert.throws(() => readFile(bytes(text), "a", parameters), {problem}, text);
     if (files) {

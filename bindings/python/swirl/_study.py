@@ -276,7 +276,7 @@ with_parameters(crossing, """Searches the number of discs at which rotation chan
 min_discs, max_discs: range of the search. tolerance: target standard error of N_c. rate: the rotation
     rate that decides: by_event, by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
     [one per core]. progress: True to print, or a function of (current stage, events per second).
-    events [2e5]: length of the first runs.
+    events [2e4]: length of the first runs.
 """)
 with_parameters(parameter_map, """Maps a quantity over one or two parameters, with runs where it changes its sign: `swirl map`.
 

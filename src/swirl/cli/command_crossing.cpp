@@ -211,9 +211,9 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: each combination is a search of its "
-        "own. A run has at least --events events and a hundred periods after the warm-up. Near "
+        "own. A run has at least --events events and fifty periods after the warm-up. Near "
         "the crossing, further runs are made, each twice as long as the ones before, until "
-        "--tolerance is reached, at most eight times. Rotation rates (--rate): by_event, by_time, "
+        "--tolerance is reached, at most ten times. Rotation rates (--rate): by_event, by_time, "
         "rigid_by_event and rigid_by_time; the report gives N_c for all four. Use a small --step "
         "if the direction of rotation may change several times.\n");
     subcommand.set_main_options({"--mu", "--events", "--seed", "--tolerance", "--from", "--to",

@@ -20,6 +20,7 @@ namespace {
 struct PaperCall {
     PaperSettings settings;
     std::string config_file, out = "out", events, seed;
+    std::optional<int> seeds;
     std::vector<std::string> figures;
     bool quiet = false, movies = false;
 };
@@ -68,6 +69,13 @@ void reject_missing(const PaperResult& result) {
 
 void make_paper(PaperCall& call) {
     call.settings.out = call.out;
+    if (call.seeds) {
+        const int budget = call.settings.max_seeds();
+        if (*call.seeds < 2 || *call.seeds > budget)
+            throw UsageError(
+                fmt::format("--seeds is {}, but it must be from 2 to {}.", *call.seeds, budget));
+        call.settings.first_seeds = *call.seeds;
+    }
     if (!call.events.empty()) call.settings.events = resolve({{"events", call.events}}).events;
     if (!call.seed.empty()) call.settings.seed = resolve({{"seed", call.seed}}).seed;
     std::vector<PaperFigure> figures;
@@ -145,6 +153,10 @@ void add_paper_command(Subcommand& subcommand) {
                     "Events per run; scales lengths in periods [1e6, quick 2e5]")
         ->type_name("NUMBER");
     subcommand.add_option("--seed", call->seed, "Random seed of the first run of each point [1]")
+        ->type_name("NUMBER");
+    subcommand
+        .add_option("--seeds", call->seeds,
+                    "First runs of a point; undecided claims add more [8, quick 3]")
         ->type_name("NUMBER");
     subcommand.add_option("--out", call->out, "Output folder [out]")->type_name("DIR");
     subcommand.add_flag("--quiet", call->quiet, "No progress line");

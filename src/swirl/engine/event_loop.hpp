@@ -130,18 +130,23 @@ static Event step(EngineState& shared) {
 }
 
 template <NeighborSearch Search>
-static std::uint64_t run(EngineState& shared, std::uint64_t count, std::int64_t periods,
-                         double clock) {
+static void run(EngineState& shared, EventSpan& span, std::uint64_t count, std::int64_t periods,
+                double clock) {
     auto& state = static_cast<typename Search::State&>(shared);
-    for (std::uint64_t done = 0; done < count; ++done) {
+    std::uint64_t done = span.events;
+    double max_overlap = span.max_overlap;
+    while (done < count) {
         const PendingEvent next = next_event<Search>(state);
-        if (state.periods > periods || (state.periods == periods && next.time > clock)) return done;
-        execute<Search>(state, next);
+        if (state.periods > periods || (state.periods == periods && next.time > clock)) break;
+        const Event event = execute<Search>(state, next);
+        span.discs[done++ % EventSpan::capacity] = {event.i, event.j};
+        max_overlap = event.overlap > max_overlap ? event.overlap : max_overlap;
         if constexpr (CanAskToBeReplaced<Search>)
             if (Search::should_switch_search(state)) [[unlikely]]
-                return done + 1;
+                break;
     }
-    return count;
+    span.events = done;
+    span.max_overlap = max_overlap;
 }
 
 template <NeighborSearch Search>

@@ -1,5 +1,7 @@
 #include "swirl/engine/simulation.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -42,17 +44,28 @@ Event Simulation::step() {
     return event;
 }
 
-std::uint64_t Simulation::run(std::uint64_t count, std::int64_t periods, double clock) {
-    std::uint64_t done = 0;
+void Simulation::run(EventSpan& span, std::uint64_t count, std::int64_t periods, double clock) {
+    span.events = 0;
+    span.max_overlap = 0.0;
     for (;;) {
-        done += storage_->loop->run(*storage_->state, count - done, periods, clock);
-        if (!storage_->state->should_switch_search) return done;
+        storage_->loop->run(*storage_->state, span, count, periods, clock);
+        if (!storage_->state->should_switch_search) return;
         switch_search();
     }
 }
 
 void Simulation::run(std::uint64_t count) {
-    run(count, std::numeric_limits<std::int64_t>::max(), never);
+    EventSpan span;
+    run(span, count, std::numeric_limits<std::int64_t>::max(), never);
+}
+
+void Simulation::run_before(double clock, std::uint64_t maximum, EventSpan& span) {
+    const EngineState& state = *storage_->state;
+    const double end = std::min(clock, state.segments[state.segment_count - 1].end);
+    // The largest number below; no event is earlier than 0.
+    const double last =
+        end > 0.0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(end) - 1) : -1.0;
+    run(span, maximum, state.periods, last);
 }
 
 void Simulation::advance_to(std::int64_t periods, double clock) {
@@ -60,7 +73,9 @@ void Simulation::advance_to(std::int64_t periods, double clock) {
 }
 
 bool Simulation::advance_to(std::int64_t periods, double clock, std::uint64_t maximum) {
-    if (run(maximum, periods, clock) == maximum) return false;
+    EventSpan span;
+    run(span, maximum, periods, clock);
+    if (span.events == maximum) return false;
     EngineState& state = *storage_->state;
     if (state.periods == periods && state.clock < clock) state.clock = clock;
     return true;
@@ -89,6 +104,30 @@ LoopCounts Simulation::loop_counts() const {
 
 Disc Simulation::disc(std::size_t i) const { return storage_->disc(static_cast<std::uint32_t>(i)); }
 
+/// `clock` is the time of the event that changed disc i, up to which its orientation is followed.
+SWIRL_INLINE void Simulation::copy(Snapshot& s, std::uint32_t i, double clock) const {
+    const EngineState& state = *storage_->state;
+    const HotDisc& d = state.discs[i];
+    if (state.spheres != nullptr) copy_sphere(s, i, clock);
+    s.set_motion(i, {d.position, d.velocity, d.time}, state.cold(i).angle, d.spin);
+}
+
+[[gnu::noinline]] void Simulation::copy_sphere(Snapshot& s, std::uint32_t i, double clock) const {
+    if (!s.turned.empty()) s.turned[i] = s.quaternion(i, clock);
+    const SphereState& sphere = storage_->state->spheres[i];
+    s.set_floor_motion(i, sphere.rolling_spin, sphere.motion.acceleration);
+}
+
+/// Last, because the orientation of spheres follows from the floor's velocity up to now.
+SWIRL_INLINE void Simulation::set_time(Snapshot& s) const {
+    const EngineState& state = *storage_->state;
+    const Segment& segment = state.segments[state.segment];
+    s.periods = state.periods;
+    s.clock = state.clock;
+    s.container_centre = segment.position_at(state.clock);
+    s.container_velocity = segment.velocity_at(state.clock);
+}
+
 Snapshot Simulation::snapshot() const {
     Snapshot s;
     const EngineState& state = *storage_->state;
@@ -112,28 +151,30 @@ Snapshot Simulation::snapshot() const {
 
 void Simulation::refresh(Snapshot& s, const Event& event) const {
     const EngineState& state = *storage_->state;
-    const Segment& segment = state.segments[state.segment];
-    const auto copy_sphere = [&](std::uint32_t i) __attribute__((noinline)) {
-        if (!s.turned.empty()) s.turned[i] = s.quaternion(i, event.clock);
-        const SphereState& sphere = state.spheres[i];
-        s.set_floor_motion(i, sphere.rolling_spin, sphere.motion.acceleration);
-    };
-    const auto copy = [&](std::uint32_t i) __attribute__((always_inline)) {
-        const HotDisc& d = state.discs[i];
-        if (state.spheres != nullptr) copy_sphere(i);
-        s.set_motion(i, {d.position, d.velocity, d.time}, state.cold(i).angle, d.spin);
-    };
     if (event.kind != EventKind::path_vertex) {
-        copy(event.i);
-        if (event.j != event.i) copy(event.j);
+        copy(s, event.i, event.clock);
+        if (event.j != event.i) copy(s, event.j, event.clock);
     } else if (state.segment == 0 || s.on_floor) {
-        for (std::uint32_t i = 0; i < state.size; ++i) copy(i);
+        for (std::uint32_t i = 0; i < state.size; ++i) copy(s, i, event.clock);
     }
-    // Last, because the orientation of spheres follows from the floor's velocity up to now.
-    s.periods = state.periods;
-    s.clock = state.clock;
-    s.container_centre = segment.position_at(state.clock);
-    s.container_velocity = segment.velocity_at(state.clock);
+    set_time(s);
+}
+
+void Simulation::refresh(Snapshot& s, const EventSpan& span) const {
+    const std::uint32_t size = storage_->state->size;
+    const auto is_vertex = [](const DiscPair& pair) { return pair.i == 0 && pair.j == 0; };
+    const DiscPair* const end = span.discs + std::min(span.events, EventSpan::capacity);
+    const bool all = span.events > std::min<std::uint64_t>(EventSpan::capacity, size) ||
+                     (s.on_floor && std::any_of(span.discs, end, is_vertex));
+    if (all) {
+        for (std::uint32_t i = 0; i < size; ++i) copy(s, i, s.clock);
+    } else {
+        for (const DiscPair* pair = span.discs; pair < end; ++pair) {
+            copy(s, pair->i, s.clock);
+            copy(s, pair->j, s.clock);
+        }
+    }
+    set_time(s);
 }
 
 std::uint64_t Simulation::state_hash() const {

@@ -113,6 +113,13 @@ RotationSample ClusterRotation::sample(const Snapshot& snapshot) {
     return sample;
 }
 
+RotationSample ClusterRotation::sample_alone(const Snapshot& snapshot) {
+    centre_ = centre_of(snapshot, *kernel_);
+    const RotationSample sample = sample_of(snapshot, centre_, *kernel_);
+    event_.add(sample, snapshot.period);
+    return sample;
+}
+
 RotationSample ClusterRotation::sample_by_time(const Snapshot& snapshot) {
     const RotationSample sample = sample_of(snapshot, centre_of(snapshot, *kernel_), *kernel_);
     time_.add(sample, snapshot.period);
@@ -122,17 +129,18 @@ RotationSample ClusterRotation::sample_by_time(const Snapshot& snapshot) {
 ClusterRotation::ClusterRotation(Width width) : kernel_(&kernel_for(width)) {}
 
 void ClusterRotation::OpenBlock::close_into(BlockSeries& individual_series,
-                                            BlockSeries& rigid_series) {
-    const double per_omega = period / (2.0 * pi);
-    const double weight = samples;
+                                            BlockSeries& rigid_series, double events_of_a_sample) {
+    const double per_omega = period / (2.0 * pi) * events_of_a_sample;
+    const double weight = samples * events_of_a_sample;
     individual_series.add(weight > 0.0 ? individual * per_omega : 0.0, weight);
     rigid_series.add(weight > 0.0 ? rigid * per_omega : 0.0, weight);
     *this = {};
 }
 
-void ClusterRotation::close_block() {
-    event_.close_into(individual_by_event_, rigid_by_event_);
-    time_.close_into(individual_by_time_, rigid_by_time_);
+void ClusterRotation::close_block(std::uint64_t events_of_a_sample) {
+    event_.close_into(individual_by_event_, rigid_by_event_,
+                      static_cast<double>(events_of_a_sample));
+    time_.close_into(individual_by_time_, rigid_by_time_, 1.0);
 }
 
 std::array<double, rotation_rates.size()> ClusterRotation::open_means() const {

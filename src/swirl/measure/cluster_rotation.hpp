@@ -11,9 +11,9 @@
 //
 // r_cm is weighted with the masses; the sums over discs are not. Both are averaged in two ways:
 //
-//   by event     one sample after every event, as in the paper's Figure 5b (SI, "Simulation
-//                parameters"): busy moments weigh more than quiet ones. In a large container there
-//                is one sample per several events (events_per_rotation_sample)
+//   by event     equal weight for every event, as in the paper's Figure 5b (SI, "Simulation
+//                parameters"): busy moments weigh more than quiet ones. If a period has many
+//                events, there is one sample per several (events_per_rotation_sample)
 //   by time      samples at equal time steps, as a camera takes them
 //
 // Units: results in units of Ω = 2π/T. Errors: from blocks of whole periods (block_average.hpp).
@@ -21,8 +21,8 @@
 // about it and is omitted from the individual mean. If no disc is left (one disc, all discs at one
 // point) the sample is NaN, and so is a mean that contains it. No discs: NaN.
 //
-// A sample after every event must cost less than the event. So the centre of mass is not summed up
-// for every sample. Colliding discs push each other, so only the wall changes the velocity of the
+// A sample after every event must cost less than the event. So the centre of mass is then not summed
+// up for every sample. Colliding discs push each other, so only the wall changes the velocity of the
 // centre of mass, by −J/M; between two such impulses it moves uniformly. At every path vertex it is
 // summed up again, which removes the accumulated rounding. (A floor accelerates spheres all the
 // time; there the centre of mass is summed up for every sample.) Eight discs are processed in
@@ -30,6 +30,7 @@
 // on the vector width of the processor.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,13 +57,27 @@ RotationSample cluster_rotation(const Snapshot& snapshot, Width width = Width::b
 /// samples fall on different phases of a side.
 inline constexpr int rotation_samples = 64;
 
-/// A sample reads all discs, an event about eight. In a container larger than any of the paper's,
-/// one sample after every event would dominate the run: 9/10 of its time with 2,000 discs.
-/// Consecutive samples differ by the change of two discs. One sample per several events has the
-/// same mean, and costs as much per event as reading 64 discs.
+/// Averages by event take about `samples` per period, and one after every event if a period
+/// has fewer than `few_events`. Consecutive samples differ by the change of two discs, so a sample
+/// after every k-th event has the same mean and hardly a larger error. In loose clusters, which have
+/// few events, a disc sometimes flies past the centre of mass. These rare samples decide about the
+/// error, and none is omitted.
+struct RotationSamplesByEvent {
+    static constexpr std::uint64_t samples = 128, few_events = 2048;
+};
+
+/// k in the first period. A sample reads all discs, an event about eight. The more discs, the less
+/// one that flies past the centre of mass counts, and the fewer samples the mean needs.
 constexpr std::uint64_t events_per_rotation_sample(std::size_t discs) {
-    constexpr std::size_t always_sampled = 128, read_per_event = 64;
+    constexpr std::size_t always_sampled = 128, many = 500;
+    const std::size_t read_per_event = discs < many ? 4 : 2;
     return discs <= always_sampled ? 1 : (discs + read_per_event - 1) / read_per_event;
+}
+/// k in a period that follows one with this number of events.
+constexpr std::uint64_t events_per_rotation_sample(std::size_t discs, std::uint64_t events) {
+    const bool few = events < RotationSamplesByEvent::few_events;
+    return std::max(events_per_rotation_sample(discs),
+                    few ? 1 : events / RotationSamplesByEvent::samples);
 }
 
 /// The rotation rates of a run, in the order of its report.
@@ -119,12 +134,14 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
         follow(snapshot, event);
         return sample(snapshot);
     }
+    /// The same, not after every event: the centre of mass is summed up, and follow() is not needed.
+    RotationSample sample_alone(const Snapshot& snapshot);
     /// One sample of the average by time; call it at equal time steps.
     RotationSample sample_by_time(const Snapshot& snapshot);
 
     /// Call at the end of every period. The samples since the last call become a block; an open
-    /// block does not count.
-    void close_block();
+    /// block does not count. Blocks by event are weighted with their events.
+    void close_block(std::uint64_t events_of_a_sample = 1);
 
     /// The means over the samples since the last close_block(), in units of Ω, in the order of
     /// rotation_rates.
@@ -153,7 +170,8 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
             samples += 1.0;
             period = snapshot_period;
         }
-        void close_into(BlockSeries& individual_series, BlockSeries& rigid_series);
+        void close_into(BlockSeries& individual_series, BlockSeries& rigid_series,
+                        double events_of_a_sample);
         template <class Visitor>
         void fields(Visitor&& visit) {
             visit(individual, rigid, samples, period);

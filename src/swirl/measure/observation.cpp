@@ -68,6 +68,7 @@ Observation::Observation(double container_radius, double period, std::vector<std
         finds_cells_ |= kind.needs_cells;
         follows_residences_ |= same_discs && SamplesResidences<M>;
         samples_by_event_ |= SamplesByEvent<M>;
+        samples_events_ |= SamplesByEvent<M> || SamplesEvents<M> || SamplesEventStates<M>;
     });
 }
 

@@ -101,6 +101,8 @@ class Observation {
 
     const std::vector<std::string>& names() const { return names_; }
     bool empty() const { return names_.empty(); }
+    /// Whether a measurement samples events, so that each must be handed over.
+    bool samples_events() const { return samples_events_; }
 
     void sample(const Snapshot& lab);
     void sample(const Event& event, const Snapshot& after);
@@ -150,7 +152,7 @@ class Observation {
     std::vector<std::string> names_;
     ChosenFrom<std::remove_const_t<decltype(measurement_list)>>::Type chosen_;
     bool views_samples_ = false, follows_pinned_ = false, follows_residences_ = false;
-    bool finds_cells_ = false, samples_by_event_ = false;
+    bool finds_cells_ = false, samples_by_event_ = false, samples_events_ = false;
 
     std::int64_t samples_ = 0;
     std::uint64_t events_ = 0;

@@ -31,6 +31,11 @@ class SampleTimes {
         if (s.periods == periods_ && due_ > clock) return false;
         return advance(s, path, clock);
     }
+    /// The time on the clock of this period at or before which next() has nothing; 0 if that is not
+    /// yet determined.
+    double due(std::int64_t periods) const {
+        return periods == periods_ ? std::fmax(due_, 0.0) : 0.0;
+    }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(index_, periods_);

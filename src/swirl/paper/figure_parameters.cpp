@@ -159,6 +159,7 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
         CrossingSettings search;
         search.config = paper_config(settings, {"", "", mu, mu}, last_n);
         search.config.events = settings.events.value_or(settings.quick ? 100'000 : 300'000);
+        search.min_periods = 100;
         search.from = 20;
         search.to = numbers_beyond(settings).back();  // μ = 0.2 crosses beyond the paper's last N
         search.tolerance = settings.quick ? 0.5 : 0.2;

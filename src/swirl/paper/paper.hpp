@@ -29,11 +29,15 @@ struct PaperSettings {
     /// Points that need more seeds than the others, until a claim is decided.
     std::map<std::string, int> seeds_of_point = {};
 
+    /// First seeds of a point of the paper's figures. 0: the default.
+    int first_seeds = 0;
+
     /// Runs at a point of the paper's figures, and of the figures beyond the paper.
-    int seeds() const { return quick ? 3 : 8; }
+    int seeds() const { return first_seeds > 0 ? first_seeds : default_seeds(); }
     int seeds_beyond() const { return quick ? 2 : 3; }
     /// The budget of a point on which an undecided claim rests.
-    int max_seeds() const { return 4 * seeds(); }
+    int max_seeds() const { return 4 * default_seeds(); }
+    int default_seeds() const { return quick ? 3 : 8; }
 
     /// SI: "10^6 iterations".
     std::int64_t default_events() const { return quick ? 200'000 : 1'000'000; }

@@ -23,4 +23,17 @@ struct Event {
     double overlap;      // contact distance σ minus the actual one: a rounding error
 };
 
+/// The two discs of an event; equal numbers for one disc, both 0 at a path vertex.
+struct DiscPair {
+    std::uint32_t i, j;
+};
+
+/// Events executed together. Observers need only what they changed.
+struct EventSpan {
+    static constexpr std::uint64_t capacity = 64;
+    std::uint64_t events = 0;
+    double max_overlap = 0.0;
+    DiscPair discs[capacity];  // of event k at k modulo `capacity`
+};
+
 }  // namespace swirl

@@ -43,8 +43,10 @@ CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, Observation
       after_warmup_(tuning.width),
       next_warmup_test_(min_blocks_of_a_steady_state),
       warm_(config.warmup == 0),
-      events_per_sample_(events_per_rotation_sample(simulation_.size())),
-      events_to_sample_(events_per_sample_ - simulation_.events().total() % events_per_sample_) {
+      events_per_sample_(config.events_per_sample > 0
+                             ? static_cast<std::uint64_t>(config.events_per_sample)
+                             : events_per_rotation_sample(simulation_.size())),
+      events_to_sample_(events_per_sample_) {
     const Budget start = budget_of(snapshot());
     result_.config = config;
     result_.energy_at_start = start.energy;
@@ -69,32 +71,83 @@ void CoreRun::execute_event() {
     // Constructed in place: a copy would first have to wait for the stores of the event.
     new (&event_) Event(simulation_.step());
     sample_by_event();
-    while (next_sample(rotation_times_)) {
+    sample_by_time(event_.clock);
+}
+
+/// At all sample times up to this one, before the next event.
+void CoreRun::sample_by_time(double clock) {
+    while (rotation_times_.next(snapshot_, path_, clock)) {
         rotation().sample_by_time(snapshot_);
         spin().add(mean_spin(snapshot_));
         if (series_) series_->sample(snapshot());
     }
-    const bool measures_period = series_ && series_->measures();
-    if (!observes() && !measures_period) return;
-    while (next_sample(observation_times_)) {
+    if (!samples_observations()) return;
+    while (observation_times_.next(snapshot_, path_, clock)) {
         const Snapshot& now = snapshot();
         if (observes()) observation_->sample(now);
-        if (measures_period) series_->sample_measured(now);
+        if (measures_period()) series_->sample_measured(now);
     }
 }
 
 void CoreRun::pass_event() {
     simulation_.refresh(snapshot_, event_);
-    rotation().follow(snapshot_, event_);
-    if (--events_to_sample_ == 0) {
-        events_to_sample_ = events_per_sample_;
-        rotation_is_sampled_ = false;
-    }
+    const bool period_ended =
+        event_.kind == EventKind::path_vertex && simulation_.periods() > event_.periods;
+    if (events_per_sample_ == 1 || period_ended) rotation().follow(snapshot_, event_);
+    count_to_sample(1);
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
-    if (observes()) observation_->sample(event_, snapshot());
-    if (series_ && series_->measures()) series_->sample_measured(event_, snapshot());
-    if (event_.kind == EventKind::path_vertex && simulation_.periods() > event_.periods)
-        begin_period();
+    if (observes_events()) observation_->sample(event_, snapshot());
+    if (series_ && series_->samples_events()) series_->sample_measured(event_, snapshot());
+    if (period_ended) begin_period();
+}
+
+void CoreRun::count_to_sample(std::uint64_t events) {
+    events_to_sample_ -= events;
+    if (events_to_sample_ > 0) return;
+    events_to_sample_ = events_per_sample_;
+    rotation_is_sampled_ = false;
+}
+
+bool CoreRun::measures_period() const { return series_ && series_->measures(); }
+
+/// If not, the times of the observation do not count.
+bool CoreRun::samples_observations() const { return observes() || measures_period(); }
+
+bool CoreRun::observes_events() const { return observes() && observation_->samples_events(); }
+
+std::uint64_t CoreRun::execute_events() {
+    const bool each_event = events_per_sample_ == 1 || observes_events() ||
+                            (series_ && series_->samples_events()) || !snapshot_.turned.empty();
+    const double period_end = path_.segments.back().end;
+    for (bool stopped = true; !each_event && stopped;) {
+        double due = rotation_times_.due(snapshot_.periods);
+        if (samples_observations()) due = std::min(due, observation_times_.due(snapshot_.periods));
+        stopped = execute_span(due) && due < period_end;
+        if (stopped) {
+            sample_by_event();
+            sample_by_time(due);
+        }
+        if (span_.events > 0) return span_.events;
+    }
+    execute_event();
+    pass_event();
+    return 1;
+}
+
+/// Executes events before the sample time `due` and the end of the period, until a sample by event
+/// or a check is due. Returns whether a time stopped it.
+bool CoreRun::execute_span(double due) {
+    // is_check_due() has counted the first event.
+    const std::uint64_t to_check = static_cast<std::uint64_t>(events_to_check_) + 1;
+    const std::uint64_t maximum = std::min(events_to_sample_, to_check);
+    simulation_.run_before(due, maximum, span_);
+    if (span_.events == 0) return true;
+    events_to_check_ -= static_cast<int>(span_.events) - 1;
+    sample_by_event();
+    simulation_.refresh(snapshot_, span_);
+    count_to_sample(span_.events);
+    result_.max_overlap = std::max(result_.max_overlap, span_.max_overlap);
+    return span_.events < maximum;
 }
 
 /// A run with a given number of events is also checked at its end; one with a number of periods is
@@ -152,15 +205,19 @@ std::string CoreRun::reason_for_collapse() const {
 /// Takes the sample by event of the current state, if it is due. It is taken as late as possible,
 /// so that the processor need not wait for the snapshot to be written (cluster_rotation.hpp).
 void CoreRun::sample_by_event() {
-    if (!rotation_is_sampled_) rotation().sample(snapshot_);
+    if (rotation_is_sampled_) return;
     rotation_is_sampled_ = true;
+    if (events_per_sample_ == 1)
+        rotation().sample(snapshot_);
+    else
+        rotation().sample_alone(snapshot_);
 }
 
 /// Closes the blocks of the period that has ended, and ends the warm-up or the run if it is time.
 void CoreRun::begin_period() {
     sample_by_event();
     if (series_) add_period_to_series();
-    rotation().close_block();
+    rotation().close_block(events_per_sample_);
     spin().close_block();
     if (observes()) observation_->close_block();
     if (!warm_ && is_warmup_over()) {
@@ -171,6 +228,14 @@ void CoreRun::begin_period() {
     if (!config_.ramps.empty() && changes_in_period(config_, simulation_.periods()))
         continue_ramps();
     if (complete()) events_to_check_ = 0;
+    // From the last period alone, so a resumed run has the same samples.
+    const std::uint64_t events = simulation_.events().total();
+    if (config_.events_per_sample == 0) {
+        events_per_sample_ =
+            events_per_rotation_sample(simulation_.size(), events - events_before_);
+        events_to_sample_ = std::min(events_to_sample_, events_per_sample_);
+    }
+    events_before_ = events;
 }
 
 /// The blocks of the period are still open.
@@ -224,6 +289,7 @@ RunResult CoreRun::result() {
     sample_by_event();
     result_.complete = complete();
     result_.rotation = rotation().estimates();
+    result_.events_per_rotation_sample = events_per_sample_;
     result_.steady = steady_state_of(rotation().by_event());
     result_.steady_spin = steady_state_of(spin().series());
     result_.events = simulation_.events();

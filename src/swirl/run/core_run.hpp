@@ -44,6 +44,10 @@ class CoreRun {
 
     /// Executes the next event. The snapshot keeps the state before it until pass_event().
     void execute_event();
+    /// Executes and passes events together in the engine's loop until a sample or a check is due, or
+    /// the next event alone if each must be handed over. The results are bitwise those of
+    /// execute_event() and pass_event(), but event() is not set. Returns the number of events.
+    std::uint64_t execute_events();
     /// Moves the snapshot to the next of these sample times, if there is one before the event.
     bool next_sample(SampleTimes& times) { return times.next(snapshot_, path_, event_.clock); }
     /// Moves the snapshot to the state after the event. Call it once for each event.
@@ -113,6 +117,7 @@ class CoreRun {
         visit(result_.warmup, result_.warmup_events, result_.max_overlap);
         visit(result_.energy_at_start, result_.invariant_at_start);
         visit(spin_in_warmup_, spin_after_, next_warmup_test_);
+        visit(events_per_sample_, events_to_sample_, events_before_);
         if (!config_.ramps.empty()) visit(snapshot_.periods_at_change, snapshot_.time_at_change);
         if (!snapshot_.turned.empty()) visit(std::span(snapshot_.turned));
         if (observation_) visit(observation_times_);
@@ -120,12 +125,18 @@ class CoreRun {
 
   private:
     bool observes() const { return warm_ && observation_; }
+    bool measures_period() const;
+    bool samples_observations() const;
+    bool observes_events() const;
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
     int events_until_check() const;
     std::optional<std::string> overlap_problem() const;
     std::string collapse_sentence(const Collapse& collapse) const;
     std::string reason_for_collapse() const;
     void sample_by_event();
+    void count_to_sample(std::uint64_t events);
+    bool execute_span(double due);
+    void sample_by_time(double clock);
     void begin_period();
     void add_period_to_series();
     void continue_ramps();
@@ -150,9 +161,11 @@ class CoreRun {
     BlockMean spin_in_warmup_, spin_after_;
     std::int64_t next_warmup_test_;  // in this period
     bool warm_;
-    const std::uint64_t events_per_sample_;
-    std::uint64_t events_to_sample_;   // until the next sample of the rotation by event
+    std::uint64_t events_per_sample_;  // of the rotation by event, in this period
+    std::uint64_t events_to_sample_;   // until the next sample
+    std::uint64_t events_before_ = 0;  // before this period
     bool rotation_is_sampled_ = true;  // in the current state, if a sample is due
+    EventSpan span_;
     RunResult result_;
 };
 

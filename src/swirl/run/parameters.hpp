@@ -118,6 +118,9 @@ struct RunConfig {
     /// not set.
     bool warmup_found = false;
 
+    /// Of the averages by event. 0: from the events of the last period (cluster_rotation.hpp).
+    std::int64_t events_per_sample = 0;
+
     std::uint64_t seed = 1;
 
     /// The members above have the values of period 0 (in_period()).
@@ -564,6 +567,17 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .read = read_warmup,
      .write = write_warmup,
      .default_text = "20, at most 1/5 of run"},
+    {.name = "events_per_sample",
+     .form = "NUMBER",
+     .description = "Events per sample of averages by event; 0: chosen",
+     .details =
+         "1 takes a sample after every event. By default a period with many events has about "
+         "128 samples. The mean is the same.",
+     .group = parameter_group::run,
+     .member = &RunConfig::events_per_sample,
+     .range = {0, max_events},
+     .slider = {0, 64, 1},
+     .written = WrittenIf::not_default},
     {.name = "ramp",
      .form = "NAME=FROM:TO@P..Q",
      .description = "Parameter that changes, and in which periods",

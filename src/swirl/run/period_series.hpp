@@ -51,12 +51,14 @@ class PeriodSeries {
 
     /// At the sample times of the rotation.
     void sample(const Snapshot& snapshot);
-    /// At the times and after the events that the measurements of a run sample; needed if measures().
+    /// At the times that the measurements of a run sample, if measures(), and after every event, if
+    /// samples_events().
     void sample_measured(const Snapshot& snapshot) { measured_.sample(snapshot); }
     void sample_measured(const Event& event, const Snapshot& after) {
         measured_.sample(event, after);
     }
     bool measures() const { return !measured_.empty(); }
+    bool samples_events() const { return measured_.samples_events(); }
     void add_period(const PeriodAverages& averages);
 
     const std::vector<SeriesColumn>& columns() const { return columns_; }

@@ -161,9 +161,8 @@ class Recorder {
                     fmt::format("the run of the checkpoint '{}' cannot be continued to another "
                                 "length: {}.",
                                 files_.checkpoint.string(), *problem));
-        while (run.next_event()) {
-            record(run);
-            if (is_checkpoint_due() && !run.complete()) save(run);
+        while (const std::uint64_t events = execute(run)) {
+            if (is_checkpoint_due(events) && !run.complete()) save(run);
         }
         if (!run.complete() || files_.keep_checkpoint) save(run);
         const RunResult result = run.result();
@@ -250,6 +249,18 @@ class Recorder {
             event_log_ = EventLogWriter::resume(files_.event_log, logged, run_name_);
     }
 
+    /// Returns the number of events executed; 0 at the end of the run.
+    std::uint64_t execute(Run& run) {
+        if (!trajectory_ && !event_log_) {
+            const std::uint64_t events = run.execute_events();
+            events_ += events;
+            return events;
+        }
+        if (!run.next_event()) return 0;
+        record(run);
+        return 1;
+    }
+
     /// Passes the next event and records the frames before it, the event, and the frame after it.
     void record(Run& run) {
         if (trajectory_ && !files_.frames.events)
@@ -262,9 +273,10 @@ class Recorder {
             trajectory_->write(run.snapshot(), events_);
     }
 
-    bool is_checkpoint_due() const {
+    /// After these events.
+    bool is_checkpoint_due(std::uint64_t events) const {
         constexpr std::uint64_t events_per_clock_read = 256;
-        return events_ % events_per_clock_read == 0 && !files_.checkpoint.empty() &&
+        return events_ % events_per_clock_read < events && !files_.checkpoint.empty() &&
                std::chrono::duration<double>(Clock::now() - last_checkpoint_).count() >=
                    files_.checkpoint_every;
     }

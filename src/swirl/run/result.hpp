@@ -24,7 +24,8 @@ struct RunResult {
     /// In units of Ω, in the lab frame, over whole periods; by_event is the paper's average. All
     /// values are NaN if there is no whole period after the warm-up.
     RotationEstimates rotation;
-    SteadyState steady;        // of the rotation by event, after the warm-up
+    std::uint64_t events_per_rotation_sample = 1;  // by event, in the last period
+    SteadyState steady;                            // of the rotation by event, after the warm-up
     SteadyState steady_spin;   // of the mean spin, which may relax much more slowly
     double max_overlap = 0.0;  // largest overlap at a contact: a rounding error
     /// Kinetic energy in the lab frame, including spins, at the start and at the end.
@@ -53,10 +54,8 @@ struct RunResult {
             visit(group, ReportRow{name, unit, description, {.mean = value}, {}, false});
         };
         rotation.report([&](const ReportRow& row) { visit("rotation", row); });
-        number("", "events_per_rotation_sample", "1",
-               "of averages by event: 1 for up to 128 discs, otherwise their number divided by 64",
-               static_cast<double>(
-                   events_per_rotation_sample(static_cast<std::size_t>(config.discs))));
+        number("", "events_per_rotation_sample", "1", "of averages by event, in the last period",
+               static_cast<double>(events_per_rotation_sample));
         number("steady_state", "change", "1",
                "most likely change of the rotation, in standard errors", steady.change.size);
         number("steady_state", "change_limit", "1", "limit of a change that may be random",

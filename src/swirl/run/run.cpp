@@ -160,6 +160,11 @@ bool Run::next_event() {
     return true;
 }
 
+std::uint64_t Run::execute_events() {
+    if (run_.is_check_due() && !check_progress()) return 0;
+    return run_.execute_events();
+}
+
 /// Called occasionally between two events. Returns false if the run is complete or must stop.
 bool Run::check_progress() {
     const bool stopped = control_.stop && control_.stop->load(std::memory_order_relaxed);
@@ -188,7 +193,8 @@ RunResult Run::result() {
 
 RunResult run(const RunConfig& config, const RunControl& control) {
     Run run(config, control);
-    while (run.next_event()) run.pass_event();
+    while (run.execute_events() > 0) {
+    }
     return run.result();
 }
 

@@ -19,7 +19,7 @@ namespace swirl {
 namespace {
 
 constexpr int coarse_points = 8;
-constexpr int max_sign_rounds = 3;  // step 3: rounds of further runs at one number of discs
+constexpr int max_sign_rounds = 4;  // step 3: rounds of further runs at one number of discs
 
 using Numbers = std::set<std::int64_t>;  // of discs
 

@@ -2,12 +2,12 @@
 // with few events. Definition of N_c and its interval: statistics/zero_crossing.hpp.
 //
 // 1. Coarse scan: `seeds` runs with different seeds at about eight numbers of discs in the range. A
-//    run has the given number of events and at least a hundred periods after the warm-up, because
+//    run has the given number of events and at least fifty periods after the warm-up, because
 //    a few periods of a dense container do not show its mean.
 // 2. Narrowing: runs of the same length at the middle of each bracket, until every number in it has
 //    runs. This is done for all four rotation rates.
 // 3. Signs: numbers outside every bracket with an undetermined sign get `seeds` more runs, twice as
-//    long as the ones before, until the sign is certain, at most three times. Those that stay
+//    long as the ones before, until the sign is certain, at most four times. Those that stay
 //    undetermined are reported.
 // 4. Tolerance: the numbers in the bracket of N_c get `seeds` more runs, twice as long as the ones
 //    before, until the error of N_c is below the tolerance. A number gets more runs at most
@@ -40,16 +40,16 @@
 namespace swirl {
 
 /// Default number of events of the first runs: fewer than for a single run.
-inline constexpr const char* default_search_events = "2e5";
+inline constexpr const char* default_search_events = "2e4";
 
 struct CrossingSettings {
     RunConfig config;  // events: those of the first runs; the number of discs is ignored
     std::int64_t from = 5, to = 48;
     double tolerance = 0.3;           // target standard error of N_c
     std::size_t rate = default_rate;  // index in rotation_rates: controls steps 3 and 4
-    int rounds = 8;                   // maximum of step 4 at one number of discs
+    int rounds = 10;                  // maximum of step 4 at one number of discs
     int seeds = 3;                    // runs of one step at one number of discs
-    std::int64_t min_periods = 100;   // of the first runs, after the warm-up
+    std::int64_t min_periods = 50;    // of the first runs, after the warm-up
     std::int64_t step = 0;            // of the coarse scan; 0: about eight numbers
 };
 

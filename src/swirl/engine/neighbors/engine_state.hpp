@@ -155,9 +155,10 @@ struct EventLoop {
     void (*start)(EngineState&);
     /// Executes the next event.
     Event (*step)(EngineState&);
-    /// Executes at most `count` events up to and including the time (periods, clock); returns how
-    /// many. Returns early if the search asks to be replaced.
-    std::uint64_t (*run)(EngineState&, std::uint64_t count, std::int64_t periods, double clock);
+    /// Adds events to the span until it has `count` events or all up to and including the time
+    /// (periods, clock). Returns early if the search asks to be replaced.
+    void (*run)(EngineState&, EventSpan& span, std::uint64_t count, std::int64_t periods,
+                double clock);
 };
 
 /// The columns of AllPairsState and FewSpheresState have this capacity.
