@@ -227,6 +227,24 @@ class TrackTest(InFolder):
         self.assertLess(abs(result.radius), 0.04)
         self.assert_true_rotation(video, tracks, result.truth)
 
+    def test_each_fault_of_a_camera_changes_the_images_and_not_the_ground_truth(self):
+        def made(*more):
+            video = self.video("--frames", 3, "--overwrite", *more)
+            with open(video, "rb") as images, open(video[:-4] + ".truth.csv", "rb") as truth:
+                return images.read(), truth.read()
+        images, truth = made()
+        self.assertEqual(made(), (images, truth))
+        for option in (("--rolling-shutter", 0.5), ("--interlaced",), ("--auto-exposure", 0.3), ("--hands", 0.02),
+                       ("--floor-pattern", 40), ("--disc-variation", 0.2), ("--transparency", 0.5), ("--flat",)):
+            with self.subTest(option):
+                changed = made(*option)
+                self.assertEqual(changed[1], truth)
+                self.assertNotEqual(changed[0], images)
+        for option, value in (("--rolling-shutter", 2), ("--transparency", -0.1), ("--hands", 100)):
+            done = swirl("synthetic-video", option, value, "--out", self.path("wrong.mp4"))
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(option, done.stderr)
+
     def test_hdf5_and_csv_tracks_give_equal_results(self):
         video = self.video(length=1.05)
         table, _ = self.track(video, "--quiet", name="table.csv")

@@ -162,6 +162,48 @@ TEST(Linking, FollowsRotationAndCounterrotationAtALowFrameRate) {
         }
 }
 
+/// Discs that move independently of each other: each is in every frame at a random point within
+/// 0.65 radii of its site. Sites are 2.7 radii apart, so an assignment that confuses discs costs
+/// more than the right one. A frame is a fifteenth of a period.
+Scene independent_discs(std::uint64_t seed) {
+    constexpr double radius = 15.0, spacing = 2.7 * radius, off = 0.65 * radius;
+    constexpr double reach = 120.0;  // of the sites
+    Scene scene(0.0, 30);
+    scene.path.omega = 2.0 * pi / 15.0;
+    Random random(seed);
+    for (std::size_t k = 0; k < scene.frames.size(); ++k) {
+        scene.frames[k].clear();
+        for (int row = -3; row <= 3; ++row)
+            for (int column = -3; column <= 3; ++column) {
+                const Vec2 site = spacing * Vec2{double(column), double(row)};
+                if (dot(site, site) < reach * reach)
+                    scene.frames[k].push_back(
+                        {scene.path.at(double(k)) + site + random.in_disc(off)});
+            }
+    }
+    return scene;
+}
+
+TEST(Linking, DiscsThatMoveIndependentlyAreNotTurnedInTheFirstStep) {
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+        const Scene scene = independent_discs(seed);
+        LinkSettings settings = scene.settings();
+        settings.gate = 1.4;
+        const Links links = link_discs(scene.frames, scene.times, scene.path, settings);
+        EXPECT_EQ(identity_swaps(scene, links), 0) << seed;
+    }
+}
+
+TEST(Linking, FrameByFrameGivesTheSameLinks) {
+    for (const Scene& scene : {Scene(0.5, 40), independent_discs(7)}) {
+        const LinkSettings settings = scene.settings();
+        const Links links = link_discs(scene.frames, scene.times, scene.path, settings);
+        const DiscLinker link = disc_linker(scene.path, settings);
+        for (std::size_t k = 0; k < scene.frames.size(); ++k)
+            ASSERT_EQ(link(scene.frames[k], scene.times[k]), links.track[k]) << k;
+    }
+}
+
 TEST(Linking, FailsWithAWrongPath) {
     // Shows that the test above can fail: without the container's motion the lattice is linked to
     // its neighbour sites, unless all discs are known to be seen.

@@ -37,9 +37,12 @@ struct SyntheticVideoCall {
     std::optional<std::int64_t> frames, frames_per_period;
     std::optional<double> scale, noise, blur, exposure, distortion, glare, texture, gloss, disc,
         floor, rim, table, flicker, tilt, towards, view_angle, rim_height;
+    std::optional<double> rolling_shutter, auto_exposure, floor_pattern, disc_variation,
+        transparency, hands;
     std::optional<int> width, height;
     int fps = 60, quality = 18;
-    bool rolls = false, mirrored = false, still = false, overwrite = false, quiet = false;
+    bool rolls = false, mirrored = false, still = false, flat = false, interlaced = false;
+    bool overwrite = false, quiet = false;
 };
 
 /// Throws UsageError.
@@ -76,9 +79,16 @@ CameraSettings camera_settings(const SyntheticVideoCall& call, const RunConfig& 
     apply("rim-level", call.rim, camera.rim, 0.0, 255.0);
     apply("table-level", call.table, camera.table, 0.0, 255.0);
     apply("frames-per-period", call.frames_per_period, camera.frames_per_period, 4.0, 1e6);
+    apply("rolling-shutter", call.rolling_shutter, camera.rolling_shutter, 0.0, 1.0);
+    apply("auto-exposure", call.auto_exposure, camera.auto_exposure, 0.0, 0.9);
+    apply("floor-pattern", call.floor_pattern, camera.floor_pattern, 0.0, 255.0);
+    apply("disc-variation", call.disc_variation, camera.disc_variation, 0.0, 1.0);
+    apply("transparency", call.transparency, camera.transparency, 0.0, 1.0);
     apply("width", call.width, camera.size.width, 64.0, 4096.0);
     apply("height", call.height, camera.size.height, 64.0, 4096.0);
     camera.rolls = call.rolls;
+    camera.flat = call.flat;
+    camera.interlaced = call.interlaced;
     camera.mirrored = call.mirrored;
     camera.seed = static_cast<std::uint64_t>(config.seed);
     if (const auto wrong = movie_problem(MovieFormat::mp4, camera.size, call.fps))
@@ -183,12 +193,21 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
         throw UsageError(
             "a synthetic video states the amplitude and the phase of a circular path, but this "
             "path is none.\nhint: use a counter-clockwise path that is nearly a circle.");
-    const CameraSettings camera = camera_settings(call, config);
+    CameraSettings camera = camera_settings(call, config);
     const std::int64_t frames = call.frames.value_or(static_cast<std::int64_t>(
         call.periods * static_cast<double>(camera.frames_per_period) + 0.5));
     if (frames < 1)
         throw UsageError(
             fmt::format("--length is {}, which is less than one frame.", call.periods));
+    camera.frames = frames;
+    if (call.hands) {
+        if (!(*call.hands >= 0.0 && *call.hands <= 0.5 * call.periods))
+            throw UsageError(
+                fmt::format("--hands is {}, but it must be from 0 to half of --length, {}.",
+                            *call.hands, 0.5 * call.periods));
+        camera.hand_frames =
+            static_cast<std::int64_t>(*call.hands * double(camera.frames_per_period) + 0.5);
+    }
     const fs::path out = call.out;
     const auto companion = [&](const char* extension) {
         fs::path name = out;
@@ -257,7 +276,8 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     flag("--overwrite", call->overwrite, "Replace an existing video");
     flag("--quiet", call->quiet, "No progress line and no summary");
     group = "Camera";
-    add("--camera", call->preset, "NAME", "Preset: laboratory, phone, bad or steel [laboratory]");
+    add("--camera", call->preset, "NAME",
+        "Preset: laboratory, phone, bad, steel, student [laboratory]");
     add("--scale", call->scale, "NUMBER", "Image scale, pixels per disc radius");
     add("--frames-per-period", call->frames_per_period, "N", "Frames per period");
     add("--width", call->width, "PIXELS", "Frame width");
@@ -281,6 +301,16 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     add("--floor-level", call->floor, "LEVEL", "Brightness of the container's floor, of 255");
     add("--rim-level", call->rim, "LEVEL", "Brightness of the container's wall, of 255");
     add("--table-level", call->table, "LEVEL", "Brightness of the surroundings, of 255");
+    add("--rolling-shutter", call->rolling_shutter, "FRACTION",
+        "Readout time of a frame per frame interval [0]");
+    flag("--interlaced", call->interlaced, "Odd rows half a frame interval after even rows");
+    add("--auto-exposure", call->auto_exposure, "FRACTION", "Slow brightness variation [0]");
+    add("--hands", call->hands, "PERIODS", "Time a hand covers a part, at start and end [0]");
+    add("--floor-pattern", call->floor_pattern, "LEVELS", "Contrast of squares on the floor [0]");
+    add("--disc-variation", call->disc_variation, "FRACTION",
+        "Brightness variation from disc to disc, as of colours [0]");
+    add("--transparency", call->transparency, "FRACTION", "Share of glass in the discs [0]");
+    flag("--flat", call->flat, "Draw discs as flat coins with a bright edge");
     flag("--roll", call->rolls, "Draw discs as spheres that roll on the floor");
     flag("--mirrored", call->mirrored, "Mirror the image, as seen from below");
     flag("--still", call->still, "Let the camera move with the container");

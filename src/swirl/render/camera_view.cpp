@@ -59,7 +59,35 @@ std::vector<Preset> presets() {
     steel.noise = 3.0;
     steel.blur = 0.9;
     steel.exposure = 0.2;
-    return {{"laboratory", {}}, {"phone", phone}, {"bad", bad}, {"steel", steel}};
+    // 30 frames per second at 2 periods per second.
+    CameraSettings student;
+    student.size = {640, 480};
+    student.scale = 20.0;
+    student.frames_per_period = 15;
+    student.noise = 3.0;
+    student.blur = 0.9;
+    student.exposure = 0.15;
+    student.flicker = 0.01;
+    student.table = 150.0;
+    student.gloss = 60.0;
+    return {
+        {"laboratory", {}}, {"phone", phone}, {"bad", bad}, {"steel", steel}, {"student", student}};
+}
+
+constexpr double coin_edge = 0.88;  // radii: the raised edge begins
+
+/// Between −1 and 1, well mixed, for each disc.
+double variation_of(std::size_t disc) {
+    constexpr double golden = 0.61803398875;
+    const double turns = golden * double(disc + 1);
+    return 2.0 * (turns - std::floor(turns)) - 1.0;
+}
+
+/// The floor through a glass sphere at this distance from its centre, in radii: dark at the edge,
+/// where light is reflected away.
+double seen_through(double floor, double distance) {
+    const double square = distance * distance;
+    return floor * (1.15 - 0.75 * square * square * square);
 }
 
 Rotation product(const Rotation& a, const Rotation& b) {
@@ -180,14 +208,29 @@ void CameraView::rotate_discs(const Snapshot& s) {
     }
 }
 
-void CameraView::draw_background(const Vec2& container, double radius,
+double CameraView::row_delay(int row) const {
+    const double rolled = settings_.rolling_shutter * (double(row) / settings_.size.height - 0.5);
+    return rolled + (!settings_.interlaced ? 0.0 : row % 2 == 0 ? -0.25 : 0.25);
+}
+
+double CameraView::floor_level(const Vec2& from_container) const {
+    if (settings_.floor_pattern == 0.0) return settings_.floor;
+    const double square = 1.3 * settings_.scale;
+    const bool odd =
+        (std::lround(from_container.x / square) + std::lround(from_container.y / square)) % 2 != 0;
+    return settings_.floor + (odd ? 0.5 : -0.5) * settings_.floor_pattern;
+}
+
+void CameraView::draw_background(const Vec2& container, const Vec2& step, double radius,
                                  std::vector<float>& light) const {
     const double inner = radius * settings_.scale, outer = inner + rim_width * settings_.scale;
     const double height = settings_.rim_height * settings_.scale;
     for (std::size_t k = 0; k < light.size(); ++k) {
-        const Vec2 d = positions_[k] + height * lean(positions_[k]) - container;
+        const int row = static_cast<int>(k / static_cast<std::size_t>(settings_.size.width));
+        const Vec2 d =
+            positions_[k] + height * lean(positions_[k]) - container - row_delay(row) * step;
         const double distance = std::sqrt(dot(d, d));
-        double level = settings_.floor;
+        double level = floor_level(d);
         if (distance > inner - 1.0) {
             // The wall is brighter on the side of the light.
             const double wall = settings_.rim * (1.0 + 0.3 * (d.x - d.y) / (1.42 * distance));
@@ -199,11 +242,14 @@ void CameraView::draw_background(const Vec2& container, double radius,
     }
 }
 
-void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& orientation,
-                           std::size_t i, std::vector<float>& light) const {
+void CameraView::draw_disc(const Vec2& centre, const Vec2& step, double radius,
+                           const Rotation& orientation, std::size_t i,
+                           std::vector<float>& light) const {
     const double a = radius * settings_.scale;
     const Vec2 around = seen(centre);
-    const int reach = static_cast<int>(std::ceil(a * 1.4)) + 2;
+    const int reach = static_cast<int>(std::ceil(a * 1.4 + std::abs(row_delay(0) * step.x) +
+                                                 std::abs(row_delay(0) * step.y))) +
+                      2;
     const int left = std::max(0, static_cast<int>(around.x) - reach);
     const int right = std::min(settings_.size.width - 1, static_cast<int>(around.x) + reach);
     const int top = std::max(0, static_cast<int>(around.y) - reach);
@@ -217,12 +263,13 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
     const double half =
         std::sqrt((lx + ex) * (lx + ex) + (ly + ey) * (ly + ey) + (lz + ez) * (lz + ez));
     const double side = settings_.mirrored ? -1.0 : 1.0;
+    const double own = settings_.disc * (1.0 + settings_.disc_variation * variation_of(i));
     for (int row = top; row <= bottom; ++row)
         for (int column = left; column <= right; ++column) {
             const std::size_t k =
                 static_cast<std::size_t>(row) * static_cast<std::size_t>(settings_.size.width) +
                 static_cast<std::size_t>(column);
-            const Vec2 d = positions_[k] - centre;
+            const Vec2 d = positions_[k] - centre - row_delay(row) * step;
             // Distance of the line of sight from the disc's centre.
             const double along = d.x * ex - d.y * ey;
             const double distance = std::sqrt(std::max(0.0, dot(d, d) - along * along));
@@ -242,16 +289,46 @@ void CameraView::draw_disc(const Vec2& centre, double radius, const Rotation& or
                         wave.k[0] * ox + wave.k[1] * oy + wave.k[2] * oz + wave.phase)));
                 pattern *= std::sqrt(2.0 / waves_per_texture);
             }
-            const double albedo = settings_.disc * (1.0 + settings_.texture * 0.6 * pattern);
-            const double lit =
+            const double albedo = own * (1.0 + settings_.texture * 0.6 * pattern);
+            double lit =
                 settings_.ambient + settings_.diffuse * std::max(0.0, nx * lx + ny * ly + nz * lz);
+            if (settings_.flat) lit = distance > coin_edge * a ? 1.2 : 1.0;
             const double mirror =
                 std::max(0.0, (nx * (lx + ex) + ny * (ly + ey) + nz * (lz + ez)) / half);
             double level = albedo * lit;
-            if (mirror > 0.7)
+            if (settings_.transparency > 0.0)
+                level += settings_.transparency * (seen_through(light[k], distance / a) - level);
+            if (mirror > 0.7 && !settings_.flat)
                 level += settings_.gloss * std::pow(mirror, 4.0 * settings_.shininess);
             light[k] = static_cast<float>((1.0 - cover) * light[k] + cover * level);
         }
+}
+
+/// The hand comes from the right, and is drawn back in the last of its frames.
+void CameraView::draw_hand() {
+    const std::int64_t from_end =
+        std::min(frame_, std::max<std::int64_t>(settings_.frames - 1 - frame_, 0));
+    if (from_end >= settings_.hand_frames) return;
+    constexpr double skin = 90.0;  // grey level
+    const double inside = 1.0 - double(from_end) / double(settings_.hand_frames);
+    const double width = settings_.size.width, half_height = 0.5 * settings_.size.height;
+    const double tip = width * (1.0 - 0.45 * inside), thick = 0.3 * half_height;
+    for (int row = 0; row < settings_.size.height; ++row)
+        for (int column = 0; column < settings_.size.width; ++column) {
+            const Vec2 d{std::min(0.0, column - tip - thick), row - 1.1 * half_height};
+            if (dot(d, d) < thick * thick)
+                exposed_[static_cast<std::size_t>(row) *
+                             static_cast<std::size_t>(settings_.size.width) +
+                         static_cast<std::size_t>(column)] = static_cast<float>(skin);
+        }
+}
+
+double CameraView::brightness() {
+    constexpr double adjustment = 1.7;  // periods of the slow variation
+    const double slow =
+        std::sin(2.0 * pi * double(frame_) / (adjustment * double(settings_.frames_per_period)));
+    return (1.0 + settings_.flicker * nearly_normal(random_)) *
+           (1.0 + settings_.auto_exposure * slow);
 }
 
 /// Seen at an angle, discs hide those behind them: the most distant discs are drawn first.
@@ -310,15 +387,19 @@ const std::vector<std::uint8_t>& CameraView::render(const Snapshot& s) {
         fastest = std::max(fastest, dot(s.velocity(i), s.velocity(i)));
     const int exposures =
         std::clamp(static_cast<int>(std::sqrt(fastest) * open * settings_.scale + 0.8), 1, 9);
+    const double interval = s.period / static_cast<double>(settings_.frames_per_period);
+    const auto moved = [&](const Vec2& velocity) {  // in pixels per frame interval
+        return ideal(interval * velocity) - ideal({0.0, 0.0});
+    };
     exposed_.assign(image_.size(), 0.0f);
     light_.resize(image_.size());
     for (int e = 0; e < exposures; ++e) {
         const double after = open * ((e + 0.5) / exposures - 0.5);
         draw_background(ideal(s.container_centre + after * s.container_velocity),
-                        s.container_radius, light_);
+                        moved(s.container_velocity), s.container_radius, light_);
         for (const std::size_t i : order_)
-            draw_disc(ideal(s.position(i) + after * s.velocity(i)), s.radius[i], orientations_[i],
-                      i, light_);
+            draw_disc(ideal(s.position(i) + after * s.velocity(i)), moved(s.velocity(i)),
+                      s.radius[i], orientations_[i], i, light_);
         for (std::size_t k = 0; k < light_.size(); ++k)
             exposed_[k] += light_[k] / static_cast<float>(exposures);
     }
@@ -331,8 +412,10 @@ const std::vector<std::uint8_t>& CameraView::render(const Snapshot& s) {
             if (far < 12.0) exposed_[k] += static_cast<float>(settings_.glare * std::exp(-far));
         }
     }
+    if (settings_.hand_frames > 0) draw_hand();
     blur(exposed_);
-    const double illumination = 1.0 + settings_.flicker * nearly_normal(random_);
+    const double illumination = brightness();
+    ++frame_;
     for (std::size_t k = 0; k < exposed_.size(); ++k) {
         const double level = illumination * static_cast<double>(exposed_[k]) +
                              settings_.noise * nearly_normal(random_);

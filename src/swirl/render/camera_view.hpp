@@ -62,6 +62,18 @@ struct CameraSettings {
     double clutter = 4.0;     // standard deviation of the grain of table and floor
     bool rolls = false;
     bool mirrored = false;  // as seen in a mirror, or from below
+
+    // Faults of cheap cameras. Rows are read one after the other, or in two fields.
+    double rolling_shutter = 0.0;  // time between the first and the last row, frame intervals
+    bool interlaced = false;       // odd rows half a frame interval after even rows
+    double auto_exposure = 0.0;    // relative amplitude of a slow variation of the brightness
+    // Other discs and floors.
+    double floor_pattern = 0.0;   // of squares on the floor, grey levels; moves with it
+    double disc_variation = 0.0;  // relative, from disc to disc, as colours have in grey
+    double transparency = 0.0;    // of glass: the share of the floor seen through a sphere
+    bool flat = false;            // coins: no shading, a bright edge
+    // A dark hand covers a part of the container in the first and the last frames.
+    std::int64_t hand_frames = 0, frames = 0;  // frames with a hand at either end; all frames
 };
 
 /// Settings by name; nothing for any other name.
@@ -97,9 +109,16 @@ class CameraView {
     Vec2 lean(const Vec2& ideal) const;
     void sort_by_distance(const Snapshot& s);
     void rotate_discs(const Snapshot& s);
-    void draw_background(const Vec2& container, double radius, std::vector<float>& light) const;
-    void draw_disc(const Vec2& centre, double radius, const Rotation& orientation, std::size_t i,
-                   std::vector<float>& light) const;
+    /// Time at which a row is seen, relative to the frame, in frame intervals.
+    double row_delay(int row) const;
+    double floor_level(const Vec2& from_container) const;
+    /// `step`: motion in pixels per frame interval.
+    void draw_background(const Vec2& container, const Vec2& step, double radius,
+                         std::vector<float>& light) const;
+    void draw_disc(const Vec2& centre, const Vec2& step, double radius, const Rotation& orientation,
+                   std::size_t i, std::vector<float>& light) const;
+    void draw_hand();
+    double brightness();
     void blur(std::vector<float>& light) const;
 
     CameraSettings settings_;
@@ -115,6 +134,7 @@ class CameraView {
     std::vector<double> last_angle_;
     std::vector<std::vector<Wave>> textures_;
     std::vector<float> light_, exposed_;
+    std::int64_t frame_ = 0;  // number of the next frame
     std::vector<std::uint8_t> image_;
 };
 

@@ -49,21 +49,24 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
     }
     socket_ = ends[0];
     const int buffer_size = 1 << 20;
-    ::setsockopt(ends[side == Side::input ? 0 : 1], SOL_SOCKET, SO_SNDBUF, &buffer_size,
-                 sizeof buffer_size);
+    for (const Side from : {Side::input, Side::output})
+        if (side == from || side == Side::both)
+            ::setsockopt(ends[from == Side::input ? 0 : 1], SOL_SOCKET, SO_SNDBUF, &buffer_size,
+                         sizeof buffer_size);
 
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     const auto open_null = [&](int descriptor, int mode) {
         posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", mode, 0);
     };
-    if (side == Side::input) {
-        posix_spawn_file_actions_adddup2(&files, ends[1], STDIN_FILENO);
-        open_null(STDOUT_FILENO, O_WRONLY);
-    } else {
+    if (side == Side::output)
         open_null(STDIN_FILENO, O_RDONLY);
+    else
+        posix_spawn_file_actions_adddup2(&files, ends[1], STDIN_FILENO);
+    if (side == Side::input)
+        open_null(STDOUT_FILENO, O_WRONLY);
+    else
         posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
-    }
     posix_spawn_file_actions_adddup2(&files, errors_, STDERR_FILENO);
     if (!output.empty())
         posix_spawn_file_actions_addopen(&files, output_number, output.c_str(), O_RDWR | O_NOFOLLOW,

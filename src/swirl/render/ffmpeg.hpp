@@ -11,7 +11,9 @@ namespace swirl {
 
 class Ffmpeg {
   public:
-    enum class Side { input, output };  // the end of ffmpeg that the socket is connected to
+    /// The end of ffmpeg that the socket is connected to. With `both`, it is a filter: what is sent
+    /// is its input, and what is received its output.
+    enum class Side { input, output, both };
     static constexpr const char* output_name = "file:/dev/fd/3";
 
     /// Starts `ffmpeg` with these arguments. Throws DrawFailure if it does not start; `missing` is

@@ -40,6 +40,26 @@ bool is_skipped(const TrackingSettings& settings, std::size_t index) {
 
 }  // namespace
 
+FrameDetections detect_frame(const TrackingSettings& settings, const VideoSurvey& survey,
+                             std::size_t index, const cv::Mat& before, cv::Mat image) {
+    settings.throw_if_stopped();
+    FrameDetections found;
+    if (!before.empty()) found.change = change_between(before, image);
+    if (is_skipped(settings, index)) {
+        found.used = false;
+        return found;
+    }
+    if (survey.background) {
+        found.pose = survey.background->pose(image);
+        if (!found.pose) return found;
+        stabilise(image, *found.pose);
+    }
+    const PreparedFrame frame(image, survey.reduction(), survey.appearance.blur);
+    found.rim = find_container_rim(frame, survey.rim);
+    if (found.rim.good) found.particles = find_particles(frame, found.rim, survey.appearance);
+    return found;
+}
+
 // A batch of frames is shared between the threads while the next one is read.
 Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& survey,
                          std::int64_t expected, TrackedVideo& tracked) {
@@ -72,24 +92,8 @@ Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& su
         parallel_for(
             now.number,
             [&](std::size_t k) {
-                settings.throw_if_stopped();
-                FrameDetections& found = all[begin + k];
-                cv::Mat image = now.images[k];
-                if (const cv::Mat& before = k > 0 ? now.images[k - 1] : previous; !before.empty())
-                    found.change = change_between(before, image);
-                if (is_skipped(settings, begin + k)) {
-                    found.used = false;
-                    return;
-                }
-                if (survey.background) {
-                    found.pose = survey.background->pose(image);
-                    if (!found.pose) return;
-                    stabilise(image, *found.pose);
-                }
-                const PreparedFrame frame(image, survey.reduction(), survey.appearance.blur);
-                found.rim = find_container_rim(frame, survey.rim);
-                if (found.rim.good)
-                    found.particles = find_particles(frame, found.rim, survey.appearance);
+                all[begin + k] = detect_frame(settings, survey, begin + k,
+                                              k > 0 ? now.images[k - 1] : previous, now.images[k]);
             },
             threads);
         reading.get();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace swirl {
@@ -62,6 +63,7 @@ class Linker {
   private:
     Vec2 flow_at(const Vec2& position, double time_from, double time_to) const;
     Vec2 expect(Track& track, double time) const;
+    double cost_of_turn(const std::vector<DetectedDisc>& discs, double angle, double time) const;
     double first_turn(const std::vector<DetectedDisc>& discs, double time) const;
     void assign(std::size_t species, const std::vector<DetectedDisc>& discs,
                 const std::vector<Vec2>& expected, std::vector<int>& of) const;
@@ -134,26 +136,51 @@ Vec2 Linker::expect(Track& track, double time) const {
     return (1.0 / weights) * sum;
 }
 
-/// The rotation about the container's centre, in its frame, that best maps the discs of the first
-/// image to those of the second.
-double Linker::first_turn(const std::vector<DetectedDisc>& discs, double time) const {
-    const double step = path_.omega * (time - last_time_);
-    double best = std::numeric_limits<double>::infinity(), turn = 0.0;
-    for (int k = -40; k <= 80; ++k) {
-        const double angle = (path_.clockwise ? 1.0 : -1.0) * step * k / 50.0;
-        double sum = 0.0;
+/// Sum of the squared distances, within a gate, of all discs turned by `angle` about the
+/// container's centre from the discs assigned to them.
+double Linker::cost_of_turn(const std::vector<DetectedDisc>& discs, double angle,
+                            double time) const {
+    double sum = 0.0;
+    for (std::size_t species = 0; species < settings_.radii.size(); ++species) {
+        const double gate = settings_.gate * settings_.radii[species];
+        std::vector<std::vector<double>> cost;
         for (const Track& t : tracks) {
+            if (t.species != species) continue;
             const Vec2 p = to_lab(1, rotated(to_frame(1, t.position, t.time), angle), time);
-            const double gate = 0.6 * settings_.radii[t.species];
-            double nearest = gate * gate;
+            cost.emplace_back();
             for (const DetectedDisc& d : discs)
-                if (d.sure && d.species == t.species)
-                    nearest = std::min(nearest, square(d.position - p));
-            sum += nearest;
+                if (d.sure && d.species == species)
+                    cost.back().push_back(std::min(1.0, square(d.position - p) / (gate * gate)));
         }
-        if (sum < best) best = sum, turn = angle;
+        const std::vector<int> column = best_assignment(cost, settings_.throw_if_stopped);
+        for (std::size_t r = 0; r < column.size(); ++r)
+            sum += column[r] < 0 ? 1.0 : cost[r][static_cast<std::size_t>(column[r])];
     }
-    return turn;
+    return sum;
+}
+
+/// The rotation about the container's centre, in its frame, that maps the discs of the first image
+/// to those of the second; 0 unless a rotation fits much better than none. At few frames per period
+/// discs that move independently are as far from where they were as from another disc. Of many
+/// rotations, the best one then fits better than none by accident, and all discs would be confused.
+double Linker::first_turn(const std::vector<DetectedDisc>& discs, double time) const {
+    constexpr int per_step = 50, coarse = 5, first = -40, last = 80;
+    constexpr std::size_t max_tracks = 600;  // more would take minutes
+    if (tracks.size() > max_tracks) return 0.0;
+    const double step =
+        (path_.clockwise ? 1.0 : -1.0) * path_.omega * (time - last_time_) / per_step;
+    int best = 0;
+    constexpr double much_better = 0.5;  // ratio of the costs
+    const double without = cost_of_turn(discs, 0.0, time);
+    double least = without;
+    const auto try_turn = [&](int k) {
+        const double cost = cost_of_turn(discs, step * k, time);
+        if (cost < least) least = cost, best = k;
+    };
+    for (int k = first; k <= last; k += coarse) try_turn(k);
+    const int around = best;
+    for (int k = around - coarse + 1; k < around + coarse; ++k) try_turn(k);
+    return least < much_better * without ? step * best : 0.0;
 }
 
 /// Assigns detections of one species to tracks with minimal cost. With as many sure detections as
@@ -295,6 +322,13 @@ std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double tim
 }
 
 }  // namespace
+
+DiscLinker disc_linker(const TrackedPath& path, const LinkSettings& settings) {
+    const auto linker = std::make_shared<Linker>(path, settings);
+    return [linker](const std::vector<DetectedDisc>& discs, double time) {
+        return linker->step(discs, time);
+    };
+}
 
 std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
                                  const std::function<void()>& throw_if_stopped) {

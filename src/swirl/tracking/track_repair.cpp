@@ -166,7 +166,7 @@ Links link_detections(const TrackingSettings& settings, const VideoSurvey& surve
     Links links = link_discs(discs, tracked.times, tracked.path, link);
     drop_overlapping(all, link.radii, links);
     drop_outliers(all, tracked, links);
-    find_missing_discs(settings, survey, tracked, all, links);
+    if (settings.readable_again) find_missing_discs(settings, survey, tracked, all, links);
     tracked.rejected = links.rejected;
     tracked.crowded = links.crowded;
     return links;

@@ -64,6 +64,8 @@ std::size_t count_discs(const Detections& all, std::size_t species) {
     return 0;
 }
 
+}  // namespace
+
 void set_species(const TrackingSettings& settings, const ParticleAppearance& appearance,
                  const Detections& all, TrackedVideo& tracked) {
     for (std::size_t k = 0; k < appearance.species.size(); ++k)
@@ -78,28 +80,13 @@ void set_species(const TrackingSettings& settings, const ParticleAppearance& app
             ->radius;
 }
 
-}  // namespace
-
-TrackedVideo track_video(const TrackingSettings& settings) {
-    constexpr std::int64_t assumed_frames = 4 * survey_frames;  // if the number is unknown
-    constexpr std::size_t min_frames = 8;                       // to fit a path
-    TrackedVideo tracked;
-    cv::setNumThreads(1);  // the frames are distributed over our threads
-    const VideoTimes times = video_times(settings.video);
-    std::int64_t expected = times.frame_count;
-    if (expected > 0 && settings.first_frame >= expected)
-        throw Failure(fmt::format("frame {} is the first to be tracked, but '{}' has {} frames",
-                                  settings.first_frame, settings.video, expected));
-    if (expected > 0) expected -= settings.first_frame;
-    if (settings.max_frames > 0)
-        expected = expected > 0 ? std::min(expected, settings.max_frames) : settings.max_frames;
-    const VideoSurvey survey = survey_video(settings, expected > 0 ? expected : assumed_frames);
+void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey,
+                     const VideoTimes& times, Detections& all, TrackedVideo& tracked) {
+    constexpr std::size_t min_frames = 8;  // to fit a path
     tracked.width = survey.size.width;
     tracked.height = survey.size.height;
     tracked.bright = survey.appearance.polarity > 0;
     tracked.tilt = survey.tilt;
-
-    Detections all = detect_frames(settings, survey, expected, tracked);
     if (survey.rim.second_container)
         tracked.warnings.emplace_back(
             "there is a second circle of the container's size: of two containers in the frame, the "
@@ -123,6 +110,23 @@ TrackedVideo track_video(const TrackingSettings& settings) {
     measure_quality(all, tracked);
     set_radii(tracked);
     add_warnings(tracked);
+}
+
+TrackedVideo track_video(const TrackingSettings& settings) {
+    constexpr std::int64_t assumed_frames = 4 * survey_frames;  // if the number is unknown
+    TrackedVideo tracked;
+    cv::setNumThreads(1);  // the frames are distributed over our threads
+    const VideoTimes times = video_times(settings.video);
+    std::int64_t expected = times.frame_count;
+    if (expected > 0 && settings.first_frame >= expected)
+        throw Failure(fmt::format("frame {} is the first to be tracked, but '{}' has {} frames",
+                                  settings.first_frame, settings.video, expected));
+    if (expected > 0) expected -= settings.first_frame;
+    if (settings.max_frames > 0)
+        expected = expected > 0 ? std::min(expected, settings.max_frames) : settings.max_frames;
+    const VideoSurvey survey = survey_video(settings, expected > 0 ? expected : assumed_frames);
+    Detections all = detect_frames(settings, survey, expected, tracked);
+    finish_tracking(settings, survey, times, all, tracked);
     return tracked;
 }
 

@@ -22,18 +22,15 @@ namespace swirl {
 
 namespace {
 
-constexpr const char* missing_ffmpeg =
-    "videos are read by the program ffmpeg, which was not found\n"
-    "hint: install it (apt-get install ffmpeg)";
-
 constexpr const char* no_ascending_times =
     "the times of the video's frames do not ascend\n"
     "hint: if the frames are equally spaced in time, give --fps";
 
-bool is_camera(const std::string& source) { return source.starts_with("/dev/video"); }
+}  // namespace
+
+bool is_camera_device(const std::string& source) { return source.starts_with("/dev/video"); }
 bool is_numbered(const std::string& source) { return source.find('%') != source.npos; }
 
-/// The least number for which there is an image.
 std::int64_t first_number(const std::string& pattern) {
     constexpr std::size_t max_digits = 15;  // these fit into 64 bits
     const std::filesystem::path path = pattern;
@@ -55,6 +52,8 @@ std::int64_t first_number(const std::string& pattern) {
     return *minimum;
 }
 
+namespace {
+
 void append(std::vector<std::string>& arguments, std::initializer_list<std::string> more) {
     arguments.insert(arguments.end(), more.begin(), more.end());
 }
@@ -62,7 +61,7 @@ void append(std::vector<std::string>& arguments, std::initializer_list<std::stri
 /// ffmpeg's arguments up to the input.
 std::vector<std::string> input_arguments(const std::string& source) {
     std::vector<std::string> arguments{"-hide_banner", "-nostats", "-loglevel", "error"};
-    if (is_camera(source)) {
+    if (is_camera_device(source)) {
         append(arguments, {"-f", "v4l2", "-i", source});
         return arguments;
     }
@@ -120,7 +119,7 @@ std::vector<double> framecrc_times(const std::string& text) {
 
 VideoTimes video_times(const std::string& source) {
     VideoTimes times;
-    if (is_camera(source)) return times;
+    if (is_camera_device(source)) return times;
     if (is_numbered(source)) {
         if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
         const NumberedFrames names(source);
@@ -213,10 +212,17 @@ bool Video::read(std::uint8_t* into, std::size_t bytes) {
     return true;
 }
 
+std::optional<cv::Size> pgm_size(const std::string& head) {
+    constexpr int max_side = 20000;  // pixels: larger is no frame
+    int width = 0, height = 0;
+    if (std::sscanf(head.c_str(), "P5 %d %d 255", &width, &height) != 2) return std::nullopt;
+    if (width < 1 || height < 1 || width > max_side || height > max_side) return std::nullopt;
+    return cv::Size(width, height);
+}
+
 /// A PGM image: "P5\nWIDTH HEIGHT\n255\n" and a byte a pixel.
 bool Video::read_frame(cv::Mat& grey) {
     constexpr std::size_t max_head = 60;  // characters: enough for any size below
-    constexpr int max_side = 20000;       // pixels: larger is no frame
     std::string head;
     for (int lines = 0; lines < 3;) {
         std::uint8_t c = 0;
@@ -224,11 +230,10 @@ bool Video::read_frame(cv::Mat& grey) {
         head += static_cast<char>(c);
         if (c == '\n') ++lines;
     }
-    int width = 0, height = 0;
-    if (std::sscanf(head.c_str(), "P5 %d %d 255", &width, &height) != 2) return false;
-    if (width < 1 || height < 1 || width > max_side || height > max_side) return false;
-    grey.create(height, width, CV_8UC1);
-    return read(grey.ptr(), static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const std::optional<cv::Size> size = pgm_size(head);
+    if (!size) return false;
+    grey.create(*size, CV_8UC1);
+    return read(grey.ptr(), grey.total());
 }
 
 bool Video::next(cv::Mat& grey) {

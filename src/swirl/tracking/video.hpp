@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,18 @@ struct AscendingTimes {
 /// frames may have the wrong time, so both are untimed. Untimed frames get evenly spaced times
 /// between their timed neighbours. Throws Failure if fewer than two frames are timed.
 AscendingTimes ascending_times(const std::vector<double>& seconds);
+
+/// True for a camera of this machine, and for numbered images.
+bool is_camera_device(const std::string& source);
+bool is_numbered(const std::string& source);
+/// The least number for which there is an image. Throws Failure if there is none.
+std::int64_t first_number(const std::string& pattern);
+/// The size of a PGM image with 8 bits, from its first three lines; nothing if it is no such image.
+std::optional<cv::Size> pgm_size(const std::string& head);
+/// For errors if ffmpeg is not installed.
+inline constexpr const char* missing_ffmpeg =
+    "videos are read by the program ffmpeg, which was not found\n"
+    "hint: install it (apt-get install ffmpeg)";
 
 class Video {
   public:

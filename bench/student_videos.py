@@ -1,0 +1,266 @@
+"""Videos as students make them: swirl track, and on request trackpy, against the ground truth.
+
+    student_videos.py               the table of kinds in docs/explanation/tracking_accuracy.md (minutes)
+    student_videos.py --trackpy     the table of the comparison as well; needs trackpy, pandas and scipy
+    student_videos.py --kind NAME   this kind only; may be repeated
+    student_videos.py --small       the first two kinds with a video of two periods
+
+SWIRL is the program. Each video has 28 discs and is made by `swirl synthetic-video --camera student` (30 frames
+per second, 2 periods per second, 640x480 pixels) with the options of its kind.
+
+trackpy gets more than swirl: the size and the number of the discs, whether they are bright, and the position of
+the container in each frame, outside which the image is blank. Its diameter is the best of three on a few frames.
+Its search range and its predictor are those of four combinations that give the fewest identity swaps.
+"""
+
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "cli"))
+import track_test  # noqa: E402
+from program import swirl  # noqa: E402
+
+PERIOD = 15  # frames
+COMMON = ["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23]
+# Name, options of synthetic-video, what is done to the video afterwards.
+KINDS = [
+    ("plain", [], None),
+    ("steel balls", ["--disc-level", 60, "--floor-level", 200, "--gloss", 200, "--texture", 0.1], None),
+    ("1080p", ["--width", 1920, "--height", 1080, "--scale", 44], None),
+    ("rolling shutter", ["--rolling-shutter", 0.8], None),
+    ("variable frame rate", ["--frames-per-period", 4 * PERIOD], "uneven"),
+    ("interlaced", ["--interlaced"], None),
+    ("auto-exposure", ["--auto-exposure", 0.3], None),
+    ("hands", ["--hands", 0.7], None),
+    ("rotated", [], "rotated"),
+    ("colour balls, patterned floor", ["--floor-pattern", 60, "--disc-variation", 0.25], None),
+    ("transparent marbles", ["--transparency", 0.8, "--gloss", 180], None),
+    ("coins", ["--flat", "--texture", 0.3, "--gloss", 0], None),
+]
+
+
+def ffmpeg(*arguments):
+    subprocess.run(["ffmpeg", "-v", "error", "-y", *map(str, arguments)], check=True)
+
+
+class Video:
+    """A video of one kind with its ground truth: {frame: {disc: (x, y)}} and the container's centres."""
+
+    def __init__(self, folder, kind, periods):
+        self.name, options, after = kind
+        made = os.path.join(folder, "made.mp4")
+        done = swirl("synthetic-video", *COMMON, "--length", periods, *options, "--out", made, "--quiet",
+                     "--overwrite", timeout=3000)
+        if done.returncode != 0:
+            sys.exit(done.stderr)
+        self.about = track_test.Truth(made).about
+        self.truth = track_test.positions(made[:-4] + ".truth.csv", "x_ideal", "y_ideal")
+        self.centres = [(float(row["x_ideal"]), float(row["y_ideal"]))
+                        for row in track_test.rows(made[:-4] + ".container.csv")]
+        self.dark = self.name == "steel balls"
+        self.path, regular = made, self.truth
+        if after == "uneven":
+            regular = self.drop_frames(folder, made)
+        elif after == "rotated":
+            self.path = os.path.join(folder, "rotated.mp4")
+            ffmpeg("-i", made, "-c", "copy", "-metadata:s:v:0", "rotate=90", self.path)
+        self.varpi = rotation(folder, regular, self.about)
+        if after == "rotated":
+            self.turn_truth()
+
+    def drop_frames(self, folder, made):
+        """One frame in four, at uneven times that the file gives."""
+        steps = [3, 5, 4, 3, 4, 5, 4, 5, 3, 4]
+        taken = [0]
+        while taken[-1] + steps[len(taken) % len(steps)] < len(self.truth):
+            taken.append(taken[-1] + steps[len(taken) % len(steps)])
+        self.path = os.path.join(folder, "uneven.mp4")
+        ffmpeg("-i", made, "-vf", "select=" + "+".join(f"eq(n\\,{k})" for k in taken), "-fps_mode",
+               "passthrough", "-crf", 18, self.path)
+        regular = {k // 4: self.truth[k] for k in range(0, len(self.truth), 4)}
+        self.truth = {n: self.truth[k] for n, k in enumerate(taken)}
+        self.centres = [self.centres[k] for k in taken]
+        self.about["omega"] *= 4.0
+        return regular
+
+    def turn_truth(self):
+        """A player turns the video clockwise by 90 degrees."""
+        height = 480
+
+        def turned(p):
+            return (height - 1 - p[1], p[0])
+        self.truth = {k: {i: turned(p) for i, p in discs.items()} for k, discs in self.truth.items()}
+        self.centres = [turned(p) for p in self.centres]
+
+
+def rotation(folder, positions, about):
+    """ϖ/Ω by time of {frame: {id: (x, y)}}."""
+    table = os.path.join(folder, "positions.csv")
+    with open(table, "w", encoding="utf-8") as file:
+        file.write("frame,particle,x,y\n")
+        for frame in sorted(positions):
+            for disc in sorted(positions[frame]):
+                file.write("%d,%d,%r,%r\n" % (frame, disc, *positions[frame][disc]))
+    return measured("measure", table, "--camera-fps", 1, "--scale", about["scale"], "--omega", about["omega"],
+                 "--centre", "%r,%r" % tuple(about["centre"]), "--phase", about["phase"], "--amplitude",
+                 about["amplitude"] / about["scale"], "--container-radius",
+                 about["container_radius"] / about["scale"])
+
+
+def measured(*call):
+    """ϖ/Ω by time. Overlaps are permitted in all frames: inaccurate positions are scored, not rejected."""
+    done = swirl(*call, "--misfit", 1, "--json", "-")
+    return json.loads(done.stdout)["rotation"]["by_time"]["mean"] if done.returncode == 0 else math.nan
+
+
+class Result(track_test.Score):
+    """The score of tracks with ϖ."""
+
+    def __init__(self, video, found, varpi):
+        super().__init__(video.truth, found, video.about)
+        self.varpi = varpi
+        radius, there, total = 0.5 * video.about["scale"], 0, 0
+        for frame, discs in video.truth.items():
+            tracked = list(found.get(frame, {}).values())
+            total += len(discs)
+            there += sum(any(math.dist(p, q) < radius for q in tracked) for p in discs.values())
+        self.found = there / total
+
+
+def track(folder, video):
+    """The result of swirl track, the claimed error, and the message if the video is rejected."""
+    out = os.path.join(folder, "tracks.csv")
+    done = swirl("track", video.path, "--out", out, "--overwrite", "--quiet", timeout=3000)
+    if done.returncode != 0:
+        return None, math.nan, done.stderr.splitlines()[0]
+    with open(out[:-4] + ".camera.json", encoding="utf-8") as file:
+        claimed = json.load(file)["quality"]["position_error"]
+    return Result(video, track_test.positions(out), measured("measure", out)), claimed, done.stderr
+
+
+def track_with_trackpy(folder, video):
+    """The result of trackpy at its best."""
+    import numpy
+    import trackpy
+    trackpy.quiet()
+    done = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
+                           "stream=width,height", "-of", "csv=p=0", video.path], capture_output=True, text=True,
+                          check=True)
+    width, height = map(int, done.stdout.strip().split(",")[:2])
+    if video.name == "rotated":
+        width, height = height, width
+    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", video.path, "-fps_mode", "passthrough", "-pix_fmt",
+                          "gray", "-f", "rawvideo", "-"], capture_output=True, check=True).stdout
+    frames = numpy.frombuffer(raw, dtype=numpy.uint8).reshape(-1, height, width).astype(float)
+    y, x = numpy.mgrid[:height, :width]
+    scale, number = video.about["scale"], video.about["discs"]
+    images = []
+    for frame, (cx, cy) in zip(frames, video.centres):
+        inside = (x - cx) ** 2 + (y - cy) ** 2 < video.about["container_radius"] ** 2
+        image = 255.0 - frame if video.dark else frame
+        images.append(numpy.where(inside, image, numpy.percentile(image[inside], 20)))
+
+    def locate(k, diameter):
+        return trackpy.locate(images[k], diameter, separation=1.6 * scale, topn=number, percentile=20)
+
+    def score(table_of):
+        found = {}
+        for k, table in table_of.items():
+            found[k] = {n: p for n, p in enumerate(zip(table["x"], table["y"]))}
+        return Result(Sample(video, table_of), found, 0.0).rms
+
+    tried = {}
+    for factor in (1.0, 1.4, 1.8):
+        diameter = 2 * round(factor * scale / 2) + 1
+        try:
+            tried[diameter] = score({k: locate(k, diameter) for k in range(0, len(images), len(images) // 3)})
+        except ZeroDivisionError:
+            continue
+    diameter = min(tried, key=tried.get)
+    import pandas
+    tables = []
+    for k in range(len(images)):
+        table = locate(k, diameter)
+        table["frame"] = k
+        tables.append(table)
+    features = pandas.concat(tables)
+    best = None
+    for reach in (0.6, 0.95):
+        for predict in (False, True):
+            try:
+                linker = trackpy.predict.NearestVelocityPredict().link_df if predict else trackpy.link
+                linked = linker(features.copy(), reach * scale, memory=3)
+            except trackpy.SubnetOversizeException:
+                continue
+            found = {}
+            for row in linked.itertuples():
+                found.setdefault(int(row.frame), {})[int(row.particle)] = (row.x, row.y)
+            result = Result(video, found, 0.0)
+            if best is None or result.swaps < best[0].swaps:
+                best = result, found
+    result, found = best
+    about = video.about
+    if video.name == "rotated":  # ϖ does not depend on the position of the dish
+        about = dict(about, centre=[480 - 1 - about["centre"][1], about["centre"][0]])
+    result.varpi = rotation(folder, found, about)
+    return result
+
+
+class Sample:
+    """Some frames of a video."""
+
+    def __init__(self, video, frames):
+        self.truth = {k: video.truth[k] for k in frames}
+        self.about = video.about
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--trackpy", action="store_true")
+    parser.add_argument("--kind", action="append")
+    parser.add_argument("--small", action="store_true")
+    call = parser.parse_args()
+    if call.trackpy:
+        import trackpy
+        print(f"trackpy {trackpy.__version__}")
+    kinds = [kind for kind in KINDS if not call.kind or kind[0] in call.kind]
+    periods = 2 if call.small else 4
+    if call.small:
+        kinds = kinds[:2]
+    print("| kind | discs found | identity swaps per 1000 | rms, pixels | claimed/true | ϖ/Ω, true | ϖ/Ω, tracks |")
+    print("|---|---|---|---|---|---|---|")
+    compared = []
+    with tempfile.TemporaryDirectory(prefix="swirl-students-") as folder:
+        for kind in kinds:
+            video = Video(folder, kind, periods)
+            result, claimed, message = track(folder, video)
+            if result is None:
+                print(f"| {video.name} | rejected: {message} | | | | {video.varpi:+.3f} | |", flush=True)
+            else:
+                print(f"| {video.name} | {100 * result.found:.1f} % | {result.swaps_per_thousand:.0f} | "
+                      f"{result.rms:.2f} | {claimed / result.rms:.2f} | {video.varpi:+.3f} | "
+                      f"{result.varpi:+.3f} |", flush=True)
+                for line in message.splitlines():
+                    print(f"{video.name}: {line}", file=sys.stderr)
+            if call.trackpy:
+                compared.append((video, result, track_with_trackpy(folder, video)))
+    if call.trackpy:
+        print("\n| kind | found: swirl | trackpy | swaps per 1000: swirl | trackpy | rms, pixels: swirl | trackpy | "
+              "ϖ/Ω: true | swirl | trackpy |")
+        print("|" + 10 * "---|")
+        for video, result, other in compared:
+            mine = ["n/a"] * 4 if result is None else [
+                f"{100 * result.found:.1f} %", f"{result.swaps_per_thousand:.0f}", f"{result.rms:.2f}",
+                f"{result.varpi:+.3f}"]
+            print(f"| {video.name} | {mine[0]} | {100 * other.found:.1f} % | {mine[1]} | "
+                  f"{other.swaps_per_thousand:.0f} | {mine[2]} | {other.rms:.2f} | {video.varpi:+.3f} | {mine[3]} | "
+                  f"{other.varpi:+.3f} |")
+
+
+if __name__ == "__main__":
+    main()

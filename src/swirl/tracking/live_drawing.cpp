@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "swirl/tracking/live_tracking.hpp"
+
+namespace swirl {
+
+namespace {
+
+constexpr int fraction_bits = 4;  // of the coordinates that OpenCV draws
+
+void draw_circle(cv::Mat& image, const Vec2& centre, double radius, const cv::Scalar& color,
+                 int width) {
+    constexpr double unit = 1 << fraction_bits;
+    cv::circle(image, {cvRound(unit * centre.x), cvRound(unit * centre.y)}, cvRound(unit * radius),
+               color, width, cv::LINE_AA, fraction_bits);
+}
+
+/// A colour for each track; neighbouring numbers differ clearly.
+cv::Scalar track_color(int track) {
+    if (track < 0) return {255.0, 255.0, 255.0};
+    constexpr double golden_turn = 0.61803398875, third = 1.0 / 3.0;
+    const auto channel = [&](double offset) {
+        const double hue = golden_turn * track + offset;
+        return 127.5 * (1.0 + std::cos(6.28318530718 * hue));
+    };
+    return {channel(0.0), channel(third), channel(2.0 * third)};
+}
+
+std::string status_text(const LiveFrame& frame) {
+    if (!frame.surveyed) return fmt::format("frame {}: survey", frame.number);
+    std::string text = fmt::format("frame {}: {} of {} discs", frame.number, frame.discs.size(),
+                                   frame.number_of_discs);
+    const LiveRotation& r = frame.rotation;
+    if (r.periods > 0)
+        text += fmt::format("; rotation/Omega {:+.3f} +- {:.3f} in {} periods, last {:+.3f}",
+                            r.mean.mean, r.mean.error, r.periods, r.last_period);
+    return text;
+}
+
+}  // namespace
+
+cv::Mat draw_live_frame(const LiveFrame& frame) {
+    cv::Mat image;
+    cv::cvtColor(frame.grey, image, cv::COLOR_GRAY2RGB);
+    if (frame.rim_centre)
+        draw_circle(image, *frame.rim_centre, frame.rim_radius, {255.0, 200.0, 0.0}, 1);
+    for (const LiveDisc& disc : frame.discs)
+        draw_circle(image, disc.position, disc.radius, track_color(disc.track), 2);
+    const double size = std::clamp(image.cols / 1280.0, 0.35, 1.0);
+    const cv::Point at(6, cvRound(28.0 * size) + 2);
+    const std::string text = status_text(frame);
+    for (const auto& [color, width] : {std::pair(0.0, 3), std::pair(255.0, 1)})
+        cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, size, cv::Scalar::all(color), width,
+                    cv::LINE_AA);
+    return image;
+}
+
+}  // namespace swirl
