@@ -38,7 +38,7 @@ SHORTER = {
 # Replaced in a call, so that it is short: (as shown, shorter).
 SHORTENED = (
     ("--events 1e9", "--events 3000"), ("--events 1e6", "--events 3000"),
-    ("--periods 400", "--periods 8 --warmup 1"),
+    ("--periods 400", "--periods 8 --warmup 1"), ("--periods 500", "--periods 8 --warmup 1"),
     ("--periods 200", "--periods 4 --warmup 1"), ("--periods 150", "--periods 2"),
     ("--periods 100", "--periods 8"), ("periods = 300", "periods = 1"), ("seeds = 8", "seeds = 1"),
     ('discs = "5:48"', 'discs = "46:48"'), ("mu = [0.1, 0.5, 1]", "mu = [0.5, 1]"),
@@ -104,6 +104,18 @@ VIDEOS = {"dish.mp4": 24, "N24.mp4": 24, "N36.mp4": 36, "N48.mp4": 48,
           "rough/a.mp4": 40, "s36.mp4": 36, "s48.mp4": 48}
 
 
+# Files of the reader whose content a page shows, and their first line.
+SHOWN_FILES = {"shaker.csv": "t,x,y", "radii.csv": "radius,mass"}
+
+
+def write_shown_files(folder, text):
+    for name, first_line in SHOWN_FILES.items():
+        for content in re.findall(r"^```\n(.*?)^```$", text, re.M | re.S):
+            if content.startswith(first_line + "\n") and name in text:
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(content)
+
+
 def can_run(content):
     """False for blocks that need a cluster, a file of the reader, hours, or the launcher script."""
     return bool(list(calls(content))) and not any(
@@ -133,10 +145,13 @@ class Pages(InFolder):
 
     def test_every_call_is_valid(self):
         for page in pages():
+            folder = self.path(page.replace("/", "-"))
+            os.makedirs(folder)
+            write_shown_files(folder, text_of(page))
             for _, content in blocks(text_of(page)):
                 for words in calls(content):
                     with self.subTest(page=page, call=shlex.join(words)):
-                        done = swirl(*words, environment={"SWIRL_PARSE_ONLY": "1"})
+                        done = swirl(*words, cwd=folder, environment={"SWIRL_PARSE_ONLY": "1"})
                         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_a_misspelt_option_is_found(self):
@@ -150,6 +165,7 @@ class Pages(InFolder):
         for page in pages():
             folder = self.path(page.replace("/", "-"))
             os.makedirs(folder)
+            write_shown_files(folder, text_of(page))
             for kind, content in blocks(text_of(page)):
                 if kind == "toml":
                     for shown, shorter in SHORTENED:
@@ -180,6 +196,7 @@ class PagesAsShown(InFolder):
         os.symlink(os.path.join(SOURCE, "figures"), os.path.join(folder, "figures"))
         os.makedirs(os.path.join(folder, "docs/images"))
         os.makedirs(os.path.join(folder, "rough"))
+        write_shown_files(folder, text)
         for name, discs in VIDEOS.items():
             if re.search(rf"(?<!out ){name.replace('a.mp4', '')}", text):
                 done = swirl("synthetic-video", "--discs", discs, "--camera", "phone", "--length", 2,

@@ -38,6 +38,35 @@ class Series(InFolder):
         self.assertAlmostEqual(average["blocks"] / average["autocorrelation_time"],
                                average["effective_samples"])
 
+    def test_the_fluctuations_are_those_of_the_columns_and_of_the_measurement(self):
+        done = self.run_swirl("run", "--discs", 16, "--periods", 120, "--warmup", 20, "--series",
+                              "s.csv", "--measure", "fluctuations", "--json", "r.json")
+        values = [float(row["rigid_by_time"]) for row in rows(self.path("s.csv"))
+                  if row["counted"] == "1"]
+        with open(self.path("r.json")) as opened:
+            result = json.load(opened)
+        found = result["series"]["averages"]["rigid_by_time"]["fluctuations"]
+        n = len(values)
+        self.assertEqual(n, 100)
+        mean = sum(values) / n
+        second = sum((x - mean) ** 2 for x in values) / n
+        tau = found["correlation_time"]["mean"]
+        self.assertAlmostEqual(found["n_variance"]["mean"], 16 * second / (1 - tau / n), 12)
+        self.assertAlmostEqual(found["skewness"]["mean"],
+                               sum((x - mean) ** 3 for x in values) / n / second ** 1.5, 9)
+        binder = 1 - sum(x ** 4 for x in values) * n / (3 * sum(x * x for x in values) ** 2)
+        self.assertAlmostEqual(found["binder"]["mean"], binder, 12)
+        # The measurement samples 64 other times of each period, so its means differ slightly.
+        measured = result["measured"]["fluctuations"]
+        self.assertAlmostEqual(measured["n_variance"]["mean"] / found["n_variance"]["mean"], 1, 0)
+        self.assertIn("Binder cumulant", done.stdout)
+
+    def test_a_ramp_has_no_fluctuations(self):
+        self.run_swirl("run", *RAMP, "--series", "s.csv", "--json", "r.json")
+        with open(self.path("r.json")) as opened:
+            averages = json.load(opened)["series"]["averages"]
+        self.assertFalse([name for name, value in averages.items() if "fluctuations" in value])
+
     def test_a_killed_and_resumed_run_has_the_same_series(self):
         whole = ("--discs", 48, "--ramp", "mu=0.2:1@3..203", "--ramp", "period=12:9@3..203")
         self.run_swirl("run", *whole, "--series", "whole.csv", "--quiet")

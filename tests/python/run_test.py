@@ -375,9 +375,24 @@ def test_the_series_is_that_of_the_command_line(tmp_path):
     assert ours.series["ramp.amplitude"][[0, 3, 12, 19]].tolist() == [1, 1, 2, 2]
     assert ours.series["events"].sum() == ours.events.total
     assert ours.autocorrelation_times["by_time"] >= 1
+    assert ours.fluctuations == {}
     assert swirl.run(**given).series is None
     copied = pickle.loads(pickle.dumps(ours.series))
     assert np.array_equal(copied["energy"], ours.series["energy"])
+
+
+def test_the_fluctuations_of_a_series_are_estimates():
+    r = swirl.run(discs=16, periods=60, series=True)
+    counted = r.series["counted"] == 1
+    values = r.series["rigid_by_time"][counted]
+    found = r.fluctuations["rigid_by_time"]
+    tau = r.autocorrelation_times["rigid_by_time"]
+    assert found["correlation_time"].mean == tau
+    assert found["n_variance"].mean == pytest.approx(
+        16 * values.var() / (1 - tau / len(values)), rel=1e-10)
+    assert found["binder"].mean == pytest.approx(
+        1 - (values ** 4).mean() / (3 * (values ** 2).mean() ** 2), abs=1e-12)
+    assert set(r.fluctuations) >= {"by_time", "spin", "energy"}
 
 
 def test_a_ramp_is_rejected_where_it_cannot_be():

@@ -147,7 +147,7 @@ TEST(Measurements, ListOfAllHasEveryMeasurement) {
                             "frustration", "radial", "temperature", "order", "packing",
                             "segregation", "collisions", "wall", "diffusion", "energy", "rolling",
                             "pair_correlation", "velocity_correlation", "velocity_distribution",
-                            "contact_network", "collision_angles"));
+                            "contact_network", "collision_angles", "fluctuations"));
 }
 
 TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {

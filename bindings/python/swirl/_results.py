@@ -310,6 +310,9 @@ class Result:
     warmup                  whole periods omitted from the averages
     series                  Series with the argument `series`, otherwise None
     autocorrelation_times   of its columns, in periods: {"by_time": …}; empty without a series
+    fluctuations            of its columns, without a ramp: r.fluctuations["by_time"]["binder"].mean, and
+                            "n_variance", "skewness", "excess_kurtosis", "correlation_time", "low",
+                            "high", "low_lifetime", "high_lifetime"
     steady_state            "steady", "drifting", "jumping", "switching" or "too short to tell"
     steady_state_found      findings of the steady-state tests; "" if there are none
     change, change_of_the_spin
@@ -336,6 +339,11 @@ class Result:
         self.autocorrelation_times: dict[str, float] = {
             name: _number(average["autocorrelation_time"])
             for name, average in found.get("series", {}).get("averages", {}).items()}
+        self.fluctuations: dict[str, dict[str, Estimate]] = {
+            name: {row: _estimate({**average, **value}, "") for row, value
+                   in average["fluctuations"].items()}
+            for name, average in found.get("series", {}).get("averages", {}).items()
+            if "fluctuations" in average}
         self.events = EventCounts(**found["events"])
         self.periods = float(found["periods"])
         self.warmup = int(found["warmup"]["periods"])

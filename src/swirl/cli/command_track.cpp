@@ -314,6 +314,7 @@ void track(TrackCall call) {
     validate(call);
     settings.discs = call.discs;
     settings.camera = camera;
+    settings.spins = call.spin;
     std::optional<LiveResult> live;
     if (!call.live.source.empty()) live = track_live_source(call.live, settings, call.quiet);
     TrackedVideo video = live ? std::move(live->video) : track_video(settings);

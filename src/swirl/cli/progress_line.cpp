@@ -15,8 +15,6 @@ namespace swirl {
 namespace {
 
 constexpr std::chrono::milliseconds redraw_interval(100);
-/// The first fraction of new work is smaller; a resumed run begins with a larger one.
-constexpr double max_first_step = 0.02;
 constexpr std::chrono::seconds first_line_after(10), line_interval(30);
 
 bool is_set(const char* variable) {
@@ -36,8 +34,7 @@ ProgressLine::ProgressLine(std::string label, bool quiet)
       quiet_(quiet),
       terminal_(is_capable_terminal()),
       color_(terminal_ && !is_set("NO_COLOR")),
-      begin_(created_),
-      next_(begin_ + (terminal_ ? std::chrono::seconds(0) : first_line_after)) {}
+      next_(created_ + (terminal_ ? std::chrono::seconds(0) : first_line_after)) {}
 
 ProgressLine::~ProgressLine() { clear(); }
 
@@ -47,29 +44,29 @@ void ProgressLine::clear() {
     drawn_ = false;
 }
 
-void ProgressLine::show(double fraction, const std::string& rate) {
+void ProgressLine::set_stages(std::vector<ProgressStage> stages) {
+    const std::lock_guard lock(mutex_);
+    estimate_ = RemainingTime(std::move(stages));
+}
+
+void ProgressLine::show(double fraction, const std::string& rate) { show(fraction, "", rate); }
+
+void ProgressLine::show_stage(const std::string& name, double share) { show(share, name, name); }
+
+void ProgressLine::show(double share, const std::string& stage, const std::string& rate) {
     if (quiet_) return;
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
-    const double done = std::clamp(fraction, 0.0, 1.0);
-    // A smaller fraction means a new stage: the elapsed time of the last one does not apply.
-    if (!has_begun_ || done < last_) {
-        begin_ = has_begun_ || done > max_first_step ? now : created_;
-        first_ = has_begun_ || done > max_first_step ? done : 0.0;
-    }
-    has_begun_ = true;
-    last_ = done;
+    estimate_.add(std::chrono::duration<double>(now - created_).count(), stage, share);
     if (now < next_) return;
-    const double elapsed = std::chrono::duration<double>(now - begin_).count();
-    const std::optional<double> left =
-        done > first_ ? std::optional(elapsed * (1.0 - done) / (done - first_)) : std::nullopt;
+    const std::optional<double> left = estimate_.seconds_left();
     if (terminal_) {
         next_ = now + redraw_interval;
-        draw_bar(done, rate, left ? short_duration(*left) : "?");
+        draw_bar(estimate_.fraction(), rate, left ? short_duration(*left) : "?");
         return;
     }
     next_ = now + line_interval;
-    fmt::print(stderr, "{}: {:.0f} %, {}, {} left\n", label_, 100.0 * done, rate,
+    fmt::print(stderr, "{}: {:.0f} %, {}, {} left\n", label_, 100.0 * estimate_.fraction(), rate,
                left ? short_duration(*left) : "unknown time");
 }
 

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <vector>
+
+#include "swirl/statistics/remaining_time.hpp"
 
 namespace swirl {
 
@@ -20,7 +23,12 @@ class ProgressLine {
     /// from any thread.
     void show(double fraction, const std::string& rate);
 
-    /// The same, with the rate of `events` since the line was created.
+    /// Progress of one of several stages; `name` is shown instead of a rate.
+    void show_stage(const std::string& name, double share);
+    /// The stages of show_stage(), with their expected durations relative to each other.
+    void set_stages(std::vector<ProgressStage> stages);
+
+    /// The same as show(), with the rate of `events` since the line was created.
     void show_events(double fraction, std::uint64_t events);
 
     /// Removes the bar before other output.
@@ -28,15 +36,13 @@ class ProgressLine {
 
   private:
     using Clock = std::chrono::steady_clock;
+    void show(double share, const std::string& stage, const std::string& rate);
     void draw_bar(double fraction, const std::string& rate, const std::string& left);
 
     const std::string label_;
     const bool quiet_, terminal_, color_;
     const Clock::time_point created_ = Clock::now();
-    bool has_begun_ = false;   // with the first call of show()
-    Clock::time_point begin_;  // of the present stage
-    double first_ = 0.0;       // fraction at `begin_`: a resumed run does not begin at 0
-    double last_ = 0.0;        // fraction at the last call
+    RemainingTime estimate_;
     Clock::time_point next_;
     bool drawn_ = false;
     std::mutex mutex_;

@@ -21,6 +21,7 @@
 #include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/radial_density.hpp"
 #include "swirl/measure/rolling.hpp"
+#include "swirl/measure/rotation_fluctuations.hpp"
 #include "swirl/measure/sampling.hpp"
 #include "swirl/measure/segregation.hpp"
 #include "swirl/measure/slip.hpp"
@@ -101,6 +102,8 @@ inline constexpr std::tuple measurement_list{
         "contacts of a disc, rattlers, connected groups, loops"),
     measurement<CollisionAngles>("collision_angles", "collision_angles.hpp",
         "head-on or grazing: impact parameters and directions of the collisions"),
+    measurement<RotationFluctuations>("fluctuations", "rotation_fluctuations.hpp",
+        "fluctuations of the rotation: N var(ϖ), Binder cumulant, lifetimes of states"),
 };
 // clang-format on
 

@@ -14,6 +14,9 @@
 //                2003, doi:10.1103/PhysRevE.67.026126, for a finite number of particles)
 //   distances    mean distance from C of the small and of the large particles
 //
+// Experiments. Aumaître, Kruelle and Rehberg observed segregation in swirled mixtures of two sizes
+// (2001, doi:10.1103/PhysRevE.64.041305). The definitions above are not taken from there.
+//
 // Ideal answers. Sizes distributed at random over the positions: 0 on average, for both G and S. All
 // large particles outside all small ones: G = 1, and −1 the other way round. No unlike neighbours: S
 // = 1; each particle surrounded by unlike ones: S below 0. Two half discs of the two classes: G = 0

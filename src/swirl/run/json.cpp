@@ -1,4 +1,5 @@
 #include "swirl/run/json.hpp"
+#include "swirl/measure/rotation_fluctuations.hpp"
 
 #include <fmt/format.h>
 
@@ -86,12 +87,30 @@ Json row_json(const ReportRow& row) {
     return json;
 }
 
+namespace {
+
+/// {"n_variance": {"mean", "error"}, …}
+Json fluctuations_json(const Fluctuations& fluctuations, double discs) {
+    Json json = Json::object();
+    for (const FluctuationRow& row : fluctuation_rows) {
+        const bool is_variance = row.quantity == &Fluctuations::variance;
+        const Estimate e = scaled(fluctuations.*row.quantity, is_variance ? discs : 1.0);
+        json[row.name] = {{"mean", e.mean}, {"error", e.error}};
+    }
+    return json;
+}
+
+}  // namespace
+
 Json series_json(const PeriodSeries& series) {
     Json averages = Json::object();
     for (const SeriesAverage& average : series.averages()) {
         Json& json = averages[average.name] = estimate_json(average.estimate);
         json["autocorrelation_time"] = average.autocorrelation_time;
         json["unit"] = average.unit;
+        // Those of a ramp are its changes.
+        if (!series.has_ramps())
+            json["fluctuations"] = fluctuations_json(average.fluctuations, series.discs());
     }
     return {{"periods", series.periods()}, {"averages", averages}};
 }

@@ -32,7 +32,8 @@ nlohmann::ordered_json row_json(const ReportRow& row);
 
 nlohmann::ordered_json result_json(const RunResult& result);
 
-/// {"periods", "averages": {NAME: estimate_json() with "unit" and "autocorrelation_time"}}
+/// {"periods", "averages": {NAME: estimate_json() with "unit", "autocorrelation_time" and, without
+/// ramps, "fluctuations"}}
 nlohmann::ordered_json series_json(const PeriodSeries& series);
 
 }  // namespace swirl

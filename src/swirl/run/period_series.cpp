@@ -87,7 +87,8 @@ std::vector<SeriesAverage> PeriodSeries::averages() const {
         for (std::size_t k = 0; k < periods(); ++k)
             if (at(k, 1) != 0.0 && !std::isnan(at(k, c))) values.push_back(at(k, c));
         const auto [estimate, time] = estimate_of_series(values);
-        all.push_back({columns_[c].name, columns_[c].unit, estimate, time});
+        all.push_back(
+            {columns_[c].name, columns_[c].unit, estimate, time, fluctuations_of({&values, 1})});
     }
     return all;
 }

@@ -21,6 +21,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/statistics/fluctuations.hpp"
 
 namespace swirl {
 
@@ -28,11 +29,13 @@ struct SeriesColumn {
     std::string name, unit, description;
 };
 
-/// The mean of a column over the periods that count and have a value, and its correlations.
+/// The mean of a column over the periods that count and have a value, its correlations, and its
+/// fluctuations.
 struct SeriesAverage {
     std::string name, unit;
     Estimate estimate;
     double autocorrelation_time;  // integrated, in periods; at least 1 (block_average.hpp)
+    Fluctuations fluctuations;
 };
 
 /// The averages of one period that a run itself has at its end.
@@ -69,6 +72,9 @@ class PeriodSeries {
     /// Row by row.
     const std::vector<double>& values() const { return values_; }
 
+    /// The number of particles.
+    double discs() const { return static_cast<double>(config_.discs); }
+    bool has_ramps() const { return !config_.ramps.empty(); }
     /// Estimates for the columns that are averages: all but the first two and those of ramps.
     std::vector<SeriesAverage> averages() const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "swirl/run/config.hpp"
 #include "swirl/run/path_parameter.hpp"
@@ -192,14 +193,21 @@ std::string with_error(double mean, double error) {
 }
 
 std::string series_text(const PeriodSeries& series) {
+    const std::vector<SeriesAverage> averages = series.averages();
     std::string text =
         fmt::format("  series of {} periods; correlation times in periods:\n", series.periods());
-    for (const SeriesAverage& a : series.averages()) {
+    for (const SeriesAverage& a : averages) {
         if (std::isnan(a.autocorrelation_time)) continue;
         text +=
             fmt::format("  {:<38}τ = {:.3g}, {:.0f} effective samples of {}\n", a.name,
                         a.autocorrelation_time, a.estimate.effective_samples, a.estimate.blocks);
     }
+    text += "  fluctuations of the means of the periods:\n";
+    const auto text_of = [](const Estimate& e) { return with_error(e.mean, e.error); };
+    for (const SeriesAverage& a : std::span(averages).first(rotation_rates.size()))
+        text += fmt::format("  {:<38}N var = {} Ω², skewness {}, Binder cumulant {}\n", a.name,
+                            text_of(scaled(a.fluctuations.variance, series.discs())),
+                            text_of(a.fluctuations.skewness), text_of(a.fluctuations.binder));
     return text;
 }
 

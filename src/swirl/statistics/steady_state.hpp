@@ -40,6 +40,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -75,6 +76,9 @@ struct TwoStates {
     double separation = 0.0;    // share of the variance between the two
     std::size_t changes = 0;    // from one to the other
     double shortest_visit = 0;  // windows: mean over the visits to the state with the shorter ones
+    std::size_t window = 1;     // blocks
+    /// Windows in the lower and in the higher state, and how often the series leaves it.
+    std::array<std::size_t, 2> stayed{}, departures{};
 
     // The thresholds are those of "Two states", above.
     bool found() const { return separation >= 0.85 && changes >= 2 && shortest_visit >= 5.0; }
@@ -221,19 +225,25 @@ inline TwoStates two_classes(std::span<const double> values) {
     states.high = mean_of(std::span(sorted).subspan(division.at));
     states.separation = division.reduction / squares;
     const double near = 0.25 * (states.high - states.low);
-    std::size_t visits[2] = {}, stayed[2] = {};
-    int state = -1;
+    std::array<std::size_t, 2> visits{};
+    constexpr std::size_t none = 2;
+    std::size_t state = none;
     for (const double value : values) {
-        const int next = value > states.high - near ? 1 : value < states.low + near ? 0 : state;
-        if (next < 0) continue;
-        if (next != state) ++visits[next];
-        ++stayed[next];
+        const std::size_t next = value > states.high - near  ? 1
+                                 : value < states.low + near ? 0
+                                                             : state;
+        if (next == none) continue;
+        if (next != state) {
+            ++visits[next];
+            if (state != none) ++states.departures[state];
+        }
+        ++states.stayed[next];
         state = next;
     }
     if (visits[0] == 0 || visits[1] == 0) return states;
     states.changes = visits[0] + visits[1] - 1;
-    for (const int s : {0, 1}) {
-        const double visit = static_cast<double>(stayed[s]) / static_cast<double>(visits[s]);
+    for (const std::size_t s : {0, 1}) {
+        const double visit = static_cast<double>(states.stayed[s]) / static_cast<double>(visits[s]);
         states.shortest_visit = s == 0 ? visit : std::min(visit, states.shortest_visit);
     }
     return states;
@@ -246,7 +256,8 @@ inline TwoStates find_two_states(std::span<const double> blocks) {
         std::vector<double> means;
         for (std::size_t b = 0; b + window <= blocks.size(); b += window)
             means.push_back(mean_of(blocks.subspan(b, window)));
-        const TwoStates states = two_classes(means);
+        TwoStates states = two_classes(means);
+        states.window = window;
         if (states.separation > best.separation) best = states;
     }
     return best;

@@ -124,7 +124,9 @@ TrackedVideo track_video(const TrackingSettings& settings) {
     if (expected > 0) expected -= settings.first_frame;
     if (settings.max_frames > 0)
         expected = expected > 0 ? std::min(expected, settings.max_frames) : settings.max_frames;
-    const VideoSurvey survey = survey_video(settings, expected > 0 ? expected : assumed_frames);
+    const std::int64_t planned = expected > 0 ? expected : assumed_frames;
+    if (settings.planned) settings.planned(planned, settings.spins);
+    const VideoSurvey survey = survey_video(settings, planned);
     Detections all = detect_frames(settings, survey, expected, tracked);
     finish_tracking(settings, survey, times, all, tracked);
     return tracked;

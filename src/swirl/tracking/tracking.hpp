@@ -43,6 +43,9 @@ struct TrackingSettings {
     unsigned threads = 0;        // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string& step, double share)> progress;
+    bool spins = false;  // measure_spins() follows
+    /// Called before the first progress: how many frames there will probably be.
+    std::function<void(std::int64_t frames, bool spins)> planned;
 
     /// Throws Interrupted if `stop` is set.
     void throw_if_stopped() const;

@@ -1,0 +1,106 @@
+// How the rotation rate of the cluster fluctuates from period to period, for finite-size scaling.
+//
+// The values are the means of ϖ over each period (cluster_rotation.hpp), of both estimators: the
+// rigid body, and the mean over the discs (rows with the prefix discs_). The quantities are
+// those of fluctuations.hpp. The variance is multiplied by the number N of discs: N var(ϖ) does not
+// depend on N if the cluster consists of independent parts.
+//
+// At a continuous transition N var(ϖ) and τ grow with the size at N_c, and the Binder cumulants of
+// all sizes cross at one point. Two states with lifetimes that grow with the size indicate a
+// discontinuous one.
+//
+// By default only every 8th sample is used. Units: Ω, Ω² for the variance; periods for times.
+// Limits: those of fluctuations.hpp. At one instant the mean over the discs has an infinite
+// variance, because ϖ_i diverges at the centre of mass; its fluctuations are dominated by discs
+// there. The rigid body has no such limit. Values are for whole periods after the warm-up. Every
+// path of the container is possible.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/measurement_report.hpp"
+#include "swirl/statistics/fluctuations.hpp"
+
+namespace swirl {
+
+/// A quantity of Fluctuations: its name in JSON, its row for each estimator, and its unit.
+struct FluctuationRow {
+    Estimate Fluctuations::*quantity;
+    const char *name, *discs_name, *unit, *description;
+};
+// clang-format off
+inline constexpr std::array<FluctuationRow, 9> fluctuation_rows{{
+    {&Fluctuations::variance, "n_variance", "discs_n_variance", "Ω²",
+     "number of discs × variance of the means of the periods"},
+    {&Fluctuations::skewness, "skewness", "discs_skewness", "1",
+     "their skewness: 0 if symmetric"},
+    {&Fluctuations::excess_kurtosis, "excess_kurtosis", "discs_excess_kurtosis", "1",
+     "their excess kurtosis: 0 if normal"},
+    {&Fluctuations::binder, "binder", "discs_binder", "1",
+     "their Binder cumulant: 0 if normal about 0, 2/3 if sharp"},
+    {&Fluctuations::autocorrelation_time, "correlation_time", "discs_correlation_time",
+     "T", "their integrated autocorrelation time, at least 1"},
+    {&Fluctuations::low, "low", "discs_low", "Ω",
+     "ϖ in the lower of two states"},
+    {&Fluctuations::high, "high", "discs_high", "Ω",
+     "ϖ in the higher of two states"},
+    {&Fluctuations::low_lifetime, "low_lifetime", "discs_low_lifetime", "T",
+     "mean lifetime of the lower state"},
+    {&Fluctuations::high_lifetime, "high_lifetime", "discs_high_lifetime", "T",
+     "mean lifetime of the higher state"},
+}};
+// clang-format on
+
+class RotationFluctuations {
+  public:
+    static constexpr bool any_path = true;
+
+    explicit RotationFluctuations(int every = 8) : every_(every) {}
+
+    void sample_in_lab(const Snapshot& lab) {
+        if (samples_++ % every_ != 0) return;
+        const double per_omega = lab.period / (2.0 * pi);
+        const RotationSample now = cluster_rotation(lab);
+        discs_ = static_cast<double>(lab.size());
+        individual_.add(now.individual * per_omega);
+        rigid_.add(now.rigid * per_omega);
+    }
+    void close_block() {
+        individual_.close_block();
+        rigid_.close_block();
+    }
+    void merge(const RotationFluctuations& other) {
+        individual_.merge(other.individual_);
+        rigid_.merge(other.rigid_);
+        if (discs_ == 0.0) discs_ = other.discs_;
+    }
+
+    Fluctuations individual() const { return fluctuations_of(individual_.runs()); }
+    Fluctuations rigid() const { return fluctuations_of(rigid_.runs()); }
+
+    template <class Visitor>
+    void report(Visitor&& visit) const {
+        Fluctuations rigid_body = rigid(), discs = individual();
+        for (Fluctuations* f : {&rigid_body, &discs}) f->variance = scaled(f->variance, discs_);
+        for (const FluctuationRow& row : fluctuation_rows)
+            visit(ReportRow{row.name, row.unit, row.description, rigid_body.*row.quantity});
+        for (const FluctuationRow& row : fluctuation_rows)
+            visit(ReportRow{row.discs_name, row.unit, row.description, discs.*row.quantity});
+    }
+
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(samples_, discs_, individual_, rigid_);
+    }
+
+  private:
+    int every_;
+    std::int64_t samples_ = 0;
+    double discs_ = 0.0;
+    PeriodMeans individual_, rigid_;
+};
+
+}  // namespace swirl
