@@ -69,6 +69,18 @@ QUESTIONS = {
                     "follows?",
     "energy": "The paper's program crashes when both friction coefficients are zero. Where does the energy come from?",
     "map": "Which of the two friction coefficients decides?",
+    "size": "The paper has one dish, with R/r = 8.6. Where does the direction of rotation change in smaller and in "
+            "larger dishes, and in which state of the cluster?",
+    "critical": "The paper leaves open whether the change of direction is a critical phenomenon. Do slope, fluctuations "
+                "and correlation time at the change grow with the size of the dish?",
+    "hysteresis": "Does the direction depend on where a ramp comes from?",
+    "lifetimes": "Some points of Figure 5b end in different states for different seeds. How long do the states last?",
+    "spheres_packing": "ϖ(N) of spheres has a maximum near N = 28 to 30, which discs do not have. Does the packing of the "
+                       "cluster explain it?",
+    "spheres_size": "Where does the direction of rolling spheres change in dishes of other sizes?",
+    "spheres_bounds": "The experiment does not state the friction of the floor, the restitution and the rolling "
+                      "resistance. How far does the change of direction move between their bounds?",
+    "amplitude": "The paper has one amplitude, A/R = 0.22. Where does the direction of rotation change for others?",
 }
 
 # What each figure shows.
@@ -155,14 +167,29 @@ CAPTIONS = {
     "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their contacts.",
     "spheres_few": "A few spheres after a long warm-up: ϖ (in units of Ω), and the share of them that resides at the "
                    "wall. A row that rolls along the wall with the swirl has 1 for both.",
+    "size": "Left: rotation of the cluster against the packing fraction φ = N r²/R² in dishes of different radius, at "
+            "A/R = 0.22 and μ = 1; the scale is logarithmic beyond ±0.1. Right: the sign of the rotation at each point "
+            "(the area of a disc grows with |ϖ|), and the packing fractions at which the direction changes.",
+    "critical": "Above: N times the variance of the rotation, in periods of its correlation time τ; the correlation time; "
+                "and the Binder cumulant, which is 0 for one normal state and 2/3 (dotted) for two equal states, all at "
+                "A/R = 0.22. Below: slope, fluctuations and correlation time at each change of direction against the size "
+                "of the dish, with power laws (dashed) where there are three sizes.",
+    "hysteresis": "Rotation during a ramp of a parameter up (full) and down (open), each as a mean over an eighth of the "
+                  "ramp, for two ramp rates.",
+    "lifetimes": "Mean lifetimes of the states at two points: time spent in the state divided by the number of exits.",
+    "spheres_packing": "Rotation, hexatic order, elongation of the cluster and contacts of a sphere (gap below a tenth of "
+                       "the radius) against the number of spheres, μ = 0.2. Grey: N = 28 to 30.",
+    "spheres_size": "As for the discs, at A/R = 0.22 and μ = 0.2.",
+    "spheres_bounds": "Rotation against the number of spheres, μ = 0.2, with one parameter at a bound.",
+    "amplitude": "The same for different amplitudes, in dishes of two sizes.",
     "spheres_map": "Rotation of the cluster as colour and as number: positive rotates with the swirl, negative "
                    "against it.",
 }
 
 # Sections of the report: headings, and how the description of their figures begins.
 SECTIONS = (("The paper’s figures", ""), ("Spheres that roll", "spheres that roll"),
-            ("Beyond the paper", "beyond the paper"))
-SECTION_OF_DESCRIPTION = re.compile(r"^(?:beyond the paper|spheres that roll): ")
+            ("Beyond the paper", "beyond the paper"), ("Questions that the paper leaves open", "chapter"))
+SECTION_OF_DESCRIPTION = re.compile(r"^(?:beyond the paper|spheres that roll|chapter): ")
 
 
 def by_section(figures):

@@ -29,6 +29,8 @@ FIGURES = {
              "theta_error"},
     "condensation": {"discs", "seeds", "condensed", "waiting", "waiting_error", "before_granular",
                      "before_coordination_error", "after_granular", "before_spin_correlation"},
+    "size": {"container_radius", "amplitude_ratio", "packing_fraction", "discs", "largest", "binder_error",
+             "susceptibility"},
     "states": {"setting", "discs", "granular", "granular_error", "coriolis", "coriolis_error"},
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -88,6 +89,50 @@ TEST_F(Paper, FiguresWithClaimsHaveEightSeeds) {
           "spheres_pinned", "spheres_ingredients", "spheres_ingredients_rough"})
         for (const PaperPoint& point : paper_figure(name).plan(settings).points)
             EXPECT_EQ(point.runs.size(), 8u) << name << ": " << point.name;
+}
+
+std::vector<std::string> names_of(const std::vector<PaperFigure>& figures) {
+    std::vector<std::string> names;
+    for (const PaperFigure& figure : figures) names.emplace_back(figure.name);
+    return names;
+}
+
+TEST(Figures, EachBelongsToOneGroup) {
+    std::size_t members = 0;
+    for (const FigureGroup& group : figure_groups)
+        members += figures_named({std::string(group.name)}).size();
+    EXPECT_EQ(members, paper_figures().size());
+    EXPECT_EQ(names_of(figures_named({"all"})), names_of(paper_figures()));
+}
+
+TEST(Figures, AreListedOnceWhenACallNamesThemAndTheirGroup) {
+    const std::vector<std::string> names = names_of(figures_named({"size", "chapters", "5b"}));
+    EXPECT_EQ(names.front(), "size");
+    EXPECT_EQ(names.back(), "5b");
+    EXPECT_EQ(std::count(names.begin(), names.end(), "size"), 1);
+    EXPECT_EQ(names.size(), figures_named({"chapters"}).size() + 1);
+}
+
+TEST(Figures, UnknownNameIsRejectedWithTheNearestOne) {
+    try {
+        figures_named({"chapter"});
+        ADD_FAILURE();
+    } catch (const UsageError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("chapters"));
+    }
+}
+
+// Each run of a figure is done by one share. Shares do not depend on the results that exist.
+TEST_F(Paper, SharesDoEachRunOnce) {
+    const std::vector<PaperFigure> figures{{"x", "of three runs", three_runs}};
+    calls = 0;
+    std::size_t tasks = 0;
+    for (std::size_t part = 1; part <= 2; ++part)
+        tasks += run_share(figures, settings, {}, {part, 2}).tasks;
+    EXPECT_EQ(tasks, 3u);
+    EXPECT_EQ(calls, 3);
+    const PaperResult made = make_figures(figures, settings, {});
+    EXPECT_EQ(made.reused, 2u);  // the third fails and is repeated
 }
 
 TEST_F(Paper, FailedRunLeavesAGapAndIsReported) {

@@ -1,6 +1,8 @@
 // swirl paper: the paper's figures and the report on its claims.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
@@ -8,6 +10,7 @@
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/stop_signal.hpp"
+#include "swirl/cli/sweep_options.hpp"
 #include "swirl/paper/movies.hpp"
 #include "swirl/paper/paper.hpp"
 #include "swirl/run/failure.hpp"
@@ -22,7 +25,12 @@ struct PaperCall {
     std::string config_file, out = "out", events, seed;
     std::optional<int> seeds;
     std::vector<std::string> figures;
+    ShareOptions share;
     bool quiet = false, movies = false;
+
+    bool is_all() const {
+        return figures.empty() || std::find(figures.begin(), figures.end(), "all") != figures.end();
+    }
 };
 
 #ifndef SWIRL_PAPER
@@ -67,6 +75,34 @@ void reject_missing(const PaperResult& result) {
             "figures that could not be made: {}; the reasons are listed above.", names));
 }
 
+/// The findings and the files of the figures, and the report if all figures were made.
+std::string report_on(const PaperResult& result, const PaperCall& call) {
+    std::string text;
+    std::vector<std::filesystem::path> files;
+    for (const MadeFigure& figure : result.figures) {
+        for (const std::string& finding : figure.outcome.findings)
+            text += result.figures.size() == 1 ? finding + "\n"
+                                               : fmt::format("{:<26}{}\n", figure.name, finding);
+        files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
+    }
+    if (call.is_all())
+        for (const auto& file : write_report(result, call.settings, command_line(), &stop_signal()))
+            files.push_back(file);
+    // Failed runs are listed with each figure. Figures share runs, so their number is printed here.
+    if (result.failed > 0 && result.figures.size() > 1)
+        text += fmt::format("{} runs failed; see above.\n", result.failed);
+    text += fmt::format(
+        "{} runs{} in {}.\n", result.tasks,
+        result.reused > 0 ? fmt::format(", {} of them from an earlier call,", result.reused) : "",
+        short_duration(result.seconds));
+    if (call.is_all())
+        text += fmt::format("wrote {} and {} more files in the same folder\n",
+                            files.back().string(), files.size() - 1);
+    else
+        for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
+    return text;
+}
+
 void make_paper(PaperCall& call) {
     call.settings.out = call.out;
     if (call.seeds) {
@@ -78,9 +114,9 @@ void make_paper(PaperCall& call) {
     }
     if (!call.events.empty()) call.settings.events = resolve({{"events", call.events}}).events;
     if (!call.seed.empty()) call.settings.seed = resolve({{"seed", call.seed}}).seed;
-    std::vector<PaperFigure> figures;
-    for (const std::string& name : call.figures) figures.push_back(paper_figure(name));
-    if (figures.empty()) figures = paper_figures();
+    const SweepShare share = call.share.share();
+    const std::vector<PaperFigure> figures =
+        call.is_all() ? paper_figures() : figures_named(call.figures);
     make_folder(call.out);
     if (call.movies) {
         make_movies(call);
@@ -94,41 +130,31 @@ void make_paper(PaperCall& call) {
         ProgressLine line(what, call.quiet);
         PaperControl control;
         control.stop = &stop_signal();
+        control.threads = share.threads;
         control.progress = [&](double fraction, double rate) {
             line.show(fraction, short_number(rate) + " events/s");
         };
         // Claims are decided only if all figures are made.
-        result = make_figures(figures, call.settings, control, call.figures.empty());
+        result = call.share.part.empty()
+                     ? make_figures(figures, call.settings, control, call.is_all())
+                     : run_share(figures, call.settings, control, {share.part, share.parts});
     }
-    std::string text;
-    std::vector<std::filesystem::path> files;
-    for (const MadeFigure& figure : result.figures) {
-        for (const std::string& finding : figure.outcome.findings)
-            text += result.figures.size() == 1 ? finding + "\n"
-                                               : fmt::format("{:<26}{}\n", figure.name, finding);
-        files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
+    if (!call.share.part.empty()) {
+        print_all(fmt::format("{} runs of part {} in {}; stored in '{}'.\n", result.tasks,
+                              call.share.part, short_duration(result.seconds),
+                              (call.settings.out / "parts").string()));
+        if (result.failed > 0) throw Failure(fmt::format("{} runs failed.", result.failed));
+        return;
     }
-    if (call.figures.empty())
-        for (const auto& file : write_report(result, call.settings, command_line(), &stop_signal()))
-            files.push_back(file);
-    // Failed runs are listed with each figure. Figures share runs, so their number is printed here.
-    if (result.failed > 0 && result.figures.size() > 1)
-        text += fmt::format("{} runs failed; see above.\n", result.failed);
-    text += fmt::format(
-        "{} runs{} in {}.\n", result.tasks,
-        result.reused > 0 ? fmt::format(", {} of them from an earlier call,", result.reused) : "",
-        short_duration(result.seconds));
-    if (call.figures.empty())
-        text += fmt::format("wrote {} and {} more files in the same folder\n",
-                            files.back().string(), files.size() - 1);
-    else
-        for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
-    print_all(text);
+    print_all(report_on(result, call));
     reject_missing(result);
 }
 
 std::string figure_list() {
-    std::string text = "Figures:";
+    std::string text = "Groups of figures:\n  all                 all figures, and the report";
+    for (const FigureGroup& group : figure_groups)
+        text += fmt::format("\n  {:<19} {}", group.name, group.description);
+    text += "\n\nFigures:";
     for (const PaperFigure& figure : paper_figures())
         text += fmt::format("\n  {:<19} {}", figure.name, figure.description);
     return text;
@@ -142,7 +168,7 @@ void add_paper_command(Subcommand& subcommand) {
         .add_option("config", call->config_file,
                     "TOML file with option names; the command line overrides it")
         ->type_name("FILE.toml");
-    subcommand.add_option("--figure", call->figures, "Figures to make [all]; repeatable")
+    subcommand.add_option("--figure", call->figures, "Figures or groups to make [all]; repeatable")
         ->type_name("NAME");
     subcommand.add_flag("--quick", call->settings.quick,
                         "Fewer points and shorter runs, about a minute per figure");
@@ -159,9 +185,14 @@ void add_paper_command(Subcommand& subcommand) {
                     "First runs of a point; undecided claims add more [8, quick 3]")
         ->type_name("NUMBER");
     subcommand.add_option("--out", call->out, "Output folder [out]")->type_name("DIR");
+    subcommand
+        .add_option("--part", call->share.part, "Only run this part of the runs, such as 2/10")
+        ->type_name("K/M");
+    add_threads_option(subcommand, call->share, "");
     subcommand.add_flag("--quiet", call->quiet, "No progress line");
     subcommand.set_examples({"swirl paper --figure 5b --quick",
-                             "swirl paper --figure 5b --out fig5b", "swirl paper --quick"});
+                             "swirl paper --figure 5b --out fig5b",
+                             "swirl paper --figure chapters --quick", "swirl paper --quick"});
     subcommand.explain(figure_list() + "\n");
     subcommand.callback([call, &subcommand] {
         ParameterTexts parameters;

@@ -89,14 +89,35 @@ RunConfig paper_run(const PaperSettings& settings) {
 
 }  // namespace
 
-const PaperFigure& paper_figure(const std::string& name) {
-    std::vector<std::string> known;
-    for (const PaperFigure& figure : paper_figures()) {
-        if (figure.name == name) return figure;
-        known.emplace_back(figure.name);
+/// True if the call with this name means the figure: by its own name or by that of a group.
+static bool is_named(const PaperFigure& figure, const std::string& name) {
+    return name == "all" || figure.name == name || figure.group == name;
+}
+
+std::vector<PaperFigure> figures_named(const std::vector<std::string>& names) {
+    std::vector<PaperFigure> found;
+    for (const std::string& name : names) {
+        std::vector<std::string> known{"all"};
+        for (const FigureGroup& group : figure_groups) known.emplace_back(group.name);
+        bool exists = false;
+        for (const PaperFigure& figure : paper_figures()) {
+            known.emplace_back(figure.name);
+            if (!is_named(figure, name)) continue;
+            exists = true;
+            const auto same = [&](const PaperFigure& f) { return f.name == figure.name; };
+            if (std::none_of(found.begin(), found.end(), same)) found.push_back(figure);
+        }
+        if (!exists)
+            throw UsageError(fmt::format("--figure is '{}', but it must be one of: {}.{}", name,
+                                         fmt::join(known, ", "), nearest_value_hint(name, known)));
     }
-    throw UsageError(fmt::format("--figure is '{}', but it must be one of: {}.{}", name,
-                                 fmt::join(known, ", "), nearest_value_hint(name, known)));
+    return found;
+}
+
+const PaperFigure& paper_figure(const std::string& name) {
+    for (const PaperFigure& figure : paper_figures())
+        if (figure.name == name) return figure;
+    throw UsageError(fmt::format("there is no figure '{}'.", name));
 }
 
 // In the paper's container 480 at N = 28 and 3400 at N = 48. For small N the vertices of the path
@@ -171,9 +192,21 @@ struct Work {
             else
                 left.push_back(&task);
         }
-        std::stable_sort(left.begin(), left.end(),
-                         [](const PaperTask* a, const PaperTask* b) { return a->cost > b->cost; });
+        std::stable_sort(left.begin(), left.end(), is_longer);
     }
+    /// Leaves only the tasks of a share. The share does not depend on the results that exist.
+    void keep(const PaperShare& share) {
+        std::vector<const PaperTask*> all;
+        for (const auto& [key, task] : tasks) all.push_back(&task);
+        std::stable_sort(all.begin(), all.end(), is_longer);
+        const auto is_of_others = [&](const PaperTask* task) {
+            const auto number =
+                static_cast<std::size_t>(std::find(all.begin(), all.end(), task) - all.begin());
+            return number % share.parts != share.part - 1;
+        };
+        std::erase_if(left, is_of_others);
+    }
+    static bool is_longer(const PaperTask* a, const PaperTask* b) { return a->cost > b->cost; }
     double cost() const {
         return std::accumulate(left.begin(), left.end(), 0.0,
                                [](double sum, const PaperTask* t) { return sum + t->cost; });
@@ -316,7 +349,6 @@ void run_all(Work& work, const PaperSettings& settings, const PaperControl& cont
     }
     for (const PaperTask* task : work.left)
         all.task_seconds += work.results[task->key]["seconds"].get<double>();
-    for (const auto& [key, larger] : work.served) work.results[key] = work.results.at(larger);
 }
 
 /// Doubles the seeds of the points on which undecided claims rest. Returns false if there are none,
@@ -365,6 +397,7 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
                 all.task_seconds += part["seconds"].get<double>();
         }
         run_all(work, settings, control, store, all);
+        for (const auto& [key, larger] : work.served) work.results[key] = work.results.at(larger);
         all.figures.clear();
         for (std::size_t f = 0; f < plans.size(); ++f)
             all.figures.push_back(finished(figures[f], plans[f], work.results, settings.out));
@@ -383,6 +416,21 @@ PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSet
         if (!made.problem.empty())
             made.outcome.findings.push_back(
                 fmt::format("This figure could not be made: {}", made.problem));
+    all.seconds = seconds_since(begin);
+    return all;
+}
+
+PaperResult run_share(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
+                      const PaperControl& control, const PaperShare& share) {
+    const auto begin = std::chrono::steady_clock::now();
+    const ResultStore store(settings.out);
+    std::vector<FigurePlan> plans;
+    for (const PaperFigure& figure : figures) plans.push_back(figure.plan(settings));
+    PaperResult all;
+    Work work(plans, store, {});
+    work.keep(share);
+    all.tasks = work.left.size();
+    run_all(work, settings, control, store, all);
     all.seconds = seconds_since(begin);
     return all;
 }

@@ -98,17 +98,37 @@ struct PaperFigure {
     std::string_view name;         // "5b"
     std::string_view description;  // one line
     FigurePlan (*plan)(const PaperSettings& settings);
+    std::string_view group = {};  // one of figure_groups
+};
+
+/// A group of figures, which a call can name like a figure.
+struct FigureGroup {
+    std::string_view name, description;
+};
+inline constexpr FigureGroup figure_groups[] = {
+    {"paper", "the figures of the paper"},
+    {"beyond", "parameters, averages and times that the paper does not show"},
+    {"spheres", "spheres that roll on the floor"},
+    {"chapters", "questions that the paper leaves open"},
 };
 
 /// All figures, in the order of the report.
 const std::vector<PaperFigure>& paper_figures();
-/// Throws UsageError with a list of all names.
+/// Throws UsageError if there is none with this name.
 const PaperFigure& paper_figure(const std::string& name);
+/// The figures with these names, which may be names of groups or "all". Each figure is listed once.
+/// Throws UsageError with a list of all names.
+std::vector<PaperFigure> figures_named(const std::vector<std::string>& names);
 
 struct PaperControl {
     const std::atomic<bool>* stop = nullptr;
     std::function<void(double fraction, double events_per_second)> progress;
     unsigned threads = 0;  // 0: all cores
+};
+
+/// The tasks of a call that shares the work with others: those with number ≡ part − 1 modulo parts.
+struct PaperShare {
+    std::size_t part = 1, parts = 1;
 };
 
 struct MadeFigure {
@@ -132,6 +152,11 @@ struct PaperResult {
 /// and all others are made.
 PaperResult make_figures(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
                          const PaperControl& control, bool decide = false);
+
+/// Runs the tasks of a share and stores their results in OUT/parts, where make_figures() finds
+/// them. No figure is made. Throws Interrupted when stopped.
+PaperResult run_share(const std::vector<PaperFigure>& figures, const PaperSettings& settings,
+                      const PaperControl& control, const PaperShare& share);
 
 /// The report on all figures: OUT/paper.json, and from it and the tables OUT/report.md,
 /// OUT/report.html and OUT/report.pdf. Returns these files.

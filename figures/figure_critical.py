@@ -1,0 +1,72 @@
+"""Beyond the paper: fluctuations of the rotation against the packing fraction in dishes of different sizes, and how
+slope, fluctuations and correlation time at a change of direction scale with the size.
+
+    /usr/bin/python3 figures/figure_critical.py out/figure_critical.csv
+"""
+
+import os
+
+import numpy as np
+
+import chapters
+import style
+import tables
+
+QUANTITIES = (("slope", r"slope $|d(\varpi/\Omega)/d\varphi|$"),
+              ("susceptibility", r"$N\,\mathrm{var}(\varpi/\Omega)\,\tau$"),
+              ("correlation", r"correlation time $\tau$ (periods)"))
+KINDS = {"gas": "to counterrotation as a gas", "cluster": "to counterrotation as a cluster",
+         "back": "back to rotation"}
+
+
+def against_packing(axes, rows, quantity, label):
+    chapters.curves(axes, rows, "container_radius", quantity, "$R/r$")
+    axes.set_xlabel(chapters.PACKING)
+    axes.set_ylabel(label)
+
+
+def against_size(axes, changes, scaling, quantity, label):
+    """One curve for each transition, with its power law."""
+    groups = sorted({(row["amplitude_ratio"], row["kind"]) for row in changes})
+    for k, (amplitude, kind) in enumerate(groups):
+        here = tables.select(changes, amplitude_ratio=amplitude, kind=kind)
+        x, y = (np.array(style.column(here, name)) for name in ("container_radius", quantity))
+        axes.errorbar(x, abs(y), yerr=style.column(here, quantity + "_error"), color=style.CYCLE[k],
+                      fmt=style.MARKERS[k], elinewidth=0.7, label=f"$A/R = {amplitude:g}$, {KINDS[kind]}")
+        law = tables.select(scaling, amplitude_ratio=amplitude, kind=kind, quantity=quantity)
+        if law and law[0]["exponent"] == law[0]["exponent"]:
+            ends = np.array([min(x), max(x)])
+            axes.plot(ends, law[0]["factor"] * ends ** law[0]["exponent"], color=style.CYCLE[k], linewidth=0.7,
+                      linestyle="--")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    sizes = sorted({row["container_radius"] for row in changes})
+    axes.set_xticks(sizes, [f"{size:g}" for size in sizes])
+    axes.xaxis.set_minor_locator(style.matplotlib.ticker.NullLocator())
+    axes.set_xlabel(r"dish radius $R/r$")
+    axes.set_ylabel(label)
+
+
+def main():
+    table = style.table_from_arguments("figure_critical")
+    stem, ending = os.path.splitext(table)
+    rows = tables.select(style.read(table), amplitude_ratio=0.22)
+    changes, scaling = tables.read(f"{stem}_changes{ending}"), tables.read(f"{stem}_scaling{ending}")
+    drawing, axes = style.figure(style.PAGE, 4.9, ncols=3, nrows=2)
+    against_packing(axes[0][0], rows, "susceptibility", QUANTITIES[1][1])
+    against_packing(axes[0][1], rows, "correlation", QUANTITIES[2][1])
+    against_packing(axes[0][2], rows, "binder", "Binder cumulant")
+    for upper in axes[0][:2]:
+        upper.set_yscale("log")
+    axes[0][2].axhline(2 / 3, color=style.GREY, linewidth=0.6, linestyle=":")
+    axes[0][2].axhline(0, color=style.GREY, linewidth=0.6)
+    for lower, (quantity, label) in zip(axes[1], QUANTITIES):
+        against_size(lower, changes, scaling, quantity, label)
+    axes[0][1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4, columnspacing=1.0)
+    if changes:
+        axes[1][1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, columnspacing=1.0)
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()

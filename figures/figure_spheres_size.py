@@ -1,0 +1,14 @@
+"""Beyond the paper: rotation of spheres against the packing fraction in dishes of different sizes.
+
+    /usr/bin/python3 figures/figure_spheres_size.py out/figure_spheres_size.csv
+"""
+
+import chapters
+
+
+def main():
+    chapters.dishes("spheres_size", "container_radius", r"dish radius $R/r$", "$R/r$", logarithmic=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,232 @@
+// Spheres that roll on a floor, at the friction of plastic (μ = 0.2). Their curve ϖ(N) has minima and
+// maxima, which that of the discs has not (docs/explanation/spheres.md).
+//
+// Figure "spheres_packing": the maximum of ϖ near N = 28 to 30, and the packing of the cluster.
+// Figure "spheres_size": spheres in dishes of different sizes.
+// Figure "spheres_bounds": the change of direction for bounds of what is not measured: friction of
+// the floor, restitution, rolling resistance.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "swirl/paper/chapter_runs.hpp"
+#include "swirl/paper/chapters.hpp"
+#include "swirl/paper/curves.hpp"
+#include "swirl/paper/points.hpp"
+#include "swirl/paper/results.hpp"
+#include "swirl/run/parameters.hpp"
+#include "swirl/run/report.hpp"
+
+namespace swirl {
+namespace {
+
+RunConfig experiment_of(const PaperSettings& settings, std::int64_t spheres) {
+    RunConfig config = resolve({{"preset", "experiment"}, {"mu", "0.2"}});
+    config.discs = spheres;
+    config.seed = settings.seed;
+    config.warmup = settings.periods(settings.quick ? 20 : 50, 2);
+    config.periods = *config.warmup + settings.periods(settings.quick ? 50 : 200, 5);
+    return config;
+}
+
+// --- Packing --------------------------------------------------------------------------------
+
+/// A quantity of the cluster that may explain the maximum of ϖ.
+struct PackingQuantity {
+    const char *measurement, *name, *words;
+};
+constexpr PackingQuantity packing_quantities[] = {
+    {"order", "all", "hexatic order"},
+    {"contact_network", "coordination", "contacts of a sphere"},
+    {"contact_network", "wall", "share at the wall"},
+    {"centre", "elongation", "elongation"},
+    {"slip", "cluster", "slip parameter"}};
+
+/// What remains of the values after a parabola in N is subtracted. A smooth dependence on N says
+/// nothing about a maximum.
+std::vector<double> without_trend(const std::vector<double>& values) {
+    // Orthogonal polynomials of degree 0, 1 and 2 on equally spaced points.
+    const auto n = static_cast<double>(values.size());
+    std::vector<double> rest = values;
+    for (int degree = 0; degree <= 2; ++degree) {
+        const auto polynomial = [&](std::size_t k) {
+            const double x = static_cast<double>(k) - 0.5 * (n - 1.0);
+            return degree == 0 ? 1.0 : degree == 1 ? x : x * x - (n * n - 1.0) / 12.0;
+        };
+        double product = 0.0, square = 0.0;
+        for (std::size_t k = 0; k < rest.size(); ++k) {
+            product += rest[k] * polynomial(k);
+            square += polynomial(k) * polynomial(k);
+        }
+        for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= product / square * polynomial(k);
+    }
+    return rest;
+}
+
+/// Pearson's coefficient of two lists without trend.
+double correlation_of(const std::vector<double>& a, const std::vector<double>& b) {
+    double ab = 0.0, aa = 0.0, bb = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        ab += a[k] * b[k];
+        aa += a[k] * a[k];
+        bb += b[k] * b[k];
+    }
+    return ab / std::sqrt(aa * bb);
+}
+
+/// Of the coefficient, for so many points less the three of the parabola.
+double error_of_correlation(double coefficient, std::size_t points) {
+    return (1.0 - coefficient * coefficient) / std::sqrt(static_cast<double>(points) - 4.0);
+}
+
+std::vector<std::int64_t> numbers_of_packing(const PaperSettings& settings) {
+    std::vector<std::int64_t> numbers;
+    for (std::int64_t n = 20; n <= 44; n += settings.quick ? 3 : 1) numbers.push_back(n);
+    return numbers;
+}
+
+/// The coefficients, the strongest first.
+FigureOutcome packing_outcome(const CurveFigure& figure, const std::vector<Json>& results,
+                              const fs::path& out) {
+    FigureOutcome outcome;
+    figure.write_points(results, out, outcome);
+    std::vector<double> rotation;
+    for (const Json& r : results)
+        rotation.push_back(number(at(r, {"rotation", "by_time", "mean"})));
+    rotation = without_trend(rotation);
+    struct Found {
+        const PackingQuantity* quantity;
+        double coefficient, error;
+    };
+    std::vector<Found> found;
+    for (const PackingQuantity& q : packing_quantities) {
+        std::vector<double> values;
+        for (const Json& r : results)
+            values.push_back(number(at(r, {"measured", q.measurement, q.name, "mean"})));
+        const double coefficient = correlation_of(without_trend(values), rotation);
+        found.push_back({&q, coefficient, error_of_correlation(coefficient, results.size())});
+    }
+    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+        return std::fabs(a.coefficient) > std::fabs(b.coefficient);
+    });
+    Table table({"quantity", "correlation", "correlation_error"});
+    std::vector<std::string> words;
+    for (const Found& f : found) {
+        table.add({std::string(f.quantity->words), f.coefficient, f.error});
+        words.push_back(
+            fmt::format("{} {}", f.quantity->words, with_error(f.coefficient, f.error)));
+    }
+    outcome.write(table, figure.name + "_correlations", out);
+    outcome.findings.push_back(fmt::format(
+        "Correlation with ϖ over N = {} to {}, without a parabola in N: {}.",
+        figure.points.front().discs, figure.points.back().discs, fmt::join(words, ", ")));
+    return outcome;
+}
+
+}  // namespace
+
+static FigurePlan plan_figure_spheres_packing(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_spheres_packing.py";
+    CurveFigure figure{"spheres_packing", {"curve"}, {{"0.2", {std::string("0.2")}, "μ = 0.2"}}};
+    for (const PackingQuantity& q : packing_quantities)
+        figure.measured.push_back(
+            fmt::format("{}.{}={}", q.measurement, q.name,
+                        q.name == std::string_view("all") ? "order" : q.name));
+    figure.add_points(numbers_of_packing(settings));
+    for (const CurveFigure::Point& p : figure.points) {
+        const RunConfig config = experiment_of(settings, p.discs);
+        plan.points.push_back(varied_point(
+            settings, fmt::format("spheres-packing_N{}_{}", p.discs, length_of(config)), config,
+            chapter_seeds(settings), {"order", "contact_network", "centre", "slip"}));
+    }
+    plan.finish = [figure](const std::vector<Json>& results, const fs::path& out) {
+        return packing_outcome(figure, results, out);
+    };
+    return plan;
+}
+
+// --- Size -----------------------------------------------------------------------------------
+
+static FigurePlan plan_figure_spheres_size(const PaperSettings& settings) {
+    std::vector<double> radii{8.5}, fractions{0.3, 0.5, 0.6};
+    if (!settings.quick) {
+        radii = {6.0, 8.5, 12.0, 17.0};
+        fractions = {0.1, 0.2, 0.28, 0.34, 0.4, 0.46, 0.52, 0.58};
+    }
+    DishPoints points;
+    for (const double radius : radii)
+        for (const double fraction : fractions)
+            points.add({.radius = radius, .amplitude = 0.22, .spheres = true}, fraction);
+    return plan_dishes(settings, "spheres_size", points);
+}
+
+// --- Bounds ---------------------------------------------------------------------------------
+
+namespace {
+
+/// A parameter of the spheres that the experiment does not state, at a bound.
+struct Bound {
+    const char *name, *parameter, *value, *words;
+};
+constexpr Bound bounds[] = {
+    {"default", "floor-friction", "0.3", "μ_f = 0.3, e = 0.9, no rolling resistance"},
+    {"slippery", "floor-friction", "0.15", "μ_f = 0.15"},
+    {"grippy", "floor-friction", "0.6", "μ_f = 0.6"},
+    {"elastic", "restitution", "1", "e = 1"},
+    {"damped", "restitution", "0.6", "e = 0.6"},
+    {"resistance", "rolling-resistance", "0.01", "rolling resistance 0.01"},
+    {"strong-resistance", "rolling-resistance", "0.03", "rolling resistance 0.03"}};
+
+RunConfig bound_config(const PaperSettings& settings, const Bound& bound, std::int64_t spheres) {
+    RunConfig config = experiment_of(settings, spheres);
+    const RunConfig changed =
+        resolve({{"preset", "experiment"}, {"mu", "0.2"}, {bound.parameter, bound.value}});
+    config.floor_friction = changed.floor_friction;
+    config.restitution = changed.restitution;
+    config.rolling_resistance = changed.rolling_resistance;
+    return config;
+}
+
+}  // namespace
+
+static FigurePlan plan_figure_spheres_bounds(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_spheres_bounds.py";
+    CurveFigure figure{"spheres_bounds", {"curve"}, {}};
+    for (const Bound& bound : bounds)
+        figure.curves.push_back({bound.words, {std::string(bound.words)}, bound.words});
+    std::vector<std::int64_t> numbers{24, 36};
+    if (!settings.quick) numbers = {16, 20, 24, 28, 30, 32, 34, 36, 38, 40, 42, 44, 48};
+    figure.add_points(numbers);
+    for (const CurveFigure::Point& p : figure.points) {
+        const Bound& bound = bounds[p.curve];
+        const RunConfig config = bound_config(settings, bound, p.discs);
+        plan.points.push_back(varied_point(
+            settings, fmt::format("spheres-{}_N{}_{}", bound.name, p.discs, length_of(config)),
+            config, chapter_seeds(settings)));
+    }
+    plan.finish = [figure](const std::vector<Json>& results, const fs::path& out) {
+        FigureOutcome outcome;
+        figure.write_points(results, out, outcome);
+        for (const NamedCurve& curve : figure.named_curves(results))
+            outcome.findings.push_back(fmt::format("{}: {}", curve.name, crossing_sentence(curve)));
+        figure.write_crossings(results, out, outcome);
+        return outcome;
+    };
+    return plan;
+}
+
+std::vector<PaperFigure> chapter_spheres() {
+    return {
+        {"spheres_packing", "chapter: rotation and packing of spheres",
+         plan_figure_spheres_packing},
+        {"spheres_size", "chapter: spheres in dishes of different sizes", plan_figure_spheres_size},
+        {"spheres_bounds", "chapter: spheres for bounds of friction, damping and rolling",
+         plan_figure_spheres_bounds}};
+}
+
+}  // namespace swirl
