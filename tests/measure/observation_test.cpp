@@ -56,7 +56,7 @@ TEST(Observation, NeedsFollowFromTheFunctionsOfTheClass) {
     EXPECT_EQ(pinned, (Names{"pinned", "slip", "frustration"}));
     EXPECT_EQ(tracks, (Names{"pinned", "slip", "frustration", "diffusion"}));
     EXPECT_EQ(cells, (Names{"order", "packing", "segregation"}));
-    EXPECT_EQ(events, (Names{"collisions", "wall", "energy", "collision_angles"}));
+    EXPECT_EQ(events, (Names{"collisions", "wall", "energy", "torque", "collision_angles"}));
 }
 
 TEST(Observation, UsesEveryFrameAndEvery32ndEvent) {

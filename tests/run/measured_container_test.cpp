@@ -14,6 +14,7 @@
 #include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
+#include "swirl/measure/torque_budget.hpp"
 #include "swirl/measure/wall_stress.hpp"
 
 namespace swirl {
@@ -52,6 +53,51 @@ TEST(MeasuredContainer, TheEnergyBudgetClosesToRounding) {
         EXPECT_NEAR(budget.accounted(), kinetic_energy(s) - before, 1e-8);
         EXPECT_GT(budget.total_work(), 100.0);
         EXPECT_GT(budget.total_loss(), 100.0);
+    }
+}
+
+// Over each block of a period: the sums of the torques, times the period, are the changes of the
+// angular momenta between the snapshots.
+TEST(MeasuredContainer, TheTorqueBudgetClosesToRoundingInEveryBlock) {
+    for (const bool circle : {false, true}) {
+        InitialState scene = container(40, {0.5, 0.97, 0.3}, {0.7, 0.97, 0.3});
+        if (circle) scene.path = circular_path(paper_amplitude, paper_period);
+        Simulation simulation(scene);
+        Snapshot s = simulation.snapshot();
+        while (simulation.periods() < 1) simulation.refresh(s, simulation.step());
+        TorqueBudget whole;
+        whole.sample_event({1, 0.0, EventKind::path_vertex, 0, 0, {}, {}, 0.0}, s);
+        for (int block = 0; block < 5; ++block) {
+            TorqueBudget budget;
+            budget.sample_event({1 + block, 0.0, EventKind::path_vertex, 0, 0, {}, {}, 0.0}, s);
+            const AngularMomentum before = angular_momentum(s);
+            for (Event event{}; simulation.periods() < 2 + block;) {
+                event = simulation.step();
+                simulation.refresh(s, event);
+                budget.sample_event(event, s);
+                whole.sample_event(event, s);
+            }
+            budget.close_event_block(s.period);
+            whole.close_event_block(s.period);
+            const AngularMomentum after = angular_momentum(s);
+            const auto change = [&](const char* name) {
+                return row_of(budget, name).mean * s.period;
+            };
+            // Some 10⁴ additions to sums of order 10³, each wrong by half an ulp: 10⁻¹³ · √10⁴.
+            constexpr double rounding = 1e-10;
+            EXPECT_NEAR(change("wall_normal") + change("wall_tangential") + change("transfer"),
+                        after.orbital - before.orbital, rounding);
+            EXPECT_NEAR(change("orbital"), after.orbital - before.orbital, rounding);
+            EXPECT_NEAR(change("wall_on_spins") + change("discs_on_spins"),
+                        after.spins - before.spins, rounding);
+            EXPECT_NEAR(
+                change("wall_about_centre") + change("container_torque") + change("transfer"),
+                after.about_centre - before.about_centre, rounding);
+            EXPECT_GT(std::abs(change("transfer")), 1.0);
+            EXPECT_GT(std::abs(change("container_torque")), 1.0);
+        }
+        EXPECT_LT(whole.unaccounted_share(), 1e-13);
+        EXPECT_GT(whole.unaccounted_share(), 0.0);
     }
 }
 

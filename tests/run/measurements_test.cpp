@@ -145,9 +145,10 @@ TEST(Measurements, ListOfAllHasEveryMeasurement) {
     EXPECT_THAT(everything(),
                 ElementsAre("density", "flow", "profile", "pinned", "residence", "centre", "slip",
                             "frustration", "radial", "temperature", "order", "packing",
-                            "segregation", "collisions", "wall", "diffusion", "energy", "rolling",
-                            "pair_correlation", "velocity_correlation", "velocity_distribution",
-                            "contact_network", "collision_angles", "fluctuations"));
+                            "segregation", "collisions", "wall", "diffusion", "energy", "torque",
+                            "rolling", "pair_correlation", "velocity_correlation",
+                            "velocity_distribution", "contact_network", "collision_angles",
+                            "fluctuations"));
 }
 
 TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {

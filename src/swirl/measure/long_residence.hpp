@@ -62,6 +62,8 @@ class LongResidences {
     void begin_tracks() { begin_.clear(); }
 
     bool is_known(double time) const { return !sees(time) || last_ - time >= minimum_; }
+    /// Nothing is known of later times; then is_known() is true as for any time not sampled.
+    double last_sample() const { return last_; }
     bool resident(std::size_t disc, double time) const {
         if (!sees(time) || disc >= begin_.size()) return false;
         return begin_[disc] <= time || (long_begin_[disc] <= time && time <= long_end_[disc]);

@@ -26,6 +26,7 @@
 #include "swirl/measure/segregation.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
+#include "swirl/measure/torque_budget.hpp"
 #include "swirl/measure/velocity_correlation.hpp"
 #include "swirl/measure/velocity_distribution.hpp"
 #include "swirl/measure/wall_residence.hpp"
@@ -90,6 +91,8 @@ inline constexpr std::tuple measurement_list{
         "squared displacement and rotation of a disc as functions of the time lag"),
     measurement<EnergyBudget>("energy", "energy_budget.hpp",
         "energy budget: work of wall and floor, losses in friction and collisions"),
+    measurement<TorqueBudget>("torque", "torque_budget.hpp",
+        "torques on the cluster: wall, friction between discs, spins; pinned and loose"),
     measurement<Rolling>("rolling", "rolling.hpp",
         "for spheres: rolling and sliding on the floor, vertical friction, frustration"),
     measurement_in_container<PairCorrelation>("pair_correlation", "pair_correlation.hpp",

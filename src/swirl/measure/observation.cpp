@@ -64,7 +64,9 @@ Observation::Observation(double container_radius, double period, std::vector<std
         if (!chosen) return;
         const MeasurementKind kind = kind_of(row);
         views_samples_ |= SamplesMFrame<M> || kind.needs_pinned || kind.needs_cells;
-        follows_pinned_ |= same_discs && (kind.needs_pinned || kind.needs_cells);
+        // Residences are those of the frames in which pinned discs are known.
+        follows_pinned_ |=
+            same_discs && (kind.needs_pinned || kind.needs_cells || SamplesResidences<M>);
         finds_cells_ |= kind.needs_cells;
         follows_residences_ |= same_discs && SamplesResidences<M>;
         samples_by_event_ |= SamplesByEvent<M>;
