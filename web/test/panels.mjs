@@ -216,7 +216,7 @@ try {
     assert.deepEqual(givenFrom({discs: 48, mu_disc: 1, mu_wall: 0}, parameters), {mu_disc: "1", mu_wall: "0"});
     const bytes = (text) => new TextEncoder().encode(text).buffer;
     for (const [text, problem] of [["hello", "unknown"], ["", "unknown"], ["{\"a\": 1}", "unknown"], ["{\"config\": ", "damaged"],
-                                   ["swirl checkpoint 9", "damaged"], ["swirl checkpoint 8\n0123", "damaged"],
+                                   ["swirl checkpoint 9", "damaged"], ["swirl checkpoint 9\n0123", "damaged"],
                                    ["\u0001", "unknown"], ["[1]", "unknown"]])
         assert.throws(() => readFile(bytes(text), "a", parameters), {problem}, text);
     if (files) {
