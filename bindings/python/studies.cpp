@@ -45,7 +45,8 @@ class LatestProgress {
 };
 
 SweepPlan plan_of(const py::dict& given, std::int64_t replicas,
-                  const std::vector<std::string>& measured, int frames) {
+                  const std::vector<std::string>& measured, int frames, const std::string& chain,
+                  bool series) {
     if (replicas < 1 || replicas > 1'000'000)
         throw UsageError(
             fmt::format("seeds is {}, but it must be a whole number from 1 to 1000000.", replicas));
@@ -55,6 +56,12 @@ SweepPlan plan_of(const py::dict& given, std::int64_t replicas,
     SweepPlan plan = make_plan(lists_of(given), replicas);
     plan.measure = measured;
     plan.frames = frames;
+    plan.series = series;
+    if (!chain.empty()) set_chain(plan, chain);
+    if (!chain.empty() && frames > 0)
+        throw UsageError(
+            "chain and frames cannot be combined: a recording does not hold where its run started "
+            "from.\nhint: use series, or swirl.run(ramp=...) with a trajectory.");
     return plan;
 }
 
@@ -187,7 +194,7 @@ py::tuple make_map(const std::string& folder, unsigned threads, const ProgressCa
 void bind_studies(py::module_& module) {
     py::class_<SweepPlan>(module, "Plan")
         .def(py::init(&plan_of), py::arg("parameters"), py::arg("seeds"), py::arg("measured"),
-             py::arg("frames"))
+             py::arg("frames"), py::arg("chain") = "", py::arg("series") = false)
         .def("__len__", &SweepPlan::points)
         .def_property_readonly("axes",
                                [](const SweepPlan& plan) {

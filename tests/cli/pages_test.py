@@ -110,10 +110,10 @@ SHOWN_FILES = {"shaker.csv": "t,x,y", "radii.csv": "radius,mass"}
 
 def write_shown_files(folder, text):
     for name, first_line in SHOWN_FILES.items():
-        for content in re.findall(r"^```\n(.*?)^```$", text, re.M | re.S):
-            if content.startswith(first_line + "\n") and name in text:
-                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-                    file.write(content)
+        shown = re.search(rf"^```\n({first_line}\n.*?)^```$", text, re.M | re.S)
+        if shown and name in text:
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(shown.group(1))
 
 
 def can_run(content):

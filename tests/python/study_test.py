@@ -70,6 +70,30 @@ def test_invalid_sweeps_are_rejected(wrong, kind, message):
         swirl.sweep(**wrong)
 
 
+def test_a_chain_equals_that_of_the_command_line(tmp_path):
+    ours = swirl.sweep(tmp_path / "ours", discs=12, mu=[0.2, 0.6, 1], periods=6, seeds=2, chain="mu", series=True)
+    done = command("sweep", "--discs", 12, "--mu", "0.2,0.6,1", "--periods", 6, "--seeds", 2, "--chain", "mu",
+                   "--series", "--out", tmp_path / "theirs", "--quiet")
+    assert done.returncode == 0, done.stderr
+    theirs = swirl.collect(tmp_path / "theirs")
+    pandas.testing.assert_frame_equal(ours, theirs, check_exact=True)
+    assert set(ours["direction"]) == {"up", "down"}
+    assert ({file.name: file.read_bytes() for file in (tmp_path / "ours/series").iterdir()}
+            == {file.name: file.read_bytes() for file in (tmp_path / "theirs/series").iterdir()} != {})
+
+
+@pytest.mark.parametrize("wrong, message", [
+    (dict(mu=[0.1, 1], periods=4, chain="mu", frames=8), "chain and frames cannot be combined"),
+    (dict(mu=[0.1, 1], chain="amplitude"), "amplitude"),
+    (dict(mu=[0.1, 1], chain="mu", grow=True), "chain and series cannot be used with grow"),
+])
+def test_invalid_chains_are_rejected(tmp_path, wrong, message):
+    with pytest.raises(ValueError, match=message):
+        swirl.sweep(tmp_path / "s", **wrong)
+    with pytest.raises(ValueError, match="series is given, but out"):
+        swirl.sweep(mu=[0.1, 1], series=True)
+
+
 def test_sweep_without_parameters_is_rejected(tmp_path):
     with pytest.raises(ValueError, match="no parameter to sweep over"):
         swirl.sweep(tmp_path / "empty")

@@ -45,22 +45,27 @@ def _count(name: str, value: object, lowest: int) -> int:
 def sweep(out: Optional[PathName] = None, *, seeds: int = 1, measure: Optional[Measure] = None,
           frames: int = 0, threads: int = 0, grow: bool = False,
           progress: Union[bool, Callable[[float, float, int], object], None] = None,
+          chain: Optional[str] = None, series: bool = False,
           **parameters: Values) -> Any:
     _count("threads", threads, 0)
     if out is None:
-        if grow or frames:
-            raise ValueError(f"{'grow' if grow else 'frames'} is given, but out, the folder of the "
-                             "sweep, is not.")
+        if grow or frames or series:
+            raise ValueError(f"{'grow' if grow else 'frames' if frames else 'series'} is given, but out, "
+                             "the folder of the sweep, is not.")
         with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as folder:
             return sweep(folder, seeds=seeds, measure=measure, threads=threads, progress=progress,
-                         **parameters)
+                         chain=chain, **parameters)
     folder = os.fspath(out)
     names = _names(measure, "A sweep")
     given = {name: value for name, value in parameters.items() if value is not None}
+    if grow and (chain or series):
+        raise ValueError("chain and series cannot be used with grow: they apply to all runs of a sweep or to "
+                         "none.")
     if grow:
         _engine.grow(folder, given, 0 if seeds == 1 else _count("seeds", seeds, 1), names)
-    elif given or names:
-        _engine.Plan(given, _count("seeds", seeds, 1), names, _count("frames", frames, 0)).write(folder)
+    elif given or names or chain or series:
+        _engine.Plan(given, _count("seeds", seeds, 1), names, _count("frames", frames, 0), chain or "",
+                     bool(series)).write(folder)
     elif not os.path.exists(os.path.join(folder, "plan.json")):
         raise ValueError("there is no parameter to sweep over.\n"
                          "hint: give lists, such as discs=range(5, 49), mu=[0.1, 0.5, 1].")
@@ -260,7 +265,9 @@ out: folder of the sweep, in the format of the command line. Another call with t
 seeds: replicates of each point. measure: names of measurements. frames: record every run with so many
     frames per period. threads: simultaneous runs [one per core]. grow: add these values, replicates
     and measurements to an existing sweep. progress: True for a bar (needs tqdm), or a function of
-    (finished runs, all runs, events).
+    (finished runs, all runs, events). chain: a parameter with several values; each run starts from the
+    final state of its neighbour, with rising and then with falling values, so that hysteresis shows.
+    series: write the averages of every period of each run to the folder `series` in `out`.
 
 {_LISTS}
 Ctrl-C raises KeyboardInterrupt; finished runs stay in the folder. A failed run leaves its row empty and
