@@ -10,6 +10,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 
@@ -297,6 +298,77 @@ class TrackTest(InFolder):
         self.assertLessEqual(result.swaps, 2)
         self.assertLess(result.rms, 0.65)  # pixels; 0.96 without the template
 
+    def mean_shift(self, video, tracks):
+        """Mean of tracked minus true positions, each near half a radius."""
+        true, found = positions(video[:-4] + ".truth.csv", "x_ideal", "y_ideal"), positions(tracks)
+        shifts = []
+        for frame, discs in true.items():
+            for x, y in discs.values():
+                u, v = min(found[frame].values(), key=lambda p, x=x, y=y: math.hypot(p[0] - x, p[1] - y))
+                if math.hypot(u - x, v - y) < 8.0:
+                    shifts.append((u - x, v - y))
+        return [sum(s[k] for s in shifts) / len(shifts) for k in (0, 1)]
+
+    def test_light_from_one_side_does_not_shift_discs(self):
+        video = self.video("--light-from", 135, "--light-elevation", 45, "--light-share", 0.8,
+                           "--gloss", 60, of=LARGER, length=1.5)
+        tracks, said = self.track(video)
+        self.assertIn("from one side; shifts discs by", said)
+        result = Comparison(video, tracks)
+        self.assertEqual(result.found["discs"], 20)
+        light = result.found["light"]
+        # The shift is towards the light, up and left in the image.
+        self.assertLess(light["shift"][0], 0.0)
+        self.assertLess(light["shift"][1], 0.0)
+        # Most of it is removed; the standard error of what is left is stated.
+        left = math.hypot(*self.mean_shift(video, tracks))
+        self.assertLess(left, 0.5 * math.hypot(*light["shift"]))
+        self.assertLess(left, 4.0 * light["shift_error"])
+        # The container is as large as with light from above.
+        self.assertLess(abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0),
+                        0.01)
+
+    def test_low_contrast_with_strong_compression_gives_no_tiny_discs(self):
+        # Contrast 1.3:1. Compression leaves texture of 4 pixels, which once gave 211 discs.
+        video = self.path("video.mp4")
+        done = swirl("synthetic-video", "--discs", 28, "--width", 640, "--height", 480, "--scale", 15,
+                     "--frames-per-period", 64, "--length", 1.1, "--floor-level", 100, "--contrast", 1.3,
+                     "--rim-level", 110, "--gloss", 10, "--texture", 0.2, "--light-elevation", 45,
+                     "--noise", 3, "--quality", 29, "--out", video, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = swirl("track", video, "--out", self.path("tracks.csv"))
+        if "no camera support" in done.stderr:
+            self.skipTest("this build has no camera support")
+        for percent in re.findall(r"([0-9.]+) %", done.stdout + done.stderr):
+            self.assertLessEqual(float(percent), 100.0)
+        if done.returncode == 0:
+            with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
+                found = json.load(file)
+            self.assertLessEqual(abs(found["discs"] - 28), 1)
+            self.assertLess(abs(found["species"][0]["radius"] / 15.0 - 1.0), 0.1)
+        else:
+            self.assertIn("--discs", done.stderr)
+            self.assertIn("--disc-diameter", done.stderr)
+        # With their number, the size is found from the contact distance.
+        done = swirl("track", video, "--out", self.path("tracks.csv"), "--discs", 28, "--overwrite")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
+            found = json.load(file)
+        # Fewer contacts than in a longer video, and outlines that err by the shading: within 8 %.
+        self.assertLess(abs(found["species"][0]["radius"] / 15.0 - 1.0), 0.08)
+
+    @slow("four videos of two periods; the wall of most other tests is reached in every frame")
+    def test_container_radius_with_few_discs(self):
+        # Eight discs touch the wall about three times per period; below, the rim is used.
+        for discs in (8, 16, 24, 36):
+            video = self.video(of=["--discs", discs, "--width", 400, "--height", 400, "--scale", 15,
+                                   "--frames-per-period", 60, "--quality", 18, "--from", 25], length=2,
+                               name=f"of{discs}.mp4")
+            tracks, _ = self.track(video, name=f"of{discs}.csv")
+            result = Comparison(video, tracks)
+            radius = result.found["container"]["radius"] / result.truth["container_radius"]
+            self.assertLess(abs(radius - 1.0), 0.005, discs)
+
     def test_mirrored_video_with_dark_discs(self):
         video = self.video("--mirrored", "--disc-level", 60, "--floor-level", 200, "--rim-level", 90,
                          "--table-level", 150, "--gloss", 120, "--texture", 0.1)
@@ -372,6 +444,21 @@ class TrackTest(InFolder):
         self.assert_rejected(1, "no frames named",
                              call=swirl("track", self.path("no%05d.png"), "--out", out))
 
+    def test_errors_of_a_damaged_video_are_reported_with_quiet(self):
+        video = self.video(length=0.8)
+        with open(video, "rb") as file:
+            data = bytearray(file.read())
+        for k in range(len(data) // 2, len(data) // 2 + 3000):  # frames in the middle
+            data[k] = (73 * k) % 256
+        with open(self.path("damaged.mp4"), "wb") as file:
+            file.write(data)
+        done = swirl("track", self.path("damaged.mp4"), "--out", self.path("tracks.csv"), "--to", 48,
+                     "--quiet")
+        if "no camera support" in done.stderr:
+            self.skipTest("this build has no camera support")
+        self.assertEqual(done.stdout, "")
+        self.assertIn("ffmpeg reports", done.stderr)
+
     def track_changed(self, video, name, *arguments, of_input=()):
         subprocess.run(["ffmpeg", "-v", "error", *of_input, "-i", video, *arguments, self.path(name)],
                        check=True)
@@ -409,9 +496,12 @@ class TrackTest(InFolder):
             self.assertEqual(len(after[frame]), 20, frame)  # all discs are found again
         _, said = changed("cut.mp4", "-vf", "crop=150:240:0:0", "-qp", "14")
         self.assertIn("not entirely in the frame", said)
-        _, said = changed("uneven.mp4", "-vf", "select='not(mod(n,7))+mod(n,2)'", "-vsync", "vfr",
-                          "-qp", "14")
+        tracks, said = changed("uneven.mp4", "-vf", "select='not(mod(n,7))+mod(n,2)'", "-vsync", "vfr",
+                               "-qp", "14")
         self.assertIn("frame rate varies", said)
+        done = swirl("measure", tracks, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("not equally spaced", done.stderr)
 
     def with_times(self, video, name, times):
         """The same frames with other times: an expression of N, in frames."""

@@ -284,6 +284,30 @@ TEST(TrackedSource, MissingImagesAreErrors) {
     }
 }
 
+TEST(TrackedSource, MotionOfTheCameraMovesTheImageUnderThePositions) {
+    Backdrop steady;  // the scale and origin of an image with y down
+    steady.origin = {-3.0, 2.0};
+    steady.along_x = {0.1, 0.0};
+    steady.along_y = {0.0, -0.1};
+    ImageMotion motion{5};
+    motion.poses = {{{7.0, -4.0}, 1.0, 0.0}, {{2.0, 3.0}, 0.8, 0.6}, {{-1.0, 0.0}, 1.5, 0.5}};
+    for (std::int64_t k = 0; k < 3; ++k) {
+        const auto& [origin, a, b] = motion.poses[std::size_t(k)];
+        const Backdrop moved = motion.applied(steady, 5 + k);
+        for (const Vec2& p : {Vec2{0.0, 0.0}, Vec2{12.0, 5.0}}) {
+            const Vec2 seen = origin + Vec2{a * p.x - b * p.y, b * p.x + a * p.y};
+            const Vec2 expected = steady.origin + p.x * steady.along_x + p.y * steady.along_y;
+            const Vec2 found = moved.origin + seen.x * moved.along_x + seen.y * moved.along_y;
+            EXPECT_NEAR(found.x, expected.x, 1e-12);  // a few roundings of numbers of order 10
+            EXPECT_NEAR(found.y, expected.y, 1e-12);
+        }
+    }
+    for (const std::int64_t frame : {4, 8}) {  // outside the tracks
+        EXPECT_EQ(motion.applied(steady, frame).origin.x, steady.origin.x);
+        EXPECT_EQ(motion.applied(steady, frame).along_x.x, steady.along_x.x);
+    }
+}
+
 TEST_F(Recording, StroboscopicImageNeedsItsFirstInstant) {
     StillConfig config;
     config.sources = {recorded(path("run.h5"))};

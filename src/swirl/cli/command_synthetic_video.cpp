@@ -36,7 +36,8 @@ struct SyntheticVideoCall {
     double periods = 3.0, from = 20.0;
     std::optional<std::int64_t> frames, frames_per_period;
     std::optional<double> scale, noise, blur, exposure, distortion, glare, texture, gloss, disc,
-        floor, rim, table, flicker, tilt, towards, view_angle, rim_height;
+        floor, rim, table, flicker, tilt, towards, view_angle, rim_height, light_from,
+        light_elevation, light_share, contrast;
     std::optional<double> rolling_shutter, auto_exposure, floor_pattern, disc_variation,
         transparency, hands;
     std::optional<int> width, height;
@@ -44,6 +45,26 @@ struct SyntheticVideoCall {
     bool rolls = false, mirrored = false, still = false, flat = false, interlaced = false;
     bool overwrite = false, quiet = false;
 };
+
+/// The direction and share of a light from one side, and levels by contrast. Throws UsageError.
+template <typename Apply>
+void set_light(const SyntheticVideoCall& call, const Apply& apply, CameraSettings& camera) {
+    double from = 135.0, elevation = 60.0, contrast = 1.0;
+    apply("light-from", call.light_from, from, -360.0, 360.0);
+    apply("light-elevation", call.light_elevation, elevation, 0.0, 90.0);
+    apply("light-share", call.light_share, camera.diffuse, 0.0, 1.0);
+    apply("contrast", call.contrast, contrast, 0.05, 20.0);
+    if (call.light_from || call.light_elevation) camera.light = light_direction(from, elevation);
+    if (call.light_share) camera.ambient = 1.0 - camera.diffuse;
+    if (!call.contrast) return;
+    if (call.disc) throw UsageError("--contrast and --disc-level exclude each other.");
+    camera.disc = contrast * camera.floor;
+    if (camera.disc > 255.0)
+        throw UsageError(fmt::format(
+            "--contrast is {}, which makes the discs brighter than 255, the brightest level.\n"
+            "hint: reduce --contrast or --floor-level.",
+            contrast));
+}
 
 /// Throws UsageError.
 CameraSettings camera_settings(const SyntheticVideoCall& call, const RunConfig& config) {
@@ -86,6 +107,7 @@ CameraSettings camera_settings(const SyntheticVideoCall& call, const RunConfig& 
     apply("transparency", call.transparency, camera.transparency, 0.0, 1.0);
     apply("width", call.width, camera.size.width, 64.0, 4096.0);
     apply("height", call.height, camera.size.height, 64.0, 4096.0);
+    set_light(call, apply, camera);
     camera.rolls = call.rolls;
     camera.flat = call.flat;
     camera.interlaced = call.interlaced;
@@ -311,6 +333,13 @@ void add_synthetic_video_command(Subcommand& subcommand) {
         "Brightness variation from disc to disc, as of colours [0]");
     add("--transparency", call->transparency, "FRACTION", "Share of glass in the discs [0]");
     flag("--flat", call->flat, "Draw discs as flat coins with a bright edge");
+    add("--light-from", call->light_from, "DEG",
+        "Side of the light, counter-clockwise from +x [135]");
+    add("--light-elevation", call->light_elevation, "DEG",
+        "Elevation of the light above the floor; 90: above [60]");
+    add("--light-share", call->light_share, "FRACTION", "Share of the light from that side");
+    add("--contrast", call->contrast, "RATIO",
+        "Disc brightness relative to the floor's; sets --disc-level");
     flag("--roll", call->rolls, "Draw discs as spheres that roll on the floor");
     flag("--mirrored", call->mirrored, "Mirror the image, as seen from below");
     flag("--still", call->still, "Let the camera move with the container");

@@ -125,6 +125,18 @@ std::string camera_motion_text(const TrackedVideo& video) {
            (camera.from_rim ? "; removed, from the rim\n" : "; removed, from the background\n");
 }
 
+/// The shift by light from one side, if it was removed.
+std::string light_text(const TrackedVideo& video) {
+    const double shift = std::hypot(video.shading_shift.x, video.shading_shift.y);
+    if (!(shift > 0.0)) return "";
+    const double towards = 360.0 * turns_of({video.shading_shift.x, -video.shading_shift.y});
+    return fmt::format(
+        "  light       from one side; shifts discs by {} pixels towards {:.0f} "
+        "degrees; removed\n",
+        with_error(shift, video.shading_shift_error),
+        towards - 360.0 * std::floor(towards / 360.0));
+}
+
 std::string species_text(const TrackedVideo& video) {
     std::string text;
     for (const TrackedSpecies& one : video.species)
@@ -151,7 +163,7 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
         "  phase       {} degrees in the first frame\n"
         "  lens        distortion {}{}\n"
         "  camera      {}\n"
-        "{}"
+        "{}{}"
         "  complete    {:.2f} % of frames have all discs; {} positions filled in\n"
         "  error       {:.3f} pixels per position, from {}\n",
         call.source.video, counted(std::int64_t(video.number), "disc"), video.frame_count,
@@ -167,8 +179,9 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
         with_error(video.path.omega, video.path.omega_error), unit,
         with_error(first_phase(video), video.path.phase_error * 180.0 / pi),
         with_error(video.lens.k, video.lens.k_error), video.lens.k != 0.0 ? ", corrected" : "",
-        tilt_text(video), camera_motion_text(video), 100.0 * video.complete_share, video.filled,
-        video.position_error, video.position_error > video.overlap_error ? "edges" : "overlaps");
+        tilt_text(video), camera_motion_text(video), light_text(video),
+        100.0 * video.complete_share, video.filled, video.position_error,
+        video.position_error > video.overlap_error ? "edges" : "overlaps");
     if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm per pixel, from the discs\n",
                             *call.source.disc_diameter / (2.0 * video.radius));
@@ -180,11 +193,15 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
 
 /// Writes the video with the detected discs drawn over it.
 void make_overlay(const TrackedVideo& video, const TrackCall& call) {
+    ImageMotion motion;
+    if (!video.tracks.frames.empty()) motion.first = video.tracks.frames.front().number;
+    for (const CameraPose& pose : video.camera.poses)
+        motion.poses.push_back({pose.seen({0.0, 0.0}), pose.a, pose.b});
     MovieConfig config;
     config.out = call.overlay;
     config.sources = {tracked(video.tracks, video.scale(),
                               escaped(std::filesystem::path(call.source.video).filename().string()),
-                              call.source.video)};
+                              call.source.video, 0, motion)};
     const FrameSource& source = config.sources.front();
     config.appearance.size = {960, 960};
     config.appearance.coloring = Coloring::id;
@@ -315,6 +332,8 @@ void track(TrackCall call) {
     settings.discs = call.discs;
     settings.camera = camera;
     settings.spins = call.spin;
+    if (call.source.disc_diameter && call.source.container_diameter)
+        settings.radius_share = *call.source.disc_diameter / *call.source.container_diameter;
     std::optional<LiveResult> live;
     if (!call.live.source.empty()) live = track_live_source(call.live, settings, call.quiet);
     TrackedVideo video = live ? std::move(live->video) : track_video(settings);

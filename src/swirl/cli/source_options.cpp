@@ -71,9 +71,12 @@ FrameSource tracked_in(const SourceTexts& texts) {
     if (const auto wrong = video_problem(texts.images)) throw UsageError(*wrong);
     const TrackScale scale = track_scale(camera, texts.file);
     Tracks tracks = read_tracks(texts.file, scale);
+    const CameraRecord camera_motion = camera_record(texts.file);
+    ImageMotion motion{camera_motion.first_frame};
+    for (const auto& [x, y, a, b] : camera_motion.poses) motion.poses.push_back({{x, y}, a, b});
     return tracked(std::move(tracks), scale,
                    escaped(std::filesystem::path(texts.file).filename().string()), texts.images,
-                   texts.first_image);
+                   texts.first_image, motion);
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ class CameraFile {
         if (!json.is_object() || !json.contains("camera") || !json["camera"].is_object())
             fail("it has no 'camera'");
         camera_ = json["camera"];
+        json_ = json;
     }
     double number(const CameraNumber& number) const {
         const double value = number_in(field(number.name), number.name);
@@ -85,6 +86,29 @@ class CameraFile {
         if (!value.is_array() || value.size() != 2)
             fail(fmt::format("{} is {}, but it must be two numbers", name, value.dump()));
         return {number_in(value[0], name), number_in(value[1], name)};
+    }
+    CameraRecord record() const {
+        CameraRecord record;
+        if (const auto uneven = json_.find("uneven_times");
+            uneven != json_.end() && !uneven->is_null())
+            record.uneven_times = number_in(*uneven, "uneven_times");
+        const auto motion = json_.find("camera_motion");
+        if (motion == json_.end() || !motion->is_object()) return record;
+        const auto frames = motion->find("frames");
+        if (frames == motion->end()) return record;
+        if (const auto first = motion->find("first_frame"); first != motion->end())
+            record.first_frame = static_cast<std::int64_t>(number_in(*first, "first_frame"));
+        for (const nlohmann::json& frame : *frames) {
+            std::array<double, 4> pose{};
+            if (!frame.is_array() || frame.size() != pose.size())
+                fail(fmt::format("a pose of camera_motion is {}, but it must be four numbers",
+                                 frame.dump()));
+            for (std::size_t k = 0; k < pose.size(); ++k)
+                pose[k] = number_in(frame[k], "camera_motion");
+            if (pose[2] == 0.0 && pose[3] == 0.0) fail("a pose of camera_motion has the zoom 0");
+            record.poses.push_back(pose);
+        }
+        return record;
     }
     bool flag(const char* name) const {
         const nlohmann::json& value = field(name);
@@ -107,12 +131,12 @@ class CameraFile {
     }
     double number_in(const nlohmann::json& value, const char* name) const {
         if (!value.is_number())
-            fail(fmt::format("{} is {}, but it must be a number", name, field(name).dump()));
+            fail(fmt::format("{} is {}, but it must be a number", name, value.dump()));
         return value.get<double>();
     }
 
     std::filesystem::path path_;
-    nlohmann::json camera_;
+    nlohmann::json json_, camera_;
 };
 
 /// Fills options that were not given from the calibration next to `file`, if it exists.
@@ -183,6 +207,12 @@ Tracks read_tracks(const std::string& file, const TrackScale& scale) {
                         "(CSV), LAMMPS text dump.",
                         file));
     return repaired(read_trackpy_csv(file));
+}
+
+CameraRecord camera_record(const std::string& file) {
+    const std::filesystem::path calibration = camera_file(file);
+    if (!std::filesystem::is_regular_file(calibration)) return {};
+    return CameraFile(calibration).record();
 }
 
 TrackScale track_scale(const TrackTexts& given, const std::string& file) {

@@ -1,8 +1,12 @@
 // Options for the unit conversion of tracks from a camera or another program.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "swirl/cli/options.hpp"
 #include "swirl/io/tracks.hpp"
@@ -39,5 +43,13 @@ std::filesystem::path camera_file(std::filesystem::path tracks);
 /// Options that are not given are read from camera_file(file), if it exists. Throws UsageError for
 /// a missing or invalid option, Failure for an invalid file.
 TrackScale track_scale(const TrackTexts& given, const std::string& file);
+
+/// What else camera_file(file) states; defaults if it does not exist.
+struct CameraRecord {
+    std::int64_t first_frame = 0;
+    std::vector<std::array<double, 4>> poses;  // of the moving camera, from first_frame on
+    std::optional<double> uneven_times;        // largest deviation of a step, relative to the mean
+};
+CameraRecord camera_record(const std::string& file);
 
 }  // namespace swirl

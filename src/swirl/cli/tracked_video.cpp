@@ -51,6 +51,24 @@ Json camera_motion_source(const TrackedVideo& video) {
 
 Json vector_json(const Vec2& v) { return Json::array({v.x, v.y}); }
 
+/// `frames` has {x, y, a, b} for each frame: the position p of the steady camera is seen at
+/// (x + a p.x - b p.y, y + b p.x + a p.y).
+Json camera_motion_json(const TrackedVideo& video) {
+    Json poses = Json::array();
+    for (const CameraPose& pose : video.camera.poses) {
+        const Vec2 origin = pose.seen({0.0, 0.0});
+        poses.push_back({origin.x, origin.y, pose.a, pose.b});
+    }
+    const auto& frames = video.tracks.frames;
+    return {{"source", camera_motion_source(video)},
+            {"shake", video.camera.shake},
+            {"drift", video.camera.drift},
+            {"zoom", video.camera.zoom},
+            {"frames_without", video.frames_without_pose},
+            {"first_frame", frames.empty() ? 0 : frames.front().number},
+            {"frames", poses}};
+}
+
 Json lens_json(const TrackedVideo& video) {
     const Tilt& tilt = video.tilt;
     Json json{{"distortion", video.lens.k}, {"distortion_error", video.lens.k_error}};
@@ -77,69 +95,68 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
         species.push_back(
             {{"number", one.number}, {"radius", one.radius}, {"radius_scatter", one.scatter}});
     const TrackScale scale = video.scale();
-    return {{"format", camera_format},
-            {"video", source.video},
-            {"frames", video.frame_count},
-            {"size", {video.width, video.height}},
-            {"fps", video.fps > 0.0 ? Json(video.fps) : Json(nullptr)},
-            {"discs", video.number},
-            {"species", species},
-            {"discs_are", video.bright ? "bright" : "dark"},
-            {"container",
-             {{"radius", video.container_radius},
-              {"rim_radius", video.rim_radius},
-              {"disc_reach", video.reach},
-              {"rim_support", video.rim_support},
-              {"frames_without_rim", video.rims_missed},
-              {"shake", video.shake}}},
-            {"camera_motion",
-             {{"source", camera_motion_source(video)},
-              {"shake", video.camera.shake},
-              {"drift", video.camera.drift},
-              {"zoom", video.camera.zoom},
-              {"frames_without", video.frames_without_pose}}},
-            {"path",
-             {{"centre", vector_json(video.path.centre)},
-              {"centre_error", video.path.centre_error},
-              {"amplitude", video.path.amplitude},
-              {"amplitude_error", video.path.amplitude_error},
-              {"omega", video.path.omega},
-              {"omega_error", video.path.omega_error},
-              {"phase", first_phase(video)},
-              {"phase_error", degrees(video.path.phase_error)},
-              {"clockwise", video.path.clockwise},
-              {"residual", video.path.residual},
-              {"agreeing_frames", video.path.used},
-              {"sides", video.polygon.sides > 0 ? Json(video.polygon.sides) : Json(nullptr)},
-              {"max_detectable_sides", video.polygon.max_sides},
-              {"vertex_distance",
-               video.polygon.sides > 0 ? Json(video.polygon.vertex_distance) : Json(nullptr)}}},
-            {"lens", lens_json(video)},
-            {"quality",
-             {{"contact_ratio", video.contact_ratio},
-              {"complete_share", video.complete_share},
-              {"position_error", video.position_error},
-              {"overlap_error", video.overlap_error},
-              {"filled_positions", video.filled},
-              {"excess_discs", video.rejected},
-              {"frames_with_excess_discs", video.crowded}}},
-            {"millimetres_per_pixel",
-             source.disc_diameter ? Json(*source.disc_diameter / (2.0 * video.radius))
-             : source.container_diameter
-                 ? Json(*source.container_diameter / (2.0 * video.container_radius))
-                 : Json(nullptr)},
-            {"warnings", video.warnings},
-            // The calibration, which `swirl measure` and `swirl movie` read.
-            {"camera",
-             {{"camera-fps", scale.frames_per_time},
-              {"scale", scale.pixels_per_radius},
-              {"omega", video.path.omega},
-              {"centre", vector_json(scale.swirl_centre)},
-              {"phase", whole_turn(degrees(scale.phase))},
-              {"amplitude", scale.amplitude},
-              {"container-radius", scale.container_radius},
-              {"clockwise", scale.clockwise}}},
-            {"version", version()}};
+    return {
+        {"format", camera_format},
+        {"video", source.video},
+        {"frames", video.frame_count},
+        {"size", {video.width, video.height}},
+        {"fps", video.fps > 0.0 ? Json(video.fps) : Json(nullptr)},
+        {"discs", video.number},
+        {"species", species},
+        {"discs_are", video.bright ? "bright" : "dark"},
+        {"container",
+         {{"radius", video.container_radius},
+          {"rim_radius", video.rim_radius},
+          {"disc_reach", video.reach},
+          {"rim_support", video.rim_support},
+          {"frames_without_rim", video.rims_missed},
+          {"shake", video.shake}}},
+        {"camera_motion", camera_motion_json(video)},
+        {"uneven_times", video.uneven_times ? Json(video.jitter) : Json(nullptr)},
+        {"path",
+         {{"centre", vector_json(video.path.centre)},
+          {"centre_error", video.path.centre_error},
+          {"amplitude", video.path.amplitude},
+          {"amplitude_error", video.path.amplitude_error},
+          {"omega", video.path.omega},
+          {"omega_error", video.path.omega_error},
+          {"phase", first_phase(video)},
+          {"phase_error", degrees(video.path.phase_error)},
+          {"clockwise", video.path.clockwise},
+          {"residual", video.path.residual},
+          {"agreeing_frames", video.path.used},
+          {"sides", video.polygon.sides > 0 ? Json(video.polygon.sides) : Json(nullptr)},
+          {"max_detectable_sides", video.polygon.max_sides},
+          {"vertex_distance",
+           video.polygon.sides > 0 ? Json(video.polygon.vertex_distance) : Json(nullptr)}}},
+        {"lens", lens_json(video)},
+        {"light",
+         {{"shift", vector_json(video.shading_shift)}, {"shift_error", video.shading_shift_error}}},
+        {"quality",
+         {{"contact_ratio", video.contact_ratio},
+          {"complete_share", video.complete_share},
+          {"position_error", video.position_error},
+          {"overlap_error", video.overlap_error},
+          {"filled_positions", video.filled},
+          {"excess_discs", video.rejected},
+          {"frames_with_excess_discs", video.crowded}}},
+        {"millimetres_per_pixel",
+         source.disc_diameter ? Json(*source.disc_diameter / (2.0 * video.radius))
+         : source.container_diameter
+             ? Json(*source.container_diameter / (2.0 * video.container_radius))
+             : Json(nullptr)},
+        {"warnings", video.warnings},
+        // The calibration, which `swirl measure` and `swirl movie` read.
+        {"camera",
+         {{"camera-fps", scale.frames_per_time},
+          {"scale", scale.pixels_per_radius},
+          {"omega", video.path.omega},
+          {"centre", vector_json(scale.swirl_centre)},
+          {"phase", whole_turn(degrees(scale.phase))},
+          {"amplitude", scale.amplitude},
+          {"container-radius", scale.container_radius},
+          {"clockwise", scale.clockwise}}},
+        {"version", version()}};
 }
 
 /// The columns of the table after frame, particle, x and y.

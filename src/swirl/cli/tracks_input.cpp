@@ -44,9 +44,18 @@ OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, doub
     if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
         throw Failure(
             fmt::format("'{}' holds a single frame, but velocities need at least two.", file));
+    const auto uneven = camera_record(file).uneven_times;
+    if (uneven)
+        fmt::print(
+            stderr,
+            "warning: the frames of '{}' are not equally spaced in time: steps differ from their "
+            "mean by up to {:.2f} times the mean. Measurements assume equal steps, so velocities "
+            "and temperatures are wrong by a similar factor.\n",
+            file, *uneven);
     FittedSeries fitted = fitted_series(tracks, scale, misfit);
-    const Json found = camera_json(tracks, fitted);
-    return {std::move(fitted.series), std::move(fitted.remarks), found};
+    Json found = camera_json(tracks, fitted);
+    found["uneven_times"] = uneven ? Json(*uneven) : Json(nullptr);
+    return {std::move(fitted.series), std::move(fitted.remarks), std::move(found)};
 }
 
 }  // namespace swirl

@@ -109,6 +109,11 @@ double nearly_normal(Random& random) {
 
 }  // namespace
 
+std::array<double, 3> light_direction(double from, double elevation) {
+    const Vec2 side = unit_circle(from / 360.0), rise = unit_circle(elevation / 360.0);
+    return {rise.x * side.x, rise.x * side.y, rise.y};
+}
+
 std::optional<CameraSettings> camera_preset(const std::string& name) {
     for (const Preset& preset : presets())
         if (preset.name == name) return preset.settings;
@@ -254,8 +259,8 @@ void CameraView::draw_disc(const Vec2& centre, const Vec2& step, double radius,
     const int right = std::min(settings_.size.width - 1, static_cast<int>(around.x) + reach);
     const int top = std::max(0, static_cast<int>(around.y) - reach);
     const int bottom = std::min(settings_.size.height - 1, static_cast<int>(around.y) + reach);
-    // The light comes from the upper left. y points up here, and down in the image.
-    constexpr double lx = -0.35, ly = 0.35, lz = 0.869;
+    // y points up here, and down in the image.
+    const auto [lx, ly, lz] = settings_.light;
     const Vec2 leaning = lean(centre);
     const double upright = 1.0 / std::sqrt(1.0 + dot(leaning, leaning));
     const double ex = upright * leaning.x, ey = -upright * leaning.y,

@@ -48,6 +48,8 @@ struct CameraSettings {
     // Grey levels from 0 to 255.
     double table = 40.0, floor = 60.0, rim = 130.0, disc = 190.0;
     double ambient = 0.55, diffuse = 0.45, gloss = 110.0, shininess = 40.0;
+    /// Direction to the light: x points right, y up, z to the camera. Length 1.
+    std::array<double, 3> light{-0.35, 0.35, 0.869};
     double texture = 0.35;    // relative variation of the albedo
     double glare = 0.0;       // of a reflection in front of everything
     double flicker = 0.0;     // relative standard deviation of the illumination
@@ -75,6 +77,10 @@ struct CameraSettings {
     // A dark hand covers a part of the container in the first and the last frames.
     std::int64_t hand_frames = 0, frames = 0;  // frames with a hand at either end; all frames
 };
+
+/// Direction to a light that comes from the side `from`, counter-clockwise from the right, at a
+/// height of `elevation` above the plane of the discs. Degrees.
+std::array<double, 3> light_direction(double from, double elevation);
 
 /// Settings by name; nothing for any other name.
 std::optional<CameraSettings> camera_preset(const std::string& name);

@@ -343,8 +343,22 @@ Backdrop backdrop_position(const TrackScale& scale, bool y_down) {
 
 }  // namespace
 
+Backdrop ImageMotion::applied(Backdrop backdrop, std::int64_t frame) const {
+    if (frame < first || frame - first >= static_cast<std::int64_t>(poses.size())) return backdrop;
+    const Pose& pose = poses[static_cast<std::size_t>(frame - first)];
+    // The inverse of the pose takes pixels to positions of the steady camera.
+    const double scale = 1.0 / (pose.a * pose.a + pose.b * pose.b);
+    const Vec2 x = backdrop.along_x, y = backdrop.along_y;
+    backdrop.along_x = scale * (pose.a * x - pose.b * y);
+    backdrop.along_y = scale * (pose.b * x + pose.a * y);
+    backdrop.origin =
+        backdrop.origin - pose.origin.x * backdrop.along_x - pose.origin.y * backdrop.along_y;
+    return backdrop;
+}
+
 FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
-                    const std::string& images, std::int64_t first_image) {
+                    const std::string& images, std::int64_t first_image,
+                    const ImageMotion& motion) {
     const auto table = std::make_shared<const FrameTable>(tracks, scale);
     const Backdrop position = backdrop_position(scale, tracks.y_down);
     const SnapshotSeries series = series_of(std::move(tracks), scale);
@@ -368,8 +382,8 @@ FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& c
     source.open_backdrop = [=]() -> BackdropPlayback {
         const auto playback = std::make_shared<NumberedFrames>(images);
         return [=](double periods) {
-            Backdrop backdrop = position;
             const std::int64_t number = table->numbers[table->nearest(periods)];
+            Backdrop backdrop = motion.applied(position, number);
             backdrop.image = playback->image(number + first_image);
             return backdrop;
         };

@@ -102,10 +102,11 @@ Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& su
         settings.report_progress("finding discs",
                                  double(done) / double(std::max(expected, done + 1)));
     }
-    if (!video.problem().empty())
+    tracked.damage = video.problem();
+    if (!tracked.damage.empty())
         tracked.warnings.push_back(
             fmt::format("the video is damaged or cut off after {} frames; ffmpeg reports: {}",
-                        all.size(), video.problem()));
+                        all.size(), tracked.damage));
     return all;
 }
 
@@ -125,8 +126,9 @@ void add_contact_distortion(const Detections& all, const ParticleAppearance& app
         for (std::size_t a = 0; a < particles.size(); ++a)
             for (std::size_t b = a + 1; b < particles.size(); ++b) {
                 if (!particles[a].sure || !particles[b].sure) continue;
-                const double radii = appearance.species[particles[a].species].radius +
-                                     appearance.species[particles[b].species].radius;
+                const double radii =
+                    appearance.spacing * (appearance.species[particles[a].species].radius +
+                                          appearance.species[particles[b].species].radius);
                 if (length(particles[a].centre - particles[b].centre) < near * radii)
                     pairs.push_back({particles[a].centre, particles[b].centre, radii});
             }

@@ -26,15 +26,16 @@ bool set_frame_times(const TrackingSettings& settings, const VideoTimes& times, 
             tracked.times.push_back(double(k + first) / (tracked.fps > 0.0 ? tracked.fps : 1.0));
         return false;
     }
+    tracked.uneven_times = true;
     const AscendingTimes own =
         ascending_times({times.seconds.begin() + std::ptrdiff_t(first),
                          times.seconds.begin() + std::ptrdiff_t(first + frames)});
     for (const double second : own.seconds) tracked.times.push_back(second - times.seconds.front());
     tracked.warnings.push_back(fmt::format(
-        "the frame rate varies: steps between frames differ by up to {:.0f} % from their mean, as "
-        "with phones in poor light; the video's own times are used, but a fixed frame rate is "
-        "better",
-        100.0 * times.jitter));
+        "the frame rate varies: steps between frames differ from their mean by up to {:.2f} times "
+        "the mean, as with phones in poor light; the video's own times are used, but a fixed frame "
+        "rate is better",
+        times.jitter));
     if (own.untimed.empty()) return true;
     for (const std::size_t k : own.untimed) all[k].discard();
     const std::string what = fmt::format(

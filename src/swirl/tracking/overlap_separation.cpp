@@ -36,14 +36,17 @@ Contacts find_contacts(const Links& links, Detections& all, TrackedVideo& tracke
         for (std::size_t a = 0; a < here.size(); ++a) {
             reaches.push_back(-(length(here[a]->centre - container) + radius(here[a])));
             for (std::size_t b = a + 1; b < here.size(); ++b) {
-                const double ratio =
-                    length(here[a]->centre - here[b]->centre) / (radius(here[a]) + radius(here[b]));
+                const double ratio = length(here[a]->centre - here[b]->centre) /
+                                     (tracked.spacing * (radius(here[a]) + radius(here[b])));
                 if (std::abs(ratio - 1.0) < contact_range) distances.push_back(ratio);
             }
         }
     }
     Contacts contacts{assumed, {}};
-    if (const auto found = contact_of_discs(distances)) {
+    contacts.discs.at *= tracked.spacing;
+    if (auto found = contact_of_discs(distances)) {
+        found->at *= tracked.spacing;
+        found->error *= tracked.spacing;
         contacts.discs = *found;
         tracked.contact_ratio = found->at;
         tracked.contact_fitted = true;

@@ -8,15 +8,15 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/tracking/appearance_template.hpp"
+#include "swirl/tracking/particle_size.hpp"
 
 namespace swirl {
 
 namespace {
 
 constexpr double sure_support = 0.45, any_support = 0.16;
-/// Fractions of the sum of radii. Two circles nearer than `min_distance` overlap; two nearer than
-/// `same_distance` are one disc.
-constexpr double min_distance = 0.8, same_distance = 0.25;
+/// Two circles nearer than this fraction of the sum of radii are one disc.
+constexpr double same_distance = 0.25;
 /// For particles found with the template: score of a disc, and least distance of two discs.
 constexpr double disc_score = 0.5, free_distance = 0.86;
 
@@ -30,29 +30,6 @@ std::vector<EdgePixel> edges_inside(const PreparedFrame& frame, const CircleFit&
         if (x * x + y * y < radius * radius) inside.push_back(e);
     }
     return inside;
-}
-
-/// The circles that do not overlap a better one; `circles` holds the best first.
-template <typename Circle>
-std::vector<Circle> without_overlaps(const std::vector<Circle>& circles) {
-    std::vector<Circle> separate;
-    for (const Circle& c : circles)
-        if (std::none_of(separate.begin(), separate.end(), [&](const Circle& s) {
-                return length(s.centre - c.centre) < min_distance * (s.radius + c.radius);
-            }))
-            separate.push_back(c);
-    return separate;
-}
-
-std::vector<CircleCandidate> best_candidates(std::vector<CircleCandidate> all) {
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-        return a.support * std::sqrt(a.radius) > b.support * std::sqrt(b.radius);
-    });
-    return without_overlaps(all);
-}
-
-bool within(const CircleFit& rim, const Vec2& centre, double radius) {
-    return length(centre - rim.centre) + radius < rim.radius + 0.3 * radius + 1.0;
 }
 
 RaySettings rays_for(const PreparedFrame& frame, double radius) {
@@ -124,15 +101,15 @@ struct FoundCircle {
 
 /// Distance of circles in contact relative to the sum of their radii: the onset of the distances.
 /// 0 if there are too few.
-double contact_distance(const std::vector<FoundCircle>& circles,
-                        const std::vector<CircleFit>& fits) {
+double contact_distance(const std::vector<FoundCircle>& circles, const std::vector<CircleFit>& fits,
+                        double spacing) {
     std::vector<double> apart;
     for (std::size_t a = 0; a < circles.size(); ++a)
         for (std::size_t b = a + 1; b < circles.size() && circles[b].frame == circles[a].frame;
              ++b) {
             if (!fits[a].good || !fits[b].good) continue;
-            const double ratio =
-                length(fits[a].centre - fits[b].centre) / (fits[a].radius + fits[b].radius);
+            const double ratio = length(fits[a].centre - fits[b].centre) /
+                                 (spacing * (fits[a].radius + fits[b].radius));
             if (ratio > 0.8 && ratio < 1.25) apart.push_back(ratio);
         }
     constexpr std::size_t min_pairs = 60;
@@ -164,17 +141,18 @@ std::vector<CircleFit> exact_fits(const std::vector<PreparedFrame>& frames,
 /// images the fits alone give too much blur and too small radii. The contact distance has an onset
 /// that is known only to a few per cent.
 double find_blur(const std::vector<PreparedFrame>& frames, const std::vector<FoundCircle>& circles,
-                 double radius, Polarity polarity, unsigned threads) {
+                 const CommonCircle& common, unsigned threads) {
     constexpr std::array trials{0.6, 0.8, 1.0, 1.25, 1.6, 2.0};
     constexpr double onset_of_contacts = 1.01, onset_error = 0.04;
     constexpr std::size_t min_fits = 4;
     std::array<double, trials.size()> score{};
     for (std::size_t k = 0; k < trials.size(); ++k) {
-        const auto fits = exact_fits(frames, circles, radius, polarity, trials[k], threads);
+        const auto fits =
+            exact_fits(frames, circles, common.radius, common.polarity, trials[k], threads);
         std::vector<double> residuals;
         for (const CircleFit& fit : fits)
             if (fit.good) residuals.push_back(fit.profile_residual);
-        const double contact = contact_distance(circles, fits);
+        const double contact = contact_distance(circles, fits, common.spacing);
         const double off = contact > 0.0 ? (contact - onset_of_contacts) / onset_error : 0.0;
         score[k] = residuals.size() < min_fits
                        ? 1e300
@@ -189,50 +167,13 @@ double find_blur(const std::vector<PreparedFrame>& frames, const std::vector<Fou
     return trials[best] * std::pow(trial_ratio, std::clamp(shift, -0.5, 0.5));
 }
 
-/// The survey frames with their rims and the edges inside.
-struct ParticleSurvey {
-    const std::vector<PreparedFrame>& frames;
-    const std::vector<CircleFit>& rims;
-    std::vector<std::vector<EdgePixel>> edges = {};
-};
-
-struct CommonCircle {
-    double score = 0.0, radius = 0.0;  // radius in the small images
-    Polarity polarity = 1;
-};
-
-/// The radius and polarity whose circles explain the greatest length of edges.
-CommonCircle find_common_circle(const ParticleSurvey& survey) {
-    constexpr std::size_t frames_used = 6;
-    constexpr double min_support = 0.3, growth = 0.04;  // growth: from one radius to the next
-    const std::vector<PreparedFrame>& frames = survey.frames;
-    const std::size_t stride = std::max<std::size_t>(1, frames.size() / frames_used);
-    const double container = survey.rims.front().radius * frames.front().shrink;
-    CommonCircle best;
-    for (double radius = std::max(3.0, container / 25.0); radius < container / 2.5;
-         radius += std::max(0.5, growth * radius))
-        for (const Polarity polarity : {1, -1}) {
-            const double area = container * container / (radius * radius);
-            double score = 0.0;
-            for (std::size_t k = 0; k < frames.size(); k += stride) {
-                if (!survey.rims[k].good) continue;
-                const auto found =
-                    best_candidates(vote(survey.edges[k], frames[k].small.size(), radius, polarity,
-                                         min_support, static_cast<std::size_t>(1.2 * area)));
-                for (const CircleCandidate& c : found)
-                    if (within(survey.rims[k], frames[k].to_sharp(c.centre),
-                               radius / frames[k].shrink))
-                        score += c.support * c.support * radius;
-            }
-            if (score > best.score) best = {score, radius, polarity};
-        }
-    return best;
-}
-
 /// Circles of frame k with radii around the common one, from fits with free radius.
 std::vector<CircleFit> fit_free_circles(const ParticleSurvey& survey, std::size_t k,
                                         const CommonCircle& common) {
-    constexpr double smallest = 0.6, largest = 1.9, growth = 1.07;  // of the common radius
+    // Of the common radius. A part of a disc has no second size.
+    const bool part = common.spacing > 1.0;
+    const double smallest = part ? 0.85 : 0.6, largest = part ? 1.2 : 1.9;
+    constexpr double growth = 1.07;
     constexpr double vote_support = 0.35, fit_support = 0.33;
     constexpr std::size_t max_candidates = 600;
     const PreparedFrame& frame = survey.frames[k];
@@ -244,7 +185,7 @@ std::vector<CircleFit> fit_free_circles(const ParticleSurvey& survey, std::size_
     }
     for (CircleCandidate& c : all) c.centre = frame.to_sharp(c.centre), c.radius /= frame.shrink;
     std::vector<CircleFit> fits;
-    for (const CircleCandidate& c : best_candidates(all)) {
+    for (const CircleCandidate& c : best_candidates(all, common.spacing)) {
         RaySettings rays = rays_for(frame, c.radius);
         rays.free_radius = true;
         const CircleFit fit = fit_circle(frame.sharp, c.centre, c.radius, common.polarity, rays);
@@ -254,7 +195,7 @@ std::vector<CircleFit> fit_free_circles(const ParticleSurvey& survey, std::size_
     }
     std::sort(fits.begin(), fits.end(),
               [](const CircleFit& a, const CircleFit& b) { return a.support > b.support; });
-    return without_overlaps(fits);
+    return without_overlaps(fits, common.spacing);
 }
 
 /// Sets the blur of frames, the edge profiles and the support of sure particles.
@@ -337,11 +278,12 @@ void set_numbers(const std::vector<std::vector<double>>& radii_by_frame,
 }  // namespace
 
 ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
-                                    const std::vector<CircleFit>& rims, unsigned threads) {
+                                    const std::vector<CircleFit>& rims, const KnownDiscs& known,
+                                    unsigned threads) {
     ParticleSurvey survey{frames, rims};
     for (std::size_t k = 0; k < frames.size(); ++k)
         survey.edges.push_back(edges_inside(frames[k], rims[k]));
-    const CommonCircle common = find_common_circle(survey);
+    const CommonCircle common = find_common_circle(survey, known);
     if (!(common.score > 0.0))
         throw Failure(
             "the container was found, but no discs: no circles stand out from its floor.");
@@ -351,7 +293,7 @@ ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
         for (const CircleFit& fit : fit_free_circles(survey, k, common))
             circles.push_back({k, fit.centre, fit.radius});
     }
-    const double blur = find_blur(frames, circles, common.radius, common.polarity, threads);
+    const double blur = find_blur(frames, circles, common, threads);
     const std::vector<CircleFit> fits =
         exact_fits(frames, circles, common.radius, common.polarity, blur, threads);
     std::vector<double> radii;
@@ -367,6 +309,7 @@ ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
             "hint: the video may be out of focus, or discs and floor too similar in brightness.");
     ParticleAppearance appearance;
     appearance.polarity = common.polarity;
+    appearance.spacing = common.spacing;
     appearance.species = species_of(radii);
     set_edge_parameters(survey, circles, fits, blur, appearance);
     set_lens(frames.front().sharp.size(), fits, appearance);
@@ -472,7 +415,8 @@ class TemplateSearch {
     };
 
     double sum_of_radii(const Particle& a, const Particle& b) const {
-        return appearance_.species[a.species].radius + appearance_.species[b.species].radius;
+        return appearance_.spacing *
+               (appearance_.species[a.species].radius + appearance_.species[b.species].radius);
     }
     /// True if an accepted particle is nearer than this fraction of the sum of radii.
     bool overlaps(const Particle& particle, double distance) const {
@@ -578,7 +522,8 @@ std::optional<Particle> find_near_with_template(const PreparedFrame& frame, cons
     if (fit.good) best.centre = fit.centre;
     for (const Particle& other : others)
         if (length(other.centre - best.centre) <
-            free_distance * (radius + appearance.species[other.species].radius))
+            free_distance * appearance.spacing *
+                (radius + appearance.species[other.species].radius))
             return std::nullopt;
     best.error = 2.0 * by_template.error();
     return best;
@@ -607,7 +552,8 @@ std::optional<Particle> find_particle_near(const PreparedFrame& frame, const Cir
             const bool overlaps_other =
                 std::any_of(others.begin(), others.end(), [&](const Particle& other) {
                     return length(other.centre - fit.centre) <
-                           min_gap * (radius + appearance.species[other.species].radius);
+                           min_gap * appearance.spacing *
+                               (radius + appearance.species[other.species].radius);
                 });
             if (overlaps_other || fit.support <= best.support) continue;
             best.centre = fit.centre;
@@ -675,10 +621,10 @@ std::vector<Particle> find_particles(const PreparedFrame& frame, const CircleFit
     std::vector<Particle> accepted;
     const auto overlaps = [&](const Particle& particle, bool sure_ones, double distance) {
         return std::any_of(accepted.begin(), accepted.end(), [&](const Particle& k) {
-            return (k.sure || !sure_ones) &&
-                   length(k.centre - particle.centre) <
-                       distance * (appearance.species[k.species].radius +
-                                   appearance.species[particle.species].radius);
+            return (k.sure || !sure_ones) && length(k.centre - particle.centre) <
+                                                 distance * appearance.spacing *
+                                                     (appearance.species[k.species].radius +
+                                                      appearance.species[particle.species].radius);
         });
     };
     for (Particle particle : all) {

@@ -3,7 +3,8 @@
 //   survey   On frames spread over the video, for every radius from a twenty-fifth to 40 % of the
 //            container's and both polarities: votes, and the best circles that do not overlap. The
 //            radius whose circles explain the greatest length of edges is that of the discs.
-//            (Highlights are better circles, but short.) Then all radii from 0.6 to 1.9 times that
+//            (Highlights are better circles, but short.) A size that most frames contradict is
+//            replaced by the next best one (particle_size.hpp). Then all radii from 0.6 to 1.9 times that
 //            compete. Fits with free radius decide between one and two species: two if the gap
 //            between the sizes is wide compared with the scatter within each.
 //   find     In each frame: votes with the known radii, then fits with fixed radius, best first.
@@ -36,6 +37,8 @@ struct ParticleAppearance {
     std::size_t number = 0;                // of all discs
     double blur = 0.6;                     // applied to frames against noise, pixels
     double sure = 0.45;                    // support that makes a circle a sure particle
+    /// Contact distance relative to the sum of radii. Above 1 if the circles are a part of each disc.
+    double spacing = 1.0;
     Lens lens;
     double steepest = 1.0;  // radius of the steepest brightness slope relative to the disc's: below
                             // 1 for a shaded edge
@@ -54,9 +57,15 @@ struct Particle {
     bool sure = false;
 };
 
-/// Throws Failure if there are no discs.
+/// What is known about the discs before they are searched.
+struct KnownDiscs {
+    std::optional<std::size_t> number;
+    std::optional<double> radius_share;  // radius relative to the container's
+};
+/// Throws Failure if there are no discs, or if most frames contradict their size.
 ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
-                                    const std::vector<CircleFit>& rims, unsigned threads);
+                                    const std::vector<CircleFit>& rims, const KnownDiscs& known,
+                                    unsigned threads);
 
 /// Blur of the survey frames, pixels.
 inline constexpr double survey_blur = 0.6;

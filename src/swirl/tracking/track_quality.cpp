@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
@@ -22,12 +23,31 @@ void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
         tracked.overlap_error = mad_to_sigma * quantile(overlaps, 0.5) / std::sqrt(2.0);
 }
 
+/// How far out the wall lets discs come, given the outermost disc of each frame. With many discs one
+/// is at the wall in most frames. With few, only the largest reaches are touches of the wall.
+void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
+    constexpr double most_frames = 0.8, nearly_all_frames = 0.98;
+    constexpr double same_reach = 0.005;    // relative
+    constexpr double touches_needed = 3.0;  // per period
+    tracked.reach = quantile(reaches, most_frames);
+    const double farthest = quantile(reaches, nearly_all_frames);
+    // If circles are only parts of discs, the farthest ones may be noise.
+    if (farthest > (1.0 + same_reach) * tracked.reach && tracked.spacing == 1.0)
+        tracked.reach = farthest;
+    double touches = 0.0;
+    for (std::size_t k = 1; k + 1 < reaches.size(); ++k)
+        if (reaches[k] > reaches[k - 1] && reaches[k] >= reaches[k + 1] &&
+            reaches[k] > (1.0 - same_reach) * tracked.reach)
+            touches += 1.0;
+    const double periods =
+        double(reaches.size()) * tracked.step() * tracked.path.omega / (2.0 * pi);
+    tracked.wall_reached = touches >= touches_needed * periods;
+}
+
 }  // namespace
 
 void measure_quality(const Detections& all, TrackedVideo& tracked) {
     constexpr double near = 0.25;  // radii between neighbours, for statistics of contacts
-    constexpr double most_frames = 0.8, nearly_all_frames = 0.95;
-    constexpr double wall_spread = 0.15;  // radii by which these may differ at a wall
     constexpr double no_neighbour = 1e300;
     std::size_t complete = 0, count = 0, used = 0;
     double square = 0.0;
@@ -55,20 +75,22 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
     }
     tracked.complete_share = double(complete) / double(std::max<std::size_t>(used, 1));
     tracked.position_error = count ? std::sqrt(square / double(count)) : 0.0;
-    tracked.reach = quantile(reaches, most_frames);
-    tracked.wall_reached =
-        quantile(reaches, nearly_all_frames) - tracked.reach < wall_spread * tracked.radius;
+    set_reach(reaches, tracked);
     measure_contacts(gaps, tracked);
     // An edge determines how far its rays scatter, but not what shade, texture and compression do
     // to all of them at once. If overlaps imply larger errors, these replace those of the edges. The
     // rays of a soft edge scatter by more than the circle errs, so a fit to all distances replaces
     // larger ones, too.
-    if (!(tracked.position_error > 0.0) ||
-        (tracked.overlap_error <= tracked.position_error && !tracked.contact_fitted))
-        return;
+    if (!(tracked.position_error > 0.0)) return;
+    double error = tracked.overlap_error > tracked.position_error || tracked.contact_fitted
+                       ? tracked.overlap_error
+                       : tracked.position_error;
+    // All discs share the error of a shift that was removed, so overlaps do not contain it.
+    error = std::hypot(error, tracked.shading_shift_error);
+    if (error == tracked.position_error) return;
     for (auto& errors : tracked.errors)
-        for (double& error : errors) error *= tracked.overlap_error / tracked.position_error;
-    tracked.position_error = tracked.overlap_error;
+        for (double& one : errors) one *= error / tracked.position_error;
+    tracked.position_error = error;
 }
 
 void set_radii(TrackedVideo& tracked) {

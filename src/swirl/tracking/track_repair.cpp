@@ -11,8 +11,9 @@ namespace {
 
 /// Of two particles that overlap by more than errors of positions explain, removes the one with
 /// less of an edge.
-void drop_overlapping(const Detections& all, const std::vector<double>& radii, Links& links) {
-    constexpr double min_distance = 0.84;  // sums of radii
+void drop_overlapping(const Detections& all, const std::vector<double>& radii, double spacing,
+                      Links& links) {
+    const double min_distance = 0.84 * spacing;  // sums of radii
     for (std::size_t k = 0; k < all.size(); ++k) {
         const std::vector<Particle>& particles = all[k].particles;
         for (std::size_t a = 0; a < particles.size(); ++a)
@@ -95,6 +96,20 @@ bool all_detected(const Links& links) {
     });
 }
 
+/// The sure particle without a track that may be this disc, although it is no continuation of its
+/// track: a disc that is hit twice between two frames. −1 if there is none.
+int unlinked_near(const MissingDisc& disc, const std::vector<Particle>& particles,
+                  const std::vector<int>& tracks, double radius) {
+    int nearest = -1;
+    double distance = 1.2 * radius;
+    for (std::size_t d = 0; d < tracks.size(); ++d) {
+        if (tracks[d] >= 0 || !particles[d].sure || particles[d].species != disc.species) continue;
+        const double far = length(particles[d].centre - disc.position);
+        if (far < distance) distance = far, nearest = static_cast<int>(d);
+    }
+    return nearest;
+}
+
 /// Reads the video again, and searches every frame where discs are missing. A disc that is missing
 /// to the end is searched at its last position relative to the container.
 void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& survey,
@@ -132,14 +147,25 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
         CircleFit rim = all[k].rim;
         rim.centre = tracked.lens.seen(rim.good ? rim.centre : container);
         for (const MissingDisc& disc : here) {
+            constexpr double clearer = 1.5;  // times the support of a particle found by search
+            const double radius = survey.appearance.species[disc.species].radius;
             auto found = find_particle_near(frame, rim, survey.appearance,
                                             tracked.lens.seen(disc.position), disc.species, others);
+            if (const int d = unlinked_near(disc, particles, tracks, radius);
+                d >= 0 && !survey.appearance.appearance_template) {
+                const Particle& sure = particles[std::size_t(d)];
+                if (!found || sure.support > clearer * found->support) {
+                    tracks[std::size_t(d)] = static_cast<int>(disc.track);
+                    others.push_back(sure);
+                    others.back().centre = tracked.lens.seen(sure.centre);
+                    last[disc.track] = sure.centre - container;
+                    continue;
+                }
+            }
             if (!found) continue;
             found->sure = true;
             others.push_back(*found);
-            found->centre =
-                tracked.lens.ideal({found->centre, survey.appearance.species[disc.species].radius})
-                    .centre;
+            found->centre = tracked.lens.ideal({found->centre, radius}).centre;
             last[disc.track] = found->centre - container;
             particles.push_back(*found);
             tracks.push_back(static_cast<int>(disc.track));
@@ -164,7 +190,7 @@ Links link_detections(const TrackingSettings& settings, const VideoSurvey& surve
     }
     link.throw_if_stopped = [&settings] { settings.throw_if_stopped(); };
     Links links = link_discs(discs, tracked.times, tracked.path, link);
-    drop_overlapping(all, link.radii, links);
+    drop_overlapping(all, link.radii, tracked.spacing, links);
     drop_outliers(all, tracked, links);
     if (settings.readable_again) find_missing_discs(settings, survey, tracked, all, links);
     tracked.rejected = links.rejected;

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
@@ -43,9 +46,10 @@ TrackScale TrackedVideo::scale() const {
 
 namespace {
 
-/// Number of discs of a species: the largest number of sure discs that is reached in more than a
-/// seventh of the frames, so that it is no accident.
-std::size_t count_discs(const Detections& all, std::size_t species) {
+/// Number of discs that `counts` accepts: the largest number of sure discs that is reached in more
+/// than a seventh of the frames, so that it is no accident.
+template <typename Counts>
+std::size_t count_discs(const Detections& all, Counts&& counts) {
     constexpr std::size_t one_in = 7;
     std::map<std::size_t, std::size_t, std::greater<>> frames_with;
     std::size_t frames = 0;
@@ -54,7 +58,7 @@ std::size_t count_discs(const Detections& all, std::size_t species) {
         ++frames;
         ++frames_with[static_cast<std::size_t>(
             std::count_if(found.particles.begin(), found.particles.end(),
-                          [&](const Particle& p) { return p.sure && p.species == species; }))];
+                          [&](const Particle& p) { return p.sure && counts(p.species); }))];
     }
     std::size_t so_far = 0;
     for (const auto& [number, count] : frames_with) {
@@ -64,13 +68,40 @@ std::size_t count_discs(const Detections& all, std::size_t species) {
     return 0;
 }
 
+/// Numbers of the two species that are most common among frames with `total` sure discs.
+std::optional<std::array<std::size_t, 2>> common_composition(const Detections& all,
+                                                             std::size_t total) {
+    std::map<std::size_t, std::size_t> frames_with;  // number of the second species
+    for (const FrameDetections& found : all) {
+        std::array<std::size_t, 2> number{};
+        for (const Particle& p : found.particles)
+            if (p.sure) ++number[p.species];
+        if (number[0] + number[1] == total) ++frames_with[number[1]];
+    }
+    const auto best =
+        std::max_element(frames_with.begin(), frames_with.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (best == frames_with.end()) return std::nullopt;
+    return std::array{total - best->first, best->first};
+}
+
 }  // namespace
 
 void set_species(const TrackingSettings& settings, const ParticleAppearance& appearance,
                  const Detections& all, TrackedVideo& tracked) {
     for (std::size_t k = 0; k < appearance.species.size(); ++k)
         tracked.species.push_back(
-            {appearance.species[k].radius, appearance.species[k].scatter, count_discs(all, k)});
+            {appearance.species[k].radius, appearance.species[k].scatter,
+             count_discs(all, [k](std::size_t species) { return species == k; })});
+    if (tracked.species.size() == 2) {
+        // A disc whose size is ambiguous is of either species in some frames: it counts once.
+        const std::size_t total = count_discs(all, [](std::size_t) { return true; });
+        if (tracked.species[0].number + tracked.species[1].number > total)
+            if (const auto numbers = common_composition(all, total)) {
+                tracked.species[0].number = (*numbers)[0];
+                tracked.species[1].number = (*numbers)[1];
+            }
+    }
     if (settings.discs && tracked.species.size() == 1)
         tracked.species[0].number = static_cast<std::size_t>(*settings.discs);
     // The first one of the most frequent.
@@ -87,6 +118,8 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     tracked.height = survey.size.height;
     tracked.bright = survey.appearance.polarity > 0;
     tracked.tilt = survey.tilt;
+    tracked.spacing = survey.appearance.spacing;
+    if (tracked.spacing > 1.0) tracked.contact_ratio = tracked.spacing;
     if (survey.rim.second_container)
         tracked.warnings.emplace_back(
             "there is a second circle of the container's size: of two containers in the frame, the "
@@ -102,12 +135,14 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     set_species(settings, survey.appearance, all, tracked);
 
     const Links links = link_detections(settings, survey, all, tracked);
+    remove_shading_shift(links, survey.brighter, all, tracked);
     separate_overlaps(links, all, tracked);
     assemble_tracks(all, links, settings.first_frame, tracked);
     if (tracked.number == 0) throw Failure("no disc could be followed through the video");
 
     if (tracked.lens.tilted()) move_path_to_wall(tracked);
     measure_quality(all, tracked);
+    if (!settings.discs) reject_contradicted_discs(tracked);
     set_radii(tracked);
     add_warnings(tracked);
 }
@@ -128,7 +163,16 @@ TrackedVideo track_video(const TrackingSettings& settings) {
     if (settings.planned) settings.planned(planned, settings.spins);
     const VideoSurvey survey = survey_video(settings, planned);
     Detections all = detect_frames(settings, survey, expected, tracked);
-    finish_tracking(settings, survey, times, all, tracked);
+    try {
+        finish_tracking(settings, survey, times, all, tracked);
+    } catch (const Failure& failure) {
+        // A damaged video has a cause that no other message states.
+        if (tracked.damage.empty()) throw;
+        std::string text = failure.what();
+        text.insert(std::min(text.find('\n'), text.size()),
+                    fmt::format("; the video is damaged, ffmpeg reports: {}", tracked.damage));
+        throw Failure(text);
+    }
     return tracked;
 }
 

@@ -34,6 +34,7 @@ struct TrackingSettings {
     std::string video;
     std::optional<double> fps;  // replaces the video's own times
     std::optional<std::int64_t> discs;
+    std::optional<double> radius_share;  // of a disc, relative to the container
     KnownCamera camera;
     std::int64_t first_frame = 0;
     std::int64_t max_frames = 0;                             // 0: all
@@ -73,12 +74,14 @@ struct TrackedVideo {
     double rim_radius = 0.0;        // median over the frames
     double reach = 0.0;             // of the outermost disc, in most frames
     double container_radius = 0.0;  // one of these two
-    bool wall_reached = false;      // discs are hardly ever beyond `reach`: the wall stops them
+    bool wall_reached = false;      // discs touch it at least three times per period
     std::size_t rims_missed = 0;
     CameraMotion camera;  // removed from all positions
     double shake = 0.0;   // what is left of it, from frame to frame, rms of a coordinate
     std::size_t frames_without_pose = 0;  // not used: the camera's motion is unknown
-    Vec2 rim_shift{0.0, 0.0};  // of the path's centre from the rim's to the discs', pixels
+    Vec2 rim_shift{0.0, 0.0};      // of the path's centre from the rim's to the discs', pixels
+    Vec2 shading_shift{0.0, 0.0};  // of discs by light from one side, pixels; removed
+    double shading_shift_error = 0.0;
     double rim_support = 0.0;
     std::vector<double> rim_offsets;  // distance of the rim from the path; −1 if not found
 
@@ -90,14 +93,17 @@ struct TrackedVideo {
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
     std::vector<std::vector<std::uint8_t>> seen;  // 0: interpolated
     std::size_t number = 0;                       // of discs
-    double contact_ratio = 0.0;                   // distance of discs in contact / sum of radii
-    bool contact_fitted = false;                  // from the distribution of all distances
+    double spacing = 1.0;  // contact distance / sum of visible radii, if these are parts of discs
+    double contact_ratio = 0.0;   // distance of discs in contact / sum of radii
+    bool contact_fitted = false;  // from the distribution of all distances
 
     double complete_share = 0.0;  // of the frames: every disc was detected
     double position_error = 0.0;  // rms of `errors`: from the edges, or from overlaps if larger
     double overlap_error = 0.0;   // from distances that hard discs cannot have
     std::uint64_t filled = 0;     // interpolated positions
     std::uint64_t rejected = 0, crowded = 0;  // discs beyond the number, and frames with such discs
+    bool uneven_times = false;                // `times` are the video's own, with unequal steps
+    std::string damage;                       // ffmpeg's message about a damaged video
     double jitter = 0.0;                      // of the video's times, in steps
     std::vector<std::string> warnings;        // one line each, without "warning: "
 

@@ -31,6 +31,7 @@ struct VideoSurvey {
     Tilt tilt;
     std::shared_ptr<const StaticBackground> background;  // set if the camera moves
     cv::Size size;                                       // of the frames
+    Vec2 brighter{0.0, 0.0};  // mean gradient of the brightness of a disc, levels per radius
 
     static constexpr double vote_radius = 12.0;  // of a disc, pixels: more only costs time
     /// Reduction of the frames in which votes for discs are counted.
@@ -132,6 +133,14 @@ void for_each_linked(const Links& links, Use&& use) {
         for (std::size_t d = 0; d < links.track[k].size(); ++d)
             if (const int t = links.track[k][d]; t >= 0) use(k, static_cast<std::size_t>(t), d);
 }
+// wall_fit.cpp
+
+/// Light from one side shifts discs towards the side that stands out from the floor. Removes the
+/// shift of discs at the wall, the same at opposite sides, from all positions. `brighter`: gradient
+/// of the brightness of a disc; a shift that is not along it has another cause.
+void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& all,
+                          TrackedVideo& tracked);
+
 // overlap_separation.cpp, track_assembly.cpp, wall_fit.cpp, track_quality.cpp,
 // tracking_warnings.cpp
 
@@ -149,6 +158,8 @@ void move_path_to_wall(TrackedVideo& tracked);
 void measure_quality(const Detections& all, TrackedVideo& tracked);
 /// Sets the container's radius from the rim and the discs; corrects the radii of discs in contact.
 void set_radii(TrackedVideo& tracked);
+/// Throws Failure if most frames contradict the discs that were found.
+void reject_contradicted_discs(const TrackedVideo& tracked);
 /// Adds warnings about what looks wrong, with the likely cause.
 void add_warnings(TrackedVideo& tracked);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
 namespace swirl {
@@ -152,6 +153,23 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
 }
 
 }  // namespace
+
+void reject_contradicted_discs(const TrackedVideo& tracked) {
+    constexpr double most = 0.5;        // of the frames
+    constexpr double max_excess = 0.1;  // of the discs
+    constexpr double max_incomplete = 0.8;
+    const double crowded = double(tracked.crowded), frames = double(tracked.frame_count);
+    if (crowded < most * frames || 1.0 - tracked.complete_share < max_incomplete) return;
+    const double excess = double(tracked.rejected) / crowded;
+    if (excess < max_excess * double(tracked.number)) return;
+    throw Failure(fmt::format(
+        "{} discs with a radius of {:.1f} pixels were counted, but most frames contradict that: "
+        "{:.0f} % have more, on average {:.0f} more, and all {} are found in only {:.0f} %. These "
+        "circles may be texture or noise.\nhint: give --discs, or --disc-diameter and "
+        "--container-diameter. A higher contrast and less compression also help.",
+        tracked.number, tracked.radius, std::min(100.0, 100.0 * crowded / frames), excess,
+        tracked.number, 100.0 * tracked.complete_share));
+}
 
 void add_warnings(TrackedVideo& tracked) {
     constexpr double min_percent = 1.0;                    // printed without decimals

@@ -60,8 +60,8 @@ class Video {
     bool next(cv::Mat& grey);
     /// Number of frames read so far.
     std::int64_t count() const { return count_; }
-    /// ffmpeg's error message for a damaged video; empty if there is none.
-    std::string problem() const { return problem_; }
+    /// ffmpeg's error message for a damaged video, so far; empty if there is none.
+    std::string problem() const { return ffmpeg_ ? ffmpeg_->problem() : problem_; }
 
   private:
     bool read(std::uint8_t* into, std::size_t bytes);

@@ -64,7 +64,10 @@ ParticleAppearance survey_appearance(const std::vector<cv::Mat>& images,
     }
     if (part.empty()) throw Failure("no container found in the frames");
     settings.throw_if_stopped();
-    return survey_particles(part, rims, thread_count(settings));
+    KnownDiscs known;
+    if (settings.discs) known.number = static_cast<std::size_t>(*settings.discs);
+    known.radius_share = settings.radius_share;
+    return survey_particles(part, rims, known, thread_count(settings));
 }
 
 std::vector<AppearanceTemplate::Example> find_examples(const std::vector<cv::Mat>& images,
@@ -106,10 +109,36 @@ bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& 
             }
     }
     const auto contact = contact_of_discs(ratios);
-    if (!contact || std::abs(contact->at - 1.0) < max_contact_off) return false;
+    if (appearance.spacing > 1.0 || !contact || std::abs(contact->at - 1.0) < max_contact_off)
+        return false;
     for (ParticleSpecies& species : appearance.species) species.radius *= 0.5 * (1.0 + contact->at);
     appearance.lens.ball_radius = appearance.radius();
     return true;
+}
+
+/// Mean gradient of the brightness over the inner part of a disc, in grey levels per radius.
+Vec2 mean_gradient(const std::vector<AppearanceTemplate::Example>& examples,
+                   const ParticleAppearance& appearance) {
+    constexpr double inner = 0.7;  // radii: without the edge
+    Vec2 sum{0.0, 0.0};
+    double weight = 0.0;
+    for (const AppearanceTemplate::Example& example : examples)
+        for (const Particle& p : example.particles) {
+            if (!p.sure) continue;
+            const double radius = appearance.species[p.species].radius, reach = inner * radius;
+            const int top = std::max(0, int(p.centre.y - reach) + 1),
+                      bottom = std::min(example.sharp.rows - 1, int(p.centre.y + reach)),
+                      left = std::max(0, int(p.centre.x - reach) + 1),
+                      right = std::min(example.sharp.cols - 1, int(p.centre.x + reach));
+            for (int row = top; row <= bottom; ++row)
+                for (int column = left; column <= right; ++column) {
+                    const Vec2 d = (1.0 / radius) * (Vec2{double(column), double(row)} - p.centre);
+                    if (dot(d, d) > inner * inner) continue;
+                    sum = sum + double(example.sharp.ptr<float>(row)[column]) * d;
+                    weight += 0.5 * dot(d, d);
+                }
+        }
+    return weight > 0.0 ? (1.0 / weight) * sum : sum;
 }
 
 /// Learns the discs' mean appearance, for videos with poor edges.
@@ -118,6 +147,7 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
     std::vector<AppearanceTemplate::Example> examples = find_examples(images, settings, survey);
     if (correct_radius_by_contacts(examples, survey.appearance))
         examples = find_examples(images, settings, survey);
+    survey.brighter = mean_gradient(examples, survey.appearance);
     if (auto learned =
             AppearanceTemplate::learned(examples, survey.appearance, thread_count(settings)))
         survey.appearance.appearance_template =
