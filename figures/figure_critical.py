@@ -15,8 +15,7 @@ import tables
 QUANTITIES = (("slope", r"slope $|d(\varpi/\Omega)/d\varphi|$"),
               ("susceptibility", r"$N\,\mathrm{var}(\varpi/\Omega)\,\tau$"),
               ("correlation", r"correlation time $\tau$ (periods)"))
-KINDS = {"gas": "to counterrotation as a gas", "cluster": "to counterrotation as a cluster",
-         "back": "back to rotation"}
+KINDS = {"free": "free", "wall": "at the wall", "elongated": "elongated", "back": "back to rotation"}
 
 
 def against_packing(axes, rows, quantity, label):
@@ -40,8 +39,7 @@ def against_size(axes, changes, scaling, quantity, label):
                       linestyle="--")
     axes.set_xscale("log")
     axes.set_yscale("log")
-    sizes = sorted({row["container_radius"] for row in changes})
-    axes.set_xticks(sizes, [f"{size:g}" for size in sizes])
+    axes.set_xticks([6, 12, 24, 60], ["6", "12", "24", "60"])
     axes.xaxis.set_minor_locator(style.matplotlib.ticker.NullLocator())
     axes.set_xlabel(r"dish radius $R/r$")
     axes.set_ylabel(label)
@@ -62,9 +60,12 @@ def main():
     axes[0][2].axhline(0, color=style.GREY, linewidth=0.6)
     for lower, (quantity, label) in zip(axes[1], QUANTITIES):
         against_size(lower, changes, scaling, quantity, label)
-    axes[0][1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4, columnspacing=1.0)
-    if changes:
-        axes[1][1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3, columnspacing=1.0)
+    for row, ncol in ((axes[0], 7), (axes[1], 3)):
+        # The legend is wider than its axes, so the layout only knows its height: two lines of a title.
+        row[1].set_title("\n")
+        if changes or row is axes[0]:
+            row[1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=ncol,
+                          columnspacing=1.0).set_in_layout(False)
     style.save(drawing, table)
 
 

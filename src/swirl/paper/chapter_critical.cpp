@@ -39,15 +39,17 @@ constexpr double large_amplitude = 0.4;  // A/R
 /// A quantity at a change, and what a critical transition does with it.
 struct ScaledQuantity {
     const char *name, *words;
+    bool decides;  // the verdict: fluctuations grow with the size at every φ, not only at a change
     Estimate (*of)(const DirectionChange&);
 };
 constexpr ScaledQuantity scaled_quantities[] = {
-    {"slope", "slope",
+    {"slope", "slope", true,
      [](const DirectionChange& c) {
          return Estimate{.mean = std::fabs(c.slope), .error = c.slope_error};
      }},
-    {"susceptibility", "N var τ", [](const DirectionChange& c) { return c.susceptibility; }},
-    {"correlation", "correlation time", [](const DirectionChange& c) { return c.correlation; }}};
+    {"susceptibility", "N var τ", false, [](const DirectionChange& c) { return c.susceptibility; }},
+    {"correlation", "correlation time", true,
+     [](const DirectionChange& c) { return c.correlation; }}};
 
 /// Changes of one kind at one relative amplitude, in dishes of different sizes.
 struct Transition {
@@ -89,7 +91,7 @@ Estimate largest_binder(const Transition& transition) {
     return largest;
 }
 
-/// What the exponents and the cumulant say.
+/// The verdict by the cumulant and by the exponents of slope and correlation time.
 std::string verdict_on(const Transition& transition) {
     constexpr double two_states = 1.0 / 3.0;  // half of the cumulant of two equal states
     const Estimate binder = largest_binder(transition);
@@ -97,6 +99,7 @@ std::string verdict_on(const Transition& transition) {
     bool known = false, grows = true, none_grows = true;
     for (const ScaledQuantity& quantity : scaled_quantities) {
         const PowerLaw law = scaling_of(transition, quantity);
+        if (!quantity.decides) continue;
         if (!std::isfinite(law.exponent) || !std::isfinite(law.error)) continue;
         known = true;
         const bool certainly = law.exponent > certain_sign * law.error;
@@ -165,6 +168,9 @@ static FigurePlan plan_figure_critical(const PaperSettings& settings) {
 namespace {
 
 constexpr int bins = 8;  // of the parameter, on each branch
+/// Errors from zero that make a difference certain; the largest of several bins needs more than
+/// three.
+constexpr double certain_difference = 4.0;
 
 /// A loop of a parameter in a dish.
 struct Loop {
@@ -251,6 +257,7 @@ static FigurePlan plan_figure_hysteresis(const PaperSettings& settings) {
         std::size_t k = 0;
         for (const Loop& loop : loops) {
             std::vector<std::string> words;
+            bool remains = false;
             for (const std::int64_t branch : lengths) {
                 const std::vector<Json> runs = results_of_seeds(results, k++, seeds);
                 if (runs.empty()) continue;
@@ -270,11 +277,14 @@ static FigurePlan plan_figure_hysteresis(const PaperSettings& settings) {
                 }
                 words.push_back(fmt::format("{} with {} periods for each branch",
                                             with_error(largest.mean, largest.error), branch));
+                // Of the slowest ramp in the end.
+                remains = std::fabs(largest.mean) > certain_difference * largest.error;
             }
             outcome.findings.push_back(
                 fmt::format("{}, ramp of {}: most certain difference of the branches, down minus "
-                            "up, in ϖ/Ω: {}.",
-                            loop.words, loop.parameter, fmt::join(words, "; ")));
+                            "up, in ϖ/Ω: {}; {} at the slowest ramp.",
+                            loop.words, loop.parameter, fmt::join(words, "; "),
+                            remains ? "hysteresis" : "no certain hysteresis"));
         }
         outcome.write(table, "hysteresis", out);
         return outcome;

@@ -56,7 +56,7 @@ RunConfig dish_config(const PaperSettings& settings, const Dish& dish, std::int6
     return config;
 }
 
-Fluctuations fluctuations_of(const std::vector<double>& values, std::int64_t discs) {
+PeriodFluctuations period_fluctuations(const std::vector<double>& values, std::int64_t discs) {
     const SeriesEstimate series = estimate_of_series(values);
     const auto n = static_cast<double>(values.size());
     double second = 0.0, fourth = 0.0;
@@ -83,8 +83,8 @@ Json fluctuating_run(const RunConfig& config, const std::vector<std::string>& me
     Json json = result_json(result);
     json["measured"] = measured_json(observation.report());
     Json& rows = json["measured"]["fluctuations"] = Json::object();
-    const Fluctuations found =
-        fluctuations_of(counted_periods(series, "rigid_by_time"), config.discs);
+    const PeriodFluctuations found =
+        period_fluctuations(counted_periods(series, "rigid_by_time"), config.discs);
     rows["variance"] = without_error(found.variance);
     rows["correlation"] = without_error(found.correlation);
     rows["susceptibility"] = without_error(found.susceptibility);
@@ -187,6 +187,8 @@ DirectionChange change_between(const DishCurve& curve, std::size_t k, const Dish
     change.slope_error = std::hypot(a.error, b.error) / step * area;
     change.largest = between(left, right, f, "contact_network", "largest");
     change.wall = between(left, right, f, "contact_network", "wall");
+    // A full layer has π/arcsin(r/(R − r)) discs, or nearly π(R − r)/r.
+    change.occupied = change.wall * change.packing_fraction * area / (pi * (dish.radius - 1.0));
     change.elongation = between(left, right, f, "centre", "elongation");
     change.reach = (between(left, right, f, "slip", "cluster_perimeter") / (2.0 * pi) +
                     between(left, right, f, "centre", "distance")) /
@@ -215,11 +217,11 @@ DirectionChange change_at(const DishCurve& curve, const SignChange& found, const
 
 std::string words_of(const DirectionChange& change) {
     return fmt::format(
-        "to {} at φ = {} (largest group {:.0f} %, at the wall {:.1f} %, elongation "
-        "{:.2f})",
+        "to {} at φ = {} ({:.1f} % of the wall occupied, largest group {:.0f} %, "
+        "elongation {:.2f})",
         change.to_counterrotation ? "counterrotation" : "rotation",
-        with_error(change.packing_fraction, change.error), 100.0 * change.largest,
-        100.0 * change.wall, change.elongation);
+        with_error(change.packing_fraction, change.error), 100.0 * change.occupied,
+        100.0 * change.largest, change.elongation);
 }
 
 }  // namespace
@@ -277,15 +279,16 @@ std::vector<DirectionChange> direction_changes(const DishPoints& points,
 }
 
 const char* kind_of(const DirectionChange& change) {
-    constexpr double least_of_a_cluster = 0.25;
+    constexpr double least_elongation = 1.2, least_occupied = 0.1;
     if (!change.to_counterrotation) return "back";
-    return change.largest < least_of_a_cluster ? "gas" : "cluster";
+    if (change.elongation > least_elongation) return "elongated";
+    return change.occupied >= least_occupied ? "wall" : "free";
 }
 
 Table change_table(const std::vector<DirectionChange>& changes) {
     Table table(joined({"container_radius", "amplitude_ratio", "direction", "kind",
                         "packing_fraction", "packing_fraction_error", "slope", "slope_error",
-                        "before", "after", "largest", "wall", "elongation", "reach"},
+                        "before", "after", "largest", "wall", "occupied", "elongation", "reach"},
                        number_columns({"susceptibility", "correlation", "binder"})));
     for (const DirectionChange& c : changes) {
         std::vector<Table::Cell> row{
@@ -301,6 +304,7 @@ Table change_table(const std::vector<DirectionChange>& changes) {
             c.after,
             c.largest,
             c.wall,
+            c.occupied,
             c.elongation,
             c.reach};
         for (const Estimate& e : {c.susceptibility, c.correlation, c.binder}) {

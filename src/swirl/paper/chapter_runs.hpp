@@ -36,8 +36,8 @@ PaperPoint fluctuating_point(const PaperSettings& settings, const std::string& n
                              const RunConfig& config, int seeds,
                              const std::vector<std::string>& measurements);
 
-/// What the periods of one run say about fluctuations of a rate ϖ/Ω with mean m.
-struct Fluctuations {
+/// Fluctuations, over the periods of one run, of a rate ϖ/Ω with mean m.
+struct PeriodFluctuations {
     double variance;     // of the mean over a period
     double correlation;  // integrated autocorrelation time, in periods
     double
@@ -46,7 +46,7 @@ struct Fluctuations {
     double binder;  // 1 − ⟨(ϖ−m)⁴⟩ / 3⟨(ϖ−m)²⟩²: 0 for one normal state, 2/3 for two equal ones
 };
 /// `values`: one per period.
-Fluctuations fluctuations_of(const std::vector<double>& values, std::int64_t discs);
+PeriodFluctuations period_fluctuations(const std::vector<double>& values, std::int64_t discs);
 
 /// The points of a figure over dishes and packing fractions, in the order of its results.
 struct DishPoints {
@@ -85,13 +85,15 @@ struct DirectionChange {
     // At the zero, interpolated:
     double largest = not_available;     // share of the discs in the largest touching group
     double wall = not_available;        // share of the discs that touch the wall
+    double occupied = not_available;    // share of the wall that they occupy, 1 for a full layer
     double elongation = not_available;  // of the cluster
     double reach = not_available;       // (radius of the hull + distance of its centre from C) / R
-    Estimate susceptibility = {}, correlation = {}, binder = {};  // as of Fluctuations
+    Estimate susceptibility = {}, correlation = {}, binder = {};  // as of PeriodFluctuations
 };
 
-/// What the cluster is like at a change: "gas" if the largest group of touching discs has less than
-/// a quarter of them, otherwise "cluster"; "back" for a change back to rotation.
+/// The geometry of a change to counterrotation: "elongated" if the elongation of the cluster is above
+/// 1.2, otherwise "wall" if discs occupy a tenth of the wall or more, otherwise "free". A change back
+/// to rotation: "back".
 const char* kind_of(const DirectionChange& change);
 
 /// The changes of the curve of each dish, in the order of the points.

@@ -3,7 +3,7 @@
 //
 // Figure "spheres_packing": the maximum of ϖ near N = 28 to 30, and the packing of the cluster.
 // Figure "spheres_size": spheres in dishes of different sizes.
-// Figure "spheres_bounds": the change of direction for bounds of what is not measured: friction of
+// Figure "spheres_bounds": the change of direction for bounds of three unknown parameters: friction of
 // the floor, restitution, rolling resistance.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -77,7 +77,7 @@ double correlation_of(const std::vector<double>& a, const std::vector<double>& b
     return ab / std::sqrt(aa * bb);
 }
 
-/// Of the coefficient, for so many points less the three of the parabola.
+/// The error of the coefficient; the parabola uses three points.
 double error_of_correlation(double coefficient, std::size_t points) {
     return (1.0 - coefficient * coefficient) / std::sqrt(static_cast<double>(points) - 4.0);
 }
