@@ -40,6 +40,7 @@ SHORTER = {
 SHORTENED = (
     ("--events 1e9", "--events 3000"), ("--events 1e6", "--events 3000"),
     ("--periods 400", "--periods 8 --warmup 1"), ("--periods 500", "--periods 8 --warmup 1"),
+    ("--warmup 6 --periods 26", "--warmup 1 --periods 2"),
     ("--periods 200", "--periods 4 --warmup 1"), ("--periods 150", "--periods 2"),
     ("--periods 100", "--periods 8"), ("periods = 300", "periods = 1"), ("seeds = 8", "seeds = 1"),
     ('discs = "5:48"', 'discs = "46:48"'), ("mu = [0.1, 0.5, 1]", "mu = [0.5, 1]"),

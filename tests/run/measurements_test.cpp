@@ -142,13 +142,13 @@ TEST(Measurements, DiffusionHasLagsBelowAPeriodAndOfWholePeriods) {
 }
 
 TEST(Measurements, ListOfAllHasEveryMeasurement) {
-    EXPECT_THAT(everything(),
-                ElementsAre("density", "flow", "profile", "pinned", "residence", "centre", "slip",
-                            "frustration", "radial", "temperature", "order", "packing",
-                            "segregation", "collisions", "wall", "diffusion", "energy", "torque",
-                            "rolling", "pair_correlation", "velocity_correlation",
-                            "velocity_distribution", "contact_network", "collision_angles",
-                            "fluctuations"));
+    EXPECT_THAT(
+        everything(),
+        ElementsAre("density", "flow", "profile", "pinned", "residence", "centre", "slip",
+                    "frustration", "radial", "temperature", "order", "packing", "segregation",
+                    "collisions", "wall", "diffusion", "energy", "torque", "rolling",
+                    "pair_correlation", "velocity_correlation", "velocity_distribution",
+                    "contact_network", "collision_angles", "fluctuations", "fields"));
 }
 
 TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {

@@ -162,14 +162,14 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
 
 void Simulation::refresh(Snapshot& s, const EventSpan& span) const {
     const std::uint32_t size = storage_->state->size;
-    const auto is_vertex = [](const DiscPair& pair) { return pair.i == 0 && pair.j == 0; };
-    const DiscPair* const end = span.discs + std::min(span.events, EventSpan::capacity);
+    const auto is_vertex = [](const EventDiscs& pair) { return pair.i == 0 && pair.j == 0; };
+    const EventDiscs* const end = span.discs + std::min(span.events, EventSpan::capacity);
     const bool all = span.events > std::min<std::uint64_t>(EventSpan::capacity, size) ||
                      (s.on_floor && std::any_of(span.discs, end, is_vertex));
     if (all) {
         for (std::uint32_t i = 0; i < size; ++i) copy(s, i, s.clock);
     } else {
-        for (const DiscPair* pair = span.discs; pair < end; ++pair) {
+        for (const EventDiscs* pair = span.discs; pair < end; ++pair) {
             copy(s, pair->i, s.clock);
             copy(s, pair->j, s.clock);
         }

@@ -13,6 +13,7 @@
 #include "swirl/measure/density_map.hpp"
 #include "swirl/measure/diffusion.hpp"
 #include "swirl/measure/energy_budget.hpp"
+#include "swirl/measure/fields.hpp"
 #include "swirl/measure/flow_map.hpp"
 #include "swirl/measure/granular_temperature.hpp"
 #include "swirl/measure/hexatic_order.hpp"
@@ -107,6 +108,8 @@ inline constexpr std::tuple measurement_list{
         "head-on or grazing: impact parameters and directions of the collisions"),
     measurement<RotationFluctuations>("fluctuations", "rotation_fluctuations.hpp",
         "fluctuations of the rotation: N var(ϖ), Binder cumulant, lifetimes of states"),
+    measurement_in_container<Fields>("fields", "fields.hpp",
+        "coarse-grained fields: density, flow, spin, stress, couple stress, dissipation"),
 };
 // clang-format on
 

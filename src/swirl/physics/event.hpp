@@ -24,7 +24,7 @@ struct Event {
 };
 
 /// The two discs of an event; equal numbers for one disc, both 0 at a path vertex.
-struct DiscPair {
+struct EventDiscs {
     std::uint32_t i, j;
 };
 
@@ -33,7 +33,7 @@ struct EventSpan {
     static constexpr std::uint64_t capacity = 64;
     std::uint64_t events = 0;
     double max_overlap = 0.0;
-    DiscPair discs[capacity];  // of event k at k modulo `capacity`
+    EventDiscs discs[capacity];  // of event k at k modulo `capacity`
 };
 
 }  // namespace swirl

@@ -1,0 +1,186 @@
+// The fields at the points of a square grid, averaged over time, with errors.
+//
+// Sums. At a sample, every disc adds to each point within the width of its kernel (coarse_graining.hpp)
+//
+//     W, m W, m v W, m v v W, I W, I ω W, I ω² W, I ω v W, π R² W, f W   and   m ∇W, m v ∇W, I ∇W, I ω ∇W
+//
+// and every collision its stress, couple stress, loss of energy and, at the wall, force of the
+// boundary. Sums of samples are divided by their number, those of collisions by the time.
+//
+// Fields. With ⟨·⟩ these averages, n = ⟨W⟩ and M_ab = ⟨m v_a v_b W⟩,
+//
+//     density ρ = ⟨m W⟩                      velocity u = ⟨m v W⟩/ρ
+//     spin density S = ⟨I ω W⟩               spin ω = S/⟨I W⟩
+//     kinetic stress −(M_ab − ρ u_a u_b)     temperature T = (M_aa − ρ u²)/2n
+//     kinetic couple stress −(⟨I ω v W⟩ − S u)
+//     spin temperature (⟨I ω² W⟩ − S ω)/n
+//     gradients ∂_b u_a = (∂_b⟨m v_a W⟩ − u_a ∂_b ρ)/ρ, and those of ω alike
+//
+// So the velocity fluctuates about its average over time and over the kernel. A gradient of u
+// within the kernel counts as temperature: for a shear rate γ that is m γ² w²/16, since a kernel has
+// ⟨x²⟩ = w²/8.
+//
+// Errors: the delete-one-group jackknife (Busing, Meijer, van der Leeden 1999,
+// doi:10.1023/A:1008800423698, for groups of unequal weight) over up to 15 groups of periods in
+// sequence. Fields are ratios of sums, so the errors of sums alone would not do. When a run has 16
+// groups, neighbouring ones are joined. Errors have a relative uncertainty of 20 to 30 %.
+//
+// Limits: where no disc ever comes, ratios are NaN. Fewer than two groups have no error (NaN). The
+// open period does not count.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "swirl/measure/coarse_graining.hpp"
+#include "swirl/measure/square_grid.hpp"
+#include "swirl/statistics/block_average.hpp"
+
+namespace swirl {
+
+/// What a grid reports at each point, in this order.
+struct FieldQuantity {
+    const char* name;
+    const char* unit;
+};
+inline constexpr std::array field_quantities{
+    FieldQuantity{"density", "m/r²"},
+    FieldQuantity{"packing", "1"},
+    FieldQuantity{"momentum_x", "m v/r²"},
+    FieldQuantity{"momentum_y", "m v/r²"},
+    FieldQuantity{"u_x", "v"},
+    FieldQuantity{"u_y", "v"},
+    FieldQuantity{"temperature", "m v²"},
+    FieldQuantity{"spin_density", "m v/r"},
+    FieldQuantity{"spin", "v/r"},
+    FieldQuantity{"spin_temperature", "m v²"},
+    FieldQuantity{"vorticity", "v/r"},
+    FieldQuantity{"divergence", "v/r"},
+    FieldQuantity{"strain_xx", "v/r"},
+    FieldQuantity{"strain_xy", "v/r"},
+    FieldQuantity{"spin_gradient_x", "v/r²"},
+    FieldQuantity{"spin_gradient_y", "v/r²"},
+    FieldQuantity{"pressure", "m v²/r²"},
+    FieldQuantity{"kinetic_xx", "m v²/r²"},
+    FieldQuantity{"kinetic_xy", "m v²/r²"},
+    FieldQuantity{"kinetic_yy", "m v²/r²"},
+    FieldQuantity{"collisional_xx", "m v²/r²"},
+    FieldQuantity{"collisional_xy", "m v²/r²"},
+    FieldQuantity{"collisional_yy", "m v²/r²"},
+    FieldQuantity{"torque", "m v²/r²"},
+    FieldQuantity{"kinetic_couple_x", "m v²/r"},
+    FieldQuantity{"kinetic_couple_y", "m v²/r"},
+    FieldQuantity{"collisional_couple_x", "m v²/r"},
+    FieldQuantity{"collisional_couple_y", "m v²/r"},
+    FieldQuantity{"dissipation", "m v³/r³"},
+    FieldQuantity{"wall_force_x", "m v²/r³"},
+    FieldQuantity{"wall_force_y", "m v²/r³"},
+    FieldQuantity{"floor_force_x", "m v²/r³"},
+    FieldQuantity{"floor_force_y", "m v²/r³"},
+};
+using FieldValues = std::array<double, field_quantities.size()>;
+
+/// The sums at one point.
+struct FieldPoint {
+    // W times these, of every disc: 1, m, m v (2), m v v (xx, xy, yy), I, I ω, I ω², I ω v (2), π R²,
+    // floor force (2).
+    static constexpr std::size_t disc_values = 15;
+    // ∇W times these: m, m v (2), I, I ω.
+    static constexpr std::size_t disc_slopes = 5;
+
+    std::array<double, disc_values> values{};
+    std::array<double, disc_slopes> slopes_x{}, slopes_y{};
+    // Stress (xx, xy, yx, yy), couple stress (2), loss, wall force (2).
+    std::array<double, 9> collisions{};
+
+    void add(const FieldPoint& other, double factor = 1.0);
+};
+
+/// Over what the sums of a point were taken.
+struct FieldWeights {
+    double samples = 0.0;
+    double forces = 0.0;    // samples with a known force of the floor
+    double duration = 0.0;  // of the collisions
+
+    void add(const FieldWeights& other, double factor = 1.0) {
+        samples += factor * other.samples;
+        forces += factor * other.forces;
+        duration += factor * other.duration;
+    }
+};
+
+FieldValues field_values(const FieldPoint& sums, const FieldWeights& weights);
+
+class FieldGrid {
+  public:
+    static constexpr std::size_t max_groups = 16;
+
+    FieldGrid() = default;
+    FieldGrid(const SquareGrid& grid, const CoarseKernel& kernel)
+        : grid_(grid), kernel_(kernel), open_(grid.cells()) {}
+
+    const SquareGrid& grid() const { return grid_; }
+    const CoarseKernel& kernel() const { return kernel_; }
+
+    /// One sample consists of all its discs and one add_sample(). If the force of the floor is not
+    /// known, it must be 0 for all discs.
+    void add(const FieldDisc& disc);
+    void add_sample(bool force_is_known) {
+        open_.weights.samples += 1.0;
+        if (force_is_known) open_.weights.forces += 1.0;
+    }
+    void add(const Transfer& collision);
+
+    /// At the end of a period; `duration`: the time of its collisions, 0 if they are not known.
+    void close_period();
+    /// After close_period(): the time in which the collisions of that period happened.
+    void close_events(double duration);
+
+    /// All fields at one point.
+    std::array<Estimate, std::tuple_size_v<FieldValues>> estimates(std::size_t cell) const;
+
+    /// The other must have the same grid and kernel.
+    void merge(const FieldGrid& other);
+    template <class Visitor>
+    void fields(Visitor&& visit) {
+        visit(grid_.side, grid_.half_width, kernel_.width, open_, groups_, merged_);
+        visit(periods_per_group_, periods_in_last_);
+    }
+    bool is_consistent() const {
+        const auto fits = [&](const Sums& sums) { return sums.points.size() == grid_.cells(); };
+        for (const auto* groups : {&groups_, &merged_})
+            for (const Sums& sums : *groups)
+                if (!fits(sums)) return false;
+        return fits(open_) && grid_.side < 10000 && groups_.size() < max_groups;
+    }
+
+  private:
+    struct Sums {
+        Sums() = default;
+        explicit Sums(std::size_t cells) : points(cells) {}
+        void add(const Sums& other);
+        template <class Visitor>
+        void fields(Visitor&& visit) {
+            visit(weights, points);
+        }
+        FieldWeights weights;
+        std::vector<FieldPoint> points;
+    };
+    /// Calls visit(cell) for the points in the rectangle.
+    template <class Visit>
+    void for_each_point(const Vec2& low, const Vec2& high, const Visit& visit) const;
+    static void join_neighbours(std::vector<Sums>& groups);
+
+    SquareGrid grid_;
+    CoarseKernel kernel_;
+    Sums open_;                 // the open period
+    std::vector<Sums> groups_;  // of this run, in order of time
+    std::vector<Sums> merged_;  // of other runs
+    std::int64_t periods_per_group_ = 1, periods_in_last_ = 0;
+};
+
+}  // namespace swirl
