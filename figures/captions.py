@@ -75,6 +75,12 @@ QUESTIONS = {
                 "and correlation time at the change grow with the size of the dish?",
     "hysteresis": "Does the direction depend on where a ramp comes from?",
     "lifetimes": "Some points of Figure 5b end in different states for different seeds. How long do the states last?",
+    "torque": "Which contacts turn the cluster, and which of their torques changes sign with N?",
+    "gears": "Do opposite spins of strong contacts predict the rotation better than the slip at the wall?",
+    "contacts": "Which kind of contact needs friction for the change of direction?",
+    "material_inertia": "Where does the direction change for other moments of inertia and inelastic discs?",
+    "material_friction": "Which of the two friction coefficients shifts the change of direction?",
+    "material_tangential": "Where does the direction change if a sticking contact returns part of its slip?",
     "spheres_packing": "ϖ(N) of spheres has a maximum near N = 28 to 30, which discs do not have. Does the packing of the "
                        "cluster explain it?",
     "spheres_size": "Where does the direction of rolling spheres change in dishes of other sizes?",
@@ -177,6 +183,18 @@ CAPTIONS = {
     "hysteresis": "Rotation during a ramp of a parameter up (full) and down (open), each as a mean over an eighth of the "
                   "ramp, for two ramp rates.",
     "lifetimes": "Mean lifetimes of the states at two points: time spent in the state divided by the number of exits.",
+    "torque": "Torques on the cluster about its centre of mass against N, at μ = 1. (a) The sums: normal force and "
+              "friction of the wall, and friction between discs, which moves angular momentum to the spins. (b) The "
+              "friction between discs by zone: two pinned discs, a pinned and a loose one, two loose ones. The line "
+              "marks the N at which the rotation changes sign.",
+    "gears": "Rotation against four possible predictors, for five friction coefficients and six N each; ρ is the rank "
+             "correlation over all points.",
+    "contacts": "Rotation against N if one kind of contact has no friction: with the wall; between two discs that are "
+                "both within 1.5 radii of the wall; or all others between discs.",
+    "material_inertia": "N_c with its error for pairs of inertia and restitution, in units of m r²; empty: the "
+                        "direction does not certainly change.",
+    "material_friction": "The same for pairs of the friction coefficients.",
+    "material_tangential": "The same for pairs of tangential restitution and inertia.",
     "spheres_packing": "Rotation, hexatic order, elongation of the cluster and contacts of a sphere (gap below a tenth of "
                        "the radius) against the number of spheres, μ = 0.2. Grey: N = 28 to 30.",
     "spheres_size": "As for the discs, at A/R = 0.22 and μ = 0.2.",

@@ -90,3 +90,34 @@ def dishes(name, parameter, words, label, logarithmic):
         right.set_ylabel(PACKING)
         style.legend(right, ncol=3)
     style.save(drawing, table)
+
+
+def crossing_map(name, x, y, x_label, y_label):
+    """A complete figure: N_c as colour and as number with its error, for pairs of two parameters."""
+    table = style.table_from_arguments(f"figure_{name}")
+    rows = style.read(table)
+    xs, ys = sorted({row[x] for row in rows}), sorted({row[y] for row in rows})
+    drawing, axes = style.figure(1.4 * style.COLUMN, 0.9 + 0.5 * len(ys))
+    values = np.full((len(ys), len(xs)), np.nan)
+    for row in rows:
+        values[ys.index(row[y]), xs.index(row[x])] = row["crossing"]
+    known = values[np.isfinite(values)]
+    low, high = (known.min(), known.max()) if known.size else (0.0, 1.0)
+    image = axes.imshow(values, origin="lower", aspect="auto", cmap="viridis", vmin=low, vmax=max(high, low + 1))
+    for row in rows:
+        at = xs.index(row[x]), ys.index(row[y])
+        if np.isfinite(row["crossing"]):
+            dark = row["crossing"] < 0.5 * (low + max(high, low + 1))
+            axes.text(*at, f"{row['crossing']:.1f}\n±{row['crossing_error']:.1f}", ha="center", va="center",
+                      fontsize=style.SMALLEST, color="white" if dark else "black")
+        else:
+            # By three errors, as everywhere (statistics/zero_crossing.hpp).
+            words = ("rotates" if row["lowest"] > 3 * row["lowest_error"] else
+                     "counter-\nrotates" if row["highest"] < -3 * row["highest_error"] else "undecided")
+            axes.text(*at, words, ha="center", va="center", fontsize=style.SMALLEST, color=style.GREY)
+    axes.set_xticks(range(len(xs)), [f"{value:g}" for value in xs])
+    axes.set_yticks(range(len(ys)), [f"{value:g}" for value in ys])
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(y_label)
+    drawing.colorbar(image, ax=axes, label="$N_c$")
+    style.save(drawing, table)

@@ -31,6 +31,9 @@ FIGURES = {
                      "before_coordination_error", "after_granular", "before_spin_correlation"},
     "size": {"container_radius", "amplitude_ratio", "packing_fraction", "discs", "largest", "binder_error",
              "susceptibility"},
+    "torque": {"discs", "wall_normal", "transfer_loose", "transfer_loose_error", "unaccounted_share"},
+    "gears": {"mu", "discs", "correlation_by_impulse", "resident_error", "wall_sticking"},
+    "material_inertia": {"inertia", "restitution", "crossing", "crossing_error", "lowest", "highest"},
     "states": {"setting", "discs", "granular", "granular_error", "coriolis", "coriolis_error"},
 }
 

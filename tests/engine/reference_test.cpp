@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,64 @@ TEST_P(EngineEqualsReference, OnLargeAndSmallCircles) {
             EXPECT_LT(deepest, 1e-13 * (amplitude + scene.container_radius)) << amplitude;
         }
     }
+}
+constexpr Frictionless kinds_without_friction[] = {Frictionless::wall, Frictionless::boundary,
+                                                   Frictionless::bulk};
+
+InitialState without_friction(InitialState scene, Frictionless contacts) {
+    scene.frictionless = contacts;
+    return scene;
+}
+TEST_P(EngineEqualsReference, WithoutFrictionInOneKindOfContact) {
+    for (const Frictionless kind : kinds_without_friction) {
+        for (const std::size_t n : {2u, 28u, 48u})
+            expect_same_trajectory(without_friction(paper_container(n), kind), 3000, tuning());
+        for (const SearchMethod search : {SearchMethod::lists, SearchMethod::cells})
+            expect_same_trajectory(without_friction(paper_container(48), kind), 2000,
+                                   tuning(search));
+        expect_same_trajectory(without_friction(on_circle(paper_container(48)), kind), 1000,
+                               tuning());
+        expect_same_trajectory(without_friction(mixture_container(), kind), 1000, tuning());
+    }
+    // Cells that are replaced by lists while the discs gather.
+    expect_same_trajectory(without_friction(gas_at_rest(200, 0.05), Frictionless::bulk), 1000,
+                           tuning());
+}
+// Checks the kinds of contact with the snapshots, not with the reference. All of them happen, and
+// only the one named lacks friction.
+TEST(Frictionless, OnlyTheNamedContactsHaveNoTangentialImpulse) {
+    for (const Frictionless kind :
+         {Frictionless::none, Frictionless::wall, Frictionless::boundary, Frictionless::bulk}) {
+        Simulation simulation(without_friction(paper_container(44), kind));
+        Snapshot s = simulation.snapshot();
+        std::map<Frictionless, int> sliding, smooth;
+        for (int k = 0; k < 30000; ++k) {
+            const Event event = simulation.step();
+            simulation.refresh(s, event);
+            if (event.kind == EventKind::path_vertex) continue;
+            const auto is_at_wall = [&](std::uint32_t i) {
+                const Vec2 from_centre = s.position(i) - s.container_centre;
+                return square_root(dot(from_centre, from_centre)) > s.container_radius - 1.5;
+            };
+            const Frictionless contact = event.kind == EventKind::disc_wall ? Frictionless::wall
+                                         : is_at_wall(event.i) && is_at_wall(event.j)
+                                             ? Frictionless::boundary
+                                             : Frictionless::bulk;
+            ++(event.impulse.tangential == 0.0 ? smooth : sliding)[contact];
+        }
+        for (const Frictionless contact : kinds_without_friction) {
+            EXPECT_EQ(sliding[contact] == 0, contact == kind);
+            EXPECT_EQ(smooth[contact] == 0, contact != kind);
+            EXPECT_GT(sliding[contact] + smooth[contact], 1000);
+        }
+    }
+}
+TEST(Frictionless, AtTheWallIsTheSameAsACoefficientOfZeroThere) {
+    InitialState smooth = paper_container(40, 1.0, 0.0);
+    Simulation a(smooth), b(without_friction(paper_container(40, 1.0, 1.0), Frictionless::wall));
+    a.run(20000);
+    b.run(20000);
+    EXPECT_EQ(a.state_hash(), b.state_hash());
 }
 TEST_P(EngineEqualsReference, WithRestitution) {
     InitialState scene = paper_container(40);

@@ -72,6 +72,7 @@ std::string another(const Parameter& p) {
                                                              {"mixture", "2:1.2"},
                                                              {"speed", "2"},
                                                              {"path", "circle"},
+                                                             {"frictionless", "bulk"},
                                                              {"direction", "clockwise"},
                                                              {"sizes", "uniform:0.9:1.1"},
                                                              {"periods", "50"},
@@ -190,6 +191,21 @@ TEST(RunParameters, ImpossibleFloorsAndPathsAreRejected) {
     EXPECT_THAT(error_of({{"body", "sphere"}, {"floor", "rough"}}),
                 testing::AllOf(testing::HasSubstr("collide without end"),
                                testing::HasSubstr("a large --floor-friction, 100")));
+}
+TEST(RunParameters, OnlyDiscsWithoutAFloorLackFrictionInOneKindOfContact) {
+    EXPECT_EQ(resolve({{"frictionless", "boundary"}}).frictionless, Frictionless::boundary);
+    EXPECT_EQ(config_json(resolve({{"frictionless", "none"}})), config_json({}));
+    EXPECT_THAT(error_of({{"frictionless", "walls"}}),
+                testing::HasSubstr("must be none, wall, boundary or bulk"));
+    for (const char* kind : {"wall", "boundary", "bulk"}) {
+        EXPECT_THAT(error_of({{"frictionless", kind}, {"body", "sphere"}}),
+                    testing::HasSubstr("only for discs without a floor"));
+        EXPECT_THAT(error_of({{"frictionless", kind}, {"floor", "sliding"}}),
+                    testing::HasSubstr("only for discs without a floor"));
+    }
+    // Then nothing dissipates energy.
+    EXPECT_TRUE(resolve({{"frictionless", "wall"}, {"mu_disc", "0"}}).conserves_energy());
+    EXPECT_FALSE(resolve({{"frictionless", "bulk"}, {"mu_disc", "0"}}).conserves_energy());
 }
 TEST(RunParameters, RollingResistanceNeedsSpheresOnAFloorAndIsBounded) {
     EXPECT_THAT(error_of({{"body", "sphere"}, {"rolling_resistance", "0.01"}}),

@@ -39,14 +39,15 @@ TEST(SweepPlan, SeedsOfPointsAreUnchanged) {
 TEST(SweepPlan, EveryParameterCanBeAnAxis) {
     for (const std::string& name : parameter_names()) {
         const std::string text = default_of(*find_parameter(name));
-        const std::string value = name == "mixture"   ? "2:1.2"
-                                  : name == "sizes"   ? "uniform:0.9:1.1"
-                                  : name == "ramp"    ? "mu=0.5:0.7@2..9"
-                                  : name == "warmup"  ? "7"
-                                  : name == "periods" ? "50"
-                                  : name == "preset"  ? "experiment"
-                                  : text.empty()      ? "1"
-                                                      : text;
+        const std::string value = name == "mixture"        ? "2:1.2"
+                                  : name == "frictionless" ? "bulk"
+                                  : name == "sizes"        ? "uniform:0.9:1.1"
+                                  : name == "ramp"         ? "mu=0.5:0.7@2..9"
+                                  : name == "warmup"       ? "7"
+                                  : name == "periods"      ? "50"
+                                  : name == "preset"       ? "experiment"
+                                  : text.empty()           ? "1"
+                                                           : text;
         const SweepPlan plan = make_plan({{name, value}}, 1);
         ASSERT_EQ(plan.axes.size(), 1u);
         EXPECT_EQ(plan.axes[0].name, name);

@@ -51,7 +51,9 @@ class Reference {
                     {},
                     bodies_.collide_with_wall(i, t, segment()),
                     0.0};
-        return {periods_, t, EventKind::disc_disc, i, j, {}, bodies_.collide_pair(i, j, t), 0.0};
+        return {
+            periods_, t, EventKind::disc_disc, i, j, {}, bodies_.collide_pair(i, j, t, segment()),
+            0.0};
     }
 
     /// Simulation::change_surroundings().

@@ -39,13 +39,17 @@ class ReferenceBodies {
     }
     double begins_to_roll(std::uint32_t i) const { return motions_[i].begins_to_roll; }
 
-    Impulse collide_pair(std::uint32_t i, std::uint32_t j, double t) {
+    Impulse collide_pair(std::uint32_t i, std::uint32_t j, double t, const Segment& segment) {
         Disc &a = state_.discs[i], &b = state_.discs[j];
         const double since_last = t - larger(last_collision(i), last_collision(j));
         move_to(i, t);
         move_to(j, t);
-        const Surface surface = surface_at_contact(
-            state_.disc_surface, since_last, b.position - a.position, b.velocity - a.velocity);
+        Surface of_discs = state_.disc_surface;
+        const bool at_wall = is_at_wall(a, segment) && is_at_wall(b, segment);
+        if (state_.frictionless == (at_wall ? Frictionless::boundary : Frictionless::bulk))
+            of_discs.mu = 0.0;
+        const Surface surface = surface_at_contact(of_discs, since_last, b.position - a.position,
+                                                   b.velocity - a.velocity);
         const Impulse J = are_spheres()
                               ? collide_pair(a, b, sphere_body(a), sphere_body(b), surface)
                               : collide_pair(a, b, body(a), body(b), surface);
@@ -58,8 +62,10 @@ class ReferenceBodies {
         const double since_last = t - last_collision(i);
         move_to(i, t);
         const Vec2 from_centre = a.position - segment.position_at(t), u = segment.velocity_at(t);
+        Surface of_wall = state_.wall_surface;
+        if (state_.frictionless == Frictionless::wall) of_wall.mu = 0.0;
         const Surface surface =
-            surface_at_contact(state_.wall_surface, since_last, from_centre, u - a.velocity);
+            surface_at_contact(of_wall, since_last, from_centre, u - a.velocity);
         const Impulse J =
             are_spheres()
                 ? collide_with_wall(a, sphere_body(a), wall_for_spheres(u), from_centre, surface)
@@ -99,6 +105,12 @@ class ReferenceBodies {
     }
     void move_to(std::uint32_t i, double t) {
         state_.discs[i] = are_spheres() ? moved_to(disc(i), motions_[i], t) : disc(i).at(t);
+    }
+    /// At the time of the disc's state.
+    bool is_at_wall(const Disc& d, const Segment& segment) const {
+        const Vec2 s = d.position - segment.position_at(d.time);
+        const double inner = state_.container_radius - boundary_layer * d.radius;
+        return !(inner > 0.0) || dot(s, s) > inner * inner;
     }
     static Body body(const Disc& d) {
         return {d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia};

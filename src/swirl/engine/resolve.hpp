@@ -33,6 +33,12 @@ struct Discs {
     }
     SWIRL_INLINE static bool change_with_segment(const EngineState&) { return false; }
 
+    /// The surfaces of two discs that touch at these positions at time t.
+    SWIRL_INLINE static const Surface& disc_surface(const EngineState& state, std::uint32_t,
+                                                    std::uint32_t, const Vec2&, const Vec2&,
+                                                    double) {
+        return state.disc_surface;
+    }
     /// The surface that a contact of two discs, or of one and the wall, has.
     SWIRL_INLINE static Surface at_contact(const EngineState&, const Surface& surface,
                                            double since_last, const Vec2&, const Vec2&) {
@@ -56,6 +62,29 @@ struct Discs {
         disc.position = disc.flight().position_at(state.clock);
         disc.time = 0.0;
         ++disc.collisions;
+    }
+};
+
+/// Discs that have no friction in some of their contacts with each other. Where a contact belongs
+/// depends only on the positions at the collision, so every search gives the same trajectory. The
+/// wall needs no rule of its own: there the friction coefficient is 0 (simulation_storage.cpp).
+struct DiscsWithPartialFriction : Discs {
+    /// True if a disc with its centre there is at the wall.
+    SWIRL_INLINE static bool is_at_wall(const EngineState& state, std::uint32_t i, const Vec2& at,
+                                        const Vec2& centre) {
+        const Vec2 s = at - centre;
+        const double inner = state.container_radius - boundary_layer * state.discs[i].radius;
+        return !(inner > 0.0) || dot(s, s) > inner * inner;
+    }
+    SWIRL_INLINE static Surface disc_surface(const EngineState& state, std::uint32_t i,
+                                             std::uint32_t j, const Vec2& at_i, const Vec2& at_j,
+                                             double t) {
+        const Vec2 centre = state.segments[state.segment].flight_at(t).position;
+        const bool at_wall =
+            is_at_wall(state, i, at_i, centre) && is_at_wall(state, j, at_j, centre);
+        Surface surface = state.disc_surface;
+        if (at_wall == (state.frictionless == Frictionless::boundary)) surface.mu = 0.0;
+        return surface;
     }
 };
 
@@ -111,6 +140,11 @@ struct Spheres {
     SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
         return state.spheres[i].last_collision;
     }
+    SWIRL_INLINE static const Surface& disc_surface(const EngineState& state, std::uint32_t,
+                                                    std::uint32_t, const Vec2&, const Vec2&,
+                                                    double) {
+        return state.disc_surface;
+    }
     SWIRL_INLINE static Surface at_contact(const EngineState& state, const Surface& surface,
                                            double since_last, const Vec2& separation,
                                            const Vec2& relative_velocity) {
@@ -158,16 +192,17 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
     const Vec2 s = at_j - at_i;
     const double since_last =
         t - larger(Bodies::last_collision(state, i), Bodies::last_collision(state, j));
-    state.elastic_by_tc += is_elastic_by_tc_model(state.disc_surface, since_last);
-    const Surface surface = Bodies::at_contact(state, state.disc_surface, since_last, s,
-                                               body_j.velocity - body_i.velocity);
+    const Surface& surfaces = Bodies::disc_surface(state, i, j, at_i, at_j, t);
+    state.elastic_by_tc += is_elastic_by_tc_model(surfaces, since_last);
+    const Surface surface =
+        Bodies::at_contact(state, surfaces, since_last, s, body_j.velocity - body_i.velocity);
     const Impulse impulse = collide(body_i, body_j, s, surface);
     if constexpr (internal_checks && !Bodies::have_floor) {
         const double rounding = rounding_of_contact(
             state.discs[i].flight(), state.discs[j].flight(), body_i.radius + body_j.radius, t);
         state.largest_rounding = larger(state.largest_rounding, rounding);
         check_disc_collision({before_i, body_i, before_i.velocity},
-                             {before_j, body_j, before_i.velocity}, s, state.disc_surface, impulse,
+                             {before_j, body_j, before_i.velocity}, s, surfaces, impulse,
                              state.largest_rounding, state.overlapped_at_start);
     }
     Bodies::write_back(state, i, at_i, t, body_i);

@@ -10,8 +10,10 @@
 namespace swirl {
 namespace {
 
-const EventLoops& event_loops(Width width) {
+const EventLoops& event_loops(const InitialState& scene, Width width) {
     width = width_meant(width);
+    if (scene.frictionless == Frictionless::boundary || scene.frictionless == Frictionless::bulk)
+        return event_loops_partial_friction;
 #if defined(SWIRL_HAS_WIDE_VECTORS)
     if (width == Width::avx512) return event_loops_avx512;
     if (width == Width::avx2) return event_loops_avx2;
@@ -53,6 +55,8 @@ State& Simulation::Storage::begin(const InitialState& scene, const Progress& pro
     state->container_radius = scene.container_radius;
     state->disc_surface = scene.disc_surface;
     state->wall_surface = scene.wall_surface;
+    state->frictionless = scene.frictionless;
+    if (scene.frictionless == Frictionless::wall) state->wall_surface.mu = 0.0;
     state->floor = scene.floor;
     // Discs in columns are all predicted for the wall at once, so a wide horizon pays.
     state->horizons_per_turn = std::is_same_v<State, AllPairsState> ? 6.0 : 30.0;
@@ -76,7 +80,7 @@ State& Simulation::Storage::begin(const InitialState& scene, const Progress& pro
 
 void Simulation::Storage::begin_search(const InitialState& scene, const Progress& progress,
                                        const Tuning& tuning) {
-    const EventLoops& loops = event_loops(tuning.width);
+    const EventLoops& loops = event_loops(scene, tuning.width);
     const RadiusRange radii = radii_of(scene);
     const std::size_t last = scene.discs.size() - 1;
     const SearchMethod method = choose_search(scene, radii, tuning, loops.max_all_pairs);
@@ -104,7 +108,7 @@ void Simulation::Storage::begin_search(const InitialState& scene, const Progress
 /// width.
 void Simulation::Storage::replace_search(const InitialState& scene, const Progress& progress,
                                          const Tuning& tuning, const Storage& previous) {
-    const EventLoops& loops = event_loops(tuning.width);
+    const EventLoops& loops = event_loops(scene, tuning.width);
     const RadiusRange radii = radii_of(scene);
     const auto take_over = [&](ListsOrCellsState& next, const ListsOrCellsState& last) {
         next.chooses_search = last.chooses_search;
@@ -185,6 +189,7 @@ InitialState Simulation::Storage::current_scene() const {
                        state->container_radius,
                        state->disc_surface,
                        state->wall_surface};
+    scene.frictionless = state->frictionless;
     scene.discs.reserve(state->size);
     for (std::uint32_t i = 0; i < state->size; ++i) scene.discs.push_back(disc(i));
     return scene;

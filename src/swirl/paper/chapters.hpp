@@ -12,6 +12,8 @@ namespace swirl {
 
 std::vector<PaperFigure> chapter_critical();
 std::vector<PaperFigure> chapter_size();
+std::vector<PaperFigure> chapter_mechanism();
+std::vector<PaperFigure> chapter_material();
 std::vector<PaperFigure> chapter_spheres();
 
 /// Of all chapters, in their order.

@@ -42,7 +42,8 @@ std::vector<PaperFigure> in_order() {
 
 std::vector<PaperFigure> chapter_figures() {
     std::vector<PaperFigure> all;
-    for (const auto& chapter : {chapter_size(), chapter_critical(), chapter_spheres()})
+    for (const auto& chapter : {chapter_size(), chapter_critical(), chapter_mechanism(),
+                                chapter_material(), chapter_spheres()})
         all.insert(all.end(), chapter.begin(), chapter.end());
     return all;
 }

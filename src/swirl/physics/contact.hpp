@@ -2,7 +2,17 @@
 // them (collision_law.hpp). Code that only describes surfaces or reads events needs no more.
 #pragma once
 
+#include <cstdint>
+
 namespace swirl {
+
+/// The kind of contact in which discs have no friction, to find out what each kind causes: those
+/// with the wall; those of two discs that are both at the wall (`boundary`); or all other contacts
+/// of two discs (`bulk`).
+enum class Frictionless : std::uint8_t { none, wall, boundary, bulk };
+
+/// A disc is at the wall if its centre is within so many of its radii of the wall.
+inline constexpr double boundary_layer = 1.5;
 
 /// The properties of a contact: friction coefficient μ ≥ 0, normal restitution e ∈ [0, 1],
 /// tangential restitution β ∈ [0, 1], and the duration t_c of a contact, which matters only for e <

@@ -18,7 +18,8 @@ struct InitialState {
     double container_radius;
     Surface disc_surface, wall_surface;
     Shape shape = Shape::disc;
-    Floor floor{};  // for spheres and coins
+    Floor floor{};                                   // for spheres and coins
+    Frictionless frictionless = Frictionless::none;  // for discs
 };
 
 /// Moves all discs by the same vector. Without a shift, no bit changes.

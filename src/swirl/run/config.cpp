@@ -157,6 +157,10 @@ std::optional<std::string> problem_with_body(const RunConfig& c) {
         return fmt::format("{} is {}, but discs do not {}.\nhint: add --body sphere.", name, value,
                            verb);
     };
+    if (c.frictionless != Frictionless::none && c.shape() != Shape::disc)
+        return fmt::format(
+            "--frictionless is only for discs without a floor.\nhint: use --mu-disc 0 or --mu-wall "
+            "0.");
     if (c.body == Shape::disc) {
         if (c.rolling_resistance != 0.0)
             return only_spheres("--rolling-resistance", c.rolling_resistance, "roll");
@@ -221,7 +225,8 @@ InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
         {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_wall},
         c.shape(),
         {c.floor ? c.floor_friction * c.gravity : 0.0, c.shape() == Shape::coin,
-         c.floor ? c.rolling_resistance * c.gravity : 0.0}};
+         c.floor ? c.rolling_resistance * c.gravity : 0.0},
+        c.frictionless};
 }
 
 namespace {

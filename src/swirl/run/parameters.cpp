@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -169,6 +170,23 @@ void read_mu(std::string_view text, const ParameterTexts&, RunConfig& config) {
     const double mu = number_from("mu", text);
     if (mu < 0.0) reject_text("mu", text, "0 or more");
     config.mu_disc = config.mu_wall = mu;
+}
+
+/// In the order of Frictionless.
+static constexpr std::array frictionless_names{"none", "wall", "boundary", "bulk"};
+
+void read_frictionless(std::string_view text, const ParameterTexts&, RunConfig& config) {
+    for (std::size_t k = 0; k < frictionless_names.size(); ++k)
+        if (text == frictionless_names[k]) {
+            config.frictionless = static_cast<Frictionless>(k);
+            return;
+        }
+    reject_choice("frictionless", text, {frictionless_names.begin(), frictionless_names.end()},
+                  "none, wall, boundary or bulk");
+}
+ParameterValue write_frictionless(const RunConfig& config) {
+    if (config.frictionless == Frictionless::none) return {};
+    return frictionless_names[static_cast<std::size_t>(config.frictionless)];
 }
 
 void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config) {

@@ -19,6 +19,7 @@
 #include <variant>
 #include <vector>
 
+#include "swirl/physics/contact.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/floor.hpp"
@@ -84,6 +85,7 @@ struct Ramp {
 struct RunConfig {
     std::int64_t discs = 48;  // both species together
     double mu_disc = 1.0, mu_wall = 1.0;
+    Frictionless frictionless = Frictionless::none;  // these contacts of discs have no friction
     double restitution = 1.0;
     double tangential_restitution = 0.0;
     double contact_duration = 1e-3;  // t_c; matters only for restitution < 1 or on a floor
@@ -137,7 +139,8 @@ struct RunConfig {
     Shape shape() const { return body == Shape::disc && floor ? Shape::coin : body; }
     /// Nothing dissipates energy: no friction, elastic collisions, no floor.
     bool conserves_energy() const {
-        return mu_disc == 0.0 && mu_wall == 0.0 && restitution == 1.0 && !floor && ramps.empty();
+        const bool smooth_wall = mu_wall == 0.0 || frictionless == Frictionless::wall;
+        return mu_disc == 0.0 && smooth_wall && restitution == 1.0 && !floor && ramps.empty();
     }
     /// True if the contact duration has an effect (physics/collision_law.hpp).
     bool uses_contact_duration() const {
@@ -164,10 +167,12 @@ using ParameterWriter = ParameterValue(const RunConfig& config);
 using ParameterFormatter = std::string(const RunConfig& config);
 
 /// Most parameters are a plain member of RunConfig; the others have their own functions.
-ParameterReader read_preset, read_mu, read_body, read_inertia, read_floor, read_mixture, read_sizes,
-    read_speed, read_path, read_direction, read_sides, read_periods, read_warmup, read_ramp;
-ParameterWriter write_body, write_floor, write_mixture, write_sizes, write_speed, write_omega,
-    write_path, write_direction, write_sides, write_events, write_warmup, write_ramp;
+ParameterReader read_preset, read_mu, read_frictionless, read_body, read_inertia, read_floor,
+    read_mixture, read_sizes, read_speed, read_path, read_direction, read_sides, read_periods,
+    read_warmup, read_ramp;
+ParameterWriter write_frictionless, write_body, write_floor, write_mixture, write_sizes,
+    write_speed, write_omega, write_path, write_direction, write_sides, write_events, write_warmup,
+    write_ramp;
 ParameterFormatter format_inertia, format_mixture;
 
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
@@ -284,6 +289,17 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .slider = {0, 2, 0.05},
      .default_text = "",
      .can_ramp = true},
+    {.name = "frictionless",
+     .form = "none|wall|boundary|bulk",
+     .description = "Contacts of discs that have no friction",
+     .details = "wall: with the wall. boundary: between two discs whose centres are both within "
+                "1.5 radii of the wall. bulk: all other contacts between discs. Other contacts "
+                "have the coefficients above (docs/explanation/beyond.md).",
+     .group = parameter_group::particles,
+     .read = read_frictionless,
+     .write = write_frictionless,
+     .default_text = "none",
+     .written = WrittenIf::set},
     {.name = "body",
      .form = "disc|sphere",
      .description = "Type of particle",

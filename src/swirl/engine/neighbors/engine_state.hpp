@@ -124,6 +124,9 @@ struct EngineState {
     bool (*is_stopped)(const void* caller);
     const void* caller;
 
+    // Only the loops of DiscsWithPartialFriction (resolve.hpp) use it.
+    Frictionless frictionless;
+
     SWIRL_INLINE ColdDisc& cold(std::uint32_t i) const {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
                                             static_cast<std::uint64_t>(i) * cold_bytes);
@@ -175,6 +178,8 @@ struct EventLoops {
     EventLoop many_spheres;
 };
 
+/// For discs that lack friction in some contacts with each other; baseline width only.
+extern const EventLoops event_loops_partial_friction;
 extern const EventLoops event_loops_baseline;
 extern const EventLoops event_loops_avx2;
 extern const EventLoops event_loops_avx512;

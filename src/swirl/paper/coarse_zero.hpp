@@ -1,0 +1,40 @@
+// The zero of a curve whose points are several N apart: that of the straight line between the two
+// points next to it. find_crossing (statistics/zero_crossing.hpp) decides whether there is one, and
+// reports no N for such curves, because the curve between the points is not known. The error here is
+// that of the two points; it does not contain the curvature between them.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "swirl/statistics/zero_crossing.hpp"
+
+namespace swirl {
+
+struct CoarseZero {
+    double discs = not_available, error = not_available;
+    bool falls = false;  // from positive to negative
+    bool exists() const { return discs == discs; }
+};
+
+/// The last change of sign; of several zeros in its bracket the middle one.
+inline CoarseZero last_zero(const std::vector<RotationPoint>& curve) {
+    const Crossing found = find_crossing(curve);
+    if (found.changes.empty()) return {};
+    const SignChange& change = found.changes.back();
+    std::vector<std::pair<RotationPoint, RotationPoint>> sides;
+    for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
+        const RotationPoint &a = curve[k], &b = curve[k + 1];
+        if (a.discs < change.before || b.discs > change.after) continue;
+        if ((a.mean < 0.0) != (b.mean < 0.0)) sides.emplace_back(a, b);
+    }
+    const auto& [a, b] = sides[sides.size() / 2];
+    const double f = a.mean / (a.mean - b.mean), step = b.discs - a.discs;
+    return {a.discs + f * step,
+            std::hypot((1.0 - f) * a.error, f * b.error) * step / std::fabs(b.mean - a.mean),
+            change.to_counterrotation};
+}
+
+}  // namespace swirl
