@@ -320,7 +320,7 @@ class TrackTest(InFolder):
         # The shift is towards the light, up and left in the image.
         self.assertLess(light["shift"][0], 0.0)
         self.assertLess(light["shift"][1], 0.0)
-        # Most of it is removed; the standard error of what is left is stated.
+        # Most of it is removed; the standard error of the rest is stated.
         left = math.hypot(*self.mean_shift(video, tracks))
         self.assertLess(left, 0.5 * math.hypot(*light["shift"]))
         self.assertLess(left, 4.0 * light["shift_error"])

@@ -48,7 +48,7 @@ TEST(CoarseKernel, GradientIsThatOfTheValue) {
     }
 }
 
-// The kernel once more, and the mean over many equal steps.
+// The kernel by its definition, and the mean over many equal steps.
 LineAverage brute_average(const LineCase& c) {
     constexpr int steps = 20000;
     const double w = c.kernel.width;

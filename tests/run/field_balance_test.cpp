@@ -13,7 +13,7 @@
 namespace swirl {
 namespace {
 
-/// The densities once more, from the definition alone.
+/// The densities, from the definition alone.
 FieldDensities brute_densities(const Snapshot& s, const Vec2& x, double w) {
     FieldDensities sum;
     for (std::size_t i = 0; i < s.size(); ++i) {

@@ -44,7 +44,7 @@ std::filesystem::path camera_file(std::filesystem::path tracks);
 /// a missing or invalid option, Failure for an invalid file.
 TrackScale track_scale(const TrackTexts& given, const std::string& file);
 
-/// What else camera_file(file) states; defaults if it does not exist.
+/// Further contents of camera_file(file); defaults if it does not exist.
 struct CameraRecord {
     std::int64_t first_frame = 0;
     std::vector<std::array<double, 4>> poses;  // of the moving camera, from first_frame on

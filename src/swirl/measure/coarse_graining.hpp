@@ -157,7 +157,7 @@ inline FieldDisc relative_to(const MFrame& frame, const FieldDisc& lab) {
     return disc;
 }
 
-/// What one collision transfers.
+/// The momentum and the torques that one collision transfers.
 struct Transfer {
     Vec2 begin, line;  // r_i and ℓ
     Vec2 impulse;      // J, on body j

@@ -1,4 +1,4 @@
-// Whether mass, momentum and spin are balanced at one point of the lab frame: the equations of
+// Checks the balances of mass, momentum and spin at one point of the lab frame: the equations of
 // coarse_graining.hpp, with every flight and every collision of an interval of time.
 //
 //     FieldBalance balance({0.0, 0.0}, {2.0});
@@ -44,7 +44,7 @@ struct FieldDensities {
 
 /// The terms of the balance, summed over time.
 struct BalanceTerms {
-    FieldDensities transport;    // minus the divergence of what the discs carry
+    FieldDensities transport;    // minus the divergence of the fluxes that discs carry
     Vec2 stress{0.0, 0.0};       // divergence of the collisional stress
     double couple_stress = 0.0;  // divergence of the collisional couple stress
     double torque = 0.0;         // of the stress: σ_yx − σ_xy

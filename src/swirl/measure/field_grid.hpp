@@ -135,7 +135,7 @@ class FieldGrid {
     }
     void add(const Transfer& collision);
 
-    /// At the end of a period; `duration`: the time of its collisions, 0 if they are not known.
+    /// At the end of a period; `duration`: the time of its collisions, 0 if unknown.
     void close_period();
     /// After close_period(): the time in which the collisions of that period happened.
     void close_events(double duration);

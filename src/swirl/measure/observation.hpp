@@ -101,7 +101,7 @@ class Observation {
 
     const std::vector<std::string>& names() const { return names_; }
     bool empty() const { return names_.empty(); }
-    /// Whether a measurement samples events, so that each must be handed over.
+    /// Returns true if a measurement samples events; sample() then needs every event.
     bool samples_events() const { return samples_events_; }
 
     void sample(const Snapshot& lab);

@@ -120,7 +120,7 @@ struct RunConfig {
     /// not set.
     bool warmup_found = false;
 
-    /// Of the averages by event. 0: from the events of the last period (cluster_rotation.hpp).
+    /// For the averages by event. 0: chosen from the events of the last period (cluster_rotation.hpp).
     std::int64_t events_per_sample = 0;
 
     std::uint64_t seed = 1;

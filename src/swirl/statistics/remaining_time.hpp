@@ -45,7 +45,7 @@ class RemainingTime {
         if (samples_.size() > max_samples) thin_out();
     }
 
-    /// Of all stages, if their weights are known; otherwise of the present stage.
+    /// The completed share of all stages, if their weights are known; otherwise of the present stage.
     double fraction() const {
         const double all = done_weight_ + weight_ + weight_to_come();
         return all > 0.0 ? (done_weight_ + weight_ * now_.share) / all : now_.share;

@@ -101,7 +101,7 @@ JumpSummary summary_of(const std::vector<FrameJump>& jumps, std::size_t frames) 
             summary.longest = end - begin, summary.longest_begin = begin;
         if (n == jumps.size()) break;
         const FrameJump& jump = jumps[n];
-        // A duplicate is not a part of what follows.
+        // The part that follows starts after the duplicate.
         begin = jump.duplicate ? std::min(jump.after + 1, frames) : jump.after;
         if (jump.duplicate)
             summary.duplicates.push_back(jump.after);

@@ -194,7 +194,7 @@ bool LiveVideo::exchange(int wait_ms) {
     return got > 0;
 }
 
-/// Takes a frame out of what was received.
+/// Takes a frame out of the received data.
 bool LiveVideo::take_frame(cv::Mat& grey) {
     constexpr std::size_t max_head = 60;  // characters
     std::size_t head = 0;

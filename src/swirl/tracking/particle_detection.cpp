@@ -170,7 +170,7 @@ double find_blur(const std::vector<PreparedFrame>& frames, const std::vector<Fou
 /// Circles of frame k with radii around the common one, from fits with free radius.
 std::vector<CircleFit> fit_free_circles(const ParticleSurvey& survey, std::size_t k,
                                         const CommonCircle& common) {
-    // Of the common radius. A part of a disc has no second size.
+    // The limits are relative to the common radius. A part of a disc has no second size.
     const bool part = common.spacing > 1.0;
     const double smallest = part ? 0.85 : 0.6, largest = part ? 1.2 : 1.9;
     constexpr double growth = 1.07;

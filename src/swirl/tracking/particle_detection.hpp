@@ -57,7 +57,7 @@ struct Particle {
     bool sure = false;
 };
 
-/// What is known about the discs before they are searched.
+/// Properties of the discs that the user gave.
 struct KnownDiscs {
     std::optional<std::size_t> number;
     std::optional<double> radius_share;  // radius relative to the container's
