@@ -27,7 +27,7 @@ void collision_law(benchmark::State& state) {
     const Vec2 separations[2] = {{1.2, 1.6}, {-1.2, -1.6}};
     unsigned k = 0;
     for (auto _ : state) {
-        // Alternating directions, so that they keep approaching.
+        // The directions alternate, so that the bodies approach each other in every call.
         const Impulse J = collide(i, j, separations[k++ & 1], {0.5});
         benchmark::DoNotOptimize(J);
     }

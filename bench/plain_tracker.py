@@ -42,7 +42,8 @@ def find(image, radius, number, dark, centre, dish):
     width = 2 * int(radius) + 1
     band = numpy.maximum(0.0, ndimage.gaussian_filter(grey, 1.0)
                          - ndimage.uniform_filter(grey, width))
-    # As in trackpy: a disc of constant brightness has no maximum at its centre, but its mean has.
+    # As in trackpy: a disc of constant brightness has no maximum at its centre, but its smoothed
+    # image has one.
     smooth = ndimage.gaussian_filter(band, 0.5 * radius)
     maxima = (ndimage.maximum_filter(smooth, size=int(1.2 * radius)) == smooth) & (smooth > 0)
     rows, columns = numpy.nonzero(maxima)

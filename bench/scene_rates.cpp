@@ -46,7 +46,7 @@ class Contender {
   public:
     virtual ~Contender() = default;
 
-    /// Counts per second of processor time, over at least `seconds` of it.
+    /// Counts per second of processor time, measured over at least `seconds` of processor time.
     double rate_over(double seconds) {
         double counted = 0.0, elapsed = 0.0;
         do {
@@ -213,7 +213,7 @@ std::uint64_t settling(const BenchScene& scene) {
     return static_cast<std::uint64_t>((scene.discs > 1000 ? 20 : 1000) * scene.discs);
 }
 
-/// The state at the start of a period, where all clocks stand at 0: the baselines cannot resume from
+/// The state at the start of a period, where all clocks are at 0: the baselines cannot resume from
 /// another state.
 InitialState settled_state(const BenchScene& scene, const BenchSettings& settings) {
     InitialState state = state_of(scene, settings.stop);

@@ -111,7 +111,7 @@ def crossing_map(name, x, y, x_label, y_label):
             axes.text(*at, f"{row['crossing']:.1f}\n±{row['crossing_error']:.1f}", ha="center", va="center",
                       fontsize=style.SMALLEST, color="white" if dark else "black")
         else:
-            # By three errors, as everywhere (statistics/zero_crossing.hpp).
+            # Signs are certain at three standard errors, as in statistics/zero_crossing.hpp.
             words = ("rotates" if row["lowest"] > 3 * row["lowest_error"] else
                      "counter-\nrotates" if row["highest"] < -3 * row["highest_error"] else "undecided")
             axes.text(*at, words, ha="center", va="center", fontsize=style.SMALLEST, color=style.GREY)

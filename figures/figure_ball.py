@@ -1,5 +1,5 @@
-"""The minimal model, simulated: spin of one large disc in a swirled container, against the friction
-coefficient of the wall, for three radii; elastic bounces, and inelastic ones after which it stays at the wall.
+"""The simulated minimal model: spin of one large disc in a swirled container against the friction coefficient
+of the wall, for three radii. Bounces are elastic, or inelastic so that the disc stays at the wall.
 
     /usr/bin/python3 figures/figure_ball.py out/figure_ball.csv
 """

@@ -57,9 +57,9 @@ def in_columns(sizes):
 
 
 def arranged(sizes):
-    """For each figure made for a column, the column (0 or 1), or None: across the page with its text at its
-    side. The first, the last or both are None if that leaves less of the page empty. `sizes` are the heights of
-    images and of texts."""
+    """For each figure made for a column, the column (0 or 1), or None if it spans the page with its
+    text next to it. The first figure, the last one or both span the page if that leaves less of it empty. `sizes`
+    are the heights of images and of texts."""
     if not sizes:
         return []
     if len(sizes) > MAX_ARRANGED:

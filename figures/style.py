@@ -355,7 +355,7 @@ def arrows(axes, rows, spacing, fastest, color):
 
 
 def save(drawing, table):
-    """PNG and PDF next to the table, by atomic writes. They contain no date: the same table gives the same bytes."""
+    """Writes PNG and PDF next to the table, atomically. They contain no date: the same table gives the same bytes."""
     stem = os.path.splitext(table)[0]
     for kind, about in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
         drawn = io.BytesIO()

@@ -28,10 +28,10 @@ HOLDS, IN_PART, FAILS = "holds", "holds in part", "does not hold"
 UNDECIDED = "undecided"
 UNTESTABLE, MISSING = "not testable by simulation", "not made"
 
-# Standard deviations that make a statement certain. There is no other such number.
+# Number of standard deviations that makes a statement certain. All verdicts use it.
 Z = 3.0
-# Quantiles of Student's t: the share of three standard deviations, 99.73 %, lies within ± this, for
-# 1, 2, … degrees of freedom.
+# Quantiles of Student's t for 1, 2, … degrees of freedom: 99.73 % of the distribution lies within ±
+# this value, as within three standard deviations of a normal distribution.
 STUDENT_T = (235.80, 19.207, 9.2187, 6.6201, 5.5070, 4.9040, 4.5299, 4.2766, 4.0942, 3.9569)
 
 
@@ -126,8 +126,8 @@ def scattered(numbers, points=(), least=0.0):
 
 
 def trend(numbers, points=()):
-    """The rise of a straight line through equally spaced numbers, from the first to the last, in units of
-    their mean. Its error follows from the scatter about the line."""
+    """The rise of a straight line, fitted to equally spaced numbers, from the first to the last number, in units
+    of their mean. Its error follows from the scatter about the line."""
     n = len(numbers)
     if n < LEAST_POINTS or not all(math.isfinite(x) for x in numbers):
         return Value(math.nan, math.nan, points)
@@ -170,17 +170,17 @@ def below(value, bound):
 
 
 def within(value, low, high):
-    """Between two bounds: both must hold, and one that fails is enough."""
+    """Above `low` and below `high`: holds if both hold, fails if one fails."""
     return every([above(value, low), below(value, high)])
 
 
 def fact(flag):
-    """The judgement on something that is not measured."""
+    """The judgement on a fact that is not measured."""
     return Judgement(HOLDS if flag else FAILS)
 
 
 def undecided(judgements):
-    """With the points of all of them."""
+    """Undecided, with the points of all `judgements`."""
     return Judgement(UNDECIDED, frozenset().union(*(j.points for j in judgements)))
 
 

@@ -22,7 +22,7 @@ std::string shape_text(const Numbers& a) {
 }
 
 /// Squares and products of larger numbers could overflow. The parameters of a run cannot lead to
-/// speeds as large.
+/// speeds of this size.
 constexpr double max_given = 1e15;
 
 void require_finite(const char* name, const Numbers& values) {

@@ -150,7 +150,7 @@ class Container {
     double time_of(const Event& event) const {
         return static_cast<double>(event.periods) * config_.period + event.clock;
     }
-    /// The page has no end of the run, so the warm-up cannot be a part of its length.
+    /// A run on the page has no end, so its warm-up cannot be a fraction of its length.
     static RunConfig endless(RunConfig config) {
         config.events = std::numeric_limits<std::int64_t>::max();
         config.periods.reset();

@@ -63,7 +63,7 @@ NUMBERS = (ROTATING_N, COUNTERROTATING_N)
 
 
 def compared(pairs):
-    """Pairs of values, without disc friction and with both kinds of friction, in words."""
+    """Text with pairs of values: without disc friction, and with both kinds of friction."""
     return ", ".join(f"{number(a)} ({number(b)} with both kinds of friction) at N = {n}"
                      for n, (a, b) in zip(NUMBERS, pairs))
 
@@ -116,9 +116,10 @@ def outer_spins(study):
 # --- Collision times, energy --------------------------------------------------------------------
 
 def shortest_times(study):
-    """The shortest of n independent times falls as 1/n: with friction, twelve runs of 10^6 events have log10
-    −8.77 ± 0.15, their tenths −7.72 ± 0.05. So times of shorter runs are scaled by that factor. Without
-    friction the discs get faster throughout a run, and its beginning does not predict the whole."""
+    """The shortest of n independent times falls as 1/n: with friction, log10 of the shortest time is −8.77 ± 0.15
+    for twelve runs of 10^6 events, and −7.72 ± 0.05 for tenths of these runs. So times of shorter runs are scaled
+    by that factor. Without friction the discs get faster throughout a run, and its beginning does not predict
+    the whole."""
     rows = study.table("times")
     events = rows[0]["events"]
     found = {mu: scattered([math.log10(row["smallest"] * events / EVENTS)

@@ -25,7 +25,8 @@ def pinned_slices(rows):
 
 
 def mean_over_slices(rows, name):
-    """The mean over the visits. Slices of one run are not independent: their errors add up."""
+    """The mean over the visits. Slices of one run are not independent, so their
+    errors are added, not their squares."""
     visits = [row["visits"] for row in rows]
     mean = mean_of(values(rows, name), visits)
     error = sum(w * row[name + "_error"] for w, row in zip(visits, rows)) / sum(visits)
@@ -39,8 +40,8 @@ def nearest_slice(rows, theta):
 
 
 def identity(study):
-    """Eq. 1, ϖ_M = ϖ − Ω, is a change of frames, not a claim. It checks the measurements: both means are of
-    the same runs, sampled 511 and 64 times per period."""
+    """Eq. 1, ϖ_M = ϖ − Ω, is a change of frames, not a claim. It checks the measurements: both means are
+    averages of the same runs, sampled 511 and 64 times per period."""
     profile, worst = study.table("3a"), 0.0
     try:
         rotation = study.table("1b")
@@ -192,7 +193,7 @@ def layers(study):
     def density(gaps):
         here = [row for row in cells
                 if gaps[0] <= CONTAINER_RADIUS - math.hypot(row["x"], row["y"]) < gaps[1]]
-        # Cells of one run are not independent: their errors add up.
+        # Cells of one run are not independent, so their errors are added, not their squares.
         return Value(sum(row["density"] for row in here) / len(here),
                      sum(row["density_error"] for row in here) / len(here), [discs[0].get("point", "")])
     first, between, second = (density(gaps) for gaps in (FIRST_LAYER, BETWEEN_LAYERS, SECOND_LAYER))

@@ -91,8 +91,9 @@ def changes_in_words(changes):
 
 def changes_near(changes, discs):
     """[(friction coefficient, judgement)]: whether the change is near this N, for the coefficients that were
-    run and for a coefficient between two of them. Across a step larger than JUMP the N between is not reached:
-    there the last change jumps with the friction coefficient."""
+    run and for a coefficient between two of them. If the N of two
+    neighbouring coefficients differ by more than JUMP, the last change jumps with the friction coefficient, and
+    no coefficient in between has it near this N."""
     runs = [(mu, within(at, discs - ROUGHLY, discs + ROUGHLY)) for mu, at in changes]
     between = [((low + high) / 2, every([above(smooth, discs), below(rough, discs)]))
                for (low, smooth), (high, rough) in zip(changes, changes[1:])

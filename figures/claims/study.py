@@ -48,13 +48,13 @@ class Study:
 
 
 def is_named(row, key, curve):
-    """Whether the row belongs to this curve. A table reader returns a numeric name as a number."""
+    """True if the row belongs to this curve. A table reader returns a numeric name as a number."""
     return curve == (f"{row[key]:g}" if isinstance(row[key], float) else row[key])
 
 
 def crossing_value(row, points=(), freedom=math.inf):
-    """N_c of a row; `freedom` is that of the points' errors. For a bracket: its middle, with the standard
-    deviation of a uniform distribution, which is exact."""
+    """N_c of a row; `freedom`: degrees of freedom of the points' errors. For a bracket, the value is its
+    middle with the standard deviation of a uniform distribution, which is exact."""
     at, error = row["crossing"], row["crossing_error"]
     if at != at and "lower" in row:
         lower, upper = row["lower"], row["upper"]

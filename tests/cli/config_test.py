@@ -39,7 +39,8 @@ class ConfigFiles(InFolder):
         said = self.good("image", file).stdout
         self.assertIn("320x240", said)
         self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
-        # By hand wins, also over an option that means the same in other words.
+        # An option on the command line overrides the file, also if the file has an equivalent
+        # option of another name.
         self.good("image", file, "--discs", 5, "--mu", 1, "--at", 3, "--out", self.path("x.png"))
         self.good("image", *options[4:-2], "--at", 3, "--discs", 5, "--mu", 1, "--out",
                   self.path("y.png"))

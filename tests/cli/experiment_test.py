@@ -47,8 +47,8 @@ class Experiment(InFolder):
             # In disc radii; the radius of small discs with soft edges is known to a few per cent.
             self.assertAlmostEqual(float(row["container_radius"]), 6.5, delta=0.25)
             self.assertAlmostEqual(float(row["frames_per_period"]), 40, delta=0.1)
-            # Less than two periods: the error of ϖ is a few hundredths, and a wrong container would
-            # change it by more than 0.15.
+            # The videos last less than two periods, so the error of ϖ is a few hundredths. A wrong
+            # container would change ϖ by more than 0.15.
             self.assertLess(abs(float(row["by_time"]) - float(row["simulated"])), 0.15)
             self.assertGreater(float(row["simulated_error"]), 0.0)
         points = rows(out, "points.csv")

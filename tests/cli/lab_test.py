@@ -352,7 +352,7 @@ class Laboratory(unittest.TestCase):
         fewer, answers = self.discs({}, steps(2))
         self.assertEqual(answers[1], 1)
         self.assert_same_discs(fewer, before[:2])
-        # Discs without room are counted: 1 + their number.
+        # The answer is 1 plus the number of discs for which there was no room.
         full, answers = self.discs({}, steps(59))
         self.assertEqual(answers[1], 1 + 59 - len(full))
         self.assertLess(len(full), 59)

@@ -5,7 +5,6 @@ import io
 import json
 import os
 import random
-import shutil
 import subprocess
 import time
 import unittest
@@ -192,7 +191,7 @@ class Figure(InFolder):
 
 class Cluster(InFolder):
     def test_tasks_of_a_cluster_share_a_map(self):
-        _, environment = private_slurm.started_for(self, nodes=2)
+        slurm, environment = private_slurm.started_for(self, nodes=2)
         out = self.path("a map")
         call = [word for word in MAP if word not in ("--no-figure", "--quiet")]
         done = swirl(*call, "--out", out, "--slurm", "--nodes", 2, environment=environment)
@@ -211,7 +210,11 @@ class Cluster(InFolder):
         self.assertEqual(swirl(*MAP, "--out", self.path("one")).returncode, 0)
         with open(out + "/map.csv", encoding="utf-8") as ours, open(self.path("one/map.csv"), encoding="utf-8") as one:
             self.assertEqual(ours.read(), one.read())
-        shutil.rmtree(out)
+        # The folder can be deleted when no job writes into it.
+        for _ in range(600):
+            if not slurm.run("squeue", "-h").stdout:
+                break
+            time.sleep(0.1)
 
 
 if __name__ == "__main__":

@@ -109,7 +109,7 @@ class OtherVideos(InFolder):
             self.assertEqual(done.returncode, 2, done.stderr)
 
     def test_camera_shake_is_removed(self):
-        # As accurate as without: 0.19 pixels. The second video has no pattern on the table.
+        # As accurate as without shake: 0.19 pixels. The second video has no pattern on the table.
         for faults, source in some((({"shake": 5.0, "clutter": 50}, "background"),
                                     ({"shake": 3.0}, "rim")), 1):
             video, done = self.call(**faults)

@@ -20,7 +20,7 @@ OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mi
          "sizes": "uniform:0.9:1.1", "ramp": "mu=0.5:0.7@2..9", "periods": "50", "warmup": "2", "seed": "7",
          "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
          "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
-         "gravity": "2", "rolling_resistance": "0.01", "vertical_disc": "0.5", "vertical_wall": "0.5",
+         "container_radius": "9", "gravity": "2", "rolling_resistance": "0.01", "vertical_disc": "0.5", "vertical_wall": "0.5",
          "events_per_sample": "7"}
 # Only in results of runs that set them.
 IF_SET = {"direction", "events_per_sample", "frictionless", "path_phase", "ramp", "sizes"}
@@ -100,7 +100,7 @@ class Everywhere(InFolder):
         for name, option in GIVEN.items():
             with self.subTest(name):
                 shutil.copy(self.path("kept"), self.path("copy"))
-                # Only the length may differ, but not be shorter than the finished part.
+                # Only the length may differ, and it must not be shorter than the finished part.
                 length = name in ("events", "periods")
                 value, says = ((1000 if name == "events" else 1), "to another length") if length \
                     else (another(name), "belongs to another run")

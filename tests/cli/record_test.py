@@ -49,7 +49,7 @@ for file in sys.argv[1:]:
         return dump.stdout.splitlines()
 
     def kill_until_done(self, folder, kills, choose, longest):
-        """Kills the run at random times and resumes it until it is complete; the number of kills."""
+        """Kills the run at random times and resumes it until it is complete. Returns the number of kills."""
         hits = 0
         for attempt in range(1000):
             process = subprocess.Popen([SWIRL, *self.arguments(folder)], stdout=subprocess.DEVNULL,

@@ -56,7 +56,7 @@ class Json(InFolder):
         for name, value in (("paper", 10), ("ring", 1), ("solid", 0.5), ("3.5", 3.5)):
             self.assertEqual(result_of("--events", 10, "--inertia", name)["config"]["inertia"],
                              value)
-        # A name is a multiple of m r^2.
+        # A name stands for a multiple of m r^2.
         config = result_of("--events", 10, "--inertia", "ring", "--mass", 2, "--radius", 0.5)
         self.assertEqual(config["config"]["inertia"], 0.5)
 

@@ -153,7 +153,8 @@ class Chain(InFolder):
             step = result["config"]["mu_disc"] - before["config"]["mu_disc"]
             turns = result["direction"] == "down" and before["direction"] == "up"
             self.assertAlmostEqual(step, 0 if turns else 0.4 if result["direction"] == "up" else -0.4)
-            # Velocities are kept, and the sums of their squares are those of the end before.
+            # Velocities do not change between two runs of a chain, so the energy at the start
+            # equals that at the end of the run before.
             self.assertAlmostEqual(result["energy_at_start"] / before["energy"], 1, delta=1e-12)
         done = swirl("collect", "loop", "--csv", "-", cwd=self.folder)
         table = list(csv.DictReader(done.stdout.splitlines()))

@@ -12,7 +12,7 @@ from program import SOURCE, InFolder
 PAGE = b"<!doctype html><title>page</title>"
 WAIT = 30  # seconds; an answer normally takes less than one
 
-# Name, request target, expected status. GET, with the right Host.
+# Name, request target and expected status of GET requests with the right Host.
 TARGETS = [
     ("the page", "/", 200),
     ("the page by name, with a query", "/index.html?discs=5&seed=%0A", 200),

@@ -71,7 +71,8 @@ class Stop(InFolder):
 
     def test_during_preparation_and_run_of_a_million_discs(self):
         radius = 8.6 * (1e6 / 48) ** 0.5
-        # Placement, and the construction of the lists, which is the longest phase.
+        # The moments are in the placement and in the construction of the lists, which is the
+        # longest phase.
         moments = some([0.4, 1.8, 0.1, 0.8, 1.2, 2.6], 2)
         self.assertGreaterEqual(
             self.count_clean_stops(moments, "run", "--discs", 1000000,

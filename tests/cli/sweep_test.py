@@ -53,7 +53,8 @@ class Sweep(InFolder):
         # The kills are spread from the start to nearly the end, on a machine of any speed.
         longest = 0.5 * (time.monotonic() - begin)
         choose = random.Random(5)
-        # Ten meet runs, results and the start of the sweep; tests/faults has the renames one by one.
+        # Ten kills hit runs, results and the start of the sweep. tests/faults interrupts the
+        # renames one by one.
         hits, kills, folders = 0, 50 if ALL else 10, []
         while hits < kills:
             folder = self.path(f"killed{len(folders)}")

@@ -320,7 +320,8 @@ class TrackTest(InFolder):
         # The shift is towards the light, up and left in the image.
         self.assertLess(light["shift"][0], 0.0)
         self.assertLess(light["shift"][1], 0.0)
-        # Most of it is removed; the standard error of the rest is stated.
+        # At least half of the shift is removed. The rest is within four of the reported standard
+        # errors.
         left = math.hypot(*self.mean_shift(video, tracks))
         self.assertLess(left, 0.5 * math.hypot(*light["shift"]))
         self.assertLess(left, 4.0 * light["shift_error"])
@@ -359,7 +360,8 @@ class TrackTest(InFolder):
 
     @slow("four videos of two periods; the wall of most other tests is reached in every frame")
     def test_container_radius_with_few_discs(self):
-        # Eight discs touch the wall about three times per period; below, the rim is used.
+        # Eight discs touch the wall about three times per period. With fewer contacts, the program
+        # uses the rim.
         for discs in (8, 16, 24, 36):
             video = self.video(of=["--discs", discs, "--width", 400, "--height", 400, "--scale", 15,
                                    "--frames-per-period", 60, "--quality", 18, "--from", 25], length=2,
@@ -551,7 +553,7 @@ class TrackTest(InFolder):
                     "track", self.with_times(video, name, times), "--out", out))
         if not ALL:
             return
-        # A gap of 30 frames, less than half a period, is none of these.
+        # A gap of 30 frames is shorter than half a period, so the video is not rejected.
         tracks, said = self.track(self.with_times(video, "gap.mkv", "if(gte(N,40),N+20,N)"))
         self.assertIn("frame rate varies", said)
 

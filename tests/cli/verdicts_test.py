@@ -210,7 +210,7 @@ def replicates(means):
 
 
 def share_decided(between, counts, repetitions, source):
-    """How often a value exactly on its bound is decided, where no verdict is right. The runs differ by
+    """How often a value exactly on its bound is decided, although no verdict is correct there. The runs differ by
     `between` times the errors of their blocks. Seeds are added until the value is decided
     (add_seeds_to_undecided in src/swirl/paper/paper.cpp)."""
     decided = 0

@@ -142,7 +142,7 @@ class Version1(OldFiles):
 
 
 class OtherFormats(OldFiles):
-    """The same files, changed to a format that this program does not know."""
+    """The same files, changed to a format that this program cannot read."""
 
     def rewrite(self, name, change):
         content = self.json(name)

@@ -105,8 +105,8 @@ TEST(ExactCircle, WallFrictionChangesEnergyMinusOmegaLByTorqueAndLoss) {
         now.velocity = now.velocity - s.container_velocity;
         const double loss = kinetic_energy(then) - kinetic_energy(now);
         ASSERT_GE(loss, -1e-12);
-        // Friction acts on the disc by −J_t r at the wall, where r = −θ̂: the torque about C is
-        // +R J_t, as orbital and spin part together.
+        // Friction acts on the disc by −J_t r at the wall, where r = −θ̂: the torque about C is +R
+        // J_t, the sum of its orbital and spin parts.
         ASSERT_NEAR(change, -omega * scene.container_radius * event.impulse.tangential - loss,
                     1e-11);
     }

@@ -110,7 +110,7 @@ TEST(Placement, DensestKnownArrangements) {
 }
 
 TEST(Placement, SlowNoArrangementDenserThanTheKnownOnesIsFound) {
-    // The container holds one disc less than is placed.
+    // The known arrangement has one disc fewer than the call requests.
     for (const double R : {4.6, 6.1, 8.6}) {
         const auto n = discs_in_densest_known_arrangement(1.0, R);
         ASSERT_TRUE(n);

@@ -70,8 +70,8 @@ TEST_P(EngineEqualsReference, OnTheExactCircle) {
         expect_same_trajectory(scene, 10000, tuning());
         expect_same_trajectory(scene, 5000, tuning(1));
     }
-    // With a grid; with discs that stay away from the wall; and with smooth discs, which slide
-    // along the wall for long.
+    // Scenes with a grid, with a mixture in which some discs stay away from the wall, and with
+    // smooth discs that slide along the wall for a long time.
     expect_same_trajectory(on_circle(state_of({unit_disc()}, 200, 18.0, still_path(1.0), 1.0, 1.0)),
                            5000, tuning());
     expect_same_trajectory(on_circle(mixture_container()), 10000, tuning(3));
@@ -100,14 +100,15 @@ TEST_P(EngineEqualsReference, WithListsInAContainerMuchLargerThanItsDiscs) {
                      polygon_path(paper_amplitude, paper_period, paper_sides), 1.0, 1.0);
         expect_same_trajectory(wide, 1500, tuning(SearchMethod::lists));
     }
-    // A crystal that melts: more discs within a rounding error than lists usually hold.
+    // A crystal that melts. More discs lie within a rounding error of a disc than lists usually
+    // hold.
     InitialState heap = state_of({unit_disc()}, 48, 1e7, still_path(1.0), 1.0, 1.0, 0.1);
     for (std::size_t i = 0; i < heap.discs.size(); ++i)
         heap.discs[i].position = {3e6 + 2.001 * static_cast<double>(i % 7),
                                   2e6 + 2.001 * static_cast<double>(i / 7)};
     expect_same_trajectory(heap, 300, tuning(SearchMethod::lists));
 }
-// Far from the origin positions are less precise, and a small angle is a long way.
+// Far from the origin, positions are less precise, and a small angle is a long distance.
 TEST_P(EngineEqualsReference, OnLargeAndSmallCircles) {
     for (const double amplitude : {1e-3, 30.0, 1e6}) {
         for (const std::size_t n : {28u, 48u}) {
@@ -273,9 +274,9 @@ TEST_P(EngineEqualsReference, InAGasOfUnequalDiscs) {
         for (const SearchMethod search : {SearchMethod::lists, SearchMethod::cells})
             expect_same_trajectory(scene, events, tuning(search));
 }
-// The memory that a simulation uses shows which search it has chosen.
-// Cells are chosen if lists would be rebuilt too often; not in a denser gas, and not if a cell
-// would hold forty discs.
+// The memory that a simulation uses shows which search it has chosen. The engine chooses cells if
+// lists would be rebuilt too often. It does not choose them in a denser gas, or if a cell would
+// hold forty discs.
 TEST(ChooseSearch, CellsForUnequalDiscsWhoseListsDoNotLast) {
     const auto bytes = [](const InitialState& scene, SearchMethod search) {
         return Simulation(scene, {}, {0, Width::best, search}).loop_counts().bytes;
@@ -454,7 +455,7 @@ TEST_P(EngineEqualsReference, WithCellsOnTheExactCircle) {
         dilute.disc_surface = {0.5, 0.8, 0.4, 1e-3};
         expect_same_trajectory(dilute, events, tuning(SearchMethod::cells));
     }
-    // A path much larger than the container; and a clockwise one.
+    // A path much larger than the container, and a clockwise path.
     InitialState far =
         state_of({unit_disc()}, 60, 18.0, polygon_path(200.0, paper_period, paper_sides), 1.0, 1.0);
     expect_same_trajectory(on_circle(far, 200.0), 2000, tuning(SearchMethod::cells));
@@ -668,8 +669,8 @@ TEST(EngineWithManyDiscs, EqualsGridReferenceInADiluteGasOfTenThousand) {
     if (sanitized) GTEST_SKIP() << "a million events";
     expect_same_trajectory<GridReference>(gas_at_rest(10000, 0.2), 1000000, {});
 }
-// By far the longest test of this layer, ten seconds. Ten thousand discs above use the same lists,
-// cells and queue.
+// This is by far the longest test of this layer (ten seconds). The test above with ten thousand
+// discs uses the same lists, cells and queue.
 TEST(EngineWithManyDiscs, SlowEqualsGridReferenceInAContainerOfAHundredThousand) {
     if (sanitized) GTEST_SKIP() << "a million events";
     expect_same_trajectory<GridReference>(large_container(100000), 1000000, {});

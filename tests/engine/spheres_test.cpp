@@ -310,7 +310,7 @@ TEST(Spheres, ParabolaAgreesWithTimeSteps) {
         for (int k = 0; k < steps; ++k) {
             const Vec2 c = slip_on_floor(d, scene.path.segment_at((k + 0.5) * dt).velocity);
             const double slip = std::hypot(c.x, c.y);
-            // At most until the slip c is zero; c changes 3.5 times as fast as v.
+            // The friction acts at most until the slip c is zero. c changes 3.5 times as fast as v.
             const double push = std::min(0.7 * dt, slip / 3.5) / slip;
             d.velocity = d.velocity - push * c;
             d.rolling_spin = d.rolling_spin + 2.5 * Vec2{-push * c.y, push * c.x};

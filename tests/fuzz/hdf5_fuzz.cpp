@@ -72,7 +72,8 @@ bool watch_library() {
 }  // namespace
 
 /// The library allocates as much as a file declares, up to gigabytes, and leaks memory if it cannot
-/// open a file. So malloc is limited to what good files need. A failing `new` still ends the process.
+/// open a file. So malloc is limited to what good files need. If `new` fails, the process still
+/// ends.
 extern "C" const char* __asan_default_options() {
     return "allocator_may_return_null=1:max_allocation_size_mb=256:"
            "detect_leaks=0:" SWIRL_CHEAPER_ALLOCATIONS;

@@ -83,8 +83,8 @@ inline std::vector<std::vector<unsigned char>> good_recordings() {
 #define SWIRL_CHEAPER_ALLOCATIONS \
     "malloc_context_size=2:quarantine_size_mb=8:thread_local_quarantine_size_kb=64"
 
-/// Makes the library keep its tables of half a megabyte. By default it allocates them again for each
-/// file, which takes a third of the time.
+/// Makes the HDF5 library keep its tables of half a megabyte. By default it allocates them again
+/// for each file, which takes a third of the time.
 inline bool keep_tables_of_library() {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     return H5set_free_list_limits(-1, -1, -1, -1, -1, -1) >= 0;

@@ -25,7 +25,8 @@ void expect_same_discs(const std::vector<Disc>& replayed, const Simulation& simu
     }
 }
 
-/// A mixture: with radii, masses and inertias of 1 a missing factor would not show.
+/// A mixture, because with radii, masses and inertias of 1 the test would not detect a missing
+/// factor.
 InitialState mixed_container() {
     InitialState scene = paper_container(20, 7);
     scene.disc_surface.mu = 0.3;

@@ -240,7 +240,7 @@ def read_vtp():
         points = vtk_to_numpy(wall.GetPoints().GetData())
         # The points are at equal distances, so their mean is the centre.
         distances = np.hypot(*(points - points.mean(axis=0)).T[:2])
-        # Coordinates near 10 have roundings of 2e-15, and so has their mean.
+        # Coordinates near 10 have rounding errors of 2e-15, and so does their mean.
         almost(distances, np.full(len(points), distances[0]), "wall", tolerance=2e-14)
     for k, entry in enumerate(sets):
         assert float(entry.attrib["timestep"]) == time(k)
@@ -333,7 +333,7 @@ def read_gsd():
                 same(frame.log["particles/rolling_spin"], np.stack(rolling(k), axis=1), "rolling")
             else:
                 close(2 * np.arctan2(q[:, 3], q[:, 0]), angle, "angle")
-            # What HOOMD makes of it: q̄ p / 2, in the body's axes; turned to the lab, I ω.
+            # HOOMD reads q̄ p / 2 in the body's axes. Rotated to the lab, this is I ω.
             bar = q * [1, -1, -1, -1]
             body = product(bar, frame.particles.angmom) / 2
             spins = [*(rolling(k) if SPHERES else np.zeros((2, DISCS))), spin]

@@ -112,7 +112,7 @@ TEST(RepairedTracks, OnlyShortGapsAreInterpolated) {
     ASSERT_EQ(tracks.frames.size(), 11u);
     for (int k = 1; k <= 7; ++k) {
         EXPECT_EQ(tracks.frames[std::size_t(k)].number, k);
-        // Thirds and sixths: one rounding.
+        // The steps are thirds and sixths, which are rounded once.
         EXPECT_NEAR(tracks.frames[std::size_t(k)].position[0].x, k - 1, 1e-14);
         EXPECT_NEAR(tracks.frames[std::size_t(k)].position[0].y, 14 - 2 * k, 1e-14);
     }

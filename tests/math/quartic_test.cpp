@@ -183,7 +183,8 @@ TEST(Quartic, FirstFallIsTheFirstOfFourRoots) {
     const Quartic f{24.0, -50.0, 35.0, -10.0, 1.0};
     EXPECT_NEAR(first_fall(f, 10.0, 0.0), 1.0, 1e-14);
     EXPECT_EQ(first_fall(f, 0.9, 0.0), never);
-    // Started between 1 and 2, where it is negative and falls, or negative and rises.
+    // The search starts between 1 and 2, where the quartic is negative and falls, or is negative
+    // and rises.
     const auto later = [&](double by) {
         const double c1 = f.slope(by), c2 = 0.5 * f.curvature(by), c3 = 4.0 * by - 10.0;
         return Quartic{f.value(by), c1, c2, c3, 1.0};

@@ -112,7 +112,7 @@ TEST(AngularProfile, NormalisedErrorIsPositive) {
         profile.sample(discs_at({{{4.0, 0.0}, {0.0, speed}}, {{-4.0, 0.0}, {0.0, -speed}}}));
         profile.close_block();
     }
-    // The wall has −1 in the M-frame, as the centre of mass rests at C.
+    // The wall rotates at −1 (in units of Ω) in the M-frame, because the centre of mass rests at C.
     EXPECT_NEAR(profile.normalised(0).mean, -profile.plain(0).mean, 1e-12);
     EXPECT_GT(profile.plain(0).error, 0.0);
     EXPECT_NEAR(profile.normalised(0).error, profile.plain(0).error, 1e-12);

@@ -50,7 +50,8 @@ TEST(ClusterCentre, ForcesAtMAndOnADiscThatMovesWithTheWall) {
     at_M.close_block();
     EXPECT_NEAR(row_of(at_M, "centrifugal").mean, omega * omega * (7.6 + paper_amplitude), 1e-9);
     EXPECT_NEAR(row_of(at_M, "coriolis").mean, 0.0, 1e-9);
-    // At rest relative to the container: it rotates with the wall, at −Ω about C.
+    // A disc at rest relative to the container: in the M-frame it rotates with the wall, at −Ω
+    // about C.
     Snapshot dragged = empty_container();
     add_disc(dragged, dragged.container_centre + Vec2{0.0, 5.0}, dragged.container_velocity);
     ClusterCentre with_wall(1);

@@ -183,7 +183,8 @@ TEST(Fields, MergedEqualOneLongRunAndManyPeriodsAreGrouped) {
         EXPECT_GE(a[0].blocks, FieldGrid::max_groups / 2);
         for (std::size_t k = 0; k < a.size(); ++k) {
             EXPECT_NEAR(a[k].mean, b[k].mean, 1e-13) << field_quantities[k].name;
-            // Errors from about ten groups scatter by a fifth, those of a few collisions more.
+            // The error of about ten groups scatters by a fifth; that of few collisions scatters
+            // more.
             if (a[k].error > 0.0) {
                 log_ratio += std::log(b[k].error / a[k].error);
                 ++ratios;

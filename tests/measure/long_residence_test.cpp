@@ -64,7 +64,7 @@ TEST(LongResidences, ShareEqualsThatOfWallResidences) {
     WallResidences residences;
     for (int k = 0; k < 3000; ++k) residences.sample(at_sample(k, at_wall(k)));
     residences.close_block();
-    // Except for the samples at the end, which are not yet known.
+    // They differ only by the samples at the end, for which the residence is not yet determined.
     EXPECT_NEAR(residences.share().mean * 3000, double(found(3000, at_wall).size()), 41.0);
 }
 

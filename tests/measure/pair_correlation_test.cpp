@@ -62,7 +62,7 @@ TEST(PairCorrelation, SumsToOneOverAllDistances) {
             closer_in_circle(bins.upper(bin) / 7.6) - closer_in_circle(bins.lower(bin) / 7.6);
         if (!std::isnan(g)) sum += g * share;
     }
-    EXPECT_NEAR(sum, 1.0, 1e-12);  // rounding of some hundred terms
+    EXPECT_NEAR(sum, 1.0, 1e-12);  // rounding errors of the sum over bins
 }
 
 // Two discs in the inner circle at a distance of 2.04: N − 1 = 1 partner for both references. The

@@ -40,8 +40,9 @@ TEST(Rolling, SharesAndSlipAreThoseOfTheSpheres) {
     EXPECT_NEAR(row_of(r, "floor_slip").mean, 0.5 / 3.0, 1e-15);
 }
 
-// Side by side over the floor: they roll alike, and nothing slips along the line of centres. One
-// behind the other: the contact slips with both speeds. Towards each other: it does not slip.
+// Two spheres that move side by side roll alike, and their contact does not slip. If one follows
+// the other, the contact slips with the sum of both speeds. If they approach each other, it does
+// not slip.
 TEST(Rolling, CorrelationsOfAPairAreExact) {
     const auto pair = [](const Vec2& a, const Vec2& b) {
         Snapshot s = empty_container();

@@ -43,7 +43,8 @@ TEST(WallResidences, BeginAndEndWhereTheDiscEntersAndLeaves) {
 
 TEST(WallResidences, ShortOnesDoNotCount) {
     WallResidences residences;
-    // 20° are 28 samples: enough for the lowest threshold, not for the standard.
+    // A residence of 20° has 28 samples: enough for the lowest threshold, too few for the standard
+    // one.
     for (int k = 0; k < 3 * samples; ++k)
         residences.sample(at_sample(k, {rounds(k, 200.0, 180.0)}));
     residences.close_block();
@@ -53,7 +54,7 @@ TEST(WallResidences, ShortOnesDoNotCount) {
     EXPECT_NEAR(residences.share(WallResidences::standard, 0).mean, 20.0 / 360.0, 1.5 / samples);
 }
 
-// The minimum length is 40 steps: from the first to the last of 41 samples.
+// The minimum length is 40 steps, from the first to the last of 41 samples.
 TEST(WallResidences, MinimumLengthIsInclusive) {
     for (const int length : {41, 40}) {
         WallResidences residences;

@@ -50,7 +50,7 @@ def text_of(path):
 
 @functools.lru_cache(maxsize=None)
 def included(path):
-    """All files of ours that `path` includes, directly or through others; itself too."""
+    """All files of this project that `path` includes, directly or through others, and `path` itself."""
     found, waiting = set(), [path]
     while waiting:
         path = waiting.pop()

@@ -14,11 +14,12 @@ namespace {
 TEST(CoarseZero, IsThatOfTheStraightLineBetweenTheNeighbouringPoints) {
     const CoarseZero zero = last_zero({{20, 0.5, 0.01}, {30, 0.3, 0.03}, {40, -0.1, 0.01}});
     EXPECT_TRUE(zero.falls);
-    // 30 + 10 · 0.3/0.4; both errors at a weight of ¼ and ¾, over the slope of 0.04.
+    // The zero is 30 + 10 · 0.3/0.4. The errors have the weights ¼ and ¾ and are divided by the
+    // slope of 0.04.
     EXPECT_NEAR(zero.discs, 37.5, 1e-12);
     EXPECT_NEAR(zero.error, std::hypot(0.25 * 0.03, 0.75 * 0.01) / 0.04, 1e-12);
     EXPECT_FALSE(last_zero({{20, -0.5, 0.01}, {30, 0.3, 0.03}}).falls);
-    // The last of two changes, and none where the signs are not certain.
+    // The last of two changes, and no change where the signs are uncertain.
     EXPECT_NEAR(last_zero({{10, -1, 0.1}, {20, 1, 0.1}, {30, -1, 0.1}}).discs, 25.0, 1e-12);
     EXPECT_FALSE(last_zero({{20, 0.5, 0.01}, {30, -0.1, 0.1}}).exists());
     EXPECT_FALSE(last_zero({}).exists());

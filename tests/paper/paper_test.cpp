@@ -122,7 +122,8 @@ TEST(Figures, UnknownNameIsRejectedWithTheNearestOne) {
     }
 }
 
-// Each run of a figure is done by one share. Shares do not depend on the results that exist.
+// Each run of a figure belongs to exactly one share. Shares do not depend on the results that
+// exist.
 TEST_F(Paper, SharesDoEachRunOnce) {
     const std::vector<PaperFigure> figures{{"x", "of three runs", three_runs}};
     calls = 0;

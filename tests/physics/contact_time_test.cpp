@@ -13,8 +13,8 @@ namespace swirl {
 namespace {
 
 // Tolerance of |distance² − σ²| at the computed time. Positions are below 200 (10 + speed 4 × the
-// longest wait allowed below), so their squares are below 4·10⁴ with relative errors of 2⁻⁵³; a
-// dozen roundings.
+// longest wait allowed below), so their squares are below 4·10⁴ with relative errors of 2⁻⁵³. The
+// bound allows a dozen roundings.
 constexpr double longest_wait = 40.0;
 constexpr double rounding_of_squares = 1e-10;
 
@@ -137,7 +137,8 @@ TEST(TimeOfContact, HeadOnIsGapDividedBySpeed) {
 }
 
 TEST(TimeOfContact, TinyGapKeepsAllDigits) {
-    // The gap is 2⁻⁴⁰, the speed 2⁻¹⁰. In the form (−b − √)/a the gap would be lost in b.
+    // The gap is 2⁻⁴⁰, the speed 2⁻¹⁰. In the form (−b − √)/a, the rounding error of b would exceed
+    // the gap.
     const Flyer i{{0, 0}, {0x1p-10, 0}, 0}, j{{2.0 + 0x1p-40, 0}, {0, 0}, 0};
     EXPECT_NEAR(time_of_contact(i, j, 2.0), 0x1p-30, 0x1p-30 * 1e-11);
 }
@@ -236,8 +237,8 @@ RC_GTEST_PROP(TimeOfWallContact, OnAnArcTheExpansionIsCorrect, ()) {
               tolerance + 1e-13 * (wall.square() + wall.K() * x * x));
 }
 
-// Newton's method returns a contact only if it is the first: for random discs in about two of five
-// cases, for those in the paper's container nearly always.
+// Newton's method returns a contact only if it is certainly the first. This is so in about two of
+// five cases for random discs, and nearly always for discs in the paper's container.
 TEST(TimeOfWallContact, OnAnArcNewtonAgreesWithParabolas) {
     Random random(5);
     const auto draw_in = [&random](double from, double to) {
@@ -258,7 +259,7 @@ TEST(TimeOfWallContact, OnAnArcNewtonAgreesWithParabolas) {
         if (wait == never) continue;
         ++quick;
         const double t = arc_contact_by_parabolas(wall, d.time, eighth, never, never).time;
-        // If the disc grazes the wall its distance is well defined, not the time.
+        // If the disc grazes the wall, its distance is well defined, but the time is not.
         const Inside in{d, clearance + d.radius};
         EXPECT_LT(std::abs(wall_distance(in, segment, 0.5 * (d.time + wait + t))), 1e-12) << k;
         EXPECT_NEAR(d.time + wait, t, 1e-5) << k;

@@ -39,7 +39,8 @@ TEST(RollingBall, TouchesTheWallAndMovesWithItsVelocity) {
         const Vec2 off = s.position(0) - s.container_centre;
         EXPECT_NEAR(std::hypot(off.x, off.y), 3.6, 1e-14);
         const Vec2 moved = b.position(0) - a.position(0);
-        // Central difference: rounding 1e-15/dt, and the third derivative is negligible.
+        // Errors of the central difference: rounding gives 1e-15/dt, and the third derivative is
+        // negligible.
         EXPECT_NEAR(moved.x / (2.0 * dt), s.vx[0], 1e-8);
         EXPECT_NEAR(moved.y / (2.0 * dt), s.vy[0], 1e-8);
         EXPECT_NEAR((b.angle[0] - a.angle[0]) / (2.0 * dt), s.spin[0], 1e-8);

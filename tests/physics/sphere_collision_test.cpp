@@ -125,7 +125,7 @@ RC_GTEST_PROP(SphereCollision, ImpulsesActAtTheContact, ()) {
             cross3({arm * n.x, arm * n.y, 0.0}, {sign * on_j.x, sign * on_j.y, sign * on_j.z});
         const Vec3 a = spin_of(was), b = spin_of(is);
         const double k = was.inverse_inertia;
-        // Inertia may be as small as 0.001, so spins may be 1000.
+        // The inertia can be as small as 0.001, so spins can reach 1000.
         RC_ASSERT(std::abs(b.x - a.x - k * torque.x) < 1e3 * rounding);
         RC_ASSERT(std::abs(b.y - a.y - k * torque.y) < 1e3 * rounding);
         RC_ASSERT(std::abs(b.z - a.z - k * torque.z) < 1e3 * rounding);
@@ -224,8 +224,8 @@ RC_GTEST_PROP(SphereCollision, FrictionObeysCoulombsLawAndSticksIfItCan, ()) {
     RC_ASSERT(std::abs(after.z + Lifted(c, J).slip + beta * before.z) < 1e3 * rounding);
 }
 
-// The impulse is between the direction against the slip and that of J*. Weak friction is against
-// the slip, up to k² = 10⁻⁸ of the angle between the two.
+// The direction of the impulse is between the direction against the slip and that of J*. Weak
+// friction acts against the slip, up to k² = 10⁻⁸ of the angle between the two directions.
 RC_GTEST_PROP(SphereCollision, FrictionTurnsFromOpposingTheSlipToSticking, ()) {
     Collision c = draw_collision();
     c.surface.tangential_restitution = 0.0;
@@ -249,7 +249,8 @@ RC_GTEST_PROP(SphereCollision, FrictionTurnsFromOpposingTheSlipToSticking, ()) {
     RC_ASSERT(std::abs(against_slip(friction(1e-4))) <= 2e-8 * std::abs(apart) + rounding);
     const double at_half = against_slip(friction(0.5)), at_most = against_slip(friction(0.9999));
     RC_ASSERT(at_half * apart >= -rounding && std::abs(at_half) <= std::abs(apart) + rounding);
-    // 1 − k² is 2·10⁻⁴, times an angle below 1; and m_s |s| may be smaller than K.
+    // The deviation is 1 − k² = 2·10⁻⁴ times an angle below 1. It may be larger, because m_s |s|
+    // may be smaller than K.
     RC_ASSERT(std::abs(at_most - apart) < 1e-3);
 }
 

@@ -303,8 +303,8 @@ def test_progress_is_reported_and_may_raise():
         swirl.run(discs=48, events=1e9, progress=stop)
 
 
-# The signal comes from another thread, which has run a hundred times by then: the engine does not block
-# other threads. A call that missed the signal would not end, or would end without an exception.
+# Another thread sends the signal after a hundred steps of its own: the engine does not block other threads. A
+# call that missed the signal would not end, or would end without an exception.
 INTERRUPTED = """
 import swirl, os, signal, threading, time
 def interrupt():

@@ -275,8 +275,8 @@ TEST(Scene, ArcOfTheTurnsRunsLeftForRotation) {
         const Color color = turns < 0.0 ? style.theme.pinned : style.theme.loose;
         const Patch arc = patch_of(canvas, color);
         ASSERT_GT(arc.count, 100.0);
-        // The arc covers 0.2 turns from the top, so its centroid is at about 0.1 turns. The head
-        // moves it by up to 0.12 rad.
+        // The arc covers 0.2 turns from the top, so its centroid is at about 0.1 turns. The
+        // arrowhead shifts the centroid by up to 0.12 rad.
         const double expected = 0.5 * pi + (turns < 0.0 ? -1.0 : 1.0) * 0.1 * 2.0 * pi;
         EXPECT_NEAR(turned_by(expected, direction(centre, arc.middle)), 0.0, 0.12) << turns;
     }

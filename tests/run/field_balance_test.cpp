@@ -13,7 +13,7 @@
 namespace swirl {
 namespace {
 
-/// The densities, from the definition alone.
+/// The densities, calculated again from the definition alone.
 FieldDensities brute_densities(const Snapshot& s, const Vec2& x, double w) {
     FieldDensities sum;
     for (std::size_t i = 0; i < s.size(); ++i) {
@@ -27,7 +27,7 @@ FieldDensities brute_densities(const Snapshot& s, const Vec2& x, double w) {
     return sum;
 }
 
-/// As a run shows it to observers.
+/// The snapshot in the form in which a run passes it to observers.
 Snapshot observed(const Snapshot& s) { return s.are_spheres() ? s.up_to_date() : s; }
 
 struct BalanceSums {
@@ -57,7 +57,8 @@ BalanceSums expect_balances(const InitialState& scene, std::uint64_t seed) {
         const FieldDensities change = brute_densities(observed(stored), x, width) - before;
         const BalanceTerms& t = balance.terms();
         const FieldDensities total = t.total();
-        // The scale adds up some thousand contributions, and their rounding errors are random.
+        // The scale is the sum of about a thousand contributions, and their rounding errors are
+        // random.
         constexpr double rounding = 1e-15;
         EXPECT_NEAR(change.mass, total.mass, rounding * t.scale_of_mass);
         EXPECT_NEAR(change.momentum.x, total.momentum.x, rounding * t.scale_of_momentum);
@@ -156,7 +157,7 @@ struct InnerMean {
     double packing = 0.0, density = 0.0, temperature = 0.0, pressure = 0.0;
     double vorticity = 0.0, spin = 0.0, torque = 0.0, torque_square = 0.0, shear = 0.0;
 };
-/// Over the points within half of the container's radius.
+/// The mean over the points within half of the container's radius.
 InnerMean inner_mean(const FieldGrid& grid) {
     InnerMean mean;
     double n = 0.0;
@@ -227,7 +228,8 @@ TEST(RigidRotation, IsTheEquilibriumOfPerfectlyRoughDiscs) {
     // correlated neither with each other nor for long.
     EXPECT_NEAR(2.0 * mean.spin, mean.vorticity, 0.025);
     EXPECT_NEAR(mean.vorticity, 2.0 * rate, 0.04);
-    // A contact transfers ± some tenths of the pressure; the mean of 30,000 is a hundredth of it.
+    // A contact transfers ± a few tenths of the pressure, so the error of the mean of 30,000 is
+    // about a hundredth of it.
     EXPECT_NEAR(mean.torque, 0.0, 0.02 * mean.pressure);
     EXPECT_LT(fields.largest_residuals()[2], 1e-13);
 }

@@ -102,7 +102,8 @@ TEST(IdealGas, HasMaxwellsDistributionAndIndependentVelocities) {
     }
     for (std::size_t bin = 20; bin < correlation.bins().count; ++bin)
         for (const Estimate& e : {correlation.along(bin), correlation.across(bin)})
-            // 360 values with errors from 30 blocks (Student): none is beyond 5.
+            // 360 values with errors from 30 blocks (Student): no value deviates by more than 5
+            // errors.
             EXPECT_NEAR(e.mean, -1.0 / (n - 1.0), 5.0 * e.error) << bin;
 }
 

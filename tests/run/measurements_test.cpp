@@ -129,7 +129,8 @@ TEST(Measurements, OrderAndPackingAreWithinTheirBounds) {
 
 TEST(Measurements, DiffusionHasLagsBelowAPeriodAndOfWholePeriods) {
     const auto table = measured_run(short_run(), {"diffusion"}).measured["diffusion"];
-    // 64 of 73 parts of a period; in 25 periods, lags of 1, 2, 4, 8, 16.
+    // Lags of 1, 2, 4, … 64 of 73 parts of a period, and, in 25 periods, lags of 1, 2, 4, 8 and 16
+    // periods.
     ASSERT_EQ(table["lag"].size(), 12u);
     EXPECT_NEAR(table["lag"][0].get<double>(), paper_period / 73.0, 1e-9);
     EXPECT_NEAR(table["lag"][7].get<double>(), paper_period, 1e-9);

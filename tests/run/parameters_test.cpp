@@ -73,6 +73,7 @@ std::string another(const Parameter& p) {
                                                              {"speed", "2"},
                                                              {"path", "circle"},
                                                              {"frictionless", "bulk"},
+                                                             {"container_radius", "9"},
                                                              {"direction", "clockwise"},
                                                              {"sizes", "uniform:0.9:1.1"},
                                                              {"periods", "50"},
@@ -224,8 +225,8 @@ TEST(RunParameters, FloorParametersAreRejectedWithoutAFloor) {
                 testing::HasSubstr("there is no floor"));
     EXPECT_EQ(error_of({{"preset", "experiment"}, {"floor", "none"}}), "");
 }
-// Measured at N = 36: ϖ is unchanged up to 100 times the experiment's 0.3. At 3000 times it
-// differs.
+// Measured at N = 36: ϖ is the same up to 100 times the experiment's floor friction of 0.3. At 3000
+// times this friction ϖ differs.
 TEST(RunParameters, TooLargeFloorFrictionIsRejected) {
     EXPECT_EQ(error_of({{"preset", "experiment"}, {"floor_friction", "100"}}), "");
     EXPECT_THAT(error_of({{"preset", "experiment"}, {"floor_friction", "1000"}}),

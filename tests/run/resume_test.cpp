@@ -86,7 +86,8 @@ TEST(Resume, AnInterruptedRunEndsWithTheSameResult) {
     expect_interruptions_do_not_change(short_run());
 }
 
-// Interrupted between two samples of the average by event: 1700 is not a multiple of 38.
+// The interruption is between two samples of the average by event, because 1700 is not a multiple
+// of 38.
 TEST(Resume, AnInterruptedRunOfALargeContainerEndsWithTheSameResult) {
     RunConfig config = short_run();
     config.discs = 150;

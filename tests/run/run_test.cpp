@@ -209,8 +209,8 @@ TEST(Run, TheAverageByEventOfManyDiscsSamplesEveryFewEvents) {
     // 1e-11: the sums are rounded in another order.
     EXPECT_NEAR(mean, sum / weights, 1e-11);
     EXPECT_EQ(result.events_per_rotation_sample, every);
-    // An event changes two of 200 discs by about Ω each, a hundredth of the mean with random sign.
-    // The average is over hundreds of samples.
+    // An event changes the rotation of two of 200 discs by about Ω each. This changes the mean by a
+    // hundredth of Ω, with random sign. The average is over hundreds of samples.
     EXPECT_GT(samples, 600.0);
     EXPECT_NEAR(mean, whole_sum / static_cast<double>(events), 3e-3);
 }

@@ -152,7 +152,7 @@ void expect_floor_loss_equals_sliding_work(const RunConfig& config) {
         budget.sample_event(event, s.up_to_date());
     }
     budget.close_event_block(1.0);
-    // 20,000 events, each to the rounding of energies of order 10.
+    // The tolerance allows 20,000 events with one rounding each of energies of order 10.
     EXPECT_NEAR(row_of(budget, "floor_friction_power").mean, heat, 1e-9 * heat);
     EXPECT_GT(heat, 1.0);
 }

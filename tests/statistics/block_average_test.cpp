@@ -53,7 +53,8 @@ TEST(Statistics, ErrorOfIndependentBlocksIsTheirScatter) {
     BlockSeries series;
     for (int i = 0; i < 1000; ++i) series.add(noise(), 1.0);
     const Estimate e = series.estimate();
-    // Scatter 1/√3 over √1000; the error is known to 1/√2000 = 2.2 %, twice that for τ.
+    // The error is the scatter 1/√3 over √1000. It is known to 1/√2000 = 2.2 %, and τ to twice
+    // that.
     EXPECT_NEAR(e.error, std::sqrt(1.0 / 3000.0), 0.15 * std::sqrt(1.0 / 3000.0));
     EXPECT_NEAR(e.mean, 0.0, 4.0 * e.error);
 }
@@ -66,7 +67,8 @@ TEST(Statistics, CorrelatedBlocksCountForLess) {
     double value = 0.0;
     for (int i = 0; i < 2000; ++i) series.add(value = a * value + noise(), 1.0);
     const Estimate e = series.estimate();
-    // τ of a chain of 2000 is known to about √(2·(2·20+1)/2000) = 20 %; three times that.
+    // τ of a chain of 2000 is known to about √(2·(2·20+1)/2000) = 20 %. The tolerance is three
+    // times this error.
     EXPECT_NEAR(2000.0 / e.effective_samples, 9.0, 5.4);
     EXPECT_NEAR(e.error, std::sqrt(9.0 / 3.0 / (1.0 - a * a) / 2000.0), 0.02);
 }

@@ -119,7 +119,7 @@ TEST(Fluctuations, TheVarianceOfShortCorrelatedSeriesHasNoLargeBias) {
 }
 
 TEST(Fluctuations, LifetimesAreThoseOfATelegraphSignal) {
-    // Left with the probabilities 1/60 and 1/25 in each period.
+    // The signal leaves its states with the probabilities 1/60 and 1/25 in each period.
     Random random(3);
     Values values;
     bool is_high = false;

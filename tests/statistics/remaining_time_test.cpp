@@ -10,7 +10,8 @@
 namespace swirl {
 namespace {
 
-/// Expects the estimates after five seconds to be right within a factor of two, or two seconds.
+/// Expects the estimates after five seconds to be correct within a factor of two or within two
+/// seconds.
 void expect_within_a_factor_of_two(const RemainingTime& estimate, double now, double end) {
     if (now < 5.0 || now >= end) return;
     const auto left = estimate.seconds_left();

@@ -176,7 +176,8 @@ TEST(Ensemble, CoverageHoldsForUnequalLengths) {
              {295, 8}, {295, 295, 8}, {100, 50, 20}, {400, 100, 100}, {400, 400, 400, 100, 100}}) {
         EXPECT_GT(shares_of(lengths, 30.0, false, random).held, 0.935)
             << lengths.front() << " … " << lengths.back() << ", " << lengths.size();
-        // Also if the blocks contain the whole error, and the short run is merely uncertain.
+        // The same holds if the blocks contain the whole error, and the short run is merely
+        // uncertain.
         EXPECT_GT(shares_of(lengths, 0.0, true, random).held, 0.935)
             << lengths.front() << " … " << lengths.back() << ", " << lengths.size();
     }

@@ -45,8 +45,8 @@ TEST(Crossing, IsTheZeroBetweenTwoNeighbours) {
     EXPECT_NEAR(c.error, 0.1 * std::hypot(0.6, 0.4), 0.05 * c.error);
 }
 
-// A straight line through three points on each side would be biased by the bending. Its zero and
-// interval would depend on the points in the range: 47.85 and 47.6 to 48.0 for one, 47.46 for
+// A straight line through three points on each side would be biased by the curvature. Its zero and
+// interval would depend on the range of the table: 47.85 and 47.6 to 48.0 for one range, 47.46 for
 // another.
 TEST(Crossing, DoesNotDependOnTheRangeOfTheTable) {
     // A curve that bends like that of μ = 0.3.
@@ -108,7 +108,8 @@ TEST(Crossing, IntervalContainsTheZeroAndLiesInTheBracket) {
 /// Share of the tables, with this error at every point, whose 95 % interval contains the zero.
 double coverage(double zero, double bend, double error, int seeds = 0) {
     constexpr int tables = 4000;
-    // The curve bends, but N is a whole number: its zero is that between the neighbours.
+    // The curve bends, but N is a whole number. Its zero is therefore that of the straight line
+    // between neighbouring N.
     const auto curve = [&](double n) {
         return -0.01 * (n - 36.4 - zero) + bend * (n - 36.4) * (n - 36.4);
     };
@@ -124,7 +125,7 @@ double coverage(double zero, double bend, double error, int seeds = 0) {
                 points.push_back({double(n), curve(n) + error * gauss(noise), error});
                 continue;
             }
-            // The error is that between so many runs, by Student's t.
+            // The error follows from the scatter of `seeds` runs, by Student's t.
             std::vector<Estimate> runs;
             for (int s = 0; s < seeds; ++s)
                 runs.push_back(
@@ -142,7 +143,8 @@ double coverage(double zero, double bend, double error, int seeds = 0) {
 }
 
 // 4000 tables: the standard deviation of a share of 0.95 is 0.0034. The hull of an interval with
-// gaps is wider, and a false sign of three errors loses some: 0.94 to 0.985 everywhere.
+// gaps is wider, which raises the share. A wrong sign at three errors lowers it. The share is 0.94
+// to 0.985 in all cases.
 TEST(Crossing, IntervalHasNominalCoverage) {
     for (const double zero : {-0.4, -0.2, 0.0, 0.3})
         for (const double bend : {0.0, 0.0004, -0.0004})
@@ -183,7 +185,7 @@ TEST(Crossing, IsNotClaimedWithoutEvidenceOnBothSides) {
     EXPECT_EQ(find_crossing(line(10.0, -0.01, 0.001)).verdict,
               Crossing::Verdict::always_counterrotates);
     EXPECT_EQ(find_crossing(line(36.0, -0.01, 10.0)).verdict, Crossing::Verdict::undecided);
-    // The wrong way round: counterrotation first.
+    // The opposite change: from counterrotation to rotation.
     const Crossing back = find_crossing(line(36.0, 0.01, 0.001));
     EXPECT_EQ(back.verdict, Crossing::Verdict::undecided);
     ASSERT_EQ(back.changes.size(), 1u);
@@ -280,7 +282,7 @@ TEST(SignChanges, AnUndeterminedHumpBeyondNcIsListed) {
     const Crossing c = find_crossing(points);
     EXPECT_NEAR(c.discs, 19.5, 1e-9);
     EXPECT_EQ(c.undetermined_after(), (std::vector<double>{28, 30}));
-    points[3].mean = 0.007;  // more runs make it certain
+    points[3].mean = 0.007;  // as after more runs, which make the sign certain
     const Crossing more = find_crossing(points);
     EXPECT_EQ(more.changes.size(), 3u);
     EXPECT_EQ(more.last()->before, 28.0);

@@ -215,7 +215,7 @@ TEST_P(SlowCalibrationOfTheCrossing, TheIntervalContainsTheCrossingForTwoRanges)
     // At most six misses, as for 40 intervals above.
     EXPECT_GE(contained, searches - 6);
     EXPECT_GT(calibration.scatter_to_error, 0.5) << "the errors are far too large";
-    // In 1 of 30 searches, chance gives one of about ten points a wrong sign by three errors.
+    // By chance, one of about ten points has a wrong sign at three errors in 1 of 30 searches.
     EXPECT_GE(same, searches - 4);
 }
 

@@ -26,8 +26,9 @@ CrossingSettings short_search(double mu) {
     return settings;
 }
 
-/// Replaces runs by a known curve: the mean over the discs is curve(N), the rate of the rigid body is
-/// smaller by `lower`, with normal errors of `error` for a hundred periods after the warm-up.
+/// Replaces runs by a known curve. The mean over the discs is curve(N), and the rate of the rigid
+/// body is smaller by `lower`. Both have normal errors of `error` for a hundred periods after the
+/// warm-up.
 CrossingControl planted(const std::function<double(double)>& curve, double error,
                         double lower = 0.02) {
     CrossingControl control;

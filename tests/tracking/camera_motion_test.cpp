@@ -76,7 +76,8 @@ TEST(CameraMotion, StabilisedFrameIsTheOneOfTheReferenceCamera) {
     const cv::Mat truth = frame_at(still, {0.0, 0.0}, 0.0, random);
     cv::Mat image = frame_at(moved, {0.0, 0.0}, 0.0, random);
     stabilise(image, moved);
-    // The table, which has no sharp edges: within rounding, and the 1/32 pixels of the interpolation.
+    // The table has no sharp edges, so the images agree within rounding and the 1/32 pixels of the
+    // interpolation.
     for (int row = 20; row < height - 20; ++row)
         for (int column = 20; column < width - 20; ++column) {
             if (length(Vec2{double(column), double(row)} - container) < swept) continue;

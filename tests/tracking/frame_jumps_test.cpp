@@ -116,7 +116,7 @@ TEST(FrameJumps, NoiseAndUnevenSwirlingAreNoJumps) {
     std::vector<std::size_t> frames;
     for (int k = 0; k < 300; ++k) {
         frames.push_back(centres.size());
-        centres.push_back(truth.at(k + 8.0 * std::sin(0.05 * k)));  // 40 % faster, and slower
+        centres.push_back(truth.at(k + 8.0 * std::sin(0.05 * k)));  // speed varies by ± 40 %
         if (k % 40 == 7) centres.back() = centres.back() + Vec2{4.0, -3.0};  // an outlier
     }
     EXPECT_TRUE(find_frame_jumps(centres, frames, truth, {}).empty());

@@ -44,7 +44,8 @@ TEST(Lens, SeenIsTheInverseOfIdealForATiltedCamera) {
 TEST(Lens, IdealCircleCorrectsTheShiftOfTheCentre) {
     const Lens lens{image_centre, 240.0, 0.03};
     const Lens::Circle container{{image_centre.x + 40.0, image_centre.y - 10.0}, 180.0};
-    // A fit determines the mean over the image, in equal steps of the angle about its centre.
+    // A fit of a circle to the image determines the means over equal steps of the angle about its
+    // centre.
     Vec2 centre = lens.seen(container.centre);
     double radius = 0.0;
     for (int pass = 0; pass < 20; ++pass) {

@@ -96,7 +96,7 @@ MapOutcome run_map_with_progress(const MapCall& call, const SweepPlan& plan,
     control.stop = &stop_signal();
     control.progress = [&](std::size_t decided, std::size_t sites, double done, double runs,
                            std::uint64_t events) {
-        // More sites may follow, and an undecided one may need more runs.
+        // More sites may follow, and an undecided site may need more runs.
         const auto all = static_cast<double>(sites), now = static_cast<double>(decided);
         const double step = runs > 0.0 ? done / runs : 0.0;
         line.show_events(all > 0.0 ? (now + 0.5 * (all - now) * step) / all : 0.0, events);

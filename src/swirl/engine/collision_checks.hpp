@@ -23,21 +23,19 @@ SWIRL_INLINE bool is_rounding(double error, double scale) {
 
 // How far from touching two bodies may be at their contact because of the rounding of doubles, each
 // by ε = 2⁻⁵³ of its value. The stored positions, velocities and times are exact by definition. Let
-// L be the largest coordinate on their ways. Let s be their separation at the later of the stored
-// times, from which the contact is predicted (contact_time.hpp), and v its rate of change. Let σ be
-// the distance of contact, and t its time.
+// L be the largest coordinate along their flights. Let s be their separation at the later of the
+// stored times, from which the contact is predicted (contact_time.hpp), and v its rate of change.
+// Let σ be the distance of contact, and t its time.
 //
 // 1. A position at a time is x + u (t − t₀). Here u (t − t₀) leads from one coordinate to another
-//    and
-//    is at most 2L. The difference, the product and the sum are rounded by 2εL, 2εL and εL. For two
-//    bodies and two coordinates, at the prediction and at the contact: at most 28 εL.
+//    and is at most 2L. The difference, the product and the sum are rounded by 2εL, 2εL and εL. For
+//    two bodies and two coordinates, at the prediction and at the contact: at most 28 εL.
 // 2. At the computed time τ, |s + vτ|² − σ² is not zero. c, 2bτ and aτ² are rounded by 3εs²,
-//    6εs|vτ|
-//    and 3ε|vτ|², and |vτ| is at most s + σ ≤ 2s: together 27 εs². An error δ of the discriminant D
-//    adds cδ/(√D − b)². As δ ≤ 8εb² and (√D − b)² ≥ b², this is at most 8 εs². It holds for grazing
-//    discs, too, whose τ has lost half of its digits, and for discs that miss each other. As
-//    |x|² − σ² = (|x| + σ)(|x| − σ), the distance is off by 18 εs²/σ. That grows with the square of
-//    the way: in a container of 10⁷ radii it is 0.1 radii.
+//    6εs|vτ| and 3ε|vτ|², and |vτ| is at most s + σ ≤ 2s: together 27 εs². An error δ of the
+//    discriminant D adds cδ/(√D − b)². As δ ≤ 8εb² and (√D − b)² ≥ b², this is at most 8 εs². It
+//    holds for grazing discs, too, whose τ has lost half of its digits, and for discs that miss
+//    each other. As |x|² − σ² = (|x| + σ)(|x| − σ), the error of the distance is 18 εs²/σ. It grows
+//    with the square of the path length: in a container of 10⁷ radii it is 0.1 radii.
 // 3. The sum now + τ is rounded by εt, in which the distance changes by εt|v|.
 //
 // For disc and wall s and σ are at most the clearance R − r, and so is s²/σ.

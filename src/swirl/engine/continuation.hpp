@@ -8,7 +8,7 @@
 namespace swirl {
 
 /// Why no simulation in this container, on this path, can have reached this state; null if it can.
-/// The text is a clause without a full stop. Checked are
+/// The text is a clause without a full stop. The function checks
 ///   - the time: the clock is within the segment, and the number of ended segments is that of the
 ///     periods;
 ///   - each disc: finite numbers, a positive size, a time between the start of the period and the

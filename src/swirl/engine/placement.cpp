@@ -59,8 +59,8 @@ std::size_t count_sites(double spacing, double reach, Deadline& deadline) {
     return count;
 }
 
-/// The widest spacing that has at least n sites, to one part in 10⁶; less precise if the deadline
-/// ends. Returns nothing if that would be below `minimum`.
+/// The widest spacing that has at least n sites, to one part in 10⁶; less precise after the
+/// deadline. Returns nothing if this spacing would be below `minimum`.
 template <class CountSites>
 std::optional<double> widest_spacing(std::size_t n, double widest, double minimum,
                                      CountSites count_sites_of, Deadline& deadline) {
@@ -191,7 +191,7 @@ bool push_apart(std::vector<Vec2>& centres, const std::vector<double>& radii,
     return false;
 }
 
-/// Overlaps count as this much deeper, in radii of the smallest disc.
+/// This length is added to the depth of every overlap, in radii of the smallest disc.
 constexpr double relaxation_margin = 1e-5;
 
 /// Minimises the energy of the overlaps of discs with each other and with the wall. It ends without

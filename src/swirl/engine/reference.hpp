@@ -1,7 +1,7 @@
 // The reference implementation: the paper's method (SI, "Finding the next event") in its simplest
 // form. It computes the times of all possible events, takes the earliest and executes it, with one
 // particle at a time and no memory of earlier predictions. The engine must agree with it bitwise.
-// When bodies touch, and what a collision does, is in reference_bodies.hpp.
+// reference_bodies.hpp has the contact times and the collisions.
 #pragma once
 
 #include <cstddef>

@@ -31,9 +31,9 @@ struct Progress {
     EventCounts events;
 };
 
-/// How the discs are found that a disc can collide with: all pairs, neighbour lists (Verlet), or
-/// the cell of the disc and those around it (linked cells). `best` is what is fastest for the
-/// scene. Spheres have no lists.
+/// How the engine finds the discs that a disc can collide with: all pairs, neighbour lists
+/// (Verlet), or the cell of the disc and those around it (linked cells). `best` chooses the fastest
+/// method for the scene. Spheres have no lists.
 enum class SearchMethod : std::uint8_t { best, all_pairs, lists, cells };
 
 /// Settings that change the speed, never a result.
@@ -41,8 +41,8 @@ struct Tuning {
     /// The grid in which neighbours for the lists are found: 1 is no grid, 0 chooses by density.
     int cells_per_side = 0;
     Width width = Width::best;
-    /// A method that the scene does not allow is replaced: by lists, for spheres by cells. Not
-    /// allowed are all pairs for many discs, and cells on a path with several arcs.
+    /// If the scene does not allow the method, lists replace it, or cells for spheres. All pairs
+    /// are not allowed for many discs, and cells are not allowed on a path with several arcs.
     SearchMethod search = SearchMethod::best;
     /// Polled now and then while a simulation is constructed, which takes seconds for millions of
     /// discs. Once it has returned true it must continue to do so. The simulation then has no

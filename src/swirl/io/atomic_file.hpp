@@ -14,8 +14,8 @@
 
 namespace swirl {
 
-/// A file that is written piece by piece and then published. Its functions throw FileError, and
-/// then the target is as it was.
+/// A file that is written piece by piece and then published. If a function throws FileError, the
+/// target is unchanged.
 class AtomicFile {
   public:
     explicit AtomicFile(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
 // Paths and common parts of the HDF5 files of this program. Frames follow H5MD (trajectory.hpp,
-// track_recording.hpp); everything else is next to them in /parameters.
+// track_recording.hpp); all other data are in the group /parameters.
 #pragma once
 
 #include <cstdint>

@@ -82,9 +82,10 @@ class Hdf5File {
     bool has(const std::string& name) const;
     std::vector<std::string> names_in(const std::string& group) const;
 
-    /// Creates a column that grows along its first dimension. `chunk_shape` gives the rows of a
-    /// chunk and then its extent along the dimensions of a row; dimensions that it omits are not
-    /// divided. `compression`: 0 for none, 1…9 for a byte shuffle and deflate of this level.
+    /// Creates a column that grows along its first dimension. `chunk_shape` gives the number of
+    /// rows of a chunk and then its extent along the dimensions of a row. Chunks have the full
+    /// extent along dimensions that it omits. `compression`: 0 for none, 1…9 for a byte shuffle and
+    /// deflate of this level.
     template <ColumnValue T>
     Column create_column(const std::string& name, const Dimensions& row_shape,
                          const Dimensions& chunk_shape, int compression);

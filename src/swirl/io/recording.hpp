@@ -26,9 +26,9 @@ std::string recorded_entry(const std::filesystem::path& file, const std::string&
 /// Throws FileError if this recording belongs to another run.
 void require_recording_of(const std::filesystem::path& file, const std::string& run);
 
-/// Opens a recording to continue it. Throws FileError if it belongs to another run. A kill can come
-/// after the recording was published and before the result was written; the recording then gets its
-/// partial name back.
+/// Opens a recording to continue it. Throws FileError if it belongs to another run. If the process
+/// was killed after the recording was published and before the result was written, the recording
+/// gets its partial name back.
 Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run);
 
 /// Throws FileError if a recording has fewer `items` ("frames" or "events") than the checkpoint

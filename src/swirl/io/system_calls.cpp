@@ -55,8 +55,8 @@ void close_both(const int (&ends)[2]) {
 }
 #endif
 
-/// Renames without replacing, in one step. Fails with EINVAL, ENOSYS or ENOTSUP where the system or
-/// the file system cannot.
+/// Renames without replacing, in one step. Fails with EINVAL, ENOSYS or ENOTSUP if the system or
+/// the file system does not support this.
 bool rename_exclusively(const char* from, const char* to) {
 #if defined(__linux__)
     return ::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0;

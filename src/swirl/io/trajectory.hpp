@@ -101,7 +101,7 @@ class TrajectoryReader {
     /// components, step and time of each series, z of positions and velocities. Returns the name of
     /// one that contradicts the rest of the file, or "" if there is none.
     std::string inconsistent_dataset();
-    /// Reads everything that this class ever reads, to find out whether that is possible.
+    /// Reads all data that this class can read, to check that they are readable.
     void read_all();
     /// Half the width of a square about the origin that contains the container in all frames.
     double reach() const;

@@ -114,7 +114,7 @@ class Diffusion : public BlockAverages<Diffusion> {
         return past_.data() + static_cast<std::size_t>(index) % window_ * discs_;
     }
 
-    /// As many blocks as the lag is long count as one independent sample.
+    /// The blocks within one lag time count as one independent sample.
     Estimate independent(Estimate e, std::size_t k) const {
         const double blocks = std::fmax(1.0, lag(k) / period_);
         e.error *= square_root(blocks);

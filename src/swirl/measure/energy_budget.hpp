@@ -12,8 +12,8 @@
 // (the change of ½ m* g² under an impulse J with m* = J/(g' − g)). Velocities after the collision
 // are those of the snapshot; those before follow from the impulse and the effective masses of
 // physics/collision_law.hpp. So W and L depend on the impulses alone, and Σ (W − L) equals the
-// change of K between snapshots up to rounding. The budget closes; a collision law that did not
-// conserve energy would show.
+// change of K between snapshots up to rounding. The budget closes, and it would not if a collision
+// law gained energy.
 //
 // Spheres (collision_law.hpp): L_t also has the vertical part −J_z (s_z + s'_z)/2, of the planar
 // motion, so it includes the energy that lifts one of them. A contact on a floor may return energy
@@ -23,10 +23,10 @@
 //
 //   W_f = u·ΔP                work of the moving floor
 //   L_f = W_f − ΔK            loss by sliding on the floor, Σ μ_f m g ∫|c| dt ≥ 0, and by rolling
-//                             resistance, Σ μ_r m g times the way over the floor
+//                             resistance, Σ μ_r m g times the distance over the floor
 //
-// The floor's part is the difference, so there the budget closes by construction, which checks
-// nothing. That L_f is never negative is a check.
+// L_f is the difference of the others, so on a floor the budget closes by construction and checks
+// nothing. The sign of L_f is a check: it is never negative.
 //
 // Results: power, energy per unit time, averaged over blocks of periods. Units: disc mass × speed²
 // / time. In a steady state, work = losses. Elastic frictionless collisions lose nothing, up to

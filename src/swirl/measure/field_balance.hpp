@@ -7,14 +7,14 @@
 //     balance.residual();                       up to the last event
 //
 // The densities at both ends follow from the states of the discs. The terms of the balance follow
-// from the velocities and the impulses between. The residual is the difference; it is a rounding
+// from the velocities and impulses in between. The residual is the difference; it is a rounding
 // error.
 //
 // Flights of spheres on a floor are parabolas. There |x − r|² − w² is a quartic of time. Its roots
 // cut the flight, and five Gauss–Legendre nodes integrate W, of degree 8, exactly. A snapshot does
-// not contain the force of the floor. It follows from the change of the velocity between two events,
-// without that by a collision. So on a floor the positions check the force, and the balance of
-// momentum closes by construction.
+// not contain the force of the floor. It follows from the change of the velocity between two
+// events, without the part due to a collision. On a floor, the balance of momentum therefore closes
+// by construction, and only the positions check the force.
 #pragma once
 
 #include <array>
@@ -44,14 +44,15 @@ struct FieldDensities {
 
 /// The terms of the balance, summed over time.
 struct BalanceTerms {
-    FieldDensities transport;    // minus the divergence of the fluxes that discs carry
+    FieldDensities transport;    // minus the divergence of the flux of the discs
     Vec2 stress{0.0, 0.0};       // divergence of the collisional stress
     double couple_stress = 0.0;  // divergence of the collisional couple stress
     double torque = 0.0;         // of the stress: σ_yx − σ_xy
     Vec2 wall{0.0, 0.0};         // force at the contacts with the wall
     Vec2 floor{0.0, 0.0};        // force of the floor on spheres
-    // Of rounding errors: what each disc, flight and collision near the point transfers, times W(0).
-    // (Terms themselves would not do: near the edge of the kernel W loses its digits.)
+    // Scales of the rounding errors: the sum of all transfers of discs, flights and collisions near
+    // the point, times W(0). (The terms themselves are no scale: near the edge of the kernel W
+    // loses its digits.)
     double scale_of_mass = 0.0, scale_of_momentum = 0.0, scale_of_spin = 0.0;
 
     FieldDensities total() const {

@@ -4,8 +4,9 @@
 //
 //     W, m W, m v W, m v v W, I W, I ω W, I ω² W, I ω v W, π R² W, f W   and   m ∇W, m v ∇W, I ∇W, I ω ∇W
 //
-// and every collision its stress, couple stress, loss of energy and, at the wall, force of the
-// boundary. Sums of samples are divided by their number, those of collisions by the time.
+// and every collision adds its stress, couple stress, loss of energy and, at the wall, the force of
+// the boundary. The sums over samples are divided by the number of samples, and the sums over
+// collisions by the time.
 //
 // Fields. With ⟨·⟩ these averages, n = ⟨W⟩ and M_ab = ⟨m v_a v_b W⟩,
 //
@@ -135,9 +136,10 @@ class FieldGrid {
     }
     void add(const Transfer& collision);
 
-    /// At the end of a period; `duration`: the time of its collisions, 0 if unknown.
+    /// Call this at the end of a period.
     void close_period();
-    /// After close_period(): the time in which the collisions of that period happened.
+    /// Call this after close_period(). `duration` is the time in which the collisions of that
+    /// period happened; 0 if it is unknown.
     void close_events(double duration);
 
     /// All fields at one point.

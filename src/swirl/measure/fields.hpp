@@ -20,7 +20,8 @@
 //
 // Discs are sampled 73 times per period, collisions are all counted. Units: those of the snapshot.
 // Errors: field_grid.hpp. Limits: without events (recordings, tracks) everything that collisions
-// contribute is NaN, the pressure included, and so is the force of a floor. Unknown spins (NaN) make everything about spins NaN.
+// contribute is NaN, the pressure included, and so is the force of a floor. Unknown spins (NaN)
+// make all fields of spins NaN.
 #pragma once
 
 #include <array>

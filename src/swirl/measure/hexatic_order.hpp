@@ -6,11 +6,11 @@
 // i to j, l_ij the length of the common border inside the container. The weight makes ψ_6
 // continuous where a neighbour appears or vanishes (Mickel, Kapfer, Schröder-Turk, Mecke 2013,
 // doi:10.1063/1.4774084). It is 1 for a perfect hexagon and 0 for a square. A disc at the wall has
-// neighbours on one side only; they count as they are.
+// neighbours on one side only; there is no correction for that.
 //
 // Six neighbours: the share of the discs with exactly six neighbours, among the discs that are
-// farther than their diameter from the wall, which does not prevent them from having six. It is 1
-// in a crystal and 0.29 for random points.
+// farther than their diameter from the wall. At that distance the wall does not prevent six
+// neighbours. The share is 1 in a crystal and 0.29 for random points.
 //
 // Average: over discs and samples, and over the pinned and the resident ones among them. Errors:
 // from blocks of periods. Units: none. Limits: a disc without neighbours has no ψ_6 and is omitted.

@@ -1,18 +1,19 @@
 // Which discs are on a long residence in the layer at the wall, for every disc and every moment.
 // wall_residence.hpp has the definition.
 //
-// A residence is known to be a long one only when it has lasted long enough; then all of it is
-// long, from its first sample on. So a measurement stores what it saw at time t and asks later:
+// A residence becomes a long one when it has lasted long enough; then all of it is long, from its
+// first sample on. So a measurement stores its data of time t and asks later:
 //
-//     is_known(t)     it is known which discs were on a long residence at time t, or it never will
-//                     be
-//     resident(i, t)  disc i was on one. Ask at the first sample after which it is known
+//     is_known(t)     true if it is determined which discs were on a long residence at time t, or
+//                     if it can never be determined
+//     resident(i, t)  true if disc i was on a long residence at time t. Call this at the first
+//                     sample after is_known(t)
 //
-// A long residence that has ended is remembered until the next long one of the same disc ends. The
-// second one began after the first and has lasted long enough, so the first is no longer asked for.
+// A long residence that has ended is stored until the next long residence of the same disc ends.
+// The second began after the first and has lasted long enough, so the first is no longer needed.
 //
 // Units: those of the views. Limits: samples whose times do not ascend, or a change of the number
-// of discs, begin again; what was seen before is never known.
+// of discs, start again; earlier residences are then never determined.
 #pragma once
 
 #include <cstddef>

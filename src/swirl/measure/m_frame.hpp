@@ -34,7 +34,7 @@ struct MFrame {
     Vec2 down;                     // unit vector from S to C, in the lab
     double omega;
 
-    /// A lab vector in the directions of the M-frame, and back.
+    /// Converts a lab vector to the directions of the M-frame, and back.
     Vec2 rotate(const Vec2& v) const { return {dot(v, perpendicular(down)), -dot(v, down)}; }
     Vec2 rotate_back(const Vec2& v) const { return v.x * perpendicular(down) - v.y * down; }
 

@@ -13,7 +13,6 @@
 #include "swirl/measure/density_map.hpp"
 #include "swirl/measure/diffusion.hpp"
 #include "swirl/measure/energy_budget.hpp"
-#include "swirl/measure/fields.hpp"
 #include "swirl/measure/flow_map.hpp"
 #include "swirl/measure/granular_temperature.hpp"
 #include "swirl/measure/hexatic_order.hpp"
@@ -32,6 +31,11 @@
 #include "swirl/measure/velocity_distribution.hpp"
 #include "swirl/measure/wall_residence.hpp"
 #include "swirl/measure/wall_stress.hpp"
+
+// The browser page has no use for the fields, which would make it larger by a tenth.
+#ifndef SWIRL_WITHOUT_FIELDS
+#include "swirl/measure/fields.hpp"
+#endif
 
 namespace swirl {
 
@@ -108,8 +112,10 @@ inline constexpr std::tuple measurement_list{
         "head-on or grazing: impact parameters and directions of the collisions"),
     measurement<RotationFluctuations>("fluctuations", "rotation_fluctuations.hpp",
         "fluctuations of the rotation: N var(ϖ), Binder cumulant, lifetimes of states"),
+#ifndef SWIRL_WITHOUT_FIELDS
     measurement_in_container<Fields>("fields", "fields.hpp",
         "coarse-grained fields: density, flow, spin, stress, couple stress, dissipation"),
+#endif
 };
 // clang-format on
 

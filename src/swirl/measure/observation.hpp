@@ -68,8 +68,8 @@ struct MeasurementReport {
     Report report;
 };
 
-/// Which discs are pinned, and the last frames. It is known seven frames late, so a measurement of
-/// pinned discs needs the frame of that time.
+/// Determines which discs are pinned, and stores the last frames. The result for a frame is
+/// available seven frames later, so a measurement of pinned discs needs the stored frame.
 class PinnedFrames {
   public:
     const MFrameView& sample(const Snapshot& lab);
@@ -101,7 +101,7 @@ class Observation {
 
     const std::vector<std::string>& names() const { return names_; }
     bool empty() const { return names_.empty(); }
-    /// Returns true if a measurement samples events; sample() then needs every event.
+    /// True if a measurement samples events, so that the caller must pass each event.
     bool samples_events() const { return samples_events_; }
 
     void sample(const Snapshot& lab);

@@ -191,7 +191,7 @@ SWIRL_HAS_MEMBER(add_energy)
 SWIRL_HAS_MEMBER(fields)
 #undef SWIRL_HAS_MEMBER
 
-/// If M has a member `name`, one of the concepts must hold. The message gives the right signatures.
+/// If M has a member `name`, one of the concepts must hold. The message lists the valid signatures.
 #define SWIRL_CHECK_SIGNATURE(name, right, signatures) \
     static_assert(!has_##name::holds<M> || (right), "'" #name "' must be callable as " signatures)
 

@@ -23,9 +23,9 @@
 // and S near 1, so G alone does not show every separation.
 //
 // Units: length, otherwise none. Errors: from blocks of periods. Limits: equal particles have no
-// classes (NaN). In a random mixture of very unequal sizes neither is exactly 0: large particles
-// cannot come as near to the wall, and they have more neighbours than their share. Every path of the
-// container is possible, since no direction counts.
+// classes (NaN). In a random mixture of very unequal sizes, neither G nor S is exactly 0: large
+// particles cannot come as near to the wall, and they have more neighbours than their share. Every
+// path of the container is possible, because the definitions contain no direction.
 #pragma once
 
 #include <cstdint>

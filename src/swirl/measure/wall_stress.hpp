@@ -1,11 +1,12 @@
-// How hard the discs press on the wall, and how they drag it along, in the M-frame.
+// Normal and tangential stress of the discs on the wall, in the M-frame.
 //
 //   pressure(θ)   Σ J_n / (R Δθ t)     force on the wall per length, outwards
 //   traction(θ)   Σ J_t / (R Δθ t)     force on the wall per length, along it, counter-clockwise
 //
 // over the disc–wall collisions whose contact lies in the slice Δθ of θ within the time t; J is the
-// impulse on the wall. In the M-frame the wall moves clockwise. Where it drags the discs along they
-// drag it back, so the traction is positive there. |traction| ≤ μ_w · pressure everywhere.
+// impulse on the wall. In the M-frame the wall moves clockwise. Discs that the wall drags along
+// exert an opposite force on it, so the traction is positive at these θ. |traction| ≤ μ_w ·
+// pressure everywhere.
 //
 // Units: force/length, in disc mass × speed² / length². Errors: from blocks of periods. Limits: no
 // time: NaN; slices without a collision: 0.

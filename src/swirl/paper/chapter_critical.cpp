@@ -1,11 +1,11 @@
 // Is the change of direction a critical phenomenon? The paper leaves it open.
 //
-// Figure "critical". At each change of direction of a dish: the slope dϖ/dφ, the fluctuations, their
-// correlation time and the Binder cumulant, against the size R/r of the dish. In a critical
+// Figure "critical". At each change of direction of a dish: the slope dϖ/dφ, the fluctuations,
+// their correlation time and the Binder cumulant, against the size R/r of the dish. In a critical
 // transition slope, fluctuations and correlation time grow with powers of the size. In a transition
 // of first order two states coexist, so that the cumulant tends to 2/3. In a crossover none of this
-// happens. Two swirls: the paper's A/R = 0.22, and A/R = 0.4, where the same change exists in dishes
-// of all sizes.
+// happens. The figure has two amplitudes: the paper's A/R = 0.22, and A/R = 0.4, where the same
+// change exists in dishes of all sizes.
 //
 // Figure "hysteresis". Ramps of a parameter through a change of direction and back.
 //
@@ -223,7 +223,8 @@ Estimate over_runs(const std::vector<Json>& runs, const char* branch, int bin) {
     return ensemble(values).estimate;
 }
 
-/// The difference of the branches, which has the smaller error if both vary with the seed.
+/// The mean over the runs of the difference of the branches. Its error is smaller than that of the
+/// two means if both branches vary with the seed.
 Estimate difference_over_runs(const std::vector<Json>& runs, int bin) {
     std::vector<Estimate> values;
     for (const Json& run : runs)
@@ -341,8 +342,9 @@ Json visits_of_dense(const RunConfig& config, const RunControl& control) {
     return visits_of(config, control, two_state_points[1].threshold);
 }
 
-/// The mean lifetime of a state with an exponential distribution, from visits that a run may end:
-/// time over exits. Without an exit, the lower bound of 95 %, time / 3, and no error.
+/// The mean lifetime of a state with an exponential distribution: the time in the state over the
+/// number of exits, because the end of a run may cut a visit short. Without an exit, `periods` is
+/// the lower bound of 95 %, time / 3, and there is no error.
 struct Lifetime {
     double periods, error;
     std::int64_t exits;

@@ -1,6 +1,6 @@
-// Mechanism: which contacts turn the cluster? The torque budget against N; whether opposite spins of
-// touching discs ("gears") or the slip at the wall predict the rotation; and what happens if one
-// kind of contact has no friction.
+// Mechanism: which contacts turn the cluster? The torque budget against N; whether opposite spins
+// of touching discs ("gears") or the slip at the wall predict the rotation; and does the direction
+// still change if one kind of contact has no friction?
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,7 +1,7 @@
 // The zero of a curve whose points are several N apart: that of the straight line between the two
 // points next to it. find_crossing (statistics/zero_crossing.hpp) decides whether there is one, and
-// reports no N for such curves, because the curve between the points is not known. The error here is
-// that of the two points; it does not contain the curvature between them.
+// reports no N for such curves, because the curve between the points is unknown. The error here
+// follows from the errors of the two points. It does not contain the curvature between them.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct CoarseZero {
     bool exists() const { return discs == discs; }
 };
 
-/// The last change of sign; of several zeros in its bracket the middle one.
+/// The last change of sign. If its bracket has several zeros, the middle one is used.
 inline CoarseZero last_zero(const std::vector<RotationPoint>& curve) {
     const Crossing found = find_crossing(curve);
     if (found.changes.empty()) return {};

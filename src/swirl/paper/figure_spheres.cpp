@@ -123,7 +123,7 @@ void add_sign_changes(Table& table, const Variant& variant, const Crossing& foun
     add_undetermined(std::numeric_limits<double>::infinity());
 }
 
-/// `seeds` of a point is settings.seeds() where a claim rests on it.
+/// `seeds`: runs per point; settings.seeds() if a claim depends on the points.
 FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
                          const std::vector<Variant>& variants,
                          const std::vector<std::int64_t>& numbers, int seeds) {

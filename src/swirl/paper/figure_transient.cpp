@@ -20,7 +20,8 @@ namespace {
 constexpr int seeds_of_the_transient = 4;
 constexpr double events_of_the_paper = 1e6;
 
-/// ϖ/Ω, mean spin/Ω, and the number of events up to the end, for each period from rest.
+/// For each period of a run that starts from rest: ϖ/Ω, mean spin/Ω, and the number of events up to
+/// the end of the period.
 Json transient(const RunConfig& config, const RunControl& control) {
     Json json{{"varpi", Json::array()}, {"spin", Json::array()}, {"events", Json::array()}};
     Run run(config, control);

@@ -5,8 +5,8 @@
 //         rotating (N = 28), counterrotating (N = 48)
 //     minimal model · lab frame, M-frame · no slip, slip
 //
-// The SI calls N = 48 counterrotating also where one friction is absent. The page has the rotation
-// that was measured over the periods shown.
+// The SI calls N = 48 counterrotating even if the friction between discs or at the wall is absent.
+// movies.html gives the rotation that was measured over the periods shown.
 //
 // A movie from an earlier call is reused if it would be the same: same program, same settings, and
 // the file has its size (result_store.hpp).

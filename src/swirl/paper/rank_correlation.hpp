@@ -2,7 +2,8 @@
 // of a straight line, with errors from the jackknife over the points (Efron, Tibshirani, An
 // Introduction to the Bootstrap, 1993, ch. 11):
 //
-//     error² = (n − 1)/n · Σ_k (θ_(k) − θ̄)²,     θ_(k) without point k, θ̄ their mean.
+//     error² = (n − 1)/n · Σ_k (θ_(k) − θ̄)²,     θ_(k): the value without point k,
+//                                                θ̄: the mean of these values.
 //
 // Limits: NaN with fewer than four points, or if all values of one quantity are equal. Equal values
 // have their mean rank.
@@ -48,7 +49,7 @@ inline double rank_correlation_of(const Values& x, const Values& y) {
     return correlation_of(ranks_of(x), ranks_of(y));
 }
 
-/// A statistic of the points with these numbers, and its jackknife error.
+/// A statistic as a function of the indices of the points, and its jackknife error.
 inline Estimate jackknife(std::size_t points,
                           const std::function<double(const std::vector<std::size_t>&)>& statistic) {
     Estimate e;

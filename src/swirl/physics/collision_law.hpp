@@ -293,13 +293,14 @@ SWIRL_INLINE Impulse collide(AnyBody& i, AnyBody& j, const Vec2& separation,
 
 /// The TC model for spheres on a floor. If two are pressed together (one slides into another, or
 /// rolls along the wall) they separate and collide again and again. With relative acceleration a
-/// and speed u each separation lasts 2u/a. During it the slip on the floor that the collision left
-/// ends and takes u down, at the wall to 3/7 for a solid sphere, even if the collision is elastic.
-/// So there would be infinitely many collisions in a finite time. A real contact lasts t_c and
-/// stores the energy that the pressing force needs to act for so long. So a collision within t_c of
-/// the last one is elastic here. It also separates the two with at least μ_f g t_c/2, the speed of
-/// a separation of length t_c under the force of the floor. The energy in question, m (μ_f g
-/// t_c)²/8, is what the choice of t_c decides about (docs/explanation/spheres.md).
+/// and speed u each separation lasts 2u/a. During the separation, friction ends the slip on the
+/// floor that the collision caused, and thereby reduces u. At the wall, u falls to 3/7 for a solid
+/// sphere, even if the collision is elastic. Without a limit there would be infinitely many
+/// collisions in a finite time. A real contact lasts t_c and stores the work of the pressing force
+/// during that time. In the model, a collision within t_c of the last one is therefore elastic. It
+/// also separates the two with at least μ_f g t_c/2, the speed of a separation of length t_c under
+/// the force of the floor. The choice of t_c affects only energies of about m (μ_f g t_c)²/8
+/// (docs/explanation/spheres.md).
 SWIRL_INLINE Surface at_contact_on_floor(Surface surface, double since_last, const Floor& floor,
                                          const Vec2& separation, const Vec2& relative_velocity) {
     if (floor.deceleration == 0.0) return at_contact(surface, since_last);

@@ -17,8 +17,8 @@ inline constexpr double smallest_inertia = 1e-48, largest_inertia = 1e48;
 /// of discs outside the container.
 inline constexpr double largest_coordinate = 4.0 * largest_value;
 
-/// Largest velocity, angle, spin, or other number in a saved state. What the parameters allow is
-/// far below, and squares and products of such numbers are still finite.
+/// Largest velocity, angle, spin, or other number in a saved state. Values that the parameters
+/// allow are far below this limit. Squares and products of numbers up to the limit are finite.
 inline constexpr double largest_magnitude = 1e18;
 
 }  // namespace swirl

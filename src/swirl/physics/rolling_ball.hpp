@@ -15,7 +15,7 @@
 // The paper takes s = 0 for perfect slip. But a ball that nothing turns keeps its spin in the lab,
 // so in the M-frame it turns with −Ω: γ = 1 and s = R_ball/R_container, where it neither rotates
 // nor counterrotates. With s = 0 it rotates with Ω, as if it were fixed to the M-frame. `swirl
-// paper --figure ball` simulates the ball; this header is the paper's formula.
+// paper --figure ball` simulates the ball; this header computes the paper's formula.
 //
 // Without rolling resistance, and without slip anywhere, the ball settles at M itself. `lag` turns
 // that point clockwise, as friction that balances the centrifugal force would.

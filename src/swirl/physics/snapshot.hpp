@@ -109,7 +109,7 @@ struct Snapshot {
         up_to_date(now);
         return now;
     }
-    /// Sets what an event of a simulation changes.
+    /// Sets the flight, angle and spin of disc i after an event of a simulation.
     void set_motion(std::size_t i, const Flight<double>& flight, double new_angle,
                     double new_spin) {
         x[i] = flight.position.x;

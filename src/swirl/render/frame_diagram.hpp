@@ -11,8 +11,8 @@
 
 namespace swirl {
 
-/// `now` gives the period and the container's size and position. Of its discs only number `disc`
-/// is drawn: in the third part, with its velocity in the M-frame and its Coriolis force.
+/// `now` gives the period and the container's size and position. The only disc drawn is number
+/// `disc`. It is in the third part, with its velocity in the M-frame and its Coriolis force.
 void draw_frame_diagram(const Canvas& canvas, const Theme& theme, const Snapshot& now,
                         std::size_t disc);
 

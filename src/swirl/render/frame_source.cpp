@@ -87,7 +87,7 @@ class SimulatedPlayback {
         : stop_(stop),
           path_(make_path(config)),
           simulation_(make_initial_state(config, stop), Progress{}, selected_tuning(stop)),
-          // In periods: a few hundred thousand events.
+          // In periods; this is a few hundred thousand events.
           step_(3000.0 / static_cast<double>(config.discs)) {
         throw_if_stopped();
         if (config.shape() == Shape::disc) return;

@@ -69,7 +69,7 @@ struct ImageMotion {
     std::int64_t first = 0;
     std::vector<Pose> poses = {};  // empty: the camera was steady
 
-    /// The backdrop of this frame, given that of a steady camera.
+    /// The backdrop of this frame; `backdrop` is that of a steady camera.
     Backdrop applied(Backdrop backdrop, std::int64_t frame) const;
 };
 

@@ -291,7 +291,7 @@ void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& 
     draw_scene(canvas, views_[k], spec_.style, content);
     const Panel& panel = spec_.panels[k];
     if (!content.turns || !panel.shows_turns || em_ < min_font_size) return;
-    // On the line of the captions, which the container never reaches.
+    // The number is on the line of the captions, which the container never reaches.
     const double reach = views_[k].pixels_per_unit * panel.container_radius;
     const std::string number =
         (*content.turns < 0.0 ? "−" : "+") + fixed(std::abs(*content.turns), 2) + " turns";

@@ -41,8 +41,8 @@ class CollapseWatch {
         return {};
     }
 
-    /// Call at the end, or when the run is stopped. It uses the last few hundred events alone,
-    /// since those before may have been normal.
+    /// Call this at the end, or when the run is stopped. It uses only the last few hundred events,
+    /// because earlier events may have been normal.
     std::optional<Collapse> check_at_end(const RunMark& now) const {
         for (const RunMark& mark : {recent_[1], recent_[0]})
             if (now.events - mark.events >= min_window) return collapse_since(mark, now);

@@ -134,8 +134,8 @@ std::uint64_t CoreRun::execute_events() {
     return 1;
 }
 
-/// Executes events before the sample time `due` and the end of the period, until a sample by event
-/// or a check is due. Returns whether a time stopped it.
+/// Executes events until a sample by event or a check is due, but none after the sample time `due`
+/// or the end of the period. Returns true if one of these two times ended the span.
 bool CoreRun::execute_span(double due) {
     // is_check_due() has counted the first event.
     const std::uint64_t to_check = static_cast<std::uint64_t>(events_to_check_) + 1;
@@ -228,7 +228,7 @@ void CoreRun::begin_period() {
     if (!config_.ramps.empty() && changes_in_period(config_, simulation_.periods()))
         continue_ramps();
     if (complete()) events_to_check_ = 0;
-    // From the last period alone, so a resumed run has the same samples.
+    // The interval follows from the last period alone, so a resumed run has the same samples.
     const std::uint64_t events = simulation_.events().total();
     if (config_.events_per_sample == 0) {
         events_per_sample_ =

@@ -108,7 +108,7 @@ Json series_json(const PeriodSeries& series) {
         Json& json = averages[average.name] = estimate_json(average.estimate);
         json["autocorrelation_time"] = average.autocorrelation_time;
         json["unit"] = average.unit;
-        // Those of a ramp are its changes.
+        // During a ramp, the fluctuations would contain the changes of the parameter.
         if (!series.has_ramps())
             json["fluctuations"] = fluctuations_json(average.fluctuations, series.discs());
     }

@@ -1,6 +1,6 @@
-// Configuration and result of a run as JSON. Names are those of the options, and numbers read back
-// as the same double (docs/explanation/physics.md explains them). Unknown values, such as an error
-// from too few blocks, are null.
+// Configuration and result of a run as JSON. The keys are the names of the options. A number that
+// is read back gives the same double. Unknown values, such as an error from too few blocks, are
+// null.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

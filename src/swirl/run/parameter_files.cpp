@@ -43,8 +43,8 @@ struct TableColumn {
     bool optional = false;
 };
 
-/// Reads the columns of a table as texts joined by colons, one for each row. Without a header line
-/// the columns are the first ones.
+/// Reads the columns of a table as texts joined by colons, one for each row. Without a header line,
+/// the first columns are used.
 class NumberTable {
   public:
     NumberTable(std::string option, std::string file, std::vector<TableColumn> columns)

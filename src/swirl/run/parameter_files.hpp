@@ -1,6 +1,6 @@
 // Parameters whose value may be the name of a file: --path FILE.csv and --sizes file:FILE.csv. The
-// file's contents replace its name at once, before the configuration is made. So a configuration
-// holds the path itself, and a run that resumes does not depend on the file.
+// contents of the file replace its name before the configuration is made. A configuration therefore
+// holds the path or the sizes themselves, and a resumed run does not depend on the file.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace swirl {
 /// (an axis of a sweep) each is replaced. Throws UsageError if a file cannot be read.
 std::string with_file_contents(std::string_view name, const std::string& text);
 
-/// The same for all parameters.
+/// Replaces file names by contents in all parameters.
 ParameterTexts with_file_contents(ParameterTexts texts);
 
 }  // namespace swirl

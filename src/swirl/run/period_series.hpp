@@ -52,10 +52,10 @@ class PeriodSeries {
     /// `measurements`: names of measurement_kinds().
     PeriodSeries(const RunConfig& config, std::vector<std::string> measurements);
 
-    /// At the sample times of the rotation.
+    /// Call this at the sample times of the rotation.
     void sample(const Snapshot& snapshot);
-    /// At the times that the measurements of a run sample, if measures(), and after every event, if
-    /// samples_events().
+    /// If measures(), call the first at the sample times of the run's measurements. If
+    /// samples_events(), call the second after every event.
     void sample_measured(const Snapshot& snapshot) { measured_.sample(snapshot); }
     void sample_measured(const Event& event, const Snapshot& after) {
         measured_.sample(event, after);

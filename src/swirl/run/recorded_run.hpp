@@ -15,8 +15,8 @@
 
 namespace swirl {
 
-/// When frames are taken: at equal phases, unless one of the other two is given. Each frame is the
-/// exact state at the exact time.
+/// The times of the frames: at equal phases, unless `interval` or `events` is given. Each frame is
+/// the exact state at the exact time.
 struct FrameTimes {
     int per_period = 30;                 // at times k T / per_period; 1 is stroboscopic
     std::optional<double> interval;      // time between frames

@@ -24,7 +24,8 @@ namespace swirl {
 
 class CircularMean {
   public:
-    /// Adds the direction of a vector, whatever its length. The null vector has none.
+    /// Adds the direction of a vector with weight 1, independent of its length. A zero vector adds
+    /// nothing.
     void add(const Vec2& v) {
         const double square = dot(v, v);
         if (!(square > 0.0)) return;

@@ -5,13 +5,14 @@
 //     estimate.seconds_left();
 //
 // Rate. The share done per second is that of the last half of the present stage, but of at least
-// `shortest_window` seconds. So a slow beginning is forgotten after as long again. The time before
-// the first progress of a stage (opening files, placing discs) does not count, once the stage has
-// progressed for `settled` seconds.
+// `shortest_window` seconds. So a slow beginning no longer counts after the stage has lasted twice
+// as long. The time before the first progress of a stage (opening files, placing discs) does not
+// count, once the stage has progressed for `settled` seconds.
 //
-// Stages. Each has a weight, its expected duration relative to the others. A stage to come takes
-// its weight times the seconds per weight of the stages so far. A stage that is not in the list, or
-// a share that falls, is a stage of its own, after which nothing is known to follow.
+// Stages. Each has a weight, its expected duration relative to the others. The estimate for a later
+// stage is its weight times the seconds per weight of the stages so far. A name that is not in the
+// list, or a share that falls, starts an extra stage. The estimate then assumes that no other stage
+// follows.
 #pragma once
 
 #include <algorithm>
@@ -45,7 +46,7 @@ class RemainingTime {
         if (samples_.size() > max_samples) thin_out();
     }
 
-    /// The completed share of all stages, if their weights are known; otherwise of the present stage.
+    /// The share done of all stages if their weights are known, otherwise of the present stage.
     double fraction() const {
         const double all = done_weight_ + weight_ + weight_to_come();
         return all > 0.0 ? (done_weight_ + weight_ * now_.share) / all : now_.share;

@@ -15,11 +15,11 @@
 //
 //     Σ p_i² [(1 − 2 p_i) e_i² + V_w] + τ² c,   c = Σ p_i² [1 − 2 p_i + Σ p_j²],
 //
-// and τ² is the value for which it is B. For equal weights V_b is the familiar
-// Σ (m_i − m)² / (n (n − 1)). For unequal ones that would be too small, since a long run pulls m
-// towards itself. Both V estimate the variance of m. V_w is more precise, but misses correlations
-// longer than a run. V_b misses nothing, but is uncertain itself. The larger is at least as large
-// as each of them, so it is on the safe side.
+// and τ² is the value for which it is B. For equal weights V_b is the familiar Σ (m_i − m)² / (n (n
+// − 1)). For unequal weights this formula would be too small, because m lies close to the mean of a
+// long run. Both V estimate the variance of m. V_w is more precise, but misses correlations longer
+// than a run. V_b misses nothing, but is uncertain itself. The larger of the two is used, so the
+// error is rather too large than too small.
 //
 // Do they agree? If they do, Q = Σ (m_i − m)²/e_i² is χ² with n − 1 degrees of freedom. The seeds
 // disagree if Q is above the quantile that corresponds to three standard deviations of a normal

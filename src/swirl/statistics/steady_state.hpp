@@ -150,8 +150,8 @@ inline Division best_division(std::span<const double> values, std::size_t minimu
 struct DifferenceError {
     double variance, freedom, effective_samples;
 };
-/// For the means of the first `at` residuals and of the others. A straight line was subtracted from
-/// each part, which costs two degrees of freedom.
+/// The error of the difference between the mean of the first `at` residuals and the mean of the
+/// others. A straight line was subtracted from each part, which costs two degrees of freedom.
 inline DifferenceError error_of_difference(std::span<const double> residuals, std::size_t at) {
     const Estimate early = estimate_of(residuals.first(at)),
                    late = estimate_of(residuals.subspan(at)), all = estimate_of(residuals);

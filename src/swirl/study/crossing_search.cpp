@@ -34,7 +34,7 @@ struct FinishedRun {
 struct RunGroup {
     std::vector<FinishedRun> finished;
     std::int64_t failed = 0;
-    int rounds = 0;  // of further runs, each twice as long as the ones before
+    int rounds = 0;  // of further runs, each twice as long as all before
     std::int64_t attempted() const { return std::int64_t(finished.size()) + failed; }
 };
 

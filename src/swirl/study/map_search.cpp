@@ -213,7 +213,8 @@ class MapSearch {
         }
     }
 
-    using Counts = std::map<std::size_t, std::size_t>;  // index of the number of discs: runs
+    /// Key: index of the number of discs. Value: number of runs.
+    using Counts = std::map<std::size_t, std::size_t>;
 
     void add_coarse_numbers(Counts& counts) const {
         const std::size_t last = discs_.values - 1;

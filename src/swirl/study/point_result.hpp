@@ -19,7 +19,7 @@ struct PointResult {
     double energy = 0.0, periods = 0.0;
     std::string state_hash, verdict, version;
 
-    /// Looks at `expected_index` first, where the quantity nearly always is.
+    /// Checks `expected_index` first, because the quantity is nearly always there.
     Estimate quantity(std::size_t expected_index, const std::string& name) const {
         if (expected_index < quantities.size() && quantities[expected_index].name == name)
             return quantities[expected_index].estimate;

@@ -405,12 +405,13 @@ double gradient_noise(const cv::Mat& image) {
 
 namespace {
 
-/// The least slope of an edge: an edge may be faint, if it stands out from the noise.
+/// The least slope of an edge: an edge may be faint if it is above the noise.
 float min_edge_slope(const cv::Mat& steepness) {
     constexpr int row_stride = 5, column_stride = 3;  // a sample of 1/15 of the pixels is enough
     constexpr double length_median = 1.18;            // of a vector of two standard normal deviates
     constexpr std::size_t high_percent = 97;
-    // In standard deviations of the noise; of the slope at the high percentile; grey levels/pixel.
+    // Lower bounds of the slope: in standard deviations of the noise, relative to the slope at the
+    // high percentile, and in grey levels/pixel.
     constexpr double above_noise = 3.5, of_high = 0.12, absolute = 0.25;
     std::vector<double> sample;
     for (int row = 1; row < steepness.rows; row += row_stride) {

@@ -241,7 +241,7 @@ CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim
     constexpr std::size_t max_circles = 6;
     // How far from the path a rim may be: pixels of the small frame, and a share of the amplitude.
     constexpr double off_path = 6.0, off_path_share = 0.35;
-    constexpr double min_found = 0.5;  // of the support that the survey asks for
+    constexpr double min_found = 0.5;  // as a fraction of the support that the survey requires
     double radius = rim.radius;
     if (rim.lens) radius = rim.lens->image({rim.lens->ideal(rim.path_centre), rim.radius}).radius;
     CircleFit best{rim.path_centre, radius};

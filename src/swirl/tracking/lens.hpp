@@ -10,12 +10,12 @@
 //
 // Two effects bias these sizes. A ball seen at an angle ψ to the camera's axis looks longer by
 // 1/cos ψ away from the axis, larger by 1 + ψ²/4 on average. This hides a k of tan²(v/2)/8, with v
-// the view angle of the image's height; if v is unknown, k is too small by that. And balls that are
-// lit from one side look smaller where the wall is dark.
+// the view angle of the image's height; if v is unknown, k is too small by this amount. In
+// addition, balls that are lit from one side look smaller where the wall is dark.
 //
-// k from contacts: distances of discs in contact have neither bias (contact_distance.hpp). If they
-// determine k, sizes have the weight that the resolution of such balls permits, and none at all if
-// the two contradict each other.
+// k from contacts: distances of discs in contact have neither bias (contact_distance.hpp). If
+// contacts determine k, the sizes get only the weight that the image resolution of the balls
+// permits. If sizes and contacts contradict each other, the sizes get no weight.
 //
 // Tilt: a camera whose axis is tilted by θ sees a point P of the plane of the discs (pixels,
 // relative to the image centre) at
@@ -40,7 +40,7 @@ struct Lens {
     Vec2 image_centre{0.0, 0.0};
     double half_height = 1.0;  // of the image, pixels
     double k = 0.0, k_error = 0.0;
-    // From sizes, even if they do not stand out from their errors.
+    // From sizes, even if the values are not significantly different from zero.
     double size_k = 0.0, size_k_error = 0.0;
     Vec2 size_perspective{0.0, 0.0};
     double size_perspective_error = 0.0;

@@ -5,7 +5,7 @@
 //   3  at the end of the video all steps after the detection, for all frames
 //
 // Step 3 gives what track_video() gives for the same frames, except that track_video() surveys
-// frames from the whole video. If the survey takes all frames, the results are bitwise the same.
+// frames from the whole video. If the survey takes all frames, the results are bitwise identical.
 #pragma once
 
 #include <cstdint>

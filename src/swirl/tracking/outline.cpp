@@ -64,7 +64,7 @@ std::vector<Vec2> outline_edge(const cv::Mat& image, const Lens& lens, const Len
 
 CircleFit fit_outline(const cv::Mat& image, const Lens& lens, Lens::Circle circle,
                       const OutlineSettings& settings) {
-    constexpr int rounds = 3, passes = 6;  // of gathering edges, and of reweighting
+    constexpr int rounds = 3, passes = 6;  // rounds of edge search; passes of reweighting in each
     constexpr std::size_t min_edge = outline_rays / 10;
     constexpr double tolerance = 1.5;  // an edge this close supports the circle, pixels
     constexpr double cutoff = 3.0, min_scale = 0.15;  // standard deviations; pixels

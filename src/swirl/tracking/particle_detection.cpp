@@ -20,7 +20,7 @@ constexpr double same_distance = 0.25;
 /// For particles found with the template: score of a disc, and least distance of two discs.
 constexpr double disc_score = 0.5, free_distance = 0.86;
 
-/// The edges inside the container, without those of its wall.
+/// The edge pixels inside the container, without those of its wall.
 std::vector<EdgePixel> edges_inside(const PreparedFrame& frame, const CircleFit& rim) {
     const Vec2 centre = frame.to_small(rim.centre);
     const double radius = rim.radius * frame.shrink - 1.0;
@@ -170,7 +170,8 @@ double find_blur(const std::vector<PreparedFrame>& frames, const std::vector<Fou
 /// Circles of frame k with radii around the common one, from fits with free radius.
 std::vector<CircleFit> fit_free_circles(const ParticleSurvey& survey, std::size_t k,
                                         const CommonCircle& common) {
-    // The limits are relative to the common radius. A part of a disc has no second size.
+    // Range of the free radius, relative to the common radius. If the common circle is only a part
+    // of each disc, there is no second size.
     const bool part = common.spacing > 1.0;
     const double smallest = part ? 0.85 : 0.6, largest = part ? 1.2 : 1.9;
     constexpr double growth = 1.07;

@@ -84,7 +84,7 @@ double spacing_of(const std::vector<double>& distances) {
     // Below, fits with free radius find the discs themselves, which is more accurate.
     constexpr double far_off = 1.3;
     constexpr double farthest = 2.2, max_error = 0.16;
-    constexpr double max_share = 0.2;  // of the number just beyond the larger distance
+    constexpr double max_share = 0.2;  // of the number of distances just above the larger one
     const auto found = contact_of(distances, 1.0, farthest);
     if (!found || found->at < far_off || found->error > max_error) return 1.0;
     const auto between = [&](double from, double to) {

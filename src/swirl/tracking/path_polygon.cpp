@@ -59,7 +59,7 @@ PathHarmonic harmonic_of(const RadialDeviations& all, int n) {
     return {std::hypot(a, b), a * c + b * s, true};
 }
 
-/// Distance of the vertices from the centre, from the mean distance along the path.
+/// The distance of the vertices from the centre, calculated from the mean distance along the path.
 double vertex_distance(double amplitude, int sides) {
     const double half = pi / sides;
     const double mean = std::cos(half) / half * std::log(1.0 / std::cos(half) + std::tan(half));

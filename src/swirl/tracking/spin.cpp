@@ -133,8 +133,8 @@ Registration register_turn(const cv::Mat& first, const cv::Mat& second, const cv
                 // d(x, y) for a further rotation about x, y, z (ω × p), y down.
                 const double rows[unknowns] = {
                     gy * radius * p[2],                        // about x: p moves by (0, −z)
-                    gx * radius * p[2],                        // about y: by (z, 0)
-                    -gx * radius * p[1] - gy * radius * p[0],  // about z: by (−y, x)
+                    gx * radius * p[2],                        // about y: p moves by (z, 0)
+                    -gx * radius * p[1] - gy * radius * p[0],  // about z: p moves by (−y, x)
                     gx, gy};
                 const double residual = one - other;
                 for (int i = 0; i < unknowns; ++i) {

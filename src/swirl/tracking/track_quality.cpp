@@ -94,8 +94,8 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
 }
 
 void set_radii(TrackedVideo& tracked) {
-    // The contact ratio is corrected beyond max_off, and plausible above min_ratio. A fit to all
-    // distances errs by about 0.2 %.
+    // Contact ratios within max_off of 1 are correct, and ratios below min_ratio are implausible. A
+    // fit to all distances has an error of about 0.2 %.
     const double max_off = tracked.contact_fitted ? 0.004 : 0.02, min_ratio = 0.5;
     constexpr double same_radius = 0.06;  // disc radii
     // If edges are soft, the shaded side of a ball looks like the floor, and the ball too small.

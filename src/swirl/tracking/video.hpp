@@ -27,7 +27,7 @@ struct VideoTimes {
 /// for a wrong pattern of numbered images.
 VideoTimes video_times(const std::string& source);
 
-/// Strictly ascending times, and the frames of the video whose own times are not used.
+/// Strictly ascending times, and the frames for which the times in the video are not used.
 struct AscendingTimes {
     std::vector<double> seconds;
     std::vector<std::size_t> untimed;  // ascending

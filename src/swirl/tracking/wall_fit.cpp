@@ -42,8 +42,8 @@ std::optional<WallFit> fit_wall(const WallRows& wall, double radius, std::size_t
     constexpr std::size_t min_positions = 400;         // at the wall, for four unknowns
     const double number = double(std::max<std::size_t>(discs, 1));
     WallFit fit;
-    // Initial estimate: the outermost disc of every frame is at the wall. A better wall then has
-    // more discs.
+    // Initial estimate: the outermost disc of every frame is at the wall. With a better estimate of
+    // the wall, more discs are found at it.
     fit.value[0] = quantile(wall.outer, 1.0 - 0.5 / number);
     double near = first_range * radius;
     for (int pass = 0; pass < passes; ++pass, near = std::max(narrowing * near, range * radius)) {

@@ -6,8 +6,8 @@
 // far, this costs less than keeping lists up to date. Wall contacts have their own column, so a
 // path vertex renews that column and nothing else.
 //
-// Columns are read and written as whole vectors only. A narrow store into a vector that is then
-// read as a whole would have to leave the processor's store buffer first.
+// Columns are read and written as whole vectors only. If a part of a vector were stored alone,
+// reading the whole vector would wait until the store has left the processor's store buffer.
 #pragma once
 
 #include "swirl/engine/neighbors/engine_state_checks.hpp"
@@ -168,7 +168,7 @@ SWIRL_INLINE PendingEvent first_in_order(const EngineState& state, double time,
     return first;
 }
 
-/// Scans the pending contacts of all discs and stores which comes first.
+/// Scans the pending contacts of all discs and stores the earliest one.
 template <int G>
 SWIRL_INLINE void find_next(AllPairsState& state) {
     DiscColumns& columns = state.columns;

@@ -167,8 +167,8 @@ struct EventLoop {
 /// The columns of AllPairsState and FewSpheresState have this capacity.
 inline constexpr std::uint32_t max_discs_in_columns = 40, max_spheres_in_columns = 64;
 
-/// The event loops of all searches for one vector width. Those that hold particles in columns are
-/// compiled for several sizes.
+/// The event loops of all searches for one vector width. The loops of searches that store particles
+/// in columns are compiled for several sizes.
 struct EventLoops {
     EventLoop lists, cells;
     EventLoop all_pairs[max_discs_in_columns / 8];  // for up to 8, 16, 24 … discs

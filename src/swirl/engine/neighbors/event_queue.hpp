@@ -17,9 +17,9 @@
 //
 // Two equal times mostly belong to both partners of one collision, each with that collision as its
 // pending event. If the events differ, their order decides (pending_event.hpp). Among discs this is
-// rare and resolved when it happens. Spheres that roll undisturbed begin to roll again at the same
-// instant when the floor changes its velocity, hundreds of them. In their tournament the winner of
-// a row is therefore the first in order (`in_order`).
+// rare and resolved when it happens. If the floor changes its velocity, hundreds of undisturbed
+// rolling spheres begin to roll again at the same instant. In their tournament the winner of a row
+// is therefore the first in order (`in_order`).
 //
 // Every function takes the state of the search, which has a member `queue`.
 #pragma once

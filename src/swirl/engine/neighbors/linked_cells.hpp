@@ -132,7 +132,8 @@ SWIRL_INLINE void collect_candidates(const LinkedCellsState& state, std::uint32_
     collect<false>(state, i, candidates);
 }
 
-/// When disc i reaches the wall, if that is before `latest`, when something else happens to it.
+/// The time at which disc i reaches the wall, if that is before `latest`, the time of its earliest
+/// other event.
 SWIRL_INLINE double wall_time(const LinkedCellsState& state, std::uint32_t i, double latest) {
     if (state.discs[i].far_from_wall != 0) return never;
     if (state.on_arc()) [[unlikely]]
@@ -154,7 +155,7 @@ SWIRL_INLINE Leaving leaving_times(const LinkedCellsState& state, std::uint32_t 
     const Lanes<2> speed = two_lanes(v.x, v.y), from = two_lanes(offset.x, offset.y);
     const Lanes<2> zero(0.0), half(0.5 * state.grid.width());
     const Lanes<2> way = select(speed > zero, half - from, half + from);
-    // Without motion in one direction, whatever the sign of its zero: never.
+    // Without motion along an axis the wait is infinite; the sign of the zero speed does not count.
     const Lanes<2> rate = larger(select(speed > zero, speed, -speed), zero);
     const Lanes<2> wait = larger(way, Lanes<2>(1e-9) * half) / rate;
     const double x = lane(wait, 0), y = lane(wait, 1);
@@ -326,7 +327,7 @@ static void enter(LinkedCellsState& state, std::uint32_t i, std::uint32_t number
     state.near_wall[state.near_wall_count++] = i;
 }
 
-/// Disc i has reached an edge of its cell and enters the cell beyond.
+/// Moves disc i, which has reached an edge of its cell, to the cell on the other side.
 [[gnu::noinline]] static void enter_next_cell(LinkedCellsState& state, std::uint32_t i, double t) {
     ++state.list_rebuilds;
     consider_lists(state, t);

@@ -58,8 +58,8 @@ std::uint32_t capacity_for(double ratio) {
 constexpr double ratio_without_tail = 4.0;
 
 /// Target for the number of discs nearer than twice a disc's skin radius. A list of equal discs
-/// then fits in one vector, and that of a larger disc holds a layer around it. Others may still add
-/// themselves to the list.
+/// then fits in one vector, and that of a larger disc holds a layer around it. Later insertions may
+/// make the list longer.
 std::uint32_t target_length(double ratio) {
     return 7 + static_cast<std::uint32_t>(pi * (smaller(ratio, 1e6) - 1.0));
 }
@@ -254,7 +254,7 @@ void set_up(ManySpheresState& state, const RadiusRange& radii, AlignedMemory& me
     set_up_queue(state.queue, state.size, memory);
     state.queue.prefetches = false;
     state.skins = memory.add<Skin>(state.size);
-    // The area of a cell holds three spheres on average; it is no narrower than one.
+    // A cell holds three spheres on average, and it is no narrower than one sphere.
     const double R = state.container_radius;
     const double for_three = square_root(3.0 * pi * R * R / state.size);
     set_geometry(state.grid, larger(2.0 * radii.largest, for_three), 2.0 * R);

@@ -187,7 +187,7 @@ struct CandidateColumns {
     std::uint32_t *disc, *chosen, *rebuilt;
 };
 
-/// What the lists of one species need.
+/// Data that the lists of one species need.
 struct SpeciesLists {
     std::uint32_t grid;           // index into VerletListsState::grids
     std::uint32_t target_length;  // of a list (verlet_skin.hpp)

@@ -1,6 +1,6 @@
-// Speed only; results stay bitwise identical. What both searches for spheres share: the first
-// contact of a sphere with eight others, and its contact with the wall. Which spheres to test is
-// decided by the search (few_spheres.hpp, many_spheres.hpp).
+// Speed only; results stay bitwise identical. Code that both searches for spheres share: the first
+// contact of a sphere with eight others, and its contact with the wall. The search
+// (few_spheres.hpp, many_spheres.hpp) decides which spheres to test.
 //
 // Vector arithmetic finds which of eight contacts do not happen, or happen between equally
 // accelerated spheres. The remaining ones, mostly one or two, are roots of quartics and are solved
@@ -62,7 +62,7 @@ struct EightTimes {
     }
 };
 
-/// When spheres i and k collide, for a pair that needs the quartic.
+/// The time at which spheres i and k collide, for a pair that needs the quartic.
 [[gnu::noinline]] static double contact_by_quartic(const EngineState& state, std::uint32_t i,
                                                    std::uint32_t k) {
     const Encounter<double> e(Spheres::flight(state, i), Spheres::flight(state, k),

@@ -294,7 +294,7 @@ SWIRL_INLINE WallContact seek_wall(const EngineState& state, std::uint32_t i,
     return arc_wall_contact(disc.flight(), known.time == now ? known : segment.flight_at(now),
                             segment, state.container_radius - disc.radius, latest);
 }
-/// The same as a time; `never` if it comes later than `latest`.
+/// The time of this contact; `never` if it is later than `latest`.
 [[maybe_unused, gnu::noinline]] static double wall_time_by(const EngineState& state,
                                                            std::uint32_t i, double latest) {
     const WallContact contact = seek_wall(state, i, state.arc_centre, latest);
