@@ -112,7 +112,11 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
                                              similar ? fmt::format("did you mean '{}'?", *similar)
                                                      : "swirl.parameters() lists all parameters."));
         }
-        texts[name] = with_file_contents(name, text_of(name, value));
+        const std::string text = text_of(name, value);
+        // A C++ exception would end its message there.
+        if (text.find('\0') != std::string::npos)
+            throw UsageError(fmt::format("{} contains a null character.", name));
+        texts[name] = with_file_contents(name, text);
     }
     return texts;
 }

@@ -9,7 +9,7 @@ import subprocess
 import tarfile
 import unittest
 
-from program import SOURCE, InFolder, swirl
+from program import SOURCE, SWIRL, InFolder, swirl
 
 BODIES = ("discs", "spheres")
 
@@ -56,8 +56,8 @@ class Version1(OldFiles):
     """The files of version 1."""
 
     def assert_resumed(self, done, result, expected):
-        """The resumed run ends in the expected state; or it is rejected, if the law of motion of these
-        bodies has changed since."""
+        """The resumed run ends in the expected state; or it is rejected, if the format of checkpoints or the
+        law of motion of these bodies has changed since."""
         if done.returncode == 0:
             self.assertEqual(self.json(result)["state_hash"], self.json(expected)["state_hash"])
             for average in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
@@ -65,7 +65,8 @@ class Version1(OldFiles):
                                  self.json(expected)["rotation"][average])
             return
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"of swirl 0\.1\.0 \(1ee281701d33\), .* another law of motion \(1 there")
+        self.assertRegex(done.stderr, r"of swirl 0\.1\.0 \(1ee281701d33\), .* another law of motion \(1 there|"
+                                      r"a checkpoint of format 8, but this program reads format (9|\d\d)\b")
         self.assertFalse(os.path.exists(self.path(result)))
 
     def test_results_with_renamed_measurements_differ(self):
@@ -175,15 +176,22 @@ class OtherFormats(OldFiles):
         with open(self.path("discs.checkpoint"), "rb") as file:
             content = file.read()
         number = int(re.match(rb"swirl checkpoint (\d+)\n", content).group(1))
+        other = 99
         with open(self.path("discs.checkpoint"), "wb") as file:
-            file.write(content.replace(b"checkpoint %d\n" % number, b"checkpoint %d\n" % (number + 1), 1))
+            file.write(content.replace(b"checkpoint %d\n" % number, b"checkpoint %d\n" % other, 1))
         done = self.run_here("run", "--checkpoint", "discs.checkpoint", "--resume", "--quiet")
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, rf"format {number + 1}, but this program reads format {number}")
+        self.assertRegex(done.stderr, rf"format {other}, but this program reads format \d+")
 
     @unittest.skipUnless(shutil.which("python3") and subprocess.run(
         ["/usr/bin/python3", "-c", "import h5py"], capture_output=True).returncode == 0, "needs h5py")
     def test_recordings(self):
+        # A recording that this program did not finish.
+        os.remove(self.path("discs_stopped.h5.partial"))
+        os.remove(self.path("discs_stopped.checkpoint"))
+        subprocess.run(["timeout", "--signal", "INT", "0.7", SWIRL, "run", "run.toml", "--events", "4e7",
+                        "--frame-events", "200000", "--quiet", "--trajectory", "discs_stopped.h5",
+                        "--checkpoint", "discs_stopped.checkpoint"], cwd=self.folder, capture_output=True)
         for file, command in (("discs.h5", ("measure", "discs.h5")),
                               ("discs_events.h5", ("verify", "discs_events.h5")),
                               ("tracks.h5", ("measure", "tracks.h5")),

@@ -103,11 +103,15 @@ TEST_P(MergedObservation, EqualsOneObservationOfBothContainers) {
         for (std::size_t t = 0; t < b.tables.size(); ++t) {
             ASSERT_EQ(a.tables[t].values.size(), b.tables[t].values.size());
             const std::size_t columns = b.tables[t].columns.size();
-            for (std::size_t v = 0; v < b.tables[t].values.size(); ++v)
+            for (std::size_t v = 0; v < b.tables[t].values.size(); ++v) {
+                const std::string& column = b.tables[t].columns[v % columns].name;
+                // The errors of fields come from groups of periods. A merge joins no groups.
+                if (merged[m].name == "fields" && column.ends_with("_error")) continue;
                 expect_same(a.tables[t].values[v], b.tables[t].values[v],
                             merged[m].name + " " + b.tables[t].name + " " +
                                 b.tables[t].columns[v % columns].name + " of row " +
                                 std::to_string(v / columns));
+            }
         }
     }
     // The numbers must not agree merely because there are no samples.

@@ -13,9 +13,9 @@ interface Field {
 
 const main = ["discs", "mu", "amplitude"];
 /** The page has runs of any length, without ramps: moving a slider is the ramp. Samples are chosen by the engine. */
-const notShown = ["events", "events_per_sample", "periods", "ramp"];
+const notShown = ["events", "events_per_sample", "frictionless", "periods", "ramp"];
 const groups = {
-    friction: ["mu_disc", "mu_wall", "frictionless"],
+    friction: ["mu_disc", "mu_wall"],
     particles: ["preset", "body", "radius", "mass", "inertia", "mixture", "sizes"],
     collisions: ["restitution", "tangential_restitution", "contact_duration"],
     floor: ["floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc", "vertical_wall"],
@@ -29,7 +29,6 @@ function applies(name: string, {body, floor, restitution, path}: Record<string, 
     switch (name) {
         case "contact_duration": return Number(restitution) < 1;
         case "floor_friction": case "gravity": return onFloor;
-        case "frictionless": return !sphere && !onFloor;
         case "rolling_resistance": return onFloor && sphere;
         case "vertical_disc": case "vertical_wall": return sphere;
         case "sides": return path !== "circle";

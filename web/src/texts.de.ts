@@ -97,7 +97,7 @@ export const texts: typeof en.texts = {
     clipped: (n: number, at: number): string => `${n === 1 ? "Ein Umlauf liegt" : `${n} Umläufe liegen`} jenseits von ±${at}: ` +
         "Eine Scheibe kam dem Schwerpunkt sehr nahe.",
     labels: {discs: "Anzahl der Scheiben", mu: "Reibung", amplitude: "Amplitude", mu_disc: "Reibung zwischen Scheiben",
-        mu_wall: "Reibung an der Wand", frictionless: "Ohne Reibung", preset: "Voreinstellung", body: "Körper", radius: "Scheibenradius", mass: "Masse einer Scheibe",
+        mu_wall: "Reibung an der Wand", preset: "Voreinstellung", body: "Körper", radius: "Scheibenradius", mass: "Masse einer Scheibe",
         inertia: "Trägheitsmoment", mixture: "Zweite Größe", sizes: "Größenverteilung", restitution: "Stoßzahl",
         tangential_restitution: "Tangentiale Stoßzahl", contact_duration: "Kontaktdauer", floor: "Boden",
         floor_friction: "Reibung am Boden", gravity: "Fallbeschleunigung", rolling_resistance: "Rollwiderstand",
@@ -285,7 +285,6 @@ export const texts: typeof en.texts = {
         mu: "Reibungszahl zwischen den Körpern und an der Wand",
         mu_disc: "Reibungszahl zwischen den Körpern; ohne Angabe die von --mu",
         mu_wall: "Reibungszahl an der Wand; ohne Angabe die von --mu",
-        frictionless: "Kontakte ohne Reibung: an der Wand, zwischen Scheiben an der Wand oder alle übrigen",
         body: "Art der Körper: disc ist eine Scheibe, sphere eine Kugel",
         inertia: "Trägheitsmoment eines Körpers, als Zahl oder Name",
         mass: "Masse eines Körpers",

@@ -98,7 +98,7 @@ export const texts = {
     clipped: (n: number, at: number): string => `${n === 1 ? "One period is" : `${n} periods are`} beyond ±${at}: ` +
         "a disc passed close to the centre of mass.",
     labels: {discs: "Number of discs", mu: "Friction", amplitude: "Amplitude", mu_disc: "Friction between discs",
-        mu_wall: "Friction at the wall", frictionless: "No friction in", preset: "Preset", body: "Body", radius: "Disc radius", mass: "Disc mass",
+        mu_wall: "Friction at the wall", preset: "Preset", body: "Body", radius: "Disc radius", mass: "Disc mass",
         inertia: "Moment of inertia", mixture: "Second size", sizes: "Distribution of sizes", restitution: "Bounciness",
         tangential_restitution: "Tangential bounciness", contact_duration: "Contact duration", floor: "Floor",
         floor_friction: "Friction of the floor", gravity: "Gravity", rolling_resistance: "Rolling resistance",

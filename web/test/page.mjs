@@ -131,7 +131,7 @@ assert.ok(painted > 5, `the canvas shows ${painted} shades`);
 const withoutSlider = await page.$$eval("#parameters .control", (all) => all
     .filter((row) => !row.querySelector("input[type=range]"))
     .map((row) => row.querySelector("input[type=text], select").id.replace("parameter-", "")));
-assert.deepEqual(withoutSlider, ["frictionless", "preset", "body", "mixture", "sizes", "floor", "path", "direction"]);
+assert.deepEqual(withoutSlider, ["preset", "body", "mixture", "sizes", "floor", "path", "direction"]);
 await openParameters();
 const ofMuWall = page.locator("#slider-mu_wall");
 assert.deepEqual([await ofMuWall.getAttribute("max"), await ofMuWall.getAttribute("step")], ["2", "0.05"]);

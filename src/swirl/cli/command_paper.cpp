@@ -182,7 +182,7 @@ void add_paper_command(Subcommand& subcommand) {
         ->type_name("NUMBER");
     subcommand
         .add_option("--seeds", call->seeds,
-                    "First runs of a point; undecided claims add more [8, quick 3]")
+                    "First runs of a point; unclear claims add more [8, quick 3]")
         ->type_name("NUMBER");
     subcommand.add_option("--out", call->out, "Output folder [out]")->type_name("DIR");
     subcommand

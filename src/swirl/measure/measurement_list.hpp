@@ -7,9 +7,7 @@
 
 #include "swirl/measure/angular_profile.hpp"
 #include "swirl/measure/cluster_centre.hpp"
-#include "swirl/measure/collision_angles.hpp"
 #include "swirl/measure/collision_rates.hpp"
-#include "swirl/measure/contact_network.hpp"
 #include "swirl/measure/density_map.hpp"
 #include "swirl/measure/diffusion.hpp"
 #include "swirl/measure/energy_budget.hpp"
@@ -17,24 +15,26 @@
 #include "swirl/measure/granular_temperature.hpp"
 #include "swirl/measure/hexatic_order.hpp"
 #include "swirl/measure/local_packing.hpp"
-#include "swirl/measure/pair_correlation.hpp"
 #include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/radial_density.hpp"
 #include "swirl/measure/rolling.hpp"
-#include "swirl/measure/rotation_fluctuations.hpp"
 #include "swirl/measure/sampling.hpp"
 #include "swirl/measure/segregation.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
-#include "swirl/measure/torque_budget.hpp"
-#include "swirl/measure/velocity_correlation.hpp"
-#include "swirl/measure/velocity_distribution.hpp"
 #include "swirl/measure/wall_residence.hpp"
 #include "swirl/measure/wall_stress.hpp"
 
-// The browser page has no use for the fields, which would make it larger by a tenth.
-#ifndef SWIRL_WITHOUT_FIELDS
+// The browser page does not show these measurements and is smaller without them.
+#ifndef SWIRL_BROWSER_PAGE
+#include "swirl/measure/collision_angles.hpp"
+#include "swirl/measure/contact_network.hpp"
 #include "swirl/measure/fields.hpp"
+#include "swirl/measure/pair_correlation.hpp"
+#include "swirl/measure/rotation_fluctuations.hpp"
+#include "swirl/measure/torque_budget.hpp"
+#include "swirl/measure/velocity_correlation.hpp"
+#include "swirl/measure/velocity_distribution.hpp"
 #endif
 
 namespace swirl {
@@ -96,10 +96,13 @@ inline constexpr std::tuple measurement_list{
         "squared displacement and rotation of a disc as functions of the time lag"),
     measurement<EnergyBudget>("energy", "energy_budget.hpp",
         "energy budget: work of wall and floor, losses in friction and collisions"),
+#ifndef SWIRL_BROWSER_PAGE
     measurement<TorqueBudget>("torque", "torque_budget.hpp",
         "torques on the cluster: wall, friction between discs, spins; pinned and loose"),
+#endif
     measurement<Rolling>("rolling", "rolling.hpp",
         "for spheres: rolling and sliding on the floor, vertical friction, frustration"),
+#ifndef SWIRL_BROWSER_PAGE
     measurement_in_container<PairCorrelation>("pair_correlation", "pair_correlation.hpp",
         "pair correlation function g(r), and its value at contact"),
     measurement_in_container<VelocityCorrelation>("velocity_correlation", "velocity_correlation.hpp",
@@ -112,7 +115,6 @@ inline constexpr std::tuple measurement_list{
         "head-on or grazing: impact parameters and directions of the collisions"),
     measurement<RotationFluctuations>("fluctuations", "rotation_fluctuations.hpp",
         "fluctuations of the rotation: N var(ϖ), Binder cumulant, lifetimes of states"),
-#ifndef SWIRL_WITHOUT_FIELDS
     measurement_in_container<Fields>("fields", "fields.hpp",
         "coarse-grained fields: density, flow, spin, stress, couple stress, dissipation"),
 #endif

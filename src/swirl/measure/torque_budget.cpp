@@ -167,6 +167,13 @@ void TorqueBudget::sample_residences(const LongResidences& residences) {
     pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(known));
 }
 
+void TorqueBudget::begin_tracks() {
+    begun_ = false;
+    orbit_of_cluster_ = not_available;
+    pending_.clear();
+    known_since_ = known_until_ = not_available;
+}
+
 void TorqueBudget::close_event_block(double duration) {
     open_[5] = open_[0] + open_[1] + open_[2];
     open_[6] = open_[3] + open_[4];
