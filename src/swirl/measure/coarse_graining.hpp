@@ -108,35 +108,34 @@ void for_each_node(const std::array<GaussNode, n>& nodes, const Stretch& stretch
     for (const GaussNode& node : nodes) visit(middle + half * node.at, half * node.weight);
 }
 
-/// B and B₁ of a line, for q = x − r_i.
-struct LineAverage {
-    double whole = 0.0, weighted = 0.0;
+/// ∫₀¹ f ds and ∫₀¹ s f ds along a line, for a function f that is zero outside the kernel.
+template <class Value>
+struct LineIntegrals {
+    Value whole{}, weighted{};
 };
-inline LineAverage line_average(const CoarseKernel& kernel, const Vec2& q, const Vec2& line) {
-    LineAverage average;
+template <class Value, class Function>
+LineIntegrals<Value> line_integrals(const CoarseKernel& kernel, const Vec2& q, const Vec2& line,
+                                    const Function& f) {
+    LineIntegrals<Value> sums;
     const Stretch stretch = stretch_inside(kernel, q, line);
-    if (stretch.empty()) return average;
+    if (stretch.empty()) return sums;
     for_each_node(gauss_3, stretch, [&](double s, double weight) {
-        const double w = weight * kernel.value(q - s * line);
-        average.whole += w;
-        average.weighted += s * w;
+        const Value value = weight * f(q - s * line);
+        sums.whole = sums.whole + value;
+        sums.weighted = sums.weighted + s * value;
     });
-    return average;
+    return sums;
+}
+
+/// B and B₁ of a line, for q = x − r_i.
+using LineAverage = LineIntegrals<double>;
+inline LineAverage line_average(const CoarseKernel& kernel, const Vec2& q, const Vec2& line) {
+    return line_integrals<double>(kernel, q, line, [&](const Vec2& d) { return kernel.value(d); });
 }
 /// ∇B and ∇B₁. W and its gradient vanish at the edge of the kernel, so its edges add nothing.
-struct LineGradient {
-    Vec2 whole{0.0, 0.0}, weighted{0.0, 0.0};
-};
+using LineGradient = LineIntegrals<Vec2>;
 inline LineGradient line_gradient(const CoarseKernel& kernel, const Vec2& q, const Vec2& line) {
-    LineGradient gradient;
-    const Stretch stretch = stretch_inside(kernel, q, line);
-    if (stretch.empty()) return gradient;
-    for_each_node(gauss_3, stretch, [&](double s, double weight) {
-        const Vec2 g = weight * kernel.gradient(q - s * line);
-        gradient.whole = gradient.whole + g;
-        gradient.weighted = gradient.weighted + s * g;
-    });
-    return gradient;
+    return line_integrals<Vec2>(kernel, q, line, [&](const Vec2& d) { return kernel.gradient(d); });
 }
 
 /// One disc, as the densities need it.

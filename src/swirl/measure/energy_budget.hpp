@@ -92,11 +92,8 @@ class EnergyBudget : public ReportedAverages<EnergyBudget, MergedAverages> {
     template <class Visitor>
     void report(Visitor&& visit) const {
         ReportedAverages::report(visit);
-        visit(ReportRow{.name = "unaccounted_share",
-                        .unit = "1",
-                        .description = "share of the energy that is not accounted for",
-                        .estimate = {.mean = unaccounted_share()},
-                        .has_error = false});
+        visit(
+            unaccounted_row("share of the energy that is not accounted for", unaccounted_share()));
     }
     void merge(const EnergyBudget& other);
     template <class Visitor>

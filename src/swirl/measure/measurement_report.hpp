@@ -41,6 +41,15 @@ struct ReportRow {
     bool has_error = true;  // false: a number that is not an average
 };
 
+/// The row of a measurement that checks a balance.
+inline ReportRow unaccounted_row(const char* description, double share) {
+    return {.name = "unaccounted_share",
+            .unit = "1",
+            .description = description,
+            .estimate = {.mean = share},
+            .has_error = false};
+}
+
 struct ReportColumn {
     std::string name;
     const char* unit;

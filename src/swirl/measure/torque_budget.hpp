@@ -115,11 +115,8 @@ class TorqueBudget : public ReportedAverages<TorqueBudget, MergedAverages> {
     template <class Visitor>
     void report(Visitor&& visit) const {
         ReportedAverages::report(visit);
-        visit(ReportRow{.name = "unaccounted_share",
-                        .unit = "1",
-                        .description = "share of the angular momentum that is not accounted for",
-                        .estimate = {.mean = unaccounted_share()},
-                        .has_error = false});
+        visit(unaccounted_row("share of the angular momentum that is not accounted for",
+                              unaccounted_share()));
         ReportTable table{"profile",
                           "torques about the centre of mass in slices of θ",
                           {{"theta", "°"},

@@ -200,10 +200,7 @@ RunConfig loop_config(const PaperSettings& settings, const Loop& loop, std::int6
 /// Means of the rotation in bins of the parameter, upwards and downwards in its order.
 Json loop_run(const RunConfig& config, const RunControl& control) {
     PeriodSeries series(config, {});
-    RunControl observed = control;
-    observed.series = &series;
-    const RunResult result = run(config, observed);
-    if (!result.complete) throw Interrupted("Stopped.");
+    run_with_series(config, control, series);
     const std::vector<double> rates = counted_periods(series, "rigid_by_time");
     std::vector<double> sums(2 * bins), counts(2 * bins);
     for (std::size_t p = 0; p < rates.size(); ++p) {
@@ -216,20 +213,11 @@ Json loop_run(const RunConfig& config, const RunControl& control) {
             {"down", std::vector<double>(sums.rbegin(), sums.rbegin() + bins)}};
 }
 
-Estimate over_runs(const std::vector<Json>& runs, const char* branch, int bin) {
+/// The mean over the runs of a number of each run.
+template <class NumberOf>
+Estimate over_runs(const std::vector<Json>& runs, const NumberOf& number_of) {
     std::vector<Estimate> values;
-    for (const Json& run : runs)
-        values.push_back({.mean = run[branch][std::size_t(bin)].get<double>()});
-    return ensemble(values).estimate;
-}
-
-/// The mean over the runs of the difference of the branches. Its error is smaller than that of the
-/// two means if both branches vary with the seed.
-Estimate difference_over_runs(const std::vector<Json>& runs, int bin) {
-    std::vector<Estimate> values;
-    for (const Json& run : runs)
-        values.push_back({.mean = run["down"][std::size_t(bin)].get<double>() -
-                                  run["up"][std::size_t(bin)].get<double>()});
+    for (const Json& run : runs) values.push_back({.mean = number_of(run)});
     return ensemble(values).estimate;
 }
 
@@ -266,9 +254,14 @@ static FigurePlan plan_figure_hysteresis(const PaperSettings& settings) {
                 for (int bin = 0; bin < bins; ++bin) {
                     const double value =
                         loop.from + (loop.to - loop.from) * (bin + 0.5) / double(bins);
-                    const Estimate up = over_runs(runs, "up", bin),
-                                   down = over_runs(runs, "down", bin),
-                                   difference = difference_over_runs(runs, bin);
+                    const auto of = [bin](const Json& run, const char* which) {
+                        return run[which][std::size_t(bin)].get<double>();
+                    };
+                    const Estimate up = over_runs(runs, [&](auto&r) { return of(r, "up"); }),
+                                   down = over_runs(runs, [&](auto&r) { return of(r, "down"); });
+                    // More precise than the two means if both branches vary with the seed.
+                    const Estimate difference =
+                        over_runs(runs, [&](auto& r) { return of(r, "down") - of(r, "up"); });
                     table.add({std::string(loop.words), std::string(loop.parameter), value, branch,
                                std::int64_t(runs.size()), up.mean, up.error, down.mean, down.error,
                                difference.mean, difference.error});
@@ -313,10 +306,7 @@ constexpr TwoStatePoint two_state_points[] = {
 /// Periods and exits of both states, and ϖ in each.
 Json visits_of(const RunConfig& config, const RunControl& control, double threshold) {
     PeriodSeries series(config, {});
-    RunControl observed = control;
-    observed.series = &series;
-    const RunResult result = run(config, observed);
-    if (!result.complete) throw Interrupted("Stopped.");
+    run_with_series(config, control, series);
     const std::vector<double> spins = counted_periods(series, "spin"),
                               rates = counted_periods(series, "rigid_by_time");
     double periods[2] = {}, exits[2] = {}, sums[2] = {};

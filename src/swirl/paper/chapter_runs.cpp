@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "swirl/paper/chapters.hpp"
+#include "swirl/paper/coarse_zero.hpp"
 #include "swirl/paper/curves.hpp"
 #include "swirl/paper/points.hpp"
 #include "swirl/run/failure.hpp"
@@ -15,7 +16,7 @@
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/report.hpp"
-#include "swirl/statistics/block_average.hpp"
+#include "swirl/statistics/fluctuations.hpp"
 
 namespace swirl {
 namespace {
@@ -58,17 +59,20 @@ RunConfig dish_config(const PaperSettings& settings, const Dish& dish, std::int6
 
 PeriodFluctuations period_fluctuations(const std::vector<double>& values, std::int64_t discs) {
     const SeriesEstimate series = estimate_of_series(values);
-    const auto n = static_cast<double>(values.size());
-    double second = 0.0, fourth = 0.0;
-    for (const double value : values) {
-        const double square = (value - series.estimate.mean) * (value - series.estimate.mean);
-        second += square / n;
-        fourth += square * square / n;
-    }
-    const double variance = second * n / (n - 1.0);
+    PowerSums sums;
+    for (const double value : values) sums.add(value, series.estimate.mean);
+    const auto [second, skewness, excess_kurtosis, binder_about_zero] = sums.moments();
+    const double variance = second * sums.count / (sums.count - 1.0);
     return {variance, series.autocorrelation_time,
             static_cast<double>(discs) * variance * series.autocorrelation_time,
-            1.0 - fourth / (3.0 * second * second)};
+            -excess_kurtosis / 3.0};
+}
+
+RunResult run_with_series(const RunConfig& config, RunControl control, PeriodSeries& series) {
+    control.series = &series;
+    RunResult result = run(config, control);
+    if (!result.complete) throw Interrupted("Stopped.");
+    return result;
 }
 
 Json fluctuating_run(const RunConfig& config, const std::vector<std::string>& measurements,
@@ -77,10 +81,7 @@ Json fluctuating_run(const RunConfig& config, const std::vector<std::string>& me
     PeriodSeries series(config, {});
     RunControl observed = control;
     observed.observation = &observation;
-    observed.series = &series;
-    const RunResult result = run(config, observed);
-    if (!result.complete) throw Interrupted("Stopped.");
-    Json json = result_json(result);
+    Json json = result_json(run_with_series(config, observed, series));
     json["measured"] = measured_json(observation.report());
     Json& rows = json["measured"]["fluctuations"] = Json::object();
     const PeriodFluctuations found =
@@ -178,12 +179,12 @@ DirectionChange change_between(const DishCurve& curve, std::size_t k, const Dish
     const RotationPoint &a = curve.points[k], &b = curve.points[k + 1];
     const Json &left = *curve.results[k], &right = *curve.results[k + 1];
     const double area = dish.radius * dish.radius, step = b.discs - a.discs;
-    const double f = a.mean / (a.mean - b.mean);
-    const double slope = (b.mean - a.mean) / step;  // per disc
+    const LineZero zero = zero_of_line(a, b);
+    const double f = zero.fraction;
     DirectionChange change{dish};
-    change.packing_fraction = (a.discs + f * step) / area;
-    change.error = std::hypot((1.0 - f) * a.error, f * b.error) / std::fabs(slope) / area;
-    change.slope = slope * area;
+    change.packing_fraction = zero.discs / area;
+    change.error = zero.error / area;
+    change.slope = (b.mean - a.mean) / step * area;
     change.slope_error = std::hypot(a.error, b.error) / step * area;
     change.largest = between(left, right, f, "contact_network", "largest");
     change.wall = between(left, right, f, "contact_network", "wall");
@@ -201,13 +202,7 @@ DirectionChange change_between(const DishCurve& curve, std::size_t k, const Dish
 
 /// The zeros of the curve between two N with certain and opposite signs; the middle one of several.
 DirectionChange change_at(const DishCurve& curve, const SignChange& found, const Dish& dish) {
-    std::vector<std::size_t> zeros;
-    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
-        const RotationPoint &a = curve.points[k], &b = curve.points[k + 1];
-        if (a.discs < found.before || b.discs > found.after) continue;
-        if ((a.mean < 0.0) != (b.mean < 0.0)) zeros.push_back(k);
-    }
-    DirectionChange change = change_between(curve, zeros[zeros.size() / 2], dish);
+    DirectionChange change = change_between(curve, middle_zero(curve.points, found), dish);
     const double area = dish.radius * dish.radius;
     change.to_counterrotation = found.to_counterrotation;
     change.before = found.before / area;

@@ -28,6 +28,9 @@ RunConfig dish_config(const PaperSettings& settings, const Dish& dish, std::int6
 /// The values of the periods that count, in order.
 std::vector<double> counted_periods(const PeriodSeries& series, std::string_view column);
 
+/// Runs to the end with the series, and with the observation of `control`. Throws Interrupted.
+RunResult run_with_series(const RunConfig& config, RunControl control, PeriodSeries& series);
+
 /// A run with measurements, and with the rows of measured.fluctuations (fluctuations()).
 Json fluctuating_run(const RunConfig& config, const std::vector<std::string>& measurements,
                      const RunControl& control);

@@ -16,6 +16,7 @@
 #include "swirl/paper/chapters.hpp"
 #include "swirl/paper/curves.hpp"
 #include "swirl/paper/points.hpp"
+#include "swirl/paper/rank_correlation.hpp"
 #include "swirl/paper/results.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/report.hpp"
@@ -64,17 +65,6 @@ std::vector<double> without_trend(const std::vector<double>& values) {
         for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= product / square * polynomial(k);
     }
     return rest;
-}
-
-/// Pearson's coefficient of two lists without trend.
-double correlation_of(const std::vector<double>& a, const std::vector<double>& b) {
-    double ab = 0.0, aa = 0.0, bb = 0.0;
-    for (std::size_t k = 0; k < a.size(); ++k) {
-        ab += a[k] * b[k];
-        aa += a[k] * a[k];
-        bb += b[k] * b[k];
-    }
-    return ab / std::sqrt(aa * bb);
 }
 
 /// The error of the coefficient; the parabola uses three points.
