@@ -6,23 +6,24 @@ import re
 import point_names
 
 CONTRADICTIONS = [
-    ("Amplitude of the path", "The main text says A = 0.96, the SI 1.892 with A/R = 0.22.",
-     "The first is in disc diameters, the second in radii. The SI's value is used: it gives the container the "
-     "speed 1 that the SI states."),
+    ("Amplitude of the path", "The main text has A = 0.96. The SI has A = 1.892 and A/R = 0.22.",
+     "The first value is in disc diameters, the second in disc radii. This program uses 1.892, which gives the "
+     "container the speed 1 that the SI states."),
     ("Moment of inertia", "The table has I = 10 for m = r = 1. A rigid plane disc cannot exceed 1 (a ring); a "
      "solid disc has ½.", "The paper's 10 is the default. Figure “inertia” shows 1 and ½."),
-    ("Minimal time between collisions", "Predicted contacts within 10⁻¹³ are discarded, since some were false.",
-     "Not done. For discs that touch and separate no contact is predicted; discs that touch and approach collide "
-     "at once."),
+    ("Minimal time between collisions", "The paper discards predicted contacts that are less than 10⁻¹³ ahead, since "
+                                        "some of them were false.",
+     "This program discards no contact. It predicts none for discs that touch and separate, and discs that touch "
+     "and approach collide at once."),
     ("Period of the swirl", "The table calls 11.866071 the value of ω⁻¹.",
-     "It is the period T; Ω = 2π/T. With 30 sides of A = 1.892 it gives the speed 1."),
-    ("Slope against angle", "The SI's formula for depinning compares a slope with an angle, and has a sum where a "
-     "mean is meant.", "Directions are compared with directions, and angles are averaged as directions."),
-    ("“Strong slip (s ≪ 1)”", "In the conclusion s ≪ 1 is strong slip and s ≈ 1 minimal slip; earlier in the text "
-     "s = 1 is no slip.", "Both agree: s = 1 rolls, s = 0 slips."),
-    ("Steady state", "No warm-up is mentioned; the first events seem to count.",
-     "The first 20 periods are left out (a fifth of the run if that is less). Where spins need longer (no disc "
-     "friction), figures “transient” and “5b-steady” show both."),
+     "It is the period T, and Ω = 2π/T. With 30 sides and A = 1.892 it gives the speed 1."),
+    ("Slope against angle", "The SI's formula for depinning compares a slope with an angle, and has a sum instead "
+     "of a mean.", "Directions are compared with directions, and angles are averaged as directions."),
+    ("“Strong slip (s ≪ 1)”", "In the conclusion s ≪ 1 is strong slip and s ≈ 1 is minimal slip. Earlier in the "
+     "text s = 1 is no slip.", "Both agree: s = 1 is rolling and s = 0 is free slip."),
+    ("Steady state", "The paper mentions no warm-up, so its averages seem to include the first events.",
+     "Averages exclude the first 20 periods, or a fifth of the run if that is shorter. Without disc friction, spins "
+     "need longer; figures “transient” and “5b-steady” show both."),
     ("Collisions with the wall", "The SI says that no sign changes are needed because the wall does not spin.",
      "The disc's own spin enters the slip at the wall with the sign of the outward normal."),
     ("A ball that slips freely", "It has γ = 0 at s = 0 and “corresponds to rotation”. But by the introduction, a "
@@ -31,14 +32,15 @@ CONTRADICTIONS = [
      "Rotation also needs a torque."),
     ("Amplitude of the experiment", "1.15 cm in a dish of 5.1 cm diameter is 0.45 R as an amplitude and 0.225 R "
      "from peak to peak.", "The SI's A/R = 0.22 fits half of it, so 1.15 cm must be the diameter of the path."),
-    ("Coriolis force", "0–200 cm/s². A disc that moves with the wall has about 720 in the M-frame.",
-     "Computed from the velocities in the M-frame (measurement “centre”)."),
+    ("Coriolis force", "The paper states 0–200 cm/s². A disc that moves with the wall has about 720 cm/s² in the "
+                       "M-frame.",
+     "This program computes it from the velocities in the M-frame (measurement “centre”)."),
     ("Which rotation", "ϖ is the mean over the discs of (r × v)/r² about the centre of mass. Discs near it, whose "
-     "r² is small, have the largest weight, and the variance diverges.", "The paper's mean is judged. Every table "
+     "r² is small, have the largest weight, and the variance diverges.", "Verdicts use the paper's mean. Every table "
      "also has the rotation of the rigid body that fits the velocities best (rigid_by_event, rigid_by_time). The "
-     "two change sign at different N; figure 5b has N_c by all four rates."),
+     "two change sign at different N. Figure 5b has N_c for all four rates."),
     ("Which average", "Figure 5b averages over events, the experiment over time.",
-     "Both are given everywhere; figure “averages” compares them."),
+     "All tables have both averages, and figure “averages” compares them."),
 ]
 
 # The question of each figure beyond the paper.
@@ -47,45 +49,51 @@ QUESTIONS = {
                "with a moment of inertia that no disc has. Do spheres with their own moment of inertia "
                "counterrotate, and at which N?",
     "spheres_ingredients": "Friction of the floor, vertical friction of the contacts, damping, the inertia of a "
-                           "solid sphere: each is switched off alone, at μ = 0.2. Which of them causes "
+                           "solid sphere: each is switched off in turn, at μ = 0.2. Which of them causes "
                            "counterrotation?",
-    "spheres_ingredients_rough": "Does the answer depend on the friction coefficient? The same at μ = 0.3.",
+    "spheres_ingredients_rough": "Does the answer depend on the friction coefficient? This figure has μ = 0.3.",
     "spheres_pinned": "Quantities that the paper measured for the spheres at the wall, and one that it could not "
-                      "measure: rolling. The correlation is 1 where spheres roll on the floor and neighbours slide at the sum of their "
-                      "speeds, −1 where they roll on each other.",
+                      "measure: rolling. The correlation is 1 if neighbours roll on the floor in the same direction "
+                      "and "
+                      "slip with the sum of their speeds. It is −1 if they roll on each other.",
     "spheres_flat_discs": "The paper's simulation has discs and shows counterrotation with a moment of inertia that "
                           "no disc has. Do solid discs (I = 1/2) that lie flat and slide on a floor counterrotate?",
-    "averages": "The paper averages over events, an observer over time. Does it matter?",
+    "averages": "The paper averages over events, but an observer averages over time. Does the result differ?",
     "transient": "Without disc friction only the wall changes the discs' spins. How long does that take, and does "
                  "the paper's average include the end of it?",
-    "5b-steady": "Figure 5b after a warm-up that is long enough for the spins.",
-    "friction": "The paper shows that less friction moves the crossing to higher N. How?",
+    "5b-steady": "What is Figure 5b after a warm-up that is long enough for the spins?",
+    "friction": "The paper shows that less friction moves the crossing to higher N. How does N_c depend on μ?",
     "inertia": "The paper's discs have more inertia than a rigid plane disc can have. Where do solid discs (I = ½), "
                "rings (1) and discs of other inertia change their direction of rotation?",
-    "restitution": "The paper's collisions are elastic in the normal direction. What does a loss change?",
-    "tangential": "In the paper friction only stops the slip. What if part of it is reversed?",
-    "polygon": "The paper's container moves along 30 straight sides. What does that change?",
+    "restitution": "The paper's collisions are elastic in the normal direction. What changes if collisions lose "
+                   "energy?",
+    "tangential": "In the paper friction only stops the slip. What changes if friction reverses a part of it?",
+    "polygon": "The paper's container moves along 30 straight sides. What changes with other numbers of sides, or on "
+               "a circle?",
     "condensation": "Without disc friction the paper sees a loose, gas-like cluster. How long does it last, and what "
                     "follows?",
     "energy": "The paper's program crashes when both friction coefficients are zero. Where does the energy come from?",
-    "map": "Which of the two friction coefficients decides?",
-    "size": "The paper has one dish, with R/r = 8.6. Where does the direction of rotation change in smaller and in "
-            "larger dishes, and in which state of the cluster?",
-    "critical": "The paper leaves open whether the change of direction is a critical phenomenon. Do slope, fluctuations "
-                "and correlation time at the change grow with the size of the dish?",
-    "hysteresis": "Does the direction depend on where a ramp comes from?",
+    "map": "Which of the two friction coefficients determines the direction of rotation?",
+    "size": "The paper has one container, with R/r = 8.6. Where does the direction of rotation change in smaller and "
+            "in "
+            "larger containers, and what is the state of the cluster there?",
+    "critical": "The paper leaves open whether the change of direction is a critical phenomenon. Do slope, "
+                "fluctuations "
+                "and correlation time at the change grow with the size of the container?",
+    "hysteresis": "Does the direction of rotation depend on whether a parameter rises or falls in a ramp?",
     "lifetimes": "Some points of Figure 5b end in different states for different seeds. How long do the states last?",
-    "torque": "Which contacts turn the cluster, and which of their torques changes sign with N?",
+    "torque": "Which contacts make the cluster rotate, and which of their torques change sign with N?",
     "gears": "Do opposite spins of strong contacts predict the rotation better than the slip at the wall?",
     "contacts": "Which kind of contact needs friction for the change of direction?",
     "material_inertia": "Where does the direction change for other moments of inertia and inelastic discs?",
     "material_friction": "Which of the two friction coefficients shifts the change of direction?",
-    "material_tangential": "Where does the direction change if a sticking contact returns part of its slip?",
-    "spheres_packing": "ϖ(N) of spheres has a maximum near N = 28 to 30, which discs do not have. Does the packing of the "
+    "material_tangential": "Where does the direction change if a sticking contact reverses a part of its slip?",
+    "spheres_packing": "ϖ(N) of spheres has a maximum near N = 28 to 30, which discs do not have. Does the packing "
+                       "of the "
                        "cluster explain it?",
-    "spheres_size": "Where does the direction of rolling spheres change in dishes of other sizes?",
+    "spheres_size": "Where does the direction of rolling spheres change in containers of other sizes?",
     "spheres_bounds": "The experiment does not state the friction of the floor, the restitution and the rolling "
-                      "resistance. How far does the change of direction move between their bounds?",
+                      "resistance. By how much does the change of direction move between the limits of their values?",
     "amplitude": "The paper has one amplitude, A/R = 0.22. Where does the direction of rotation change for others?",
 }
 
@@ -96,27 +104,32 @@ CAPTIONS = {
           "rigid pancake with the cluster's perimeter that rolls along the wall without slipping, "
           "1 − P_container/P_cluster. Averages over time.",
     "1c": "Left: the centre C of the container moves round the centre S of the swirl, and the container does not "
-          "turn; M is the point of the wall farthest from S. Middle: in the M-frame, which turns with the swirl, S, "
-          "C and M are at rest and the wall turns clockwise with −Ω. Right: the inertial forces in the M-frame, the "
+          "rotate. M is the point of the wall farthest from S. Middle: in the M-frame, which rotates with the swirl, "
+          "S, C and M are at rest and the wall rotates clockwise with −Ω. Right: the inertial forces in the M-frame, "
+          "the "
           "centrifugal force away from S (orange) and, on one disc, the Coriolis force to the right of its "
           "velocity v.",
-    "2a": "One instant in the M-frame. Pinned discs fly along the wall until their path turns sharply (the SI's "
-          "criterion); loose discs cross the container. Shaded: one of the angular slices over which the profiles of "
+    "2a": "One instant in the M-frame. By the SI's criterion, pinned discs move along the wall until they change "
+          "their "
+          "direction sharply. Loose discs cross the container. Shaded: one of the angular slices over which the "
+          "profiles of "
           "Figure 3 are averaged. M is at the bottom, at θ = 270°.",
     "2b": "Averages in the M-frame for few discs: number density of their centres (colour), and their mean velocity "
           "relative to the container (arrows), in units of the container's speed. S is the centre of the swirl, M "
           "the point of the wall farthest from it. Where an arrow is short, discs move with the wall.",
-    "2c": "The same for many discs. Each map has its own colour scale.",
+    "2c": "The same as Figure 2b for many discs. Each map has its own colour scale.",
     "3a": "Mean angular velocity of the discs about the centre of mass of the cluster, in the M-frame, against the "
           "angle θ; one curve for each number of discs. Dashed: −Ω, that of the wall. Discs move clockwise, to "
           "smaller θ. Slices are 5° wide. The paper's slice slides around the container and its width is not given "
           "(figures/figure_3a.py draws slices of any width that slide by 5°). Triangles: mean angle where residences "
           "in the wall layer begin; circles: where they end.",
-    "3b": "The same, divided by the angular velocity of the wall at this θ about the same centre of mass: 1 (dashed) "
+    "3b": "The angular velocity of Figure 3a, divided by the angular velocity of the wall at this θ about the same "
+          "centre of mass: 1 (dashed) "
           "is motion with the wall.",
     "pinning": "Distributions of the angle θ at which discs pin (above) and depin (below), for few discs and for "
-               "many. Red, dashed: by the criterion of the SI, a disc is pinned while it flies along the wall, "
-               "however far from it, and pins where it turns sharply. Blue: a disc is pinned while it resides in the "
+               "many. Red, dashed: by the criterion of the SI, a disc is pinned while it moves parallel to the wall, "
+               "even far from it, and pins where it changes its direction sharply. Blue: a disc is pinned while it "
+               "resides in the "
                "wall layer, with its rim within half a radius of the wall, for at least 40/511 of a period. "
                "Triangles: mean directions. The resultant is the length of the mean unit vector: 1 if all angles are "
                "equal, 0 if they have no mean direction. Claims on the pinned region use the residences.",
@@ -126,82 +139,97 @@ CAPTIONS = {
     "4b": "How discs at the wall are prevented from spinning. Full red symbols: discs that reside in the wall layer; "
           "open red symbols: pinned by the SI's criterion. Left: mean magnitude of the spin, in Ω; 0 is a disc that "
           "sticks to the wall. Middle: correlation of the spins of neighbours, one or both of which reside at the "
-          "wall, and of colliding discs, weighted by impulse; gears would have −1. Right: share of the contacts that "
+          "wall, and of colliding discs, weighted by impulse. It is −1 for discs that roll on each other like gears. "
+          "Right: share of the contacts that "
           "close a triangle, which cannot all roll; share of the collisions in which friction stops the slip "
           "completely; and the hexatic order ψ6 of the packing.",
     "4c": "Rotation of the cluster against the number of discs for smooth (μ = 0.1) and rough (μ = 1) discs and "
-          "walls. The friction coefficients of the experiment's smooth and roughened spheres are unknown: these "
-          "two are a choice. Averages over time.",
-    "5a": "A snapshot of the simulation in the lab frame; the line on each disc turns with it. The circle is the "
+          "walls. These two coefficients are a choice, because those of the experiment's smooth and roughened spheres "
+          "are unknown. Averages over time.",
+    "5a": "A snapshot of the simulation in the lab frame; the line on each disc rotates with it. The circle is the "
           "path of the container's centre C round S.",
     "5b": "Rotation of the cluster against the number of discs for five pairs of friction coefficients, between "
-          "discs (μ_d) and at the wall (μ_w), averaged over events as in the paper. Below, the same around zero.",
+          "discs (μ_d) and at the wall (μ_w), averaged over events as in the paper. The lower panel enlarges the "
+          "range around zero.",
     "5c": "Number density of the discs' centres in the M-frame, counted by event on 100 × 100 cells as in the paper; "
           "each map has its own scale.",
     "5d": "Mean velocity of the discs relative to the container, in units of the container's speed, in the M-frame "
           "on 20 × 20 cells. One scale for both numbers of discs.",
     "ball": "The paper's minimal model, simulated: one large disc in the container. γ is its angular velocity in the "
-            "M-frame over Ω, so it counterrotates above 1; dashed: γ of rolling without slip. With e = 0.5 it loses "
-            "energy at the wall, with e = 1 none.",
+            "M-frame divided by Ω, so the disc counterrotates if γ > 1. Dashed: γ for rolling without slip. With e = "
+            "0.5 "
+            "the disc loses energy at the wall, with e = 1 it does not.",
     "states": "Motion in the M-frame with both kinds of friction and without one of them. Left: the mean speed of the "
               "discs; right: the granular temperature, the mean kinetic energy relative to the local mean flow. "
-              "Without disc friction this is the state after 300 periods; figure “condensation” shows the state before.",
+              "Without disc friction this is the state after 300 periods; figure “condensation” shows the state "
+              "before.",
     "condensation": "Without disc friction, from the start. Above: the period in which the cluster condenses; from "
                     "then on the discs hardly move in the M-frame and the cluster rotates with ϖ = Ω. Below: the "
                     "granular temperature until then and in the 50 periods after it.",
     "times": "The shortest time between two collisions of a run, which the precision of the event times must "
              "resolve.",
-    "spheres": "Rotation of spheres that roll on the floor of the experiment's dish against their number, for several "
+    "spheres": "Rotation of spheres that roll on the floor of a container of the experiment's size against their "
+               "number, for several "
                "friction coefficients μ of the spheres and the wall. Averages over time. The scale is coarser above "
-               "the dotted line. 56 and 57 spheres also fit, but are left out: there the initial packing decides, "
-               "not friction.",
+               "the dotted line. 56 and 57 spheres also fit into the container, but are omitted. Their rotation "
+               "depends "
+               "on the initial packing and not on friction.",
     "spheres_ingredients": "Rotation against the number of spheres with all ingredients of the model (black), and "
                            "with one of them removed. Vertical friction is the part of the contacts' friction that "
                            "acts on the vertical slip of rolling spheres.",
-    "spheres_ingredients_rough": "Rotation with all ingredients (black), and with one of them removed, at the N where "
-                                 "the direction of rotation is decided.",
+    "spheres_ingredients_rough": "Rotation with all ingredients (black), and with one of them removed, at the N near "
+                                 "which the direction of rotation changes.",
     "spheres_pinned": "Spheres that reside in the wall layer (full) and spheres pinned by the SI's criterion (open): "
                       "slip parameter s and the spin about the vertical. Below, for all spheres: the share that rolls "
                       "on the floor without slip, and the correlation of the rolling of neighbours along the line of "
                       "their centres.",
     "spheres_flat_discs": "Rotation against the number of solid discs that lie flat on the floor, without friction "
-                          "against the floor and for three values of it.",
+                          "against the floor and for three friction coefficients.",
     "spheres_direction": "Every number of spheres at which the direction of rotation changes, against the friction "
                          "coefficient of spheres and wall. Bars without a point: the change lies between two numbers "
                          "that were run. Crosses: the sign is undetermined there. Dashed: the changes in the paper's "
                          "experiment.",
     "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their contacts.",
     "spheres_few": "A few spheres after a long warm-up: ϖ (in units of Ω), and the share of them that resides at the "
-                   "wall. A row that rolls along the wall with the swirl has 1 for both.",
-    "size": "Left: rotation of the cluster against the packing fraction φ = N r²/R² in dishes of different radius, at "
-            "A/R = 0.22 and μ = 1; the scale is logarithmic beyond ±0.1. Right: the sign of the rotation at each point "
+                   "wall. Both are 1 for a row that rolls along the wall with the swirl.",
+    "size": "Left: rotation of the cluster against the packing fraction φ = N r²/R² in containers of different "
+            "radius, at "
+            "A/R = 0.22 and μ = 1; the scale is logarithmic beyond ±0.1. Right: the sign of the rotation at each "
+            "point "
             "(the area of a disc grows with |ϖ|), and the packing fractions at which the direction changes.",
-    "critical": "Above: N times the variance of the rotation, in periods of its correlation time τ; the correlation time; "
-                "and the Binder cumulant, which is 0 for one normal state and 2/3 (dotted) for two equal states, all at "
-                "A/R = 0.22. Below: slope, fluctuations and correlation time at each change of direction against the size "
-                "of the dish, with power laws (dashed) where there are three sizes.",
-    "hysteresis": "Rotation during a ramp of a parameter up (full) and down (open), each as a mean over an eighth of the "
+    "critical": "Above: N times the variance of the rotation, in periods of its correlation time τ; the correlation "
+                "time; "
+                "and the Binder cumulant, which is 0 for one normal state and 2/3 (dotted) for two equal states, all "
+                "at "
+                "A/R = 0.22. Below: slope, fluctuations and correlation time at each change of direction against the "
+                "size "
+                "of the container, with power laws (dashed) if there are three sizes.",
+    "hysteresis": "Rotation during a ramp of a parameter up (full) and down (open), each as a mean over an eighth of "
+                  "the "
                   "ramp, for two ramp rates.",
     "lifetimes": "Mean lifetimes of the states at two points: time spent in the state divided by the number of exits.",
     "torque": "Torques on the cluster about its centre of mass against N, at μ = 1. (a) The sums: normal force and "
-              "friction of the wall, and friction between discs, which moves angular momentum to the spins. (b) The "
+              "friction of the wall, and friction between discs, which transfers angular momentum to the spins. (b) "
+              "The "
               "friction between discs by zone: two pinned discs, a pinned and a loose one, two loose ones. The line "
               "marks the N at which the rotation changes sign.",
     "gears": "Rotation against four possible predictors, for five friction coefficients and six N each; ρ is the rank "
              "correlation over all points.",
     "contacts": "Rotation against N if one kind of contact has no friction: with the wall; between two discs that are "
                 "both within 1.5 radii of the wall; or all others between discs.",
-    "material_inertia": "N_c with its error for pairs of inertia and restitution, in units of m r²; empty: the "
-                        "direction does not certainly change.",
-    "material_friction": "The same for pairs of the friction coefficients.",
-    "material_tangential": "The same for pairs of tangential restitution and inertia.",
-    "spheres_packing": "Rotation, hexatic order, elongation of the cluster and contacts of a sphere (gap below a tenth of "
+    "material_inertia": "N_c with its error for pairs of inertia (in units of m r²) and restitution. In empty cells "
+                        "no "
+                        "change of direction is certain.",
+    "material_friction": "N_c with its error for pairs of the two friction coefficients.",
+    "material_tangential": "N_c with its error for pairs of tangential restitution and inertia.",
+    "spheres_packing": "Rotation, hexatic order, elongation of the cluster and contacts of a sphere (gap below a "
+                       "tenth of "
                        "the radius) against the number of spheres, μ = 0.2. Grey: N = 28 to 30.",
-    "spheres_size": "As for the discs, at A/R = 0.22 and μ = 0.2.",
-    "spheres_bounds": "Rotation against the number of spheres, μ = 0.2, with one parameter at a bound.",
-    "amplitude": "The same for different amplitudes, in dishes of two sizes.",
-    "spheres_map": "Rotation of the cluster as colour and as number: positive rotates with the swirl, negative "
-                   "against it.",
+    "spheres_size": "The same as figure “size” for spheres, at A/R = 0.22 and μ = 0.2.",
+    "spheres_bounds": "Rotation against the number of spheres, μ = 0.2, with one parameter at a limit of its range.",
+    "amplitude": "The same as figure “size” for different amplitudes, in containers of two sizes.",
+    "spheres_map": "Rotation of the cluster as colour and as number. Positive values rotate with the swirl, negative "
+                   "values against it.",
 }
 
 # Sections of the report: headings, and how the description of their figures begins.

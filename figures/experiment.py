@@ -178,9 +178,9 @@ TITLES = {
                   "pancake with the cluster's perimeter that rolls on the wall without slipping."),
     "figure_3a": ("Figure 3a", "Angular velocity of the discs about the centre of mass, in the "
                   "M-frame; −1 for a disc that moves with the wall."),
-    "figure_3b": ("Figure 3b", "The same, divided by that of the wall."),
-    "figure_4a": ("Figure 4a", "The slip parameter: 1 is rolling with the wall. Dashed line: all "
-                  "pinned discs, by the SI's criterion."),
+    "figure_3b": ("Figure 3b", "The angular velocity of Figure 3a, divided by that of the wall."),
+    "figure_4a": ("Figure 4a", "The slip parameter: 1 is rolling without slip. Dashed line: all "
+                  "discs that are pinned by the SI's criterion."),
     "figure_4b": ("Figure 4b", "Spin about the vertical of the discs at the wall, in Ω."),
     "figure_4c": ("Figure 4c", "Rotation of rough and smooth discs."),
 }
@@ -220,8 +220,7 @@ def video_html(folder, video):
 def page(folder, about, videos, figures):
     findings = "".join(f"<li>{report.rich(finding)}</li>" for finding in about["findings"])
     runs = (f" Each is compared with {about['seeds']} simulations of the same number of discs in the "
-            "same container. They are sampled like the video: the same frame rate and position error, "
-            "smoothed in the same way."
+            "same container. They have the same frame rate, position error and smoothing as the video."
             if about["runs"] else "")
     parts = [report.opening("Experiment and simulation"),
              "<h1>Experiment and simulation</h1>\n",

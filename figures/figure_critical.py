@@ -1,4 +1,4 @@
-"""Beyond the paper: fluctuations of the rotation against the packing fraction in dishes of different sizes, and how
+"""Beyond the paper: fluctuations of the rotation against the packing fraction in containers of different sizes, and how
 slope, fluctuations and correlation time at a change of direction scale with the size.
 
     /usr/bin/python3 figures/figure_critical.py out/figure_critical.csv
@@ -41,7 +41,7 @@ def against_size(axes, changes, scaling, quantity, label):
     axes.set_yscale("log")
     axes.set_xticks([6, 12, 24, 60], ["6", "12", "24", "60"])
     axes.xaxis.set_minor_locator(style.matplotlib.ticker.NullLocator())
-    axes.set_xlabel(r"dish radius $R/r$")
+    axes.set_xlabel(r"container radius $R/r$")
     axes.set_ylabel(label)
 
 

@@ -1,4 +1,4 @@
-"""Spheres that roll: rotation against the number of spheres in the experiment's dish, for friction
+"""Spheres that roll: rotation against the number of spheres in a container of the experiment's size, for friction
 coefficients from smooth to rough.
 
     /usr/bin/python3 figures/figure_spheres.py out/figure_spheres.csv

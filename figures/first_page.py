@@ -52,7 +52,7 @@ def transition_found(study):
         judgement,
         "With friction at the wall and between the discs (μ = 1), few discs rotate with the swirl and many against "
         f"it ({values}); the direction changes {change}.",
-        f"That {claim} is not confirmed: {values}; the direction changes {change}.",
+        f"The claim that {claim} is not confirmed: {values}; the direction changes {change}.",
         f"Whether {claim} is undecided: {values}; the direction changes {change}.")
 
 
@@ -62,8 +62,8 @@ def order_found(study):
                         for mu, name in (("0.5", "medium"), ("0.1", "low")))
     return statement(
         judgement, f"With less friction the direction changes at higher N: {changes}.",
-        f"Less friction does not always move the change to more discs: {changes}.",
-        f"Whether less friction always moves the change to more discs is undecided: {changes}.")
+        f"Less friction does not always move the change to larger N: {changes}.",
+        f"It is undecided whether less friction always moves the change to larger N: {changes}.")
 
 
 def both_frictions_found(study):
@@ -90,8 +90,8 @@ def pinned_found(study):
     if moves.verdict == rolls.verdict == HOLDS:
         return f"With more discs, the pinned discs approach the motion of the wall and hardly slip on it ({text})."
     words = {HOLDS: "is confirmed", UNDECIDED: "is undecided", IN_PART: "is confirmed in part"}
-    return ("That with more discs the pinned discs approach the motion of the wall "
-            f"{words.get(moves.verdict, 'is not confirmed')}, that they hardly slip on it "
+    return ("The claim that with more discs the pinned discs approach the motion of the wall "
+            f"{words.get(moves.verdict, 'is not confirmed')}. The claim that they hardly slip on it "
             f"{words.get(rolls.verdict, 'is not confirmed')} ({text}).")
 
 
@@ -184,6 +184,6 @@ def crossings_of_one_setting(path):
         first = found[0][1]
         apart = max(abs(at.mean - first.mean) / max((at - first).error, 1e-9) for _, at, _, _ in found[1:])
         listed = "; ".join(f"{words} (figure {figure}, {how})" for figure, _, words, how in found)
-        sentences.append(f"N_c for both friction coefficients {mu:g} is estimated more than once: {listed}. Quote the "
+        sentences.append(f"N_c for both friction coefficients {mu:g} is estimated more than once: {listed}. Use the "
                          f"first; the others differ from it by at most {apart:.1f} standard errors.")
     return " ".join(sentences)

@@ -80,15 +80,16 @@ def parameter_rows(about):
 
 def how_to_read(about):
     seeds = about.get("seeds_of_a_point", 8)
-    quick = (" This is the quick version: runs are shorter and points fewer than in the paper, so errors are larger and "
+    quick = (" This is the quick version, with shorter runs and fewer points than the full study. So errors are larger, and "
              "verdicts may differ from those of the full study." if about["quick"] else "")
-    return ("ϖ is the rotation frequency of the cluster, Ω that of the swirl, N the number of discs, μ the friction "
-            "coefficient (μ_d between discs, μ_w at the wall). ± is one standard error, between seeds or within runs, "
-            "whichever is larger. A claim is decided with the probability of three standard deviations, 99.73 %: with "
-            f"{seeds} seeds these are {verdicts.threshold(seeds - 1):.1f} errors. A sign alone decides nothing: for "
-            "each claim the text gives the size that matters. An undecided claim gets up to "
+    return ("ϖ is the rotation rate of the cluster, Ω that of the swirl, N the number of discs, and μ the friction "
+            "coefficient (μ_d between discs, μ_w at the wall). ± is one standard error: the larger of the errors from "
+            "within the runs and from between the seeds. A claim is decided with a probability of 99.73 %, that of "
+            f"three standard deviations. With {seeds} seeds this needs {verdicts.threshold(seeds - 1):.1f} standard "
+            "errors. The sign of an effect alone does not decide a claim; the text of each claim gives the required "
+            "size. An undecided claim gets up to "
             f"{about.get('max_seeds_of_a_point', 32)} seeds at the points that could decide it. Verdicts are computed "
-            "from the tables by the rules in figures/verdicts.py; every other number that a verdict depends on is a "
+            "from the tables by the rules in figures/verdicts.py. Every other number on which a verdict depends is a "
             "named constant in figures/claims/thresholds.py or figures/paper_parameters.py." + quick)
 
 
@@ -118,7 +119,8 @@ def markdown(about, judged, crossings="", results=()):
         lines += ["", f"## {heading}"]
         for figure in figures:
             lines += figure_markdown(figure, *texts[figure["name"]])
-    lines += ["", "## Contradictions in the paper, and what was assumed", "", "| matter | the paper | here |",
+    lines += ["", "## Contradictions in the paper, and the choices of this program", "",
+              "| topic | the paper | this program |",
               "|---|---|---|", *(f"| {cell(a)} | {cell(b)} | {cell(c)} |" for a, b, c in CONTRADICTIONS),
               "", "## Parameters, versions, time", "", "| | |", "|---|---|",
               *(f"| {cell(a)} | {cell(b)} |" for a, b in parameter_rows(about))]
@@ -159,8 +161,8 @@ def page(folder, about, judged):
                     [claim_row(k, *row) for k, row in enumerate(judged, 1)], "claims")]
     for heading, figures in by_section(about["figures"]):
         parts += [f"<h2>{heading}</h2>\n", figures_html(folder, figures, texts)]
-    parts += ["<h2>Contradictions in the paper, and what was assumed</h2>\n",
-              table(["matter", "the paper", "here"], [map(td, row) for row in CONTRADICTIONS]),
+    parts += ["<h2>Contradictions in the paper, and the choices of this program</h2>\n",
+              table(["topic", "the paper", "this program"], [map(td, row) for row in CONTRADICTIONS]),
               "<h2>Parameters, versions, time</h2>\n", pairs(parameter_rows(about)), "</body></html>\n"]
     return "".join(parts)
 
@@ -189,7 +191,7 @@ def pdf(folder, about, judged):
     for heading, figures in by_section(about["figures"]):
         sections.append((heading, [block for figure in figures
                                    for block in figure_blocks(figure, *texts[figure["name"]])]))
-    sections += [("Contradictions in the paper, and what was assumed",
+    sections += [("Contradictions in the paper, and the choices of this program",
                   [("bullet", f"{matter}. The paper: {paper}. Here: {here}.") for matter, paper, here in CONTRADICTIONS]),
                  ("Parameters, versions, time",
                   [("bullet", f"{name}: {value}") for name, value in parameter_rows(about)])]

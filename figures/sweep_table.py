@@ -71,7 +71,7 @@ def main():
     others = [name for name in parameters if len({row[name] for row in rows}) > 1 and name != x]
     groups = curves(rows, others)
     if len(groups) > MAX_CURVES:
-        sys.exit(f"the sweep would have {len(groups)} curves, but at most {MAX_CURVES} can be told apart.\n"
+        sys.exit(f"the sweep would have {len(groups)} curves, but at most {MAX_CURVES} can be distinguished.\n"
                  "hint: draw a part of the table.")
     drawing, axes = style.figure()
     for k, (values, points) in enumerate(groups.items()):

@@ -132,10 +132,10 @@ def shortest_times(study):
 
     def in_words(mu):
         v = found[mu]
-        return f"{10 ** v.mean:.1g} (times or divided by {10 ** v.error:.1f})" if v.known else "n/a"
+        return f"{10 ** v.mean:.1g} (uncertain by a factor of {10 ** v.error:.1f})" if v.known else "n/a"
     scaled = "" if events == EVENTS else (
         f", estimated from runs of {events:,.0f} events (the shortest of n times falls as 1/n, except without "
-        "friction, where discs get faster all the time)")
+        "friction, because discs become faster all the time)")
     return combined(*agree), (
         f"The shortest time between two collisions in a run of a million events at N = {COUNTERROTATING_N}{scaled}, "
         f"is {in_words(1.0)} with friction, {in_words(0.0)} without (around: within a factor of {TIMES_AROUND:.0f}).")

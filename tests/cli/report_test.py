@@ -48,7 +48,7 @@ class FirstPage(HandMadeTables):
         # 1.5 apart, with an error of √(0.3² + 0.4²) = 0.5; for μ = 0.5 the search found no crossing.
         self.assertEqual(crossings_of_one_setting(self.folder),
                          "N_c for both friction coefficients 1 is estimated more than once: 38.0 ± 0.3 (figure "
-                         "5b, by event); 39.5 ± 0.4 (figure friction, by time, by a search). Quote the "
+                         "5b, by event); 39.5 ± 0.4 (figure friction, by time, by a search). Use the "
                          "first; the others differ from it by at most 3.0 standard errors.")
 
     def test_transition_is_confirmed(self):
@@ -80,7 +80,7 @@ class FirstPage(HandMadeTables):
         for medium, words in (((("crosses", 44.0, 0.2)), "With less friction the direction changes at higher N: with "
                                "μ = 0.5 at N_c = 44.0 ± 0.2, with μ = 0.1 at no N"),
                               ((("crosses", 30.0, 0.2)), "Less friction does not always move"),
-                              ((("crosses", 39.0, 2.0)), "more discs is undecided")):
+                              ((("crosses", 39.0, 2.0)), "It is undecided whether less friction always moves")):
             self.crossings_5b(high=("crosses", 38.5, 0.2), medium=medium,
                            low=("always rotates", "", ""))
             self.rotations(high=[(5, 0.2), (48, -0.1)])
@@ -111,8 +111,8 @@ class FirstPage(HandMadeTables):
                       "that of the wall: 0.8000 ± 0.0010 at N = 24, 0.9900 ± 0.0010 at N = 48; slip parameter: "
                       "0.8000 ± 0.0010 at N = 24", self.found())
         tables(0.7, (0.9, 0.85, 0.8))
-        self.assertIn("approach the motion of the wall is confirmed in part, that they hardly slip on it is not "
-                      "confirmed", self.found())
+        self.assertIn("approach the motion of the wall is confirmed in part. The claim that they hardly slip on it is "
+                      "not confirmed", self.found())
         tables(0.99, (0.8, 0.9, 0.96), error=0.1)
         self.assertIn("that they hardly slip on it is undecided", self.found())
 
@@ -227,7 +227,7 @@ class Figures(HandMadeTables):
         self.assertEqual(captions.sentence("a disc"), "a disc")
 
     def test_threshold_is_that_of_the_verdicts(self):
-        for seeds, errors in ((8, "with 8 seeds these are 4.5 errors"), (3, "with 3 seeds these are 19.2 errors")):
+        for seeds, errors in ((8, "With 8 seeds this needs 4.5 standard errors"), (3, "With 3 seeds this needs 19.2 standard errors")):
             said = report.how_to_read({"quick": False, "seeds_of_a_point": seeds})
             self.assertIn(errors, said)  # figures/verdicts.py, STUDENT_T
             self.assertNotIn("three of them decide", said)
