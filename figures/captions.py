@@ -97,7 +97,7 @@ QUESTIONS = {
     "amplitude": "The paper has one amplitude, A/R = 0.22. Where does the direction of rotation change for others?",
 }
 
-# What each figure shows.
+# The content of each figure.
 CAPTIONS = {
     "1b": "Rotation frequency ϖ of the cluster about its centre of mass, in units of the swirl's Ω, against the "
           "number of discs. Above zero the cluster rotates with the swirl, below zero it counterrotates. Dashed: a "

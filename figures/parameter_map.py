@@ -95,7 +95,7 @@ def lines(axes, mesh, field, levels, **look):
 
 
 def draw_zero_line(axes, mesh, rows, of, level):
-    """Where the quantity crosses the level, and the band in which it is within 1.96 errors of it."""
+    """The line on which the quantity crosses the level, and the band in which it is within 1.96 errors of it."""
     distance = numbers(rows, of) - level
     error = np.nan_to_num(numbers(rows, of + "_error"))
     lines(axes, mesh, distance, [0.0], colors=style.BLACK, linewidths=1.2)
