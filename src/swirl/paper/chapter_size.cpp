@@ -57,7 +57,7 @@ static FigurePlan plan_figure_amplitude(const PaperSettings& settings) {
 }
 
 std::vector<PaperFigure> chapter_size() {
-    return {{"size", "chapter: the direction of rotation in dishes of different sizes",
+    return {{"size", "chapter: the direction of rotation in containers of different sizes",
              plan_figure_size},
             {"amplitude", "chapter: the direction of rotation for different amplitudes",
              plan_figure_amplitude}};
