@@ -211,12 +211,12 @@ static FigurePlan plan_figure_spheres_bounds(const PaperSettings& settings) {
 }
 
 std::vector<PaperFigure> chapter_spheres() {
-    return {
-        {"spheres_packing", "chapter: rotation and packing of spheres",
-         plan_figure_spheres_packing},
-        {"spheres_size", "chapter: spheres in containers of different sizes", plan_figure_spheres_size},
-        {"spheres_bounds", "chapter: spheres for bounds of friction, damping and rolling",
-         plan_figure_spheres_bounds}};
+    return {{"spheres_packing", "chapter: rotation and packing of spheres",
+             plan_figure_spheres_packing},
+            {"spheres_size", "chapter: spheres in containers of different sizes",
+             plan_figure_spheres_size},
+            {"spheres_bounds", "chapter: spheres for bounds of friction, damping and rolling",
+             plan_figure_spheres_bounds}};
 }
 
 }  // namespace swirl
