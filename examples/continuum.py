@@ -1,17 +1,25 @@
-"""Fits a micropolar fluid to the fields of a run (docs/explanation/continuum.md).
+"""Fits a micropolar fluid to the fields of several runs, and predicts the rotation (docs/explanation/continuum.md).
 
-    swirl run --discs 500 --container-radius 34.4 --amplitude 7.568 --measure fields --tables tables
-    python3 examples/continuum.py tables/fields.m_frame_4.csv
+    for s in 1 2 3 4 5 6 7 8; do
+      swirl run --discs 497 --container-radius 34.4 --amplitude 7.568 --warmup 10 --periods 40 --seed $s \\
+        --measure fields,wall --tables seed_$s
+    done
+    python3 examples/continuum.py seed_*/fields.m_frame_4.csv
+    python3 examples/continuum.py --flow --amplitude 7.568 seed_*/fields.m_frame_4.csv
 
-Conventions: σ_ab has the force's index first, and the torque of the stress is τ = σ_yx − σ_xy. The
-fluid has
+The tables must be of runs that differ only in their seeds. Conventions: σ_ab has the force's index first, and the
+torque of the stress is τ = σ_yx − σ_xy. The fluid has
 
-    τ = −Γ (2ω − curl u)      C = D ∇ω      deviator of σ = 2 η × (deviator of the strain rate)
+    τ = −Γ √(mT) (2ω − curl u)      C = D √(mT) ∇ω      deviator of σ = 2 η √(mT) × (deviator of the strain rate)
 
-Needs numpy. micropolar_flow() needs scikit-fem (pip install scikit-fem), too.
+with the granular temperature T, because rigid discs have no other scale of time than √(m/T).
+
+Needs numpy. The flow needs scikit-fem (pip install scikit-fem), too.
 """
 
+import argparse
 import csv
+import os
 import sys
 
 import numpy as np
@@ -21,27 +29,46 @@ def read(path):
     """The columns of a table of fields as arrays; an empty cell is NaN."""
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
+    if not rows:
+        raise ValueError(f"'{path}' has no rows")
     return {name: np.array([float(row[name] or "nan") for row in rows]) for name in rows[0]}
 
 
-def proportional(x, y, error):
-    """The coefficient k of y = k x with its error, and the share R² of y's weighted square that it explains.
+def read_seeds(paths):
+    """The columns of all tables, each with one row for each seed."""
+    tables = [read(path) for path in paths]
+    for path, table in zip(paths, tables):
+        missing = {"x", "y", "packing", "torque", "vorticity", "spin"} - set(table)
+        if missing:
+            raise ValueError(f"'{path}' has no column {sorted(missing)[0]}: it is no table of fields")
+        if len(table["x"]) != len(tables[0]["x"]) or not np.array_equal(table["x"], tables[0]["x"]):
+            raise ValueError(f"'{path}' has other points than '{paths[0]}'")
+    return {name: np.array([table[name] for table in tables]) for name in tables[0]}
 
-    Points are weighted by 1/error². The error is that of the scatter about the line.
+
+def proportional(x, y):
+    """k of y = k x, from one row of x and y for each seed, with jackknife errors.
+
+    x and y have errors, which are correlated within a seed. So only products of two different seeds count:
+    k = Σ x_i y_j / Σ x_i x_j over all points and pairs i ≠ j. `explained` is (Σ x_i y_j)² / (Σ x_i x_j Σ y_i y_j), the
+    share of the square of the mean y. It is NaN if the noise exceeds the fields.
     """
-    good = np.isfinite(x) & np.isfinite(y) & np.isfinite(error) & (error > 0)
-    x, y, weight = x[good], y[good], error[good] ** -2.0
-    if len(x) < 3:
-        return {"value": np.nan, "error": np.nan, "explained": np.nan, "points": len(x)}
-    square = np.sum(weight * x * x)
-    value = np.sum(weight * x * y) / square
-    rest = np.sum(weight * (y - value * x) ** 2)
-    return {
-        "value": value,
-        "error": np.sqrt(rest / (len(x) - 1) / square),
-        "explained": 1.0 - rest / np.sum(weight * y * y),
-        "points": len(x),
-    }
+    good = np.isfinite(x).all(axis=0) & np.isfinite(y).all(axis=0)
+    x, y = x[:, good], y[:, good]
+    n = len(x)
+
+    def fit(seeds):
+        def product(a, b):
+            return np.sum(a[seeds].sum(axis=0) * b[seeds].sum(axis=0)) - np.sum(a[seeds] * b[seeds])
+        xx, xy, yy = product(x, x), product(x, y), product(y, y)
+        return np.array([xy / xx if xx != 0 else np.nan, xy * xy / (xx * yy) if xx > 0 and yy > 0 else np.nan])
+
+    unknown = np.full(2, np.nan)
+    value = fit(np.arange(n)) if n >= 2 and good.any() else unknown
+    without = [fit(np.delete(np.arange(n), k)) for k in range(n)] if n >= 4 and good.any() else [unknown]
+    error = np.sqrt((n - 1.0) * np.var(without, axis=0))
+    return {"value": value[0], "error": error[0], "explained": value[1], "explained_error": error[1],
+            "points": int(good.sum())}
 
 
 def henderson(packing):
@@ -49,35 +76,41 @@ def henderson(packing):
     return 1.0 + 2.0 * packing * (1.0 - 7.0 * packing / 16.0) / (1.0 - packing) ** 2
 
 
-def closure(fields, low, high):
-    """The coefficients from all points whose packing fraction is between these two.
+def half_width(fields):
+    """The container's radius: half the width of the square with the grid's points."""
+    x = np.unique(fields["x"][0])
+    return 0.5 * (x[-1] - x[0] + x[1] - x[0])
+
+
+def closure(fields, low, high, width=4.0):
+    """The coefficients from all points whose packing fraction, a mean over the seeds, is between these two, and whose
+    kernel of this width is out of reach of contacts with the wall.
 
     Keys: rotational_viscosity Γ, shear_viscosity η, spin_diffusion D, and pressure, the ratio of p to that of
     smooth elastic discs.
     """
-    chosen = (fields["packing"] >= low) & (fields["packing"] < high)
-    f = {name: column[chosen] for name, column in fields.items()}
-    stress, strain, stress_error = [], [], []
-    for kind in ("xx", "xy"):
-        value, error = f[f"kinetic_{kind}"] + f[f"collisional_{kind}"], f[f"collisional_{kind}_error"]
-        if kind == "xx":
-            value = 0.5 * (value - f["kinetic_yy"] - f["collisional_yy"])
-            error = 0.5 * np.hypot(error, f["collisional_yy_error"])
-        stress.append(value)
-        strain.append(2.0 * f[f"strain_{kind}"])
-        stress_error.append(error)
+    mean = fields["packing"].mean(axis=0)
+    reach = half_width(fields) - 1.0 - width  # such a contact extends inwards to the centre of a disc
+    chosen = (mean >= low) & (mean < high) & (np.hypot(fields["x"][0], fields["y"][0]) < reach)
+    f = {name: column[:, chosen] for name, column in fields.items()}
+    speed = np.sqrt(np.maximum(f["temperature"], 0.0))  # of discs of mass 1
+
+    def both(first, second):
+        return np.concatenate([first, second], axis=1)
+
+    stress = {ab: f[f"kinetic_{ab}"] + f[f"collisional_{ab}"] for ab in ("xx", "xy", "yy")}
     couple = [f[f"kinetic_couple_{a}"] + f[f"collisional_couple_{a}"] for a in "xy"]
     density = f["packing"] / np.pi  # of discs of radius 1
-    expected = density * f["temperature"] * henderson(f["packing"])
     return {
-        "rotational_viscosity": proportional(f["vorticity"] - 2.0 * f["spin"], f["torque"], f["torque_error"]),
-        "shear_viscosity": proportional(np.concatenate(strain), np.concatenate(stress), np.concatenate(stress_error)),
-        "spin_diffusion": proportional(
-            np.concatenate([f["spin_gradient_x"], f["spin_gradient_y"]]),
-            np.concatenate(couple),
-            np.concatenate([f["collisional_couple_x_error"], f["collisional_couple_y_error"]]),
+        "rotational_viscosity": proportional(speed * (f["vorticity"] - 2.0 * f["spin"]), f["torque"]),
+        "shear_viscosity": proportional(
+            both(2.0 * speed * f["strain_xx"], 2.0 * speed * f["strain_xy"]),
+            both(0.5 * (stress["xx"] - stress["yy"]), stress["xy"]),
         ),
-        "pressure": proportional(expected, f["pressure"], f["pressure_error"]),
+        "spin_diffusion": proportional(
+            both(speed * f["spin_gradient_x"], speed * f["spin_gradient_y"]), both(*couple)
+        ),
+        "pressure": proportional(density * f["temperature"] * henderson(f["packing"]), f["pressure"]),
     }
 
 
@@ -97,22 +130,67 @@ def decay_rate(viscosity, rotational, diffusion):
     return np.sqrt(4.0 * viscosity * rotational / (diffusion * (2.0 * viscosity + rotational)))
 
 
-def closed_form(radius, wall_speed, wall_spin, viscosity, rotational, diffusion):
-    """u_θ(r) and ω(r) of the steady flow in a disc: a r + b I₁(κr), with both values given at the wall."""
-    kappa = decay_rate(viscosity, rotational, diffusion)
-    spin_factor = kappa * (0.5 + viscosity / rotational)
-    matrix = [[radius, bessel_i(1, kappa * radius)], [1.0, spin_factor * bessel_i(0, kappa * radius)]]
-    a, b = np.linalg.solve(np.array(matrix, dtype=float), [wall_speed, wall_spin])
+def rotation_profiles(a, b, kappa, viscosity, rotational, couple=0.0):
+    """u_θ(r) = a r + b I₁(κr), and the spin ω(r) that belongs to it with this couple on the spins per area."""
+    factor = kappa * (0.5 + viscosity / rotational)
     return (
         lambda r: a * r + b * bessel_i(1, kappa * r),
-        lambda r: a + b * spin_factor * bessel_i(0, kappa * r),
+        lambda r: a + 0.5 * couple / rotational + b * factor * bessel_i(0, kappa * r),
     )
 
 
-def micropolar_flow(radius, wall_speed, wall_spin, viscosity, rotational, diffusion, refinements=4):
-    """The same flow by finite elements (Taylor and Hood): points, velocities and spins at the vertices.
+def closed_form(radius, wall_speed, wall_spin, viscosity, rotational, diffusion):
+    """u_θ(r) and ω(r) of the steady flow in a disc with both values given at the wall."""
+    kappa = decay_rate(viscosity, rotational, diffusion)
+    factor = kappa * (0.5 + viscosity / rotational)
+    matrix = [[radius, bessel_i(1, kappa * radius)], [1.0, factor * bessel_i(0, kappa * radius)]]
+    a, b = np.linalg.solve(np.array(matrix, dtype=float), [wall_speed, wall_spin])
+    return rotation_profiles(a, b, kappa, viscosity, rotational)
 
-    This solves in two dimensions, so other walls, forces and coefficients need few changes.
+
+def closed_form_with_slip(radius, friction, wall_speed, couple, viscosity, rotational, diffusion):
+    """The same with a wall of this speed and friction, and a couple on the spins per area that drives the flow.
+
+    The wall's force per length is −friction × slip, and its torque on discs of radius 1 is the same. The slip is
+    u_θ + ω − wall_speed.
+    """
+    kappa = decay_rate(viscosity, rotational, diffusion)
+    i0, i1 = bessel_i(0, kappa * radius), bessel_i(1, kappa * radius)
+    factor = kappa * (0.5 + viscosity / rotational)
+    # Per a, per b, and without both. σ_θr = η (u' − u/r) + τ/2 with τ = −Γ (2ω − curl u); curl u = 2a + bκ I₀.
+    slip = np.array([radius + 1.0, i1 + factor * i0, 0.5 * couple / rotational - wall_speed])
+    strain = np.array([0.0, kappa * i0 - 2.0 * i1 / radius, 0.0])
+    torque = np.array([0.0, -2.0 * viscosity * kappa * i0, -couple])
+    gradient = np.array([0.0, factor * kappa * i1, 0.0])
+    force = viscosity * strain + 0.5 * torque + friction * slip
+    moment = diffusion * gradient + friction * slip
+    a, b = np.linalg.solve([force[:2], moment[:2]], [-force[2], -moment[2]])
+    return rotation_profiles(a, b, kappa, viscosity, rotational, couple)
+
+
+def at(coefficient, x):
+    """A coefficient that is a number, or a function of the points x[0], x[1]."""
+    return coefficient(x) if callable(coefficient) else coefficient + 0.0 * x[0]
+
+
+def micropolar_flow(
+    radius, viscosity, rotational, diffusion, *, wall_speed=0.0, wall_spin=None, friction=0.0, couple=0.0,
+    density=None, inertia=10.0, frame_rate=0.0, gravity=(0.0, 0.0), refinements=4, steps=1, relax=0.5,
+):
+    """The steady micropolar flow in a disc by finite elements (Taylor and Hood).
+
+    Returns points, velocities and spins at the vertices. With `wall_spin`, velocity and spin at the wall are given.
+    Otherwise the wall does not let the fluid through and acts with `friction` as in closed_form_with_slip(). Viscosities,
+    diffusion, friction, couple and density may be functions of the points.
+
+    Without `density` the fluid is incompressible and has no inertia. With it, the frame turns at `frame_rate` Ω, the
+    velocity u is that relative to the container, and the equations are those of the M-frame:
+
+        ∇·ρ(u − Ωẑ×x) = 0,    ρ ((u − Ωẑ×x)·∇u + Ωẑ×u) = ∇·σ + ρ × gravity,
+        I ρ (u − Ωẑ×x)·∇ω = D ∇²ω − Γ (2ω − curl u) + couple
+
+    They are solved in `steps` iterations, each of which uses the last velocity in u·∇. `relax` is the part of the
+    new solution.
     """
     import skfem
     from skfem.helpers import ddot, div, dot, grad, sym_grad
@@ -123,58 +201,260 @@ def micropolar_flow(radius, wall_speed, wall_spin, viscosity, rotational, diffus
     mesh = skfem.MeshTri.init_circle(refinements).scaled(radius)
     quadratic = skfem.ElementTriP2()
     elements = [skfem.ElementVector(quadratic), skfem.ElementTriP1(), quadratic]
-    velocity, pressure, spin = (skfem.Basis(mesh, element, intorder=4) for element in elements)
+    velocity, pressure, spin = (skfem.Basis(mesh, element, intorder=5) for element in elements)
+    wall_velocity, wall_of_spin = (skfem.FacetBasis(mesh, element, intorder=5) for element in (elements[0], quadratic))
+    weight = density if density is not None else 1.0
+
+    def turning(x):
+        return frame_rate * np.array([-x[1], x[0]])
+
+    def along(u, x):
+        return (x[0] * u[1] - x[1] * u[0]) / np.hypot(x[0], x[1])
+
+    def through(u, x):
+        return (x[0] * u[0] + x[1] * u[1]) / np.hypot(x[0], x[1])
 
     @skfem.BilinearForm
-    def viscous(u, v, _):
-        return 2.0 * viscosity * ddot(sym_grad(u), sym_grad(v)) + 0.5 * rotational * curl(u) * curl(v)
+    def viscous(u, v, w):
+        return (2.0 * at(viscosity, w.x) * ddot(sym_grad(u), sym_grad(v))
+                + 0.5 * at(rotational, w.x) * curl(u) * curl(v))
 
     @skfem.BilinearForm
-    def continuity(u, q, _):
-        return -div(u) * q
+    def advected(u, v, w):
+        flow = w["flow"] - turning(w.x)
+        change = np.array([dot(flow, grad(u)[0]), dot(flow, grad(u)[1])])
+        return at(weight, w.x) * (dot(change, v) + frame_rate * (u[0] * v[1] - u[1] * v[0]))
 
     @skfem.BilinearForm
-    def spin_to_flow(omega, v, _):
-        return -rotational * omega * curl(v)
+    def expansion(p, v, w):
+        return -p * div(v)
 
     @skfem.BilinearForm
-    def flow_to_spin(u, phi, _):
-        return -rotational * curl(u) * phi
+    def continuity(u, q, w):
+        return at(weight, w.x) * dot(u, grad(q))
 
     @skfem.BilinearForm
-    def spins(omega, phi, _):
-        return diffusion * dot(grad(omega), grad(phi)) + 2.0 * rotational * omega * phi
+    def spin_to_flow(omega, v, w):
+        return -at(rotational, w.x) * omega * curl(v)
 
-    B = continuity.assemble(velocity, pressure)
-    blocks = [
-        [viscous.assemble(velocity), B.T, spin_to_flow.assemble(spin, velocity)],
-        [B, None, None],
-        [flow_to_spin.assemble(velocity, spin), None, spins.assemble(spin)],
-    ]
-    matrix = skfem.bmat(blocks, "csr")
-    x = np.zeros(matrix.shape[0])
-    at = velocity.get_dofs()
+    @skfem.BilinearForm
+    def flow_to_spin(u, phi, w):
+        return -at(rotational, w.x) * curl(u) * phi
+
+    @skfem.BilinearForm
+    def spins(omega, phi, w):
+        return at(diffusion, w.x) * dot(grad(omega), grad(phi)) + 2.0 * at(rotational, w.x) * omega * phi
+
+    @skfem.BilinearForm
+    def advected_spin(omega, phi, w):
+        return inertia * at(weight, w.x) * dot(w["flow"] - turning(w.x), grad(omega)) * phi
+
+    @skfem.BilinearForm
+    def wall_force(u, v, w):
+        # The second term keeps the fluid inside; its factor is large compared with viscosity over element size.
+        return at(friction, w.x) * along(u, w.x) * along(v, w.x) + 1e6 * through(u, w.x) * through(v, w.x)
+
+    @skfem.BilinearForm
+    def wall_from_spin(omega, v, w):
+        return at(friction, w.x) * omega * along(v, w.x)
+
+    @skfem.BilinearForm
+    def wall_to_spin(u, phi, w):
+        return at(friction, w.x) * along(u, w.x) * phi
+
+    @skfem.BilinearForm
+    def wall_torque(omega, phi, w):
+        return at(friction, w.x) * omega * phi
+
+    forces = skfem.LinearForm(lambda v, w: at(weight, w.x) * (gravity[0] * v[0] + gravity[1] * v[1]))
+    drift = skfem.LinearForm(lambda q, w: at(weight, w.x) * dot(turning(w.x), grad(q)))
+    couples = skfem.LinearForm(lambda phi, w: at(couple, w.x) * phi)
+    moving_wall = skfem.LinearForm(lambda v, w: at(friction, w.x) * wall_speed * along(v, w.x))
+    moving_wall_on_spin = skfem.LinearForm(lambda phi, w: at(friction, w.x) * wall_speed * phi)
+
+    rhs = [forces.assemble(velocity), drift.assemble(pressure), couples.assemble(spin)]
+    flow_flow, flow_spin = viscous.assemble(velocity), spin_to_flow.assemble(spin, velocity)
+    spin_flow, spin_spin = flow_to_spin.assemble(velocity, spin), spins.assemble(spin)
     first_spin = velocity.N + pressure.N
-    turning = velocity.project(lambda p: wall_speed / radius * np.array([-p[1], p[0]]))
-    x[at.flatten()] = turning[at.flatten()]
-    wall = spin.get_dofs().flatten() + first_spin
-    x[wall] = wall_spin
-    fixed = np.concatenate([at.flatten(), [velocity.N], wall])  # and the pressure at one point
-    x = skfem.solve(*skfem.condense(matrix, np.zeros(len(x)), x=x, D=fixed))
+    fixed, x = [np.array([velocity.N])], np.zeros(first_spin + spin.N)  # the pressure at one point
+    if wall_spin is None:
+        flow_flow = flow_flow + wall_force.assemble(wall_velocity)
+        flow_spin = flow_spin + wall_from_spin.assemble(wall_of_spin, wall_velocity)
+        spin_flow = spin_flow + wall_to_spin.assemble(wall_velocity, wall_of_spin)
+        spin_spin = spin_spin + wall_torque.assemble(wall_of_spin)
+        rhs[0] = rhs[0] + moving_wall.assemble(wall_velocity)
+        rhs[2] = rhs[2] + moving_wall_on_spin.assemble(wall_of_spin)
+    else:
+        at_wall, spin_at_wall = velocity.get_dofs().flatten(), spin.get_dofs().flatten() + first_spin
+        x[at_wall] = velocity.project(lambda p: wall_speed / radius * np.array([-p[1], p[0]]))[at_wall]
+        x[spin_at_wall] = wall_spin
+        fixed += [at_wall, spin_at_wall]
+    for step in range(steps):
+        more_flow = more_spin = 0.0
+        if density is not None:
+            flow = velocity.interpolate(x[:velocity.N])
+            more_flow = advected.assemble(velocity, flow=flow)
+            more_spin = advected_spin.assemble(spin, flow=flow)
+        blocks = [
+            [flow_flow + more_flow, expansion.assemble(pressure, velocity), flow_spin],
+            [continuity.assemble(velocity, pressure), None, None],
+            [spin_flow, None, spin_spin + more_spin],
+        ]
+        matrix = skfem.bmat(blocks, "csr")
+        new = skfem.solve(*skfem.condense(matrix, np.concatenate(rhs), x=x, D=np.unique(np.concatenate(fixed))))
+        x = new if step == 0 else (1.0 - relax) * x + relax * new
     return mesh.p, x[velocity.nodal_dofs], x[first_spin + spin.nodal_dofs[0]]
 
 
-def main(paths):
-    print("packing, coefficient, value, error, share explained, points")
-    for path in paths:
-        fields = read(path)
+# --- Prediction of the rotation -------------------------------------------------------------------
+
+
+def grid_function(fields, values):
+    """Linear interpolation of values at the points of the grid; a missing value counts as 0."""
+    from scipy.interpolate import RegularGridInterpolator
+
+    axis = np.unique(fields["x"][0])
+    table = np.nan_to_num(values).reshape(len(axis), len(axis))
+    interpolated = RegularGridInterpolator((axis, axis), table, bounds_error=False, fill_value=None)
+    return lambda x: interpolated(np.stack([x[1], x[0]], -1))
+
+
+def wall_law(fields, walls):
+    """k of the wall's law, traction = k × pressure × slip/√(T/m) with the slip u_θ + ω, from wall.profile.csv of all
+    seeds; the friction per length at each θ, and θ.
+
+    If every collision with the wall stopped the slip, and the velocities were those of a gas, k would be
+    (1 + 1/I)⁻¹/√(2π) = 0.363 for I = 10.
+    """
+    theta = np.radians(walls["theta"][0])
+    radius = half_width(fields)
+    points = (radius - 1.0) * np.array([np.cos(theta), np.sin(theta)])
+
+    def there(name):
+        return np.array([grid_function(fields, row)(points) for row in fields[name]])
+
+    slip = there("u_y") * np.cos(theta) - there("u_x") * np.sin(theta) + there("spin")
+    speed = np.sqrt(np.maximum(there("temperature"), 1e-3))
+    law = proportional(walls["pressure"] * slip / speed, walls["traction"])
+    return law, np.abs(law["value"]) * (walls["pressure"] / speed).mean(axis=0), theta
+
+
+def fluid_of(fields, width=4.0):
+    """Γ, η and D against the packing fraction: three functions of it. Below the lowest range they fall to zero with
+    the packing fraction. A coefficient that is not certainly positive is that of the nearest range in which it is."""
+    found = {}
+    for name in ("rotational_viscosity", "shear_viscosity", "spin_diffusion"):
+        middle, values = [], []
         for low in np.arange(0.2, 0.9, 0.1):
-            for name, fit in closure(fields, low, low + 0.1).items():
-                if fit["points"] >= 10:
-                    print(
-                        f"{low:.1f}–{low + 0.1:.1f}, {name}, {fit['value']:.4g}, {fit['error']:.2g}, "
-                        f"{fit['explained']:.3f}, {fit['points']}"
-                    )
+            fit = closure(fields, low, low + 0.1, width)[name]
+            if fit["value"] > 3.0 * fit["error"]:
+                middle.append(low + 0.05)
+                values.append(fit["value"])
+        if not values:
+            raise ValueError(f"no {name} is certainly positive in these fields")
+        found[name] = (np.array([0.0] + middle), np.log([0.01 * values[0]] + values))
+    return {name: (lambda packing, t=table: np.exp(np.interp(packing, *t))) for name, table in found.items()}
+
+
+def rigid_rotation(points, velocities, weights):
+    """The rotation rate of the rigid body that fits the velocities best."""
+    total = weights.sum()
+    r = points - ((points * weights).sum(axis=1) / total)[:, None]
+    v = velocities - ((velocities * weights).sum(axis=1) / total)[:, None]
+    return np.sum(weights * (r[0] * v[1] - r[1] * v[0])) / np.sum(weights * (r * r).sum(axis=0))
+
+
+def predicted_rotation(fields, walls, amplitude, period, *, diffusion=1.0, width=4.0, refinements=3, steps=6):
+    """ϖ/Ω of the micropolar fluid with the measured density, temperature, coefficients and wall law.
+
+    `diffusion` multiplies D. Density and temperature are measured fields; flow and spin are solved for.
+    """
+    rate = 2.0 * np.pi / period
+    radius = half_width(fields)
+    packing = grid_function(fields, fields["packing"].mean(axis=0))
+    temperature = grid_function(fields, np.nan_to_num(fields["temperature"]).mean(axis=0))
+    fluid = fluid_of(fields, width)
+    _, friction, theta = wall_law(fields, walls)
+
+    def thermal(name, factor=1.0):
+        return lambda x: factor * fluid[name](packing(x)) * np.sqrt(np.clip(temperature(x), 0.01, None))
+
+    def density(x):  # empty regions need a density
+        return np.clip(packing(x), 0.01, None) / np.pi
+
+    def friction_at(x):  # per length of the circle on which the discs' centres are
+        angle = np.arctan2(x[1], x[0])
+        return np.interp(angle, theta, friction, period=2.0 * np.pi) * radius / (radius - 1.0)
+
+    points, velocities, _ = micropolar_flow(
+        radius - 1.0, thermal("shear_viscosity"), thermal("rotational_viscosity"),
+        thermal("spin_diffusion", diffusion), friction=friction_at, density=density, frame_rate=rate,
+        gravity=(0.0, -amplitude * rate * rate), refinements=refinements, steps=steps,
+    )
+    inner = np.hypot(fields["x"][0], fields["y"][0]) < radius - 1.0
+    grid = np.array([fields["x"][0], fields["y"][0]])[:, inner]
+    from scipy.interpolate import LinearNDInterpolator
+
+    flow = np.array([LinearNDInterpolator(points.T, row)(grid.T) for row in velocities])
+    known = np.isfinite(flow[0])
+    weights = fields["packing"].mean(axis=0)[inner][known]
+    return rigid_rotation(grid[:, known], flow[:, known], weights) / rate
+
+
+def measured_rotation(fields, period):
+    """The same from the measured velocities, with the standard error over the seeds."""
+    inner = np.hypot(fields["x"][0], fields["y"][0]) < half_width(fields) - 1.0
+    grid = np.array([fields["x"][0], fields["y"][0]])[:, inner]
+    rates = [
+        rigid_rotation(grid, np.nan_to_num(np.array([ux, uy])[:, inner]), packing[inner]) * period / (2.0 * np.pi)
+        for ux, uy, packing in zip(fields["u_x"], fields["u_y"], fields["packing"])
+    ]
+    return np.mean(rates), np.std(rates, ddof=1) / np.sqrt(len(rates)) if len(rates) > 1 else np.nan
+
+
+def print_flow(arguments):
+    fields = read_seeds(arguments.tables)
+    walls = read_seeds_of_wall(arguments.tables)
+    law = wall_law(fields, walls)[0]
+    print(f"wall: k = {law['value']:.4f} ± {law['error']:.2g}, explains {law['explained']:.4f}")
+    mean, error = measured_rotation(fields, arguments.period)
+    print(f"measured ϖ/Ω = {mean:.4f} ± {error:.2g} ({len(arguments.tables)} seeds)")
+    for factor in (0.1, 1.0, 10.0):
+        predicted = predicted_rotation(fields, walls, arguments.amplitude, arguments.period, diffusion=factor,
+                                       width=arguments.width)
+        print(f"predicted ϖ/Ω = {predicted:.4f} with {factor:g} D", flush=True)
+
+
+def read_seeds_of_wall(paths):
+    """wall.profile.csv next to each table of fields."""
+    tables = [read(os.path.join(os.path.dirname(path), "wall.profile.csv")) for path in paths]
+    return {name: np.array([table[name] for table in tables]) for name in tables[0]}
+
+
+def print_closure(arguments):
+    fields = read_seeds(arguments.tables)
+    print("packing, coefficient, value, error, share explained, its error, points")
+    for low in np.arange(0.2, 0.9, 0.1):
+        for name, fit in closure(fields, low, low + 0.1, arguments.width).items():
+            if fit["points"] >= 10:
+                print(
+                    f"{low:.1f}–{low + 0.1:.1f}, {name}, {fit['value']:.4g}, {fit['error']:.2g}, "
+                    f"{fit['explained']:.3f}, {fit['explained_error']:.2g}, {fit['points']}"
+                )
+
+
+def main(words):
+    parser = argparse.ArgumentParser(description="Fits a micropolar fluid to fields, one table for each seed.")
+    parser.add_argument("tables", nargs="+", help="fields.m_frame_4.csv of each seed")
+    parser.add_argument("--width", type=float, default=4.0, help="width of the kernel in radii [4]")
+    parser.add_argument("--flow", action="store_true", help="predict the rotation; needs wall.profile.csv and scikit-fem")
+    parser.add_argument("--amplitude", type=float, default=1.892, help="A of the run in radii [1.892]")
+    parser.add_argument("--period", type=float, default=11.866071, help="T of the run [11.866071]")
+    arguments = parser.parse_args(words)
+    try:
+        print_flow(arguments) if arguments.flow else print_closure(arguments)
+    except (OSError, ValueError, ImportError) as problem:
+        sys.exit(f"error: {problem}")
 
 
 if __name__ == "__main__":

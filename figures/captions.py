@@ -94,6 +94,9 @@ QUESTIONS = {
     "spheres_size": "Where does the direction of rolling spheres change in containers of other sizes?",
     "spheres_bounds": "The experiment does not state the friction of the floor, the restitution and the rolling "
                       "resistance. By how much does the change of direction move between the limits of their values?",
+    "fields": "The paper suggests continuum equations that couple the spins to the vorticity of the flow. Does the difference "
+              "between both predict the torque that drives the spins?",
+    "closure": "Which coefficients has the cluster as a micropolar fluid, and how much of the stresses do they explain?",
     "amplitude": "The paper has one amplitude, A/R = 0.22. Where does the direction of rotation change for others?",
 }
 
@@ -227,6 +230,12 @@ CAPTIONS = {
                        "the radius) against the number of spheres, μ = 0.2. Grey: N = 28 to 30.",
     "spheres_size": "The same as figure “size” for spheres, at A/R = 0.22 and μ = 0.2.",
     "spheres_bounds": "Rotation against the number of spheres, μ = 0.2, with one parameter at a limit of its range.",
+    "fields": "Fields in the M-frame (M is at the bottom), kernel of four radii, means over the seeds. (a) Packing fraction and "
+              "velocity relative to the centre of mass. (b) Spin of the discs and (c) half of the vorticity: equal if the discs "
+              "turn with the flow. (d) Torque of the stress per area and (e) that of a micropolar fluid, where no contact with "
+              "the wall contributes. (f) Both at each point; the line is equality, bars are standard errors.",
+    "closure": "Coefficients divided by √(mT), with the granular temperature T, in ranges of the packing fraction; below, the "
+               "share of the square of the stress that each explains. Bars are standard errors over the seeds.",
     "amplitude": "The same as figure “size” for different amplitudes, in containers of two sizes.",
     "spheres_map": "Rotation of the cluster as colour and as number. Positive values rotate with the swirl, negative "
                    "values against it.",

@@ -123,9 +123,9 @@ TABLES = {
 }
 
 
-# The chapters are drawn from the tables of quick runs, four of them by figures_test.py.
-CHAPTERS = {"amplitude", "contacts", "critical", "gears", "hysteresis", "lifetimes", "material_friction",
-            "material_inertia", "material_tangential", "size", "spheres_bounds", "spheres_packing", "spheres_size",
+# The chapters are drawn from the tables of quick runs, six of them by figures_test.py.
+CHAPTERS = {"amplitude", "closure", "contacts", "critical", "fields", "gears", "hysteresis", "lifetimes",
+            "material_friction", "material_inertia", "material_tangential", "size", "spheres_bounds", "spheres_packing", "spheres_size",
             "torque"}
 
 

@@ -32,6 +32,8 @@ FIGURES = {
     "size": {"container_radius", "amplitude_ratio", "packing_fraction", "discs", "largest", "binder_error",
              "susceptibility"},
     "torque": {"discs", "wall_normal", "transfer_loose", "transfer_loose_error", "unaccounted_share"},
+    "fields": {"x", "y", "packing", "packing_error", "torque", "torque_error", "relation", "relation_error"},
+    "closure": {"container_radius", "discs", "relation", "packing_low", "coefficient", "coefficient_error", "explained"},
     "gears": {"mu", "discs", "correlation_by_impulse", "resident_error", "wall_sticking"},
     "material_inertia": {"inertia", "restitution", "crossing", "crossing_error", "lowest", "highest"},
     "states": {"setting", "discs", "granular", "granular_error", "coriolis", "coriolis_error"},

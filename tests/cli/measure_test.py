@@ -192,6 +192,27 @@ class MeasureTest(InFolder):
         self.assertRegex(done.stdout, r"(?m)^  n/a +\d+ of \d+ averages$")
         self.assertIn("; 1 frame\n", done.stdout)
 
+    def test_fields_errors_and_balances_are_in_one_file(self):
+        done = swirl("run", "--discs", 20, "--periods", 14, "--warmup", 2, "--measure", "fields", "--json",
+                     self.path("fields.json"), "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("fields.json"), encoding="utf-8") as opened:
+            fields = json.load(opened)["measured"]["fields"]
+        for name in ("m_frame_2", "m_frame_4", "lab_2"):
+            columns = fields[name]
+            self.assertEqual({len(column) for column in columns.values()}, {400}, name)
+            values = {column for column in columns if not column.endswith("_error")} - {"x", "y"}
+            self.assertEqual(set(columns) - values - {"x", "y"}, {f"{value}_error" for value in values})
+            self.assertEqual(len(set(zip(columns["x"], columns["y"]))), 400)
+        # The lab's square contains all kernels but for small parts at its edges. Discs visit all places between
+        # the points of the grid.
+        lab = fields["lab_2"]
+        spacing = lab["x"][1] - lab["x"][0]
+        self.assertAlmostEqual(sum(lab["density"]) * spacing ** 2 / 20, 1.0, delta=0.02)
+        for balance in ("mass", "momentum", "spin"):
+            # Relative to the scale of rounding errors, some 10^4 of which add up.
+            self.assertLess(fields[f"{balance}_residual"], 1e-12)
+
     def test_a_single_frame_gives_no_rotation(self):
         self.write({0: self.answer()[2][0]})
         self.rejected("a single frame", skip=0, measure="density")

@@ -54,7 +54,7 @@ class Series(InFolder):
         self.assertAlmostEqual(found["n_variance"]["mean"], 16 * second / (1 - tau / n), 12)
         self.assertAlmostEqual(found["skewness"]["mean"],
                                sum((x - mean) ** 3 for x in values) / n / second ** 1.5, 9)
-        binder = 1 - sum(x ** 4 for x in values) * n / (3 * sum(x * x for x in values) ** 2)
+        binder = 1 - sum((x - mean) ** 4 for x in values) / n / (3 * second ** 2)
         self.assertAlmostEqual(found["binder"]["mean"], binder, 12)
         # The measurement samples 64 other times of each period, so its means differ slightly.
         measured = result["measured"]["fluctuations"]

@@ -40,7 +40,7 @@ inline constexpr std::array<FluctuationRow, 9> fluctuation_rows{{
     {&Fluctuations::excess_kurtosis, "excess_kurtosis", "discs_excess_kurtosis", "1",
      "their excess kurtosis: 0 if normal"},
     {&Fluctuations::binder, "binder", "discs_binder", "1",
-     "their Binder cumulant: 0 if normal about 0, 2/3 if sharp"},
+     "their Binder cumulant: 0 if normal, 2/3 for two equal states"},
     {&Fluctuations::autocorrelation_time, "correlation_time", "discs_correlation_time",
      "T", "their integrated autocorrelation time, at least 1"},
     {&Fluctuations::low, "low", "discs_low", "Ω",

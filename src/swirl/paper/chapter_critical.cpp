@@ -201,7 +201,7 @@ RunConfig loop_config(const PaperSettings& settings, const Loop& loop, std::int6
 Json loop_run(const RunConfig& config, const RunControl& control) {
     PeriodSeries series(config, {});
     run_with_series(config, control, series);
-    const std::vector<double> rates = counted_periods(series, "rigid_by_time");
+    const std::vector<double> rates = series.counted("rigid_by_time");
     std::vector<double> sums(2 * bins), counts(2 * bins);
     for (std::size_t p = 0; p < rates.size(); ++p) {
         const std::size_t bin = p * 2 * bins / rates.size();
@@ -307,8 +307,8 @@ constexpr TwoStatePoint two_state_points[] = {
 Json visits_of(const RunConfig& config, const RunControl& control, double threshold) {
     PeriodSeries series(config, {});
     run_with_series(config, control, series);
-    const std::vector<double> spins = counted_periods(series, "spin"),
-                              rates = counted_periods(series, "rigid_by_time");
+    const std::vector<double> spins = series.counted("spin"),
+                              rates = series.counted("rigid_by_time");
     double periods[2] = {}, exits[2] = {}, sums[2] = {};
     int last = -1;
     for (std::size_t begin = 0; begin + window <= spins.size(); begin += window) {

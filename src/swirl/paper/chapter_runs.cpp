@@ -26,18 +26,6 @@ Json without_error(double value) { return {{"mean", value}, {"error", not_availa
 
 }  // namespace
 
-std::vector<double> counted_periods(const PeriodSeries& series, std::string_view column) {
-    std::size_t index = 0, counted = 0;
-    for (std::size_t c = 0; c < series.columns().size(); ++c) {
-        if (series.columns()[c].name == column) index = c;
-        if (series.columns()[c].name == "counted") counted = c;
-    }
-    std::vector<double> values;
-    for (std::size_t p = 0; p < series.periods(); ++p)
-        if (series.at(p, counted) == 1.0) values.push_back(series.at(p, index));
-    return values;
-}
-
 std::int64_t Dish::discs(double packing_fraction) const {
     return std::max(std::int64_t{2},
                     std::int64_t(std::llround(packing_fraction * radius * radius)));
@@ -61,11 +49,10 @@ PeriodFluctuations period_fluctuations(const std::vector<double>& values, std::i
     const SeriesEstimate series = estimate_of_series(values);
     PowerSums sums;
     for (const double value : values) sums.add(value, series.estimate.mean);
-    const auto [second, skewness, excess_kurtosis, binder_about_zero] = sums.moments();
+    const auto [second, skewness, excess_kurtosis, binder] = sums.moments();
     const double variance = second * sums.count / (sums.count - 1.0);
     return {variance, series.autocorrelation_time,
-            static_cast<double>(discs) * variance * series.autocorrelation_time,
-            -excess_kurtosis / 3.0};
+            static_cast<double>(discs) * variance * series.autocorrelation_time, binder};
 }
 
 RunResult run_with_series(const RunConfig& config, RunControl control, PeriodSeries& series) {
@@ -85,7 +72,7 @@ Json fluctuating_run(const RunConfig& config, const std::vector<std::string>& me
     json["measured"] = measured_json(observation.report());
     Json& rows = json["measured"]["fluctuations"] = Json::object();
     const PeriodFluctuations found =
-        period_fluctuations(counted_periods(series, "rigid_by_time"), config.discs);
+        period_fluctuations(series.counted("rigid_by_time"), config.discs);
     rows["variance"] = without_error(found.variance);
     rows["correlation"] = without_error(found.correlation);
     rows["susceptibility"] = without_error(found.susceptibility);

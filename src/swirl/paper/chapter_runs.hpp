@@ -25,9 +25,6 @@ struct Dish {
 /// Discs with μ = 1 and the paper's inertia, or spheres. The container has the speed 1 in every dish.
 RunConfig dish_config(const PaperSettings& settings, const Dish& dish, std::int64_t discs);
 
-/// The values of the periods that count, in order.
-std::vector<double> counted_periods(const PeriodSeries& series, std::string_view column);
-
 /// Runs to the end with the series, and with the observation of `control`. Throws Interrupted.
 RunResult run_with_series(const RunConfig& config, RunControl control, PeriodSeries& series);
 

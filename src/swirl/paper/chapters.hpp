@@ -15,6 +15,7 @@ std::vector<PaperFigure> chapter_size();
 std::vector<PaperFigure> chapter_mechanism();
 std::vector<PaperFigure> chapter_material();
 std::vector<PaperFigure> chapter_spheres();
+std::vector<PaperFigure> chapter_fields();
 
 /// Of all chapters, in their order.
 std::vector<PaperFigure> chapter_figures();

@@ -78,14 +78,25 @@ void PeriodSeries::add_period(const PeriodAverages& averages) {
     measured_ = empty_observation();
 }
 
+std::vector<double> PeriodSeries::counted(std::size_t column) const {
+    std::vector<double> values;
+    for (std::size_t k = 0; k < periods(); ++k)
+        if (at(k, 1) != 0.0 && !std::isnan(at(k, column))) values.push_back(at(k, column));
+    return values;
+}
+
+std::vector<double> PeriodSeries::counted(std::string_view column_name) const {
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+        if (columns_[c].name == column_name) return counted(c);
+    return {};
+}
+
 std::vector<SeriesAverage> PeriodSeries::averages() const {
     std::vector<SeriesAverage> all;
     const std::size_t first_ramp = first_measured_ - config_.ramps.size();
     for (std::size_t c = 2; c < columns_.size(); ++c) {
         if (c >= first_ramp && c < first_measured_) continue;
-        std::vector<double> values;
-        for (std::size_t k = 0; k < periods(); ++k)
-            if (at(k, 1) != 0.0 && !std::isnan(at(k, c))) values.push_back(at(k, c));
+        const std::vector<double> values = counted(c);
         const auto [estimate, time] = estimate_of_series(values);
         all.push_back(
             {columns_[c].name, columns_[c].unit, estimate, time, fluctuations_of({&values, 1})});

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "swirl/measure/cluster_rotation.hpp"
@@ -71,6 +72,10 @@ class PeriodSeries {
     }
     /// Row by row.
     const std::vector<double>& values() const { return values_; }
+
+    /// The values of a column in the periods that count, without missing ones.
+    std::vector<double> counted(std::size_t column) const;
+    std::vector<double> counted(std::string_view column_name) const;
 
     /// The number of particles.
     double discs() const { return static_cast<double>(config_.discs); }

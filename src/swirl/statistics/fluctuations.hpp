@@ -5,14 +5,15 @@
 //                      bias of the order 1/n
 //   skewness           μ₃ / μ₂^(3/2)
 //   excess kurtosis    μ₄ / μ₂² − 3
-//   Binder cumulant    U = 1 − ⟨x⁴⟩ / (3 ⟨x²⟩²), about zero, not about m (Binder 1981,
-//                      doi:10.1007/BF01293604)
+//   Binder cumulant    U = 1 − μ₄ / (3 μ₂²). Binder 1981 (doi:10.1007/BF01293604) has moments about
+//                      zero, for a magnet whose states ±x are equal by symmetry. ϖ has no such
+//                      symmetry; moments about m serve for a liquid and its vapour (Rovere, Heermann,
+//                      Binder 1990, doi:10.1088/0953-8984/2/33/013)
 //   lifetimes          of the two states of the steady-state test (steady_state.hpp): the time in a
 //                      state by the number of times the series leaves it
 //
-// Ideal answers. Gaussian noise: skewness and excess kurtosis 0, U = 0 if the mean is 0. Values of
-// ±a with equal probability: excess kurtosis −2, U = 2/3. A mean much larger than the fluctuations:
-// U = 2/3. x' = a x + noise: τ = (1 + a)/(1 − a), V = (variance of the noise)/(1 − a²). A state
+// Ideal answers, whatever the mean is. Gaussian noise: skewness, excess kurtosis and U are 0. Two
+// equally probable values: excess kurtosis −2, U = 2/3. x' = a x + noise: τ = (1 + a)/(1 − a), V = (variance of the noise)/(1 − a²). A state
 // that is left with probability p in each period: lifetime 1/p.
 //
 // Several runs: one mean for all. Products of two periods, and visits, never extend over two runs.
@@ -21,7 +22,7 @@
 // blocks of at least 4 τ periods, at most about 64 blocks; a lifetime after k departures has the
 // error lifetime/√k. NaN with fewer than eight blocks. τ has no error here; compare replicates.
 // Limits: without the correction of the variance, moments of few effective samples are biased by
-// 1/(number of them). A constant has no skewness and no kurtosis (NaN). Without two states there
+// 1/(number of them). A constant has no skewness, kurtosis and U (NaN). Without two states there
 // are no levels and no lifetimes (NaN). A state shorter than a period is unknown, and the lifetime
 // of windows of w periods has the resolution w.
 #pragma once
@@ -44,28 +45,26 @@ struct Fluctuations {
     Estimate low, high, low_lifetime, high_lifetime;
 };
 
-/// Sums of powers of the values less a constant, and of the values themselves.
+/// Sums of powers of the values less a constant, and of their squares.
 struct PowerSums {
     double count = 0.0;
-    std::array<double, 4> about{};        // Σ (x − c)^k, k = 1 … 4
-    double squares = 0.0, fourths = 0.0;  // Σ x², Σ x⁴
+    std::array<double, 4> about{};  // Σ (x − c)^k, k = 1 … 4
+    double squares = 0.0;           // Σ x², the scale of the rounding errors
 
     void add(double value, double c) {
-        const double d = value - c, square = value * value;
+        const double d = value - c;
         count += 1.0;
         for (double power = d; double& sum : about) {
             sum += power;
             power *= d;
         }
-        squares += square;
-        fourths += square * square;
+        squares += value * value;
     }
     PowerSums without(const PowerSums& part) const {
         PowerSums rest = *this;
         rest.count -= part.count;
         for (std::size_t k = 0; k < about.size(); ++k) rest.about[k] -= part.about[k];
         rest.squares -= part.squares;
-        rest.fourths -= part.fourths;
         return rest;
     }
     /// μ₂, skewness, excess kurtosis, Binder cumulant.
@@ -78,10 +77,10 @@ struct PowerSums {
         const double skew = third - 3.0 * d * second + 2.0 * d * d * d;
         const double fourth_about_mean =
             fourth - 4.0 * d * third + 6.0 * d * d * second - 3.0 * d * d * d * d;
-        const bool varies = variance > 0.0;
-        return {variance, varies ? skew / (variance * std::sqrt(variance)) : not_available,
-                varies ? fourth_about_mean / (variance * variance) - 3.0 : not_available,
-                square > 0.0 ? 1.0 - fourths / count / (3.0 * square * square) : not_available};
+        if (!(variance > 0.0)) return {variance, not_available, not_available, not_available};
+        const double kurtosis = fourth_about_mean / (variance * variance);
+        return {variance, skew / (variance * std::sqrt(variance)), kurtosis - 3.0,
+                1.0 - kurtosis / 3.0};
     }
 };
 
