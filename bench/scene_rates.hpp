@@ -1,12 +1,13 @@
-// Measures the event rate of the engine in the scenes of docs/explanation/performance.md, each next to a
-// baseline in the same run. The baselines are optimised, but lack the methods of this engine: one
-// searches all pairs (baselines/all_pairs.hpp), the other uses neighbour lists and a calendar of
-// events (baselines/neighbor_lists.hpp). Compare ratios, not rates: a rate depends on the processor
-// and on what else it executes.
+// Measures the event rate of the engine in the scenes of docs/explanation/performance.md, each next
+// to a baseline in the same run. The baselines are optimised, but lack the methods of this engine:
+// one searches all pairs (baselines/all_pairs.hpp), the other uses neighbour lists and a calendar
+// of events (baselines/neighbor_lists.hpp). Compare ratios, not rates: a rate depends on the
+// processor and on what else it executes.
 //
 // One thread; processor time. The engine, the baseline and the scene to compare with (if any) run
-// alternately for a fraction of a second each; a rate is the median over these turns. The baseline is
-// the one that was fastest in a short trial. Containers count all events, gases count collisions.
+// alternately for a fraction of a second each; a rate is the median over these turns. The baseline
+// is the one that was fastest in a short trial. Containers count all events, gases count
+// collisions.
 #pragma once
 
 #include <atomic>

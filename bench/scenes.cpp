@@ -14,8 +14,8 @@ constexpr double paper_packing = 48.0 / (paper_container_radius * paper_containe
 constexpr double spheres_packing =
     48.0 / (experiment_container_radius * experiment_container_radius);
 
-// Targets: twice the rate of the baseline everywhere; in a container at least a third of the rate at
-// N = 48, and 0.8 of it where many discs have settled; on the exact circle at most 1.3 times the
+// Targets: twice the rate of the baseline everywhere; in a container at least a third of the rate
+// at N = 48, and 0.8 of it where many discs have settled; on the exact circle at most 1.3 times the
 // time per period on the polygon.
 constexpr double twice = 2.0, third = 1.0 / 3.0, settled = 0.8, circle = 1.3;
 

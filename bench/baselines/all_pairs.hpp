@@ -1,6 +1,6 @@
 // The baseline for few discs: the paper's method. Every event searches all pairs for the earliest
-// contact (engine/reference.hpp), with the widest vectors of the processor. For spheres the baseline
-// is the reference itself.
+// contact (engine/reference.hpp), with the widest vectors of the processor. For spheres the
+// baseline is the reference itself.
 #pragma once
 
 #include <cstddef>

@@ -243,7 +243,8 @@ void NeighborListBaseline::renew_list(Number i, double time) {
             }
 }
 
-/// Whether disc i may reach the wall within `skin` of its home, for every position of the container.
+/// Whether disc i may reach the wall within `skin` of its home, for every position of the
+/// container.
 void NeighborListBaseline::update_at_wall(Number i) {
     const Vec2 home = homes_of_[i].position;
     const double farthest =
@@ -354,8 +355,8 @@ NeighborListBaseline::Number NeighborListBaseline::first_in_calendar() {
             prefetch_next_events();
             continue;
         }
-        // End of the page: all remaining events are in the overflow bucket. They are inserted again in
-        // the order of the discs, which is the order of memory.
+        // End of the page: all remaining events are in the overflow bucket. They are inserted again
+        // in the order of the discs, which is the order of memory.
         first_in_bin_[later] = no_disc;
         calendar_begin_ += bin_width_ * double(later);
         now_ = 0;
@@ -367,8 +368,8 @@ NeighborListBaseline::Number NeighborListBaseline::first_in_calendar() {
     return first;
 }
 
-/// Prefetches first the disc itself, some bins later its partner and its list, then the discs of both
-/// lists.
+/// Prefetches first the disc itself, some bins later its partner and its list, then the discs of
+/// both lists.
 void NeighborListBaseline::prefetch_next_events() const {
     const std::size_t later = first_in_bin_.size() - 1;
     const auto in_bin = [&](std::size_t ahead, const auto& fetch) {

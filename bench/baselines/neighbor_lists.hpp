@@ -1,14 +1,15 @@
-// The baseline for many discs: event-driven dynamics with neighbour lists and a calendar of events, as
-// in other hard-sphere codes (Smallenburg, Eur. Phys. J. E 45, 22 (2022),
+// The baseline for many discs: event-driven dynamics with neighbour lists and a calendar of events,
+// as in other hard-sphere codes (Smallenburg, Eur. Phys. J. E 45, 22 (2022),
 // doi:10.1140/epje/s10189-022-00180-8; the calendar: Paul, J. Comput. Phys. 221, 615 (2007)). It
-// predicts one disc after the other and is optimised: a prediction reads one cache line of each disc;
-// large arrays are on huge pages; the data of the next events are prefetched; contact times with the
-// wall and with the edge of the disc's circle are computed only where they may come first.
+// predicts one disc after the other and is optimised: a prediction reads one cache line of each
+// disc; large arrays are on huge pages; the data of the next events are prefetched; contact times
+// with the wall and with the edge of the disc's circle are computed only where they may come first.
 //
-// The list of a disc holds every disc that it can touch while both stay within `skin` of their homes
-// (their positions when their lists were made). A disc that leaves this circle gets a new list; the
-// others keep theirs. Every disc has one pending event. An event whose partner has collided in the
-// meantime is recognised when it is due. Homes are at rest, also in a swirled container.
+// The list of a disc holds every disc that it can touch while both stay within `skin` of their
+// homes (their positions when their lists were made). A disc that leaves this circle gets a new
+// list; the others keep theirs. Every disc has one pending event. An event whose partner has
+// collided in the meantime is recognised when it is due. Homes are at rest, also in a swirled
+// container.
 #pragma once
 
 #include <cstddef>

@@ -113,7 +113,7 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
                                                      : "swirl.parameters() lists all parameters."));
         }
         const std::string text = text_of(name, value);
-        // A C++ exception would end its message there.
+        // An error message that quotes the text would end at the null character.
         if (text.find('\0') != std::string::npos)
             throw UsageError(fmt::format("{} contains a null character.", name));
         texts[name] = with_file_contents(name, text);

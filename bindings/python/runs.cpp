@@ -100,7 +100,8 @@ py::object series_in_python(const std::optional<PeriodSeries>& series) {
                                        static_cast<py::ssize_t>(names.size())}));
 }
 
-/// Returns (JSON of the result, reports, exception during the run or None, headline, report, series).
+/// Returns (JSON of the result, reports, exception during the run or None, headline, report,
+/// series).
 py::tuple run_once(const py::dict& given, const std::vector<std::string>& measured,
                    const std::string& command, const ProgressCallback& callback,
                    const CustomMeasurement& custom, const RunFiles& files, bool has_series,

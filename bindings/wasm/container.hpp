@@ -55,8 +55,8 @@ class Container {
     void pass_found_event() {
         if (found_) pass();
     }
-    /// True if disc i is pinned by the paper's criterion, which is known some frames later. False in
-    /// the first frames, and if nothing is measured.
+    /// True if disc i is pinned by the paper's criterion, which is known some frames later. False
+    /// in the first frames, and if nothing is measured.
     bool is_pinned(std::size_t i) const {
         const PinnedLoose& found = pinned_.pinned_loose();
         return found.is_known() && found.pinned()[i] != 0;

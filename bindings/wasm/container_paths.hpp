@@ -5,11 +5,12 @@
 
 namespace swirl {
 
-/// The period of a path by hand, which has none: practically infinite.
+/// The period of a path that is moved by hand. Such a path has no period, so this is practically
+/// infinite.
 inline constexpr double no_period = 1e6;
 
-/// Straight to a point, where the container waits for the next target. It stops at once, at a
-/// vertex like any other.
+/// The container moves straight to a point and waits there for the next target. It stops at once,
+/// at a vertex like any other.
 inline ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double duration) {
     return {no_period,
             {{0.0, duration, from, (1.0 / duration) * (to - from), 0.0},

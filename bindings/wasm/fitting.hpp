@@ -50,7 +50,7 @@ inline std::optional<Vec2> free_position(const InitialState& state, double radiu
 }
 
 /// Removes the last discs, or adds discs like the first one that move with the container, until
-/// there are `wanted`, or no room.
+/// there are `wanted` of them, or no space for another.
 inline void fit_discs(InitialState& state, std::size_t wanted) {
     if (state.discs.size() > wanted) state.discs.resize(wanted);
     while (state.discs.size() < wanted) {

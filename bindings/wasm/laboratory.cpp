@@ -467,8 +467,8 @@ EXPORTED(spin_map) std::uint32_t spin_map() {
 }
 EXPORTED(values) const double* values() { return numbers.data(); }
 
-/// Memory for `count` runs, five numbers each: N, ϖ/Ω, its error, the periods after the warm-up, and
-/// the effective number of samples.
+/// Memory for `count` runs, five numbers each: N, ϖ/Ω, its error, the periods after the warm-up,
+/// and the effective number of samples.
 EXPORTED(runs) double* runs(std::uint32_t count) {
     numbers.resize(runs_width * std::size_t{count});
     return numbers.data();

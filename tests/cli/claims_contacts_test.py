@@ -88,7 +88,7 @@ class Contacts(HandMadeTables):
         self.assertEqual(judged(0.4), FAILS)
         self.assertEqual(judged(0.51), UNDECIDED)
         self.assertEqual(judged(0.51).points, {"high_N48"})
-        # The share of all discs does not matter.
+        # Only discs away from the wall count; the share among all discs does not matter.
         self.assertEqual(judged(0.6, everywhere=0.1), HOLDS)
         self.assertEqual(judged(0.4, everywhere=0.9), FAILS)
 

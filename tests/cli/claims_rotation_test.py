@@ -155,7 +155,7 @@ class Rotation(HandMadeTables):
         self.assertEqual(judged(-0.1, -0.13), IN_PART)  # near, but not nearer
         self.assertEqual(judged(0.0, 0.1), FAILS)
         self.assertEqual(judged(0.1, -0.08, error=0.02), UNDECIDED)
-        # Below the line the distance counts as well.
+        # A distance below the line counts as much as one above it.
         self.assertEqual(judged(0.1, -0.25), IN_PART)
 
     def test_rough_discs_cross_earlier(self):

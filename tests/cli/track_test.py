@@ -274,7 +274,7 @@ class TrackTest(InFolder):
         tracks, _ = self.track(video, "--spin")
         spins = SpinComparison(video, tracks)
         self.assertGreater(len(spins.pairs), 800)
-        # Discs of 16 pixels: registration within 5 %; PIV is biased by up to a quarter.
+        # With discs of 16 pixels, registration errs by less than 5 %, and PIV by up to a quarter.
         self.assertLess(abs(spins.slope(1) - 1.0), 0.05)
         self.assertLess(abs(spins.slope(2) - 1.0), 0.25)
         self.assertLess(spins.rms(1), 0.1)

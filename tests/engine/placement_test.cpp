@@ -204,7 +204,7 @@ TEST(Placement, DiscsInALargeContainerAreNumberedByPosition) {
     EXPECT_LT(deepest_overlap(*centres, radii, R), rounding);
     EXPECT_GT(neighbours_of_near_number(*centres, 0, 20000, R), 0.9);
     EXPECT_GT(neighbours_of_near_number(*centres, 20000, 30000, R), 0.9);
-    // Few discs are not renumbered.
+    // A small number of discs is not renumbered.
     const double r = std::sqrt(4000 / 0.6);
     const auto few = place_discs(std::vector<double>(4000, 1.0), r, 1);
     ASSERT_TRUE(few);

@@ -1,10 +1,10 @@
-// Recordings with damaged bytes: bytes of good ones are replaced, and files are truncated. The first
-// byte of the input selects the file. Every further four bytes are an offset and a new value.
+// Recordings with damaged bytes: bytes of good ones are replaced, and files are truncated. The
+// first byte of the input selects the file. Every further four bytes are an offset and a new value.
 //
-// Most inputs end in the HDF5 library, which does not defend against malicious files. A crash inside
-// the library is not a finding: it is reported and ends the process with code 0. So run this with
-// -fork=1, which starts the next process. Crashes of this program end the process like any finding.
-// (recording_fuzz.cpp reaches the readers of this program more often.)
+// Most inputs end in the HDF5 library, which does not defend against malicious files. A crash
+// inside the library is not a finding: it is reported and ends the process with code 0. So run this
+// with -fork=1, which starts the next process. Crashes of this program end the process like any
+// finding. (recording_fuzz.cpp reaches the readers of this program more often.)
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <ucontext.h>

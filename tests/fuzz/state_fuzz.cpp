@@ -1,7 +1,7 @@
 // The state of a run to be resumed, with damage that a checksum does not detect: numbers of a good
-// state are replaced, and it is truncated. Accepted states run for some hundred events, are measured
-// and saved again. Each change takes eight bytes of input: two select the field, two the number in
-// it, and four give its new value.
+// state are replaced, and it is truncated. Accepted states run for some hundred events, are
+// measured and saved again. Each change takes eight bytes of input: two select the field, two the
+// number in it, and four give its new value.
 #include <bit>
 #include <cstring>
 #include <limits>

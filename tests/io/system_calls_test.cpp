@@ -1,5 +1,5 @@
-// The calls to the system. tests/platforms/system_calls_test.py also runs this file with the branches
-// for macOS and for other POSIX systems.
+// The calls to the system. tests/platforms/system_calls_test.py also runs this file with the
+// branches for macOS and for other POSIX systems.
 #include "swirl/io/system_calls.hpp"
 
 #include <fcntl.h>

@@ -54,8 +54,8 @@ TEST(Diffusion, GrowsWithTheLagForARandomWalk) {
         if (k % per_period == per_period - 1) diffusion.close_block();
     }
     for (std::size_t k = 0; k < 4; ++k) {
-        // Steps uniform in (−1, 1): variance 1/3 per coordinate. 160 000 steps: 0.5 %, five times
-        // that for the longest lag, whose displacements overlap.
+        // Steps are uniform in (−1, 1), so each coordinate has the variance 1/3. With 160 000 steps
+        // its error is 0.5 %, and five times that for the longest lag, whose displacements overlap.
         EXPECT_NEAR(diffusion.square_displacement(k).mean / (1 << k), 2.0 / 3.0, 0.02);
         EXPECT_NEAR(diffusion.rotation_variance(k).mean / (1 << k), 1.0 / 3.0, 0.01);
         EXPECT_NEAR(diffusion.mean_rotation(k).mean / (1 << k), 0.1, 0.01);
@@ -86,7 +86,7 @@ TEST(Diffusion, OverlappingDisplacementsCountAsOneSample) {
         squares += e.mean * e.mean / walks;
     }
     const double scatter = std::sqrt(squares - sum * sum);
-    // Within a fifth: the scatter of 200 walks is accurate to 5 %, and the bound is 22 % above.
+    // The scatter of 200 walks is accurate to 5 %, and the stated error is about 22 % too large.
     EXPECT_GT(stated, 0.95 * scatter);
     EXPECT_LT(stated, 1.5 * scatter);
 }

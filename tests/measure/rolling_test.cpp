@@ -32,7 +32,7 @@ TEST(Rolling, SharesAndSlipAreThoseOfTheSpheres) {
     const Vec2 u = s.container_velocity, C = s.container_centre;
     add_rolling(s, C, {0.3, 0.1});
     add_rolling(s, C + Vec2{4.0, 0.0}, u);
-    // Slides with its whole velocity over the floor, 0.5; at the wall.
+    // This sphere is at the wall and slides over the floor with its whole velocity, 0.5.
     add_sphere(s, C + Vec2{0.0, s.container_radius - 1.05}, u + Vec2{0.3, 0.4}, {0.0, 0.0});
     const Rolling r = seen(s);
     EXPECT_DOUBLE_EQ(row_of(r, "rolling_share").mean, 2.0 / 3.0);

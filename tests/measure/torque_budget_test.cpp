@@ -16,7 +16,7 @@ struct Case {
     AngularMomentum before;
 };
 
-/// Two of three random discs, or one of them and the wall, collide by the collision law.
+/// Applies the collision law to two of three random discs, or to one of them and the wall.
 Case collide_at_random(std::uint64_t seed, bool wall, const Surface& surface) {
     Noise noise(seed);
     Snapshot s = empty_container(0.5 + 0.5 * noise());

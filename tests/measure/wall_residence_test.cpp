@@ -36,7 +36,7 @@ TEST(WallResidences, BeginAndEndWhereTheDiscEntersAndLeaves) {
     EXPECT_NEAR(residences.depinning().angle().mean * degrees_per_radian, 120.0, a_sample);
     EXPECT_NEAR(residences.depinning().concentration(), 1.0, 1e-9);
     EXPECT_EQ(residences.depinning().count(), 10.0);
-    // The whole residence counts, from its first sample on: 120° of 360°.
+    // The whole residence counts, from its first sample on; it covers 120° of 360°.
     EXPECT_NEAR(residences.share().mean, 1.0 / 3.0, 1.0 / samples);
     EXPECT_NEAR(residences.length().mean, 1.0 / 3.0, 2.0 / samples);
 }

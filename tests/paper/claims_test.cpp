@@ -50,8 +50,8 @@ TEST(PaperClaimsSlow, CrossingRisesAsFrictionFalls) {
     const Crossing low = find_crossing(curve(dense, 0.1, 0.1, 1'000'000));
     ASSERT_EQ(high.verdict, Crossing::Verdict::crosses);
     ASSERT_EQ(medium.verdict, Crossing::Verdict::crosses);
-    // The experiment crosses near N = 36 (main text); these discs cross at 38.4. Every second N gives
-    // an interval and no value.
+    // The experiment crosses near N = 36 (main text); these discs cross at 38.4. Every second N
+    // gives an interval and no value.
     EXPECT_GT(high.lower, 35.0);
     EXPECT_LT(high.upper, 41.0);
     EXPECT_GT(medium.lower, high.upper);

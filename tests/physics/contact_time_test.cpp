@@ -45,7 +45,7 @@ Pair draw_pair() {
     return p;
 }
 
-/// The same, with j aimed at a point of i; it may graze.
+/// The same, but disc j is aimed at a point of disc i, which it may graze.
 Pair draw_meeting_pair() {
     Pair p = draw_pair();
     const Vec2 from = p.j.position_at(p.from), s = p.i.position_at(p.from) - from;

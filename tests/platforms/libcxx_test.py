@@ -58,7 +58,7 @@ class Libcxx(unittest.TestCase):
                     file.write(text)
                 done = subprocess.run([*command, *more], capture_output=True, text=True)
                 return done.stderr if done.returncode else None
-            # The compiler reports errors, and uses libc++.
+            # Checks the test itself: the compiler reports errors, and it uses libc++.
             self.assertIn("error:", errors("int main() { return undeclared; }"))
             self.assertIsNone(errors("#include <version>\nstatic_assert(_LIBCPP_VERSION >= 190000);"))
             checked = 0

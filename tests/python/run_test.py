@@ -136,7 +136,7 @@ def test_errors_equal_those_of_the_command_line(bad):
         swirl.run(**bad)
     words = lambda text: re.sub(r"[-_]+", " ", text).split()
     said = words(str(raised.value))
-    # Numbers are given to the command line as text, 2.5 and 2.50 are the same to Python.
+    # The command line gets numbers as text; for Python, 2.5 and 2.50 are the same number.
     assert said == words(done.stderr.removeprefix("error: "))
     assert "--" not in str(raised.value)
 

@@ -154,7 +154,7 @@ TEST(Plot, NamesOfCurvesDoNotOverlap) {
         }
 }
 
-// Such as 20.0000001, 20.0000002: they must neither look equal nor leave the page.
+// Numbers such as 20.0000001 and 20.0000002 must neither look equal nor leave the page.
 TEST(Plot, NumbersOfATinyTimeAxisStayOnThePageAndDiffer) {
     const Theme theme = dark_theme();
     for (const double span : {5e-10, 5e-7, 3e-4, 0.02, 5.0}) {

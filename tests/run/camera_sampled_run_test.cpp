@@ -45,7 +45,7 @@ TEST(CameraSampledRun, PositionErrorsAddTheExpectedTemperature) {
     // A velocity over two steps of T/64 has the variance 2σ²/(2T/64)² per coordinate.
     const double step = config.period / 64.0, error = 0.02;
     const double added = 2.0 * error * error / (4.0 * step * step);
-    // One run gives it to about a sixth: noise moves discs to other cells than exact positions.
+    // One run determines it to about a sixth of its value: noise moves some discs to another cell.
     std::vector<double> shares;
     for (config.seed = 1; config.seed <= 16; ++config.seed)
         shares.push_back((temperature(error) - temperature(0.0)) / added);

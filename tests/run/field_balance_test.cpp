@@ -224,8 +224,8 @@ TEST(RigidRotation, IsTheEquilibriumOfPerfectlyRoughDiscs) {
     gas.run(100 * n);
     const Fields fields = fields_of(gas, scene.container_radius, 10, 12000);
     const InnerMean mean = inner_mean(fields.m_frame_wide());
-    // 600 samples of 50 discs in the inner half, T = ½ and I = ½: 0.006 for the spin, and
-    // correlated neither with each other nor for long.
+    // The inner half has 600 samples of 50 discs, with T = ½ and I = ½. If they were independent,
+    // the mean spin would have an error of 0.006; the tolerance is four times that.
     EXPECT_NEAR(2.0 * mean.spin, mean.vorticity, 0.025);
     EXPECT_NEAR(mean.vorticity, 2.0 * rate, 0.04);
     // A contact transfers ± a few tenths of the pressure, so the error of the mean of 30,000 is

@@ -14,8 +14,9 @@
 namespace swirl {
 namespace {
 
-/// Calls sample(snapshot) `samples` times, close() after every 20. Samples are taken at equal steps of
-/// time, about `collisions` collisions of a disc apart: right after a collision, two discs would touch.
+/// Calls sample(snapshot) `samples` times, close() after every 20. Samples are taken at equal steps
+/// of time, about `collisions` collisions of a disc apart: right after a collision, two discs would
+/// touch.
 template <class Sample, class Close>
 void sample_gas(std::size_t n, double packing, int samples, double collisions, const Sample& sample,
                 const Close& close) {
@@ -96,7 +97,8 @@ TEST(IdealGas, HasMaxwellsDistributionAndIndependentVelocities) {
         const double x = VelocityDistribution::speed_of(bin), low = x - 0.05, high = x + 0.05;
         const double maxwell = (std::exp(-low * low) - std::exp(-high * high)) / 0.1;
         const Estimate e = distribution.speed_density(bin);
-        // The energy is given: a relative correction of x⁴/N. Rare bins: one disc is 10/300000.
+        // The total energy is fixed, which changes the density by x⁴/N of its value. In a rare bin,
+        // one disc more or less changes it by 10/300000.
         EXPECT_NEAR(e.mean, maxwell, 4.5 * e.error + (1.0 + std::pow(x, 4)) / n * maxwell + 2e-4)
             << x;
     }

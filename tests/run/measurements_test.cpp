@@ -232,8 +232,8 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
             EXPECT_TRUE(json.at(name).contains(row.name)) << full;
             EXPECT_THAT(numbers, HasSubstr("\n" + full + "," + row.unit + ","));
             EXPECT_THAT(help, HasSubstr("  " + full + " "));
-            // Discs do not roll, and equal ones do not segregate: one line "n/a" replaces the rows of
-            // such a measurement.
+            // Discs do not roll, and equal ones do not segregate: one line "n/a" replaces the rows
+            // of such a measurement.
             const bool is_absent = name == "rolling" || name == "segregation";
             EXPECT_THAT(terminal, HasSubstr(is_absent ? "  " + name + "  " : "  " + full + " "));
             EXPECT_THAT(docs, HasSubstr("| " + full + " | " + row.unit + " |"));
@@ -275,7 +275,8 @@ TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
 
 // This command updates the page:
 //
-//     SWIRL_WRITE_DOCS=1 build/tests/tests/test_run --gtest_filter='Measurements.TheTablesOfTheDocs*'
+//     SWIRL_WRITE_DOCS=1 build/tests/tests/test_run
+//     --gtest_filter='Measurements.TheTablesOfTheDocs*'
 TEST(Measurements, TheTablesOfTheDocsAreUpToDate) {
     const fs::path page = fs::path(SWIRL_SOURCE_DIR) / "docs/reference/measurements.md";
     const std::string begin = "<!-- made of swirl run --measure markdown -->\n",

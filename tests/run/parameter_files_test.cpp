@@ -65,7 +65,7 @@ TEST_F(ParameterFiles, ListsAreReadPartByPart) {
     const std::string file = written("0,1,0\n1,0,1\n2,1,0\n");
     EXPECT_EQ(with_file_contents("path", "line," + file + ",ellipse:0.5"),
               "line,points 0:1:0 1:0:1 2:1:0,ellipse:0.5");
-    // A name with a comma is a name.
+    // A file name may contain a comma.
     EXPECT_EQ(with_file_contents("path", written("0,1,0\n1,0,1\n2,1,0\n", "a,b.csv")),
               "points 0:1:0 1:0:1 2:1:0");
 }

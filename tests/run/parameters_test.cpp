@@ -65,7 +65,7 @@ TEST(RunParameters, NamesAreUniqueAndRejectInvalidTexts) {
     }
 }
 
-/// A text with another value than the default, for any settable parameter.
+/// The text of a value other than the default, for any settable parameter.
 std::string another(const Parameter& p) {
     static const std::map<std::string, std::string> words = {{"mu", "0.5"},
                                                              {"inertia", "ring"},

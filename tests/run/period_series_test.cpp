@@ -62,7 +62,8 @@ TEST(PeriodSeries, ItsMeansAreTheAveragesOfTheRun) {
         for (const ReportRow& row : report.rows) {
             const std::string full = name + "." + row.name;
             // A rate of collisions is their number by the time. The centre is a mean over frames,
-            // seven of which the series lacks at the start of a period: pinned discs are known late.
+            // seven of which the series lacks at the start of a period: pinned discs are known
+            // late.
             if (full == "collisions.disc_disc_rate" || full == "collisions.disc_wall_rate") {
                 EXPECT_NEAR(mean_of_counted(series, full), row.estimate.mean, 1e-12) << full;
                 ++compared;
@@ -89,7 +90,8 @@ TEST(PeriodSeries, TheAutocorrelationTimeIsThatOfAnAutoregressiveSeries) {
     }
     for (const SeriesAverage& average : series.averages()) {
         // The estimate of τ over a window of W lags has a relative error of sqrt(2 (2W + 1) / n),
-        // 0.09 for W = 4 τ. Geyer's window ends where noise begins, so the bound is three times that.
+        // 0.09 for W = 4 τ. Geyer's window ends where noise begins, so the bound is three times
+        // that.
         const double expected = (1 + a) / (1 - a);
         if (average.name == "by_time") {
             EXPECT_NEAR(average.autocorrelation_time, expected, 0.27 * expected);

@@ -194,7 +194,8 @@ TEST(Ramp, NoDiscMovesRelativeToTheContainerWhenTheAmplitudeChanges) {
             EXPECT_LT(std::hypot(d.x, d.y), config.container_radius - 1.0 + 1e-12);
         }
     }
-    // Overlaps are of the order of rounding errors, as without a ramp (docs/explanation/physics.md).
+    // Overlaps are of the order of rounding errors, as without a ramp
+    // (docs/explanation/physics.md).
     EXPECT_LT(run.result().max_overlap, 1e-12);
 }
 

@@ -180,8 +180,8 @@ TEST(Run, TheAverageByEventOfManyDiscsSamplesEveryFewEvents) {
     RunConfig config = small(200, 3);
     config.container_radius = 18.0;
     config.warmup = 0;
-    // The first period has a sample after every 50 events, the others about 128 samples. Each sample
-    // has the weight of its events.
+    // The first period has a sample after every 50 events, the others about 128 samples. Each
+    // sample has the weight of its events.
     double sum = 0.0, weights = 0.0, whole_sum = 0.0, samples = 0.0;
     std::uint64_t every = events_per_rotation_sample(200), to_sample = every;
     std::uint64_t events = 0, before = 0;

@@ -70,9 +70,10 @@ TEST(RunOfSpheres, SlowInTenMillionEventsNoTwoOverlapByMoreThanRounding) {
     EXPECT_LT(done.max_overlap, 1e-12);
 }
 
-// Without a contact duration, a sphere that the floor drives along the wall bounces ever lower until
-// its distance from the wall is a rounding error. From then on each bounce sinks by at most one unit
-// of rounding: 2⁻⁵² σ² in the difference of σ² and the squared distance from C (quartic.hpp), or
+// Without a contact duration, a sphere that the floor drives along the wall bounces ever lower
+// until its distance from the wall is a rounding error. From then on each bounce sinks by at most
+// one unit of rounding: 2⁻⁵² σ² in the difference of σ² and the squared distance from C
+// (quartic.hpp), or
 // 2⁻⁵³ σ in the distance, with σ = R − r. The factor 2 allows for the rounding of positions.
 TEST(RunOfSpheres, WithoutContactDurationSinkingPerBounceIsARoundingError) {
     for (const char* restitution : {"0.9", "0.5", "0"}) {
@@ -181,7 +182,8 @@ TEST(RunOfSpheres, EnergyInputEqualsDissipation) {
     EXPECT_GT(power("floor_friction_power"), 0.0);
 }
 
-/// Recorded frames are bitwise identical to the states of the run, including spins and orientations.
+/// Recorded frames are bitwise identical to the states of the run, including spins and
+/// orientations.
 void expect_bitwise_identical_recording(const RunConfig& config) {
     const Scratch scratch;
     RunFiles files;
@@ -283,8 +285,8 @@ TEST(RunOfSpheres, FewRotateAndManyCounterrotate) {
     EXPECT_LT(many.mean, -6.0 * many.error);
 }
 
-/// Both ends of the range of every number, and each of the words of a parameter. Excludes the length
-/// of the run and the number of discs.
+/// Both ends of the range of every number, and each of the words of a parameter. Excludes the
+/// length of the run and the number of discs.
 std::vector<ParameterTexts> extremes_of_every_parameter() {
     std::vector<ParameterTexts> all;
     for (const Parameter& p : run_parameters) {
@@ -321,10 +323,10 @@ Outcome outcome_of(ParameterTexts texts, std::int64_t events) {
     }
 }
 
-/// Every extreme value alone, then combinations of the smallest and largest friction of contacts and
-/// floor, with restitution 0 and 1, for spheres and coins, few and many, and for mixtures. A floor
-/// friction of 150 is just below the limit of the contact duration. A hang exceeds the time limit of
-/// ctest.
+/// Every extreme value alone, then combinations of the smallest and largest friction of contacts
+/// and floor, with restitution 0 and 1, for spheres and coins, few and many, and for mixtures. A
+/// floor friction of 150 is just below the limit of the contact duration. A hang exceeds the time
+/// limit of ctest.
 void expect_extremes_end(std::int64_t events) {
     std::map<Outcome, int> outcomes;
     const auto expect_end = [&](ParameterTexts texts, const ParameterTexts& changes) {

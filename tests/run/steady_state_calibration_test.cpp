@@ -1,6 +1,6 @@
-// Error rates of the steady-state tests (statistics/steady_state.hpp) on recorded series: false alarms
-// in steady runs, and the fraction of planted jumps, drifts and mixtures that they find. The test
-// prints the tables of docs/explanation/statistics.md.
+// Error rates of the steady-state tests (statistics/steady_state.hpp) on recorded series: false
+// alarms in steady runs, and the fraction of planted jumps, drifts and mixtures that they find. The
+// test prints the tables of docs/explanation/statistics.md.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -76,8 +76,8 @@ int count_found(const std::vector<Series>& all, const Planted& plant, double siz
     return count;
 }
 
-// The rates of false_alarm_rate(), for autoregressive series of 50 to 2000 blocks with a memory of 0
-// to 0.95 of the previous block.
+// The rates of false_alarm_rate(), for autoregressive series of 50 to 2000 blocks with a memory of
+// 0 to 0.95 of the previous block.
 TEST(SlowSteadyStateCalibration, FalseAlarmRateIsAsStated) {
     struct Bin {
         double minimum;
@@ -136,8 +136,8 @@ TEST(SlowSteadyStateCalibration, SteadyRecordedRunsAreRecognised) {
         "{} of {} steady runs are called not steady; the largest change is {:.2f} of its "
         "limit\n",
         alarms, runs, largest);
-    // Expected are 0.05 to 0.4 % of 432, about one. Five or more occur by chance in one of 500 cases
-    // (Poisson with a mean of 0.9, 0.2 %).
+    // Expected are 0.05 to 0.4 % of 432, about one. Five or more occur by chance in one of 500
+    // cases (Poisson with a mean of 0.9, 0.2 %).
     EXPECT_LT(alarms, 5);
 }
 

@@ -199,7 +199,8 @@ TEST(Ensemble, CoverageOfFewSeedsIsAsDocumented) {
             worst.held = std::min(worst.held, s.held);
             worst.beyond_three = std::max(worst.beyond_three, s.beyond_three);
         }
-        // The last documented digit, and two standard deviations, √(p (1 − p)/4000).
+        // The tolerance is the last documented digit plus two standard deviations, √(p (1 −
+        // p)/4000).
         EXPECT_NEAR(worst.held, said.held, 0.02) << said.seeds;
         EXPECT_NEAR(worst.beyond_three, said.beyond_three, 0.015) << said.seeds;
     }

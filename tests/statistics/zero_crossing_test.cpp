@@ -142,9 +142,9 @@ double coverage(double zero, double bend, double error, int seeds = 0) {
     return covered / double(found);
 }
 
-// 4000 tables: the standard deviation of a share of 0.95 is 0.0034. The hull of an interval with
-// gaps is wider, which raises the share. A wrong sign at three errors lowers it. The share is 0.94
-// to 0.985 in all cases.
+// 4000 tables: the standard deviation of a share of 0.95 is 0.0034. If an interval has gaps, its
+// hull is wider and contains the true value more often. A wrong sign at three errors lowers it. The
+// share is 0.94 to 0.985 in all cases.
 TEST(Crossing, IntervalHasNominalCoverage) {
     for (const double zero : {-0.4, -0.2, 0.0, 0.3})
         for (const double bend : {0.0, 0.0004, -0.0004})

@@ -99,8 +99,8 @@ INSTANTIATE_TEST_SUITE_P(Containers, SlowCalibration,
                                     (point.param.mu == 1.0 ? "Rough" : "Smooth");
                          });
 
-// Dense containers have states that outlive such a run, so with 52 discs the interval of a single run
-// contains the reference value far too rarely. Eight seeds, the number at every point of the
+// Dense containers have states that outlive such a run, so with 52 discs the interval of a single
+// run contains the reference value far too rarely. Eight seeds, the number at every point of the
 // paper's figures, reveal these states.
 TEST(SlowCalibrationOfADenseContainer, EightSeedsRevealStatesThatOutliveARun) {
     const auto rotations = [](std::size_t count, std::int64_t periods, std::uint64_t first_seed) {

@@ -59,7 +59,7 @@ TEST(CircleFit, FindsCentreToATenthOfAPixel) {
             square += dot(fit.centre - centre, fit.centre - centre);
         }
         EXPECT_LT(std::sqrt(square / (2.0 * trials)), 0.1);
-        // A ball of the other polarity is no circle.
+        // A disc of the other polarity (dark instead of bright, or the reverse) gives no circle.
         const cv::Mat image = ball_image({64.0, 64.0}, 24.0, -polarity, 2.0, random);
         RaySettings rays;
         rays.minimum = 3.0;

@@ -335,7 +335,7 @@ export class Explorer {
                        shown, {}, texts.explorer.description(found, this.labelOf(x)));
     }
 
-    /** The command line of a run of so many periods after the warm-up. */
+    /** The command line of a run with this many periods after the warm-up. */
     private commandOf(given: Values, periods: number): string {
         const warmup = Number(given["warmup"]) >= 0 && given["warmup"] ? Number(given["warmup"]) : defaultWarmup;
         return commandOf.run(optionsOf({...given, periods: String(periods + warmup), warmup: String(warmup)},

@@ -3,12 +3,12 @@ import type {Crossing, Parameter, Rate, Rotation, RunNumbers} from "./engine";
 
 export type ToWorker =
     | {kind: "engine"; bytes: ArrayBuffer}
-    /** Starts a simulation and executes so many events. Answers carry the number `run`. */
+    /** Starts a simulation and executes this many events. Answers carry the number `run`. */
     | {kind: "begin"; given: Record<string, string>; events: number; run: number}
-    /** Advances time by so many periods; with `strobe`, at most to the end of the present one. Answered by
+    /** Advances time by this many periods; with `strobe`, at most to the end of the present one. Answered by
      *  a frame. */
     | {kind: "tick"; periods: number; strobe?: boolean}
-    /** Advances by so many whole periods without frames in between. Answered by progress and a frame. */
+    /** Advances by this many whole periods without frames in between. Answered by progress and a frame. */
     | {kind: "skip"; periods: number}
     | {kind: "step"}
     /** Other friction coefficients or another number for the same discs; another path from the next period on. */
@@ -21,7 +21,7 @@ export type ToWorker =
     | {kind: "drag"; disc: number; x: number; y: number}
     | {kind: "result"}
     | {kind: "maps"}
-    /** A whole run of so many periods after the warm-up. */
+    /** A whole run with this many periods after the warm-up. */
     | {kind: "point"; given: Record<string, string>; periods: number}
     /** Runs to exactly this event; answered by its result. */
     | {kind: "repeat"; given: Record<string, string>; events: number}

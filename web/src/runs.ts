@@ -40,7 +40,7 @@ export class Runs {
         this.size = Math.max(1, Math.min(cores, maxWorkers));
     }
 
-    /** A run of so many periods after the warm-up. Rejects with UsageError. */
+    /** A run with this many periods after the warm-up. Rejects with UsageError. */
     async run(given: Record<string, string>, periods: number): Promise<FinishedRun> {
         const answer = await this.ask({kind: "point", given, periods});
         if (answer.kind !== "point") throw new Error(answer.kind);

@@ -7,7 +7,7 @@ import {workerTexts} from "./texts";
 const tickBudget = 12; // milliseconds
 const eventsPerBatch = 500;
 const averagesInterval = 200; // milliseconds
-/** A period with so many discs takes seconds; with more there would be no visible motion. */
+/** A period with this many discs takes seconds; with more there would be no visible motion. */
 const maxDiscs = 20_000;
 
 let module: WebAssembly.Module | undefined;

@@ -153,7 +153,7 @@ class Table:
 class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
     """What one measurement has found: its numbers and tables by name.
 
-    Where its only table has no name of its own, the columns stand here: measured["density"]["by_time"].
+    If its only table has no name, indexing gives the table's columns: measured["density"]["by_time"].
     """
 
     def __init__(self, name: str, rows: Mapping[str, Union[Estimate, ArrayEstimate]],

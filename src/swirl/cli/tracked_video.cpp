@@ -284,8 +284,8 @@ TrackingSettings tracking_settings(const std::string& video, const std::optional
     settings.max_frames = frames.value_or(0);
     settings.stop = &stop_signal();
     settings.planned = [&line](std::int64_t planned, bool spins) {
-        // Relative to the search for discs in one frame: measured in a video of the laboratory setup
-        // with 600 frames (tests/statistics/remaining_time_test.cpp).
+        // Relative to the search for discs in one frame: measured in a video of the laboratory
+        // setup with 600 frames (tests/statistics/remaining_time_test.cpp).
         constexpr double survey = 270.0, missing = 0.05, spin = 2.3;
         const auto n = static_cast<double>(planned);
         std::vector<ProgressStage> stages{{"surveying the video", survey},

@@ -27,18 +27,18 @@ std::optional<std::int64_t> discs_in_densest_known_arrangement(double radius,
 /// which is polled every few hundredths of a second, returned true. The method depends on the
 /// density:
 ///
-/// 1. Dilute. Sites of a triangular lattice about the centre, rotated by a random angle; N of them
-///    are
-///    chosen at random, and each disc is displaced within its free space. At R = 8.6 this works for
-///    up to 55 unit discs: 55 sites lie within √13 lattice spacings, and (R − r)/√13 = 2.108 > 2.
-/// 2. A mixture that does not fit on the lattice of its largest disc starts on a narrower one and
-///    is
-///    pushed apart until there are no overlaps. Discs at least 16 times as small as the largest are
-///    put on a lattice of their own, in the gaps between larger ones.
-/// 3. Dense. Random positions that slide down the energy of their overlaps until there are none. So
-///    the paper's container takes up to 59 discs.
-/// 4. Two discs, or up to nine of one size, in a container that hardly holds them: their densest
-///    arrangement.
+/// 1. Dilute: a triangular lattice about the centre is rotated by a random angle, and N of its
+///    sites are chosen at random. Each disc is then displaced within its free space. At R = 8.6
+///    this works for up to 55 unit discs: 55 sites lie within √13 lattice spacings, and
+///    (R − r)/√13 = 2.108 > 2.
+/// 2. A mixture that does not fit on the lattice of its largest disc starts on a narrower one. Its
+///    discs are then pushed apart until none of them overlap. Discs at least 16 times as small as
+///    the largest are put on a lattice of their own,
+///    in the gaps between larger ones.
+/// 3. Dense: discs start at random positions, and the energy of their overlaps is minimised until
+///    there are none. The paper's container thus takes up to 59 discs.
+/// 4. Two discs, or up to nine of one size, in a container that hardly holds them: they get their
+///    densest arrangement.
 ///
 /// Above 4,000 discs, those of one radius are numbered along Morton's curve (1966, "A computer
 /// oriented geodetic data base"), so that neighbours are near each other in memory.

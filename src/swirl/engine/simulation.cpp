@@ -62,7 +62,7 @@ void Simulation::run(std::uint64_t count) {
 void Simulation::run_before(double clock, std::uint64_t maximum, EventSpan& span) {
     const EngineState& state = *storage_->state;
     const double end = std::min(clock, state.segments[state.segment_count - 1].end);
-    // The largest number below; no event is earlier than 0.
+    // The largest double below `end`; −1 if `end` is 0, since no event is earlier than 0.
     const double last =
         end > 0.0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(end) - 1) : -1.0;
     run(span, maximum, state.periods, last);

@@ -34,7 +34,7 @@
 // Spheres move as physics/floor.hpp says, with the floor's velocity on the segment. A vertical
 // impulse J_z changes (ω_x, ω_y) of both by −R J_z (1/I) (n_y, −n_x). A sphere that begins to roll
 // is moved to that time and set rolling. If there is friction against the floor, all spheres are
-// moved to the time of every path vertex, and slide on with the next segment's velocity.
+// moved to the time of every path vertex, and continue to slide with the next segment's velocity.
 #pragma once
 
 #include <chrono>

@@ -4,9 +4,9 @@
 //   lammps  LAMMPS text dump: id type x y z vx vy vz radius mass omegaz (OVITO, MDAnalysis, VMD).
 //           TIMESTEP is the number of the frame. The box contains the container at all times and is
 //           not periodic.
-//   xyz     extended XYZ: species pos velo omega radius id; the species are H, He, Li …, because ASE
-//           accepts chemical symbols only, and X for the container; Time, container_x, container_y and
-//           container_radius in the comment (OVITO: global attributes; ASE: info)
+//   xyz     extended XYZ: species pos velo omega radius id; the species are H, He, Li …, because
+//           ASE accepts chemical symbols only, and X for the container; Time, container_x,
+//           container_y and container_radius in the comment (OVITO: global attributes; ASE: info)
 //   vtp     NAME.pvd, and for each frame NAME/NNNNNN.vtp (ParaView, VTK): points with velocity,
 //           angle, spin, radius, mass, id; and NAME/NNNNNN_container.vtp, part 1 of the index: the
 //           wall as a closed line. Uncompressed base64 with 64-bit headers
@@ -21,8 +21,8 @@
 // omega, and orientation:R:4 in the order x y z w (xyz); spin_x, spin_y, turned (vtp); their
 // columns (table); log/particles/rolling_spin (gsd).
 //
-// With ExportOptions::container, lammps and xyz have the container as one more particle: the last one,
-// of a type of its own, with the container's radius and velocity and without mass.
+// With ExportOptions::container, lammps and xyz have the container as one more particle: the last
+// one, of a type of its own, with the container's radius and velocity and without mass.
 //
 // If only some frames are exported, they keep their numbers and times.
 //

@@ -30,7 +30,7 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-// The scalar overloads, next to those below.
+// Makes the scalar functions of real.hpp visible next to the overloads for lanes below.
 using ::swirl::select;
 using ::swirl::smaller;
 using ::swirl::square_root;
@@ -99,7 +99,7 @@ SWIRL_INLINE Lanes<2> two_lanes(double a, double b) {
     return r;
 }
 
-/// One pair, or two pairs joined to one vector.
+/// Converts one pair of doubles, or two pairs, to a vector.
 SWIRL_INLINE Lanes<2> joined(const Double2 (&pairs)[1]) {
     Lanes<2> r;
     r.part[0] = pairs[0];
@@ -312,7 +312,7 @@ SWIRL_INLINE std::uint32_t index_in_list(const std::uint32_t* list, std::uint32_
                                          std::uint32_t k) {
 #if defined(__SSE2__)
     const __m128i target = _mm_set1_epi32(static_cast<int>(k));
-    // All of a short list, because a branch that stops at the index would be mispredicted.
+    // Compares all of a short list, because a branch that stops at k would be mispredicted.
     for (std::uint32_t begin = 0; begin < capacity; begin += 64) {
         std::uint64_t bits = 0;
         for (std::uint32_t slot = 0; slot < 64 && begin + slot < capacity; slot += 4) {

@@ -1,6 +1,6 @@
-// Normal deviates without elementary functions (Karney 2016, doi:10.1145/2710016, algorithm N). They
-// compare uniform deviates only, so they are the same on every platform, and their distribution is
-// exact up to the 2⁻⁵³ of a uniform deviate.
+// Normal deviates without elementary functions (Karney 2016, doi:10.1145/2710016, algorithm N).
+// They compare uniform deviates only, so they are the same on every platform, and their
+// distribution is exact up to the 2⁻⁵³ of a uniform deviate.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace swirl {
 
-/// True with probability e⁻ᵖ for 0 ≤ p ≤ 1: the length of the descending run p > u₁ > u₂ > … is even
-/// (von Neumann 1951).
+/// True with probability e⁻ᵖ for 0 ≤ p ≤ 1: the length of the descending run p > u₁ > u₂ > … is
+/// even (von Neumann 1951).
 constexpr bool happens_with_exp(double p, Random& random) {
     for (bool is_even = true;; is_even = !is_even) {
         const double u = random.uniform();

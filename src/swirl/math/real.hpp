@@ -17,11 +17,11 @@ SWIRL_INLINE double square_root(double x) { return __builtin_sqrt(x); }
 SWIRL_INLINE constexpr double select(bool condition, double yes, double no) {
     return condition ? yes : no;
 }
-/// One number or the other, without a branch, for unpredictable conditions.
+/// `yes` if the condition holds, otherwise `no`: without a branch, for unpredictable conditions.
 SWIRL_INLINE constexpr std::uint32_t chosen(bool condition, std::uint32_t yes, std::uint32_t no) {
     return no ^ ((no ^ yes) & (0u - static_cast<std::uint32_t>(condition)));
 }
-/// −a or a, by its sign bit, without a branch.
+/// −a if the condition holds, otherwise a. It flips the sign bit, without a branch.
 SWIRL_INLINE constexpr double minus_if(bool condition, double a) {
     return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, a) ^
                                           (static_cast<std::uint64_t>(condition) << 63));

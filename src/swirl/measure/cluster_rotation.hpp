@@ -21,13 +21,13 @@
 // about it and is omitted from the individual mean. If no disc is left (one disc, all discs at one
 // point) the sample is NaN, and so is a mean that contains it. No discs: NaN.
 //
-// A sample after every event must cost less than the event. So the centre of mass is then not summed
-// up for every sample. Colliding discs push each other, so only the wall changes the velocity of the
-// centre of mass, by −J/M; between two such impulses it moves uniformly. At every path vertex it is
-// summed up again, which removes the accumulated rounding. (A floor accelerates spheres all the
-// time; there the centre of mass is summed up for every sample.) Eight discs are processed in
-// parallel, always with eight partial sums added in the same order. So the result does not depend
-// on the vector width of the processor.
+// A sample after every event must cost less than the event. So the centre of mass is then not
+// summed up for every sample. Colliding discs push each other, so only the wall changes the
+// velocity of the centre of mass, by −J/M; between two such impulses it moves uniformly. At every
+// path vertex it is summed up again, which removes the accumulated rounding. (A floor accelerates
+// spheres all the time; there the centre of mass is summed up for every sample.) Eight discs are
+// processed in parallel, always with eight partial sums added in the same order. So the result does
+// not depend on the vector width of the processor.
 #pragma once
 
 #include <algorithm>
@@ -59,9 +59,9 @@ inline constexpr int rotation_samples = 64;
 
 /// Averages by event take about `samples` per period, and one after every event if a period
 /// has fewer than `few_events`. Consecutive samples differ by the change of two discs, so a sample
-/// after every k-th event has the same mean and hardly a larger error. In loose clusters, which have
-/// few events, a disc sometimes flies past the centre of mass. These rare samples decide about the
-/// error, and none is omitted.
+/// after every k-th event has the same mean and hardly a larger error. In loose clusters, which
+/// have few events, a disc sometimes flies past the centre of mass. These rare samples decide about
+/// the error, and none is omitted.
 struct RotationSamplesByEvent {
     static constexpr std::uint64_t samples = 128, few_events = 2048;
 };
@@ -134,7 +134,7 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
         follow(snapshot, event);
         return sample(snapshot);
     }
-    /// The same, not after every event: the centre of mass is summed up, and follow() is not needed.
+    /// The same, not after every event: it sums up the centre of mass and needs no follow().
     RotationSample sample_alone(const Snapshot& snapshot);
     /// One sample of the average by time; call it at equal time steps.
     RotationSample sample_by_time(const Snapshot& snapshot);

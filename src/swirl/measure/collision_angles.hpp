@@ -1,9 +1,9 @@
 // How the discs collide: head-on or grazing, and in which direction.
 //
 //   b            (n × g)/|g| of a disc–disc collision: n the unit vector from i to j, g = v_j − v_i
-//                before the collision. b is the impact parameter in units of the contact distance: 0
-//                head-on, ±1 grazing. It is the sine of the angle between the line of centres and the
-//                relative velocity. Positive: the discs orbit each other counter-clockwise
+//                before the collision. b is the impact parameter in units of the contact distance:
+//                0 head-on, ±1 grazing. It is the sine of the angle between the line of centres and
+//                the relative velocity. Positive: the discs orbit each other counter-clockwise
 //   b_wall       the same for a disc and the wall: n points from C to the contact, g is the disc's
 //                velocity relative to the container. Positive: along the wall counter-clockwise
 //   direction    angle of the line of centres of disc–disc collisions in the M-frame, 0° … 180°

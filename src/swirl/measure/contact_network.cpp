@@ -4,7 +4,7 @@
 
 namespace swirl {
 
-/// The disc that stands for the group; halves the path to it.
+/// Returns the disc that represents the group of `disc`, and halves the path to it (union-find).
 std::uint32_t ContactNetwork::root_of(std::uint32_t disc) {
     while (parent_[disc] != disc) disc = parent_[disc] = parent_[parent_[disc]];
     return disc;

@@ -3,19 +3,19 @@
 //   coordination   touching discs of a disc, 2 × pairs / N
 //   wall           share of the discs that touch the wall
 //   isolated       share of the discs that touch nothing
-//   rattlers       share of the discs with fewer than two contacts, the wall counted: friction needs
-//                  two contacts to hold a disc
-//   groups         connected groups of discs per disc, (number of groups)/N: 1 if no discs touch. The
-//                  wall connects no discs
+//   rattlers       share of the discs with fewer than two contacts, the wall counted: friction
+//                  needs two contacts to hold a disc
+//   groups         connected groups of discs per disc, (number of groups)/N: 1 if no discs touch.
+//                  The wall connects no discs
 //   largest        share of the discs that belong to the largest group
 //   loops          independent loops per disc, (pairs − N + groups)/N: 0 for chains
 //
 // The table gives the share of the discs with 0, 1, 2, … touching discs.
 //
-// Touching: gap below 0.1 of the mean radius (touching_pairs.hpp), since hard discs touch only for an
-// instant. In two dimensions equal discs have up to 6 contacts; loops reach 2 in a perfect hexagonal
-// packing. By default only every 64th sample is used. Units: none. Errors: from blocks of periods.
-// Limits: no discs: NaN. All numbers depend on the gap that counts as a contact.
+// Touching: gap below 0.1 of the mean radius (touching_pairs.hpp), since hard discs touch only for
+// an instant. In two dimensions equal discs have up to 6 contacts; loops reach 2 in a perfect
+// hexagonal packing. By default only every 64th sample is used. Units: none. Errors: from blocks of
+// periods. Limits: no discs: NaN. All numbers depend on the gap that counts as a contact.
 #pragma once
 
 #include <cstddef>

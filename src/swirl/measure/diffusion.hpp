@@ -11,8 +11,8 @@
 // every beginning counts the same. Errors: from blocks of periods. A displacement belongs to the
 // block in which it ends. Displacements over L periods overlap for L blocks, so L blocks count as
 // one independent sample: the error is √L times that of the blocks. Limits: unknown orientations
-// (NaN) make the angular displacement NaN. Samples that are not at equal time steps (to 1 %), or a
-// change of the number of discs, begin again, and are counted.
+// (NaN) make the angular displacement NaN. If samples are not at equal time steps (to 1 %), or the
+// number of discs changes, the measurement restarts; the restarts are counted.
 #pragma once
 
 #include <cmath>

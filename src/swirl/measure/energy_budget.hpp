@@ -1,5 +1,5 @@
-// The energy gained and lost in every collision. Only collisions change the kinetic energy K = Σ ½ m v² + ½ I ω² (lab frame), and each does so by
-//
+// The energy gained and lost in every collision. Only collisions change the kinetic energy in the
+// lab frame, K = Σ ½ m v² + ½ I ω². Each changes it by
 //   ΔK = W − L
 //   W = −J·V              work of the moving wall, J = J_n n + J_t r the impulse on the wall, V its
 //                         velocity (it does not turn, so every point of it has this velocity)

@@ -16,7 +16,7 @@ struct Cuts {
     void add(double t) { at[count++] = t; }
 };
 
-/// The cuts, and in each piece the root of a function that is monotonic there.
+/// Adds to the cuts the root of `value` in each piece between two cuts, where it is monotonic.
 template <class Value, class Slope>
 Cuts with_roots(const Cuts& cuts, const Value& value, const Slope& slope) {
     Cuts more;
@@ -89,7 +89,7 @@ FieldDensities FieldBalance::densities() const {
     return sum;
 }
 
-/// The disc carries its mass, momentum and spin for a time `weight`, at `from` since held.time.
+/// Adds the fluxes of one disc at the time held.time + from, times `weight`, a length of time.
 void FieldBalance::carry(const Held& held, double from, double weight) {
     const FieldDisc& disc = held.disc;
     const Vec2 a = (1.0 / disc.mass) * disc.force;
@@ -137,7 +137,7 @@ void FieldBalance::fly(Held& held, double until) {
 }
 
 void FieldBalance::add(const Event& event, const Snapshot& after) {
-    // Other discs than before: a new interval.
+    // If the number of discs has changed, a new interval begins.
     if (held_.size() != after.size()) return begin(after);
     take_time(after);
     const bool collides = is_collision(event);

@@ -66,7 +66,7 @@ class FieldBalance {
     FieldBalance() = default;
     FieldBalance(const Vec2& point, const CoarseKernel& kernel) : point_(point), kernel_(kernel) {}
 
-    /// Another balance, which has not begun.
+    /// A new balance with the same point and kernel, which has not begun.
     FieldBalance at_the_same_point() const { return {point_, kernel_}; }
     void begin(const Snapshot& state);
     bool has_begun() const { return begun_; }
@@ -79,13 +79,13 @@ class FieldBalance {
     /// time has passed since, or no event is known.
     Vec2 floor_force(const Snapshot& now, std::size_t i) const;
 
-    /// Densities now, and at the beginning; after finish() they belong to the last event.
+    /// Densities now and at the beginning. After finish(), now is the time of the last event.
     FieldDensities densities() const;
     const FieldDensities& at_begin() const { return at_begin_; }
     const BalanceTerms& terms() const { return terms_; }
     /// Change of the densities minus all terms.
     FieldDensities residual() const { return densities() - at_begin_ - terms_.total(); }
-    /// The residuals divided by the scale of rounding errors; 0 if nothing was ever near.
+    /// The residuals divided by the scale of rounding errors; 0 if no disc was ever near.
     std::array<double, 3> relative_residuals() const;
 
     template <class Visitor>

@@ -1,9 +1,9 @@
 // The fields at the points of a square grid, averaged over time, with errors.
 //
-// Sums. At a sample, every disc adds to each point within the width of its kernel (coarse_graining.hpp)
+// Sums. At a sample, every disc adds to each point within its kernel W (coarse_graining.hpp)
 //
-//     W, m W, m v W, m v v W, I W, I ω W, I ω² W, I ω v W, π R² W, f W   and   m ∇W, m v ∇W, I ∇W, I ω ∇W
-//
+//     W, m W, m v W, m v v W, I W, I ω W, I ω² W, I ω v W, π R² W, f W,
+//     m ∇W, m v ∇W, I ∇W, I ω ∇W
 // and every collision adds its stress, couple stress, loss of energy and, at the wall, the force of
 // the boundary. The sums over samples are divided by the number of samples, and the sums over
 // collisions by the time.
@@ -18,8 +18,8 @@
 //     gradients ∂_b u_a = (∂_b⟨m v_a W⟩ − u_a ∂_b ρ)/ρ, and those of ω alike
 //
 // So the velocity fluctuates about its average over time and over the kernel. A gradient of u
-// within the kernel counts as temperature: for a shear rate γ that is m γ² w²/16, since a kernel has
-// ⟨x²⟩ = w²/8.
+// within the kernel counts as temperature: for a shear rate γ that is m γ² w²/16, since a kernel
+// has ⟨x²⟩ = w²/8.
 //
 // Errors: the delete-one-group jackknife (Busing, Meijer, van der Leeden 1999,
 // doi:10.1023/A:1008800423698, for groups of unequal weight) over up to 15 groups of periods in
@@ -87,8 +87,8 @@ using FieldValues = std::array<double, field_quantities.size()>;
 
 /// The sums at one point.
 struct FieldPoint {
-    // W times these, of every disc: 1, m, m v (2), m v v (xx, xy, yy), I, I ω, I ω², I ω v (2), π R²,
-    // floor force (2).
+    // W times these, of every disc: 1, m, m v (2), m v v (xx, xy, yy), I, I ω, I ω², I ω v (2), π
+    // R², floor force (2).
     static constexpr std::size_t disc_values = 15;
     // ∇W times these: m, m v (2), I, I ω.
     static constexpr std::size_t disc_slopes = 5;
@@ -101,7 +101,7 @@ struct FieldPoint {
     void add(const FieldPoint& other, double factor = 1.0);
 };
 
-/// Over what the sums of a point were taken.
+/// The numbers and the time by which the sums of a point are divided.
 struct FieldWeights {
     double samples = 0.0;
     double forces = 0.0;    // samples with a known force of the floor

@@ -3,20 +3,20 @@
 // flights and collisions: coarse_graining.hpp. Definition of each field: field_grid.hpp.
 //
 //   m_frame_2, m_frame_4   in the M-frame, with kernels of the width 2 and 4 mean radii, at 20 × 20
-//                          points of the container's bounding square. As in the flow map, velocities
-//                          are those relative to the container, rotated; spins are those of the lab.
-//                          In the M-frame itself they are u − Ω ẑ × p and ω − Ω, and the vorticity
-//                          is smaller by 2Ω. (Fluctuations about these would contain Ω w.)
-//   lab_2                  in the lab frame, with the width 2, at 20 × 20 points of the square about
-//                          the swirl centre that the container sweeps. The container's motion counts
-//                          as fluctuation there: an average over time is one over the phases
+//                          points of the container's bounding square. Velocities are relative to
+//                          the container and rotated, as in the flow map; spins are those of the
+//                          lab. In the M-frame itself they are u − Ω ẑ × p and ω − Ω, and the
+//                          vorticity is smaller by 2Ω. (Their fluctuations would contain Ω w.)
+//   lab_2                  in the lab frame, with the width 2, at 20 × 20 points of the square
+//                          about the swirl centre that the container sweeps. The container's motion
+//                          counts as fluctuation there: an average over time is one over the phases
 //   balances               residuals of the balances of mass, momentum and spin (field_balance.hpp)
-//                          at three points of the lab frame in each period, relative to the scale of
-//                          rounding errors; the largest is reported
+//                          at three points of the lab frame in each period, relative to the scale
+//                          of rounding errors; the largest is reported
 //
 // The torque of the stress is σ_yx − σ_xy, twice its antisymmetric part. It drives the spin; see
-// docs/explanation/continuum.md. The dissipation is the loss of kinetic energy in collisions, spread
-// along the branch vector as the stress is.
+// docs/explanation/continuum.md. The dissipation is the loss of kinetic energy in collisions,
+// spread along the branch vector as the stress is.
 //
 // Discs are sampled 73 times per period, collisions are all counted. Units: those of the snapshot.
 // Errors: field_grid.hpp. Limits: without events (recordings, tracks) everything that collisions

@@ -12,8 +12,8 @@
 // A long residence that has ended is stored until the next long residence of the same disc ends.
 // The second began after the first and has lasted long enough, so the first is no longer needed.
 //
-// Units: those of the views. Limits: samples whose times do not ascend, or a change of the number
-// of discs, start again; earlier residences are then never determined.
+// Units: those of the views. Limits: if the times of samples do not ascend, or the number of discs
+// changes, all residences restart; earlier ones are then never determined.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +28,8 @@ inline constexpr double wall_layer = 1.5;
 /// Minimum length of a long residence, in periods: 40 frames of the paper's camera.
 inline constexpr double long_residence = 40.0 / 511.0;
 
-/// True if disc i is within so many of its radii of the wall. A layer thicker than the container
-/// contains every disc.
+/// True if the centre of disc i is less than `radii` of its radii from the wall. A layer thicker
+/// than the container contains every disc.
 inline bool in_wall_layer(const MFrameView& view, std::size_t i, double radii = wall_layer) {
     const Vec2 p = view.position(i);
     const double inner = view.container_radius - radii * view.radius[i];
@@ -44,7 +44,7 @@ class LongResidences {
         if (view.size() != begin_.size() || !(step > 0.0)) {
             restart(view.size(), view.time);
         } else {
-            // Half a step less, since times are rounded.
+            // The minimum is reduced by half a time step, because times are rounded.
             minimum_ = long_residence * (2.0 * pi / view.frame.omega) - 0.5 * step;
         }
         for (std::size_t i = 0; i < view.size(); ++i) {
@@ -63,7 +63,7 @@ class LongResidences {
     void begin_tracks() { begin_.clear(); }
 
     bool is_known(double time) const { return !sees(time) || last_ - time >= minimum_; }
-    /// Nothing is known of later times; then is_known() is true as for any time not sampled.
+    /// The time of the last sample. For times that were not sampled, is_known() returns true.
     double last_sample() const { return last_; }
     bool resident(std::size_t disc, double time) const {
         if (!sees(time) || disc >= begin_.size()) return false;

@@ -9,22 +9,22 @@
 //   ρ          ⟨discs in the inner circle⟩ / its area
 //   contact    g_inner extrapolated to touching discs
 //
-// a = R − (mean radius of a disc): the centres cannot be closer to the wall. So g has no edge effect;
-// it is 1 for independent discs in the whole container, and Σ g (F(r₂) − F(r₁)) over all distances is
-// 1. Where the discs form a cluster, g is above 1 at short distances for this reason alone. g_inner
-// takes reference discs in the inner circle of radius R/2 about C only, and their partners anywhere.
-// It is that of the bulk, without the layers that a wall causes, if the density is uniform.
+// a = R − (mean radius of a disc): centres cannot be closer to the wall. g has no edge effect; it
+// is 1 for independent discs in the whole container, and Σ g (F(r₂) − F(r₁)) over all bins is 1. In
+// a cluster, g is above 1 at short distances for this reason alone. g_inner takes reference discs
+// in the inner circle of radius R/2 about C only, and their partners anywhere. It is that of the
+// bulk, without the layers that a wall causes, if the density is uniform.
 //
 // Contact. With the gap h = r − R_i − R_j, three cells of width δ = 0.1 × (mean radius) have the
 // averages g_1, g_2, g_3 of g_inner. The parabola with these averages has the value
 // (11 g_1 − 7 g_2 + 2 g_3)/6 at h = 0. The gas of elastic hard discs at the packing fraction φ has
 // g(σ) = (1 − 7φ/16)/(1 − φ)² (Henderson 1975, doi:10.1080/00268977500102511).
 //
-// By default only every 64th sample is used: neighbouring samples hardly differ. Units: none. Errors:
-// from blocks of periods; that of ρ is added to those of g_inner. Limits: bins that reach out of the
-// circles (r > 2a for g, r > R/2 − (mean radius) for g_inner) and fewer than two discs give NaN.
-// Distances are at most 20. Overlapping discs (a camera's errors) do not count at contact. If the
-// radii differ, a is that of the mean radius, and g shows the distances of all species.
+// By default only every 64th sample is used: neighbouring samples hardly differ. Units: none.
+// Errors: from blocks of periods; that of ρ is added to those of g_inner. Limits: bins that reach
+// out of the circles (r > 2a for g, r > R/2 − (mean radius) for g_inner) and fewer than two discs
+// give NaN. Distances are at most 20. Overlapping discs (a camera's errors) do not count at
+// contact. If radii differ, a is that of their mean, and g shows the distances of all species.
 #pragma once
 
 #include <array>

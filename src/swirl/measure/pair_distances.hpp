@@ -32,7 +32,7 @@ struct DistanceBins {
 };
 
 /// Calls visit(i, j, distance) for each pair of discs closer than `reach`, in an order that depends
-/// on the positions alone. Discs without a finite position are in no pair. `order` is scratch memory.
+/// on the positions alone. No pair has a disc without a finite position. `order` is scratch memory.
 template <class Visit>
 void for_each_close_pair(const MFrameView& view, double reach, std::vector<std::uint32_t>& order,
                          const Visit& visit) {

@@ -81,7 +81,7 @@ void PinnedLoose::restart(std::size_t n) {
 void PinnedLoose::begin_tracks() {
     if (frames_ > 0) breaks_ += 1.0;
     frames_ = 0;
-    pinned_.clear();  // so that the next frame has another number of discs
+    pinned_.clear();  // the next frame restarts all columns
 }
 
 double* PinnedLoose::slot(std::vector<double>& past, std::int64_t frame) {

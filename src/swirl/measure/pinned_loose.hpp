@@ -30,8 +30,8 @@
 // The angles θ about C in the M-frame are averaged as directions (circular_mean.hpp); the table
 // `positions` has the distribution of those from tracks.
 //
-// Units: radians. Limits: frames whose times do not ascend, or not in equal steps (to 1 %), begin
-// new tracks, and are counted; so does a change of the number of discs. With fewer than 15 frames
+// Units: radians. Limits: tracks restart if the times of frames do not ascend in equal steps (to 1
+// %), and if the number of discs changes. These restarts are counted. With fewer than 15 frames
 // nothing is known.
 #pragma once
 
@@ -104,7 +104,7 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
         this->visit_averages(visit);
         visit(pinned_positions_, free_positions_);
     }
-    /// Without tracks the columns may be those of the tracks before.
+    /// While there are no tracks, the columns may still be those of earlier tracks.
     bool is_consistent() const {
         const std::size_t n = pinned_.size();
         const auto all = [](std::size_t length,

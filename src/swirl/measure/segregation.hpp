@@ -17,10 +17,10 @@
 // Experiments. Aumaître, Kruelle and Rehberg observed segregation in swirled mixtures of two sizes
 // (2001, doi:10.1103/PhysRevE.64.041305). The definitions above are not taken from there.
 //
-// Ideal answers. Sizes distributed at random over the positions: 0 on average, for both G and S. All
-// large particles outside all small ones: G = 1, and −1 the other way round. No unlike neighbours: S
-// = 1; each particle surrounded by unlike ones: S below 0. Two half discs of the two classes: G = 0
-// and S near 1, so G alone does not show every separation.
+// Ideal answers. Sizes distributed at random over the positions: 0 on average, for both G and S.
+// All large particles outside all small ones: G = 1, and −1 the other way round. No unlike
+// neighbours: S = 1; each particle surrounded by unlike ones: S below 0. Two half discs of the two
+// classes: G = 0 and S near 1, so G alone does not show every separation.
 //
 // Units: length, otherwise none. Errors: from blocks of periods. Limits: equal particles have no
 // classes (NaN). In a random mixture of very unequal sizes, neither G nor S is exactly 0: large

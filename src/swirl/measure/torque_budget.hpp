@@ -105,7 +105,7 @@ class TorqueBudget : public ReportedAverages<TorqueBudget, MergedAverages> {
 
     void sample_event(const Event& event, const Snapshot& after);
     void sample_residences(const LongResidences& residences);
-    /// The next event does not continue the last one.
+    /// Call this if the next event does not follow directly on the last one.
     void begin_tracks();
     /// `duration`: the time in which the events since the last call happened.
     void close_event_block(double duration);

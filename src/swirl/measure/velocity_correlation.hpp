@@ -4,16 +4,16 @@
 //   across   the same for the component of δu across that direction
 //   spin     Σ ω_i ω_j / Σ ½ (ω_i² + ω_j²)
 //
-// over the pairs with a distance in the bin. δu is the velocity relative to the centre of mass of the
-// discs, ω the spin in the lab, where the container does not rotate. Each ratio is 1 for equal
-// values, −1 for opposite ones (gears), and between them otherwise. A rigid rotation of the cluster is
-// a correlation, too. Discs with independent velocities have −1/(N − 1) at every distance, because
-// the sum of all δu is 0; independent spins have the square of the mean over the mean square, 0
-// without a mean.
+// over the pairs with a distance in the bin. δu is the velocity relative to the centre of mass of
+// the discs, ω the spin in the lab, where the container does not rotate. Each ratio is 1 for equal
+// values, −1 for opposite ones (gears), and between them otherwise. A rigid rotation of the cluster
+// is a correlation, too. Discs with independent velocities have −1/(N − 1) at every distance,
+// because the sum of all δu is 0. Discs with independent spins have ⟨ω⟩²/⟨ω²⟩, which is 0 if the
+// mean spin is 0.
 //
-// Neighbours: pairs with a gap below half the mean radius. By default only every 64th sample is used.
-// Units: none. The ratios are of sums over samples. Errors: from blocks of periods. Limits: a bin
-// without pairs, discs at rest, and missing spins give NaN. Distances are at most 20.
+// Neighbours: pairs with a gap below half the mean radius. By default only every 64th sample is
+// used. Units: none. The ratios are of sums over samples. Errors: from blocks of periods. Limits: a
+// bin without pairs, discs at rest, and missing spins give NaN. Distances are at most 20.
 #pragma once
 
 #include <cstddef>

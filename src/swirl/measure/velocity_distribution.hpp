@@ -7,7 +7,7 @@
 //   kurtosis        of the velocity  ⟨δu_x⁴ + δu_y⁴⟩/2 / (s²/2)² × N/(N − 1)
 //                   of the spin      ⟨(ω − ω̄)⁴⟩/w⁴ × (N + 1)/(N − 1)
 //
-// s, w and ω̄ are those of one sample, so a temperature that varies in time does not count as a wide
+// s, w and ω̄ are those of one sample, so a temperature that varies in time does not widen the
 // distribution. N independent normal velocities have the moments of a point on a sphere in 2N − 2
 // dimensions (N − 1 for spins), since their sum of squares is given. The last factors correct for
 // this: both kurtoses are 3 for normal distributions at every N. Higher values mean longer tails.

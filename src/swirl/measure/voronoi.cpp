@@ -7,7 +7,7 @@
 namespace swirl {
 namespace {
 
-/// Behind the sides of the octagon around the container.
+/// Marks the sides of the octagon around the container, behind which there is no disc.
 constexpr std::uint32_t no_neighbour = static_cast<std::uint32_t>(-1);
 
 /// The angle from a to b, −π … π.

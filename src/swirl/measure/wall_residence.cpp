@@ -30,10 +30,10 @@ void WallResidences::sample(const MFrameView& view) {
             residence.last = p;
             const double lasted = view.time - residence.begin_time;
             for (std::size_t d = 0; d < minimum.size(); ++d) {
-                // Half a step less, since times are rounded.
+                // The minimum is reduced by half a time step, because times are rounded.
                 const double required = minimum[d] * period - 0.5 * step;
                 if (restarts || lasted < required) continue;
-                // The sample that makes it long enough counts all those before it, too.
+                // When a residence becomes long enough, its earlier samples are counted as well.
                 pinned[d] += lasted - step < required ? residence.samples : 1.0;
             }
         }

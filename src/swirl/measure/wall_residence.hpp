@@ -22,8 +22,8 @@
 // Units: radians inside, degrees in the report; lengths of residences in periods. Normalisation:
 // the share is that of all discs and samples; positions are those of all residences. Errors: from
 // blocks of periods. Limits: a residence that had begun before the first sample has no known
-// beginning, and its length is what was seen of it. Samples whose times do not ascend, or a change
-// of the number of discs, begin again.
+// beginning, and its length is what was seen of it. If the times of samples do not ascend, or the
+// number of discs changes, all residences restart.
 #pragma once
 
 #include <array>

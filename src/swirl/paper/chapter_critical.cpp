@@ -39,7 +39,8 @@ constexpr double large_amplitude = 0.4;  // A/R
 /// A quantity at a change, and what a critical transition does with it.
 struct ScaledQuantity {
     const char *name, *words;
-    bool decides;  // the verdict: fluctuations grow with the size at every φ, not only at a change
+    /// Used for the verdict. Fluctuations are not: they grow with the size at every φ.
+    bool decides;
     Estimate (*of)(const DirectionChange&);
 };
 constexpr ScaledQuantity scaled_quantities[] = {
@@ -168,8 +169,8 @@ static FigurePlan plan_figure_critical(const PaperSettings& settings) {
 namespace {
 
 constexpr int bins = 8;  // of the parameter, on each branch
-/// Errors from zero that make a difference certain; the largest of several bins needs more than
-/// three.
+/// A difference is certain beyond this many errors. Three are not enough, because the largest of
+/// several bins is tested.
 constexpr double certain_difference = 4.0;
 
 /// A loop of a parameter in a dish.
@@ -259,7 +260,8 @@ static FigurePlan plan_figure_hysteresis(const PaperSettings& settings) {
                     };
                     const Estimate up = over_runs(runs, [&](auto&r) { return of(r, "up"); }),
                                    down = over_runs(runs, [&](auto&r) { return of(r, "down"); });
-                    // More precise than the two means if both branches vary with the seed.
+                    // The difference within each run is more precise than that of the two means, if
+                    // both branches vary with the seed.
                     const Estimate difference =
                         over_runs(runs, [&](auto& r) { return of(r, "down") - of(r, "up"); });
                     table.add({std::string(loop.words), std::string(loop.parameter), value, branch,
@@ -271,7 +273,7 @@ static FigurePlan plan_figure_hysteresis(const PaperSettings& settings) {
                 }
                 words.push_back(fmt::format("{} with {} periods for each branch",
                                             with_error(largest.mean, largest.error), branch));
-                // Of the slowest ramp in the end.
+                // Ramps become slower, so the last value is that of the slowest ramp.
                 remains = std::fabs(largest.mean) > certain_difference * largest.error;
             }
             outcome.findings.push_back(

@@ -22,7 +22,8 @@ struct Dish {
     bool operator==(const Dish&) const = default;
 };
 
-/// Discs with μ = 1 and the paper's inertia, or spheres. The container has the speed 1 in every dish.
+/// Discs with μ = 1 and the paper's inertia, or spheres. The container has the speed 1 in every
+/// dish.
 RunConfig dish_config(const PaperSettings& settings, const Dish& dish, std::int64_t discs);
 
 /// Runs to the end with the series, and with the observation of `control`. Throws Interrupted.
@@ -91,9 +92,9 @@ struct DirectionChange {
     Estimate susceptibility = {}, correlation = {}, binder = {};  // as of PeriodFluctuations
 };
 
-/// The geometry of a change to counterrotation: "elongated" if the elongation of the cluster is above
-/// 1.2, otherwise "wall" if discs occupy a tenth of the wall or more, otherwise "free". A change back
-/// to rotation: "back".
+/// The geometry of a change to counterrotation: "elongated" if the elongation of the cluster is
+/// above 1.2, otherwise "wall" if discs occupy a tenth of the wall or more, otherwise "free". A
+/// change back to rotation: "back".
 const char* kind_of(const DirectionChange& change);
 
 /// The changes of the curve of each dish, in the order of the points.

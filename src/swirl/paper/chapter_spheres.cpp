@@ -1,10 +1,10 @@
-// Spheres that roll on a floor, at the friction of plastic (μ = 0.2). Their curve ϖ(N) has minima and
-// maxima, which that of the discs has not (docs/explanation/spheres.md).
+// Spheres that roll on a floor, at the friction of plastic (μ = 0.2). Their curve ϖ(N) has minima
+// and maxima, which the curve of the discs does not have (docs/explanation/spheres.md).
 //
 // Figure "spheres_packing": the maximum of ϖ near N = 28 to 30, and the packing of the cluster.
 // Figure "spheres_size": spheres in dishes of different sizes.
-// Figure "spheres_bounds": the change of direction for bounds of three unknown parameters: friction of
-// the floor, restitution, rolling resistance.
+// Figure "spheres_bounds": the change of direction for bounds of three unknown parameters: friction
+// of the floor, restitution, rolling resistance.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

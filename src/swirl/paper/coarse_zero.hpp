@@ -29,8 +29,8 @@ inline LineZero zero_of_line(const RotationPoint& a, const RotationPoint& b) {
             std::hypot((1.0 - f) * a.error, f * b.error) * step / std::fabs(b.mean - a.mean)};
 }
 
-/// The k for which the zero is between the points k and k + 1, inside the bracket of the change; the
-/// middle one of several.
+/// The k for which the zero is between the points k and k + 1, inside the bracket of the change;
+/// the middle one of several.
 inline std::size_t middle_zero(const std::vector<RotationPoint>& curve, const SignChange& change) {
     std::vector<std::size_t> zeros;
     for (std::size_t k = 0; k + 1 < curve.size(); ++k) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double shown_period = 50.3;    // of Figures 2a and 5a
 constexpr double forces_period = 20.13;  // of Figure 1c
 
-/// There are no tasks, table and script: the figure is drawn directly, in all formats.
+/// The figure has no tasks, no table and no script: it is drawn directly, in all formats.
 template <class Draw>
 FigurePlan plan_drawing(const std::string& stem, const std::string& finding, Draw draw) {
     FigurePlan plan;

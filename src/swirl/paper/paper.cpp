@@ -225,7 +225,7 @@ Json result_of(const PaperTask& task, const PaperControl& control, const ResultS
     }
 }
 
-/// The first few names, for a sentence.
+/// The first names of a list, and the number of the others, for a sentence.
 std::string first_few(const std::vector<std::string>& names) {
     constexpr std::size_t few = 5;
     if (names.size() <= few + 1) return fmt::format("{}", fmt::join(names, ", "));

@@ -47,7 +47,8 @@ PaperPoint::PaperPoint(const PaperSettings& settings, std::string point, int see
 }
 
 std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings) {
-    // No gaps where the three equal friction coefficients cross: elsewhere N_c would be a bracket.
+    // The curves with equal friction coefficients cross where this list has no gaps, so that their
+    // N_c is known and not only bracketed.
     if (settings.quick)
         return {5, 8, 12, 16, 20, 24, 28, 31, 34, 36, 37, 38, 39, 40, 42, 43, 44, 45, 46, 48};
     std::vector<std::int64_t> all;

@@ -48,7 +48,7 @@ PaperPoint varied_point(const PaperSettings& settings, const std::string& name,
                         const RunConfig& config, int seeds,
                         const std::vector<std::string>& measurements = {});
 
-/// A path with so many sides; 0: the circle.
+/// A path with this many sides; 0: the circle.
 void set_sides(RunConfig& config, int sides);
 
 /// "20of80periods": warm-up and length of a run, for names.

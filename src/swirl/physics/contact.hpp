@@ -11,7 +11,7 @@ namespace swirl {
 /// of two discs (`bulk`).
 enum class Frictionless : std::uint8_t { none, wall, boundary, bulk };
 
-/// A disc is at the wall if its centre is within so many of its radii of the wall.
+/// A disc is at the wall if its centre is less than this many of its radii from the wall.
 inline constexpr double boundary_layer = 1.5;
 
 /// The properties of a contact: friction coefficient μ ≥ 0, normal restitution e ∈ [0, 1],

@@ -97,7 +97,7 @@ inline ContainerPath circular_path(double amplitude, double period, double turns
     return {period, {{0.0, period, start, omega * perpendicular(start), omega}}};
 }
 
-/// The container's centre is at a point of its path at this time of the period.
+/// A point of a path, and the time of the period at which the container's centre is there.
 struct PathPoint {
     double time;
     Vec2 at;

@@ -28,7 +28,7 @@ struct Disc {
     double radius, mass, inertia;
     // For spheres only.
     Vec2 rolling_spin{0.0, 0.0};  // (ω_x, ω_y)
-    double last_collision = 0.0;  // its time; `time` may be that of another change
+    double last_collision = 0.0;  // time of the last collision; `time` may be later
 
     constexpr Flight<double> flight() const { return {position, velocity, time}; }
 

@@ -73,7 +73,7 @@ struct Snapshot {
     Quaternion quaternion(std::size_t i, double t) const {
         return turned_for(turned[i], t - held_at[i], {spin_x[i], spin_y[i]}, spin[i], spin_rate(i));
     }
-    /// True if the sphere rolls or rests on the floor: then it has exactly these spins (floor.hpp).
+    /// True if the sphere rolls or rests on the floor: its spins are then exactly those of rolling.
     bool rolls(std::size_t i) const {
         const Vec2 over_floor = Vec2{vx[i], vy[i]} - container_velocity;
         const Vec2 rolling = spin_of_rolling(over_floor, radius[i]);

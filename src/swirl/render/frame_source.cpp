@@ -37,7 +37,7 @@ double rounded(double value) {
     return value == 0.0 ? 0.0 : std::round(value * scale) / scale;
 }
 
-/// Points along the path of C. An arc gets enough of them to look round.
+/// Points along the path of C. An arc has enough points to look round.
 std::vector<Vec2> outline(const ContainerPath& path) {
     std::vector<Vec2> points;
     for (const Segment& segment : path.segments) {

@@ -59,8 +59,8 @@ FrameSource recorded(const SnapshotSeries& series, const std::string& caption);
 /// A trajectory file of this program. Throws Failure.
 FrameSource recorded(const std::string& file);
 
-/// The motion of a camera, which was removed from tracks: in frame `first` + k, position p is seen at
-/// origin + (a p.x - b p.y, b p.x + a p.y).
+/// The motion of a camera, which was removed from tracks: in frame `first` + k, position p is seen
+/// at origin + (a p.x - b p.y, b p.x + a p.y).
 struct ImageMotion {
     struct Pose {
         Vec2 origin{0.0, 0.0};

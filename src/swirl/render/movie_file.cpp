@@ -21,7 +21,7 @@ namespace swirl {
 
 namespace {
 
-/// Messages of the system that tell that a movie is incomplete.
+/// Messages of the system that report an incomplete movie.
 constexpr const char* disk_problems[] = {"No space left", "Disk quota exceeded", "File too large",
                                          "Input/output error"};
 

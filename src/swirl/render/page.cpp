@@ -185,7 +185,7 @@ Page::Page(const std::vector<FrameSource>& sources, const Appearance& appearance
 }
 
 void Page::draw(const Canvas& canvas, std::span<const Moment> moments, double periods) const {
-    /// Pointers into a moment, which SceneContent refers to.
+    /// Pointers into a moment; SceneContent refers to these vectors.
     struct Pointers {
         std::vector<const Snapshot*> past, ghosts;
         std::vector<std::span<const std::int64_t>> past_ids;

@@ -69,7 +69,7 @@ void draw_disc(const Canvas& canvas, const Vec2& centre, double radius, const Co
     canvas.fill(color);
     if (radius < min_marked_radius || std::isnan(orientation)) return;
 
-    // Dark on light and light on dark.
+    // The mark is dark on a light disc and light on a dark disc.
     const bool is_light = brightness(color) > 0.42;
     const Color mark =
         is_light ? mix(color, color_from_hex(0x0B0F14), 0.82) : mix(color, white, 0.85);

@@ -31,7 +31,7 @@ class CollapseWatch {
     CollapseWatch(std::size_t discs, const RunMark& begin)
         : discs_(discs), mark_(begin), recent_{begin, begin} {}
 
-    /// Call at intervals; cheap.
+    /// Call this at intervals; it costs little.
     std::optional<Collapse> check(const RunMark& now) {
         if (now.events - mark_.events >= window()) {
             if (const auto found = collapse_since(mark_, now)) return found;

@@ -73,8 +73,8 @@ std::optional<std::string> problem_with_area(const RunConfig& c) {
         hint_on_capacity(c));
 }
 
-/// The largest number of discs of one size, by the known arrangements or, in larger containers, by a
-/// bound for all arrangements.
+/// The largest number of discs of one size, by the known arrangements or, in larger containers, by
+/// a bound for all arrangements.
 struct Capacity {
     const char* known;  // "known " if it holds for the known arrangements
     double maximum;

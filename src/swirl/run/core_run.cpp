@@ -110,7 +110,8 @@ void CoreRun::count_to_sample(std::uint64_t events) {
 
 bool CoreRun::measures_period() const { return series_ && series_->measures(); }
 
-/// If not, the times of the observation do not count.
+/// True if a measurement needs samples now; otherwise the sample times of the observation are
+/// skipped.
 bool CoreRun::samples_observations() const { return observes() || measures_period(); }
 
 bool CoreRun::observes_events() const { return observes() && observation_->samples_events(); }

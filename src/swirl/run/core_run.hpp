@@ -39,13 +39,14 @@ class CoreRun {
     /// the rotation is measured. `begin` is in the surroundings of its period (ramp.hpp).
     CoreRun(const RunConfig& config, const InitialState& begin, Observation* observation = nullptr,
             const Progress& progress = {}, const Tuning& tuning = {});
-    /// Also adds every period to a series, which must outlive the run. Call it before the first event.
+    /// Also adds every period to a series, which must outlive the run. Call it before the first
+    /// event.
     void add_periods_to(PeriodSeries* series) { series_ = series; }
 
     /// Executes the next event. The snapshot keeps the state before it until pass_event().
     void execute_event();
-    /// Executes and passes events together in the engine's loop until a sample or a check is due, or
-    /// the next event alone if each must be handed over. The results are bitwise those of
+    /// Executes and passes events together in the engine's loop until a sample or a check is due,
+    /// or the next event alone if each must be handed over. The results are bitwise those of
     /// execute_event() and pass_event(), but event() is not set. Returns the number of events.
     std::uint64_t execute_events();
     /// Moves the snapshot to the next of these sample times, if there is one before the event.

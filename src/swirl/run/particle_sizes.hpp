@@ -1,5 +1,5 @@
-// The parameter --sizes: a distribution of radii instead of one radius, and the particles that follow
-// from a configuration.
+// The parameter --sizes: a distribution of radii instead of one radius, and the particles that
+// follow from a configuration.
 //
 //     uniform:MIN:MAX       density 1/(MAX − MIN)
 //     normal:MEAN:SD        Gaussian within 3 standard deviations of the mean

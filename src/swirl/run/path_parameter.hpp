@@ -36,8 +36,8 @@ double path_reach(const RunConfig& config);
 /// that is within 10 % of such a circle. A container at rest has one by convention.
 bool has_m_frame(const RunConfig& config);
 
-/// Removes, of parameters that exclude each other, those that only the file gives: a path from
-/// points has its own amplitude and period, and neither it nor a circle has sides.
+/// If parameters exclude each other, removes those that only the file gives: a path from points has
+/// its own amplitude and period, and neither it nor a circle has sides.
 void keep_path_or_sides(ParameterTexts& texts, const ParameterTexts& command_line);
 
 }  // namespace swirl

@@ -3,11 +3,11 @@
 // A change happens at the start of a period, when all discs are synchronised and the container is
 // at the first vertex of its path. The state is kept: positions relative to the container, all
 // velocities and spins. The surfaces, the floor and the path are those of the new values from then
-// on. The engine continues as a resumed run does (Simulation::change_surroundings), so the bits of a
-// trajectory depend on the values only.
+// on. The engine continues as a resumed run does (Simulation::change_surroundings), so the bits of
+// a trajectory depend on the values only.
 //
-// Amplitude. The container cannot jump, so the swirl centre S does: by A − A' along x, from which the
-// container at the first vertex is at a distance A' from S. Positions count from S; in these
+// Amplitude. The container cannot jump, so the swirl centre S does: by A − A' along x, from which
+// the container at the first vertex is at a distance A' from S. Positions count from S; in these
 // coordinates the container and all discs are shifted by A' − A. No disc moves relative to another
 // or to the wall, so no overlap arises.
 #pragma once
@@ -28,7 +28,8 @@ std::vector<Ramp> read_ramps(std::string_view text);
 /// A text that read_ramps() accepts.
 std::string ramps_text(const std::vector<Ramp>& ramps);
 
-/// The parameters whose values a text with ramps, or a list of such texts, replaces. Accepts any text.
+/// The parameters whose values a text with ramps, or a list of such texts, replaces. Accepts any
+/// text.
 std::vector<std::string> parameters_set_by_ramps(std::string_view text);
 
 /// The names of the parameters that can have a ramp.

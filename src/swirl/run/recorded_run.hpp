@@ -28,8 +28,8 @@ struct RunFiles {
     FrameTimes frames;
     int compression = default_compression;
     std::filesystem::path event_log;  // empty: none
-    /// Table of the averages of every period (RunControl::series is then set); empty: none. Written at
-    /// the end of the run, also if it is stopped.
+    /// Table of the averages of every period (RunControl::series is then set); empty: none. Written
+    /// at the end of the run, also if it is stopped.
     std::filesystem::path series;
 
     std::filesystem::path checkpoint;  // empty: none

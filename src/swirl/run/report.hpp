@@ -24,8 +24,8 @@ std::string rotation_verb(const Estimate& rotation);
 /// there is no swirl with which the cluster could rotate.
 std::string direction_verb(const Estimate& rotation);
 
-/// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line. A run of few periods has no
-/// verb, unless the direction is certain.
+/// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line. A run of few periods has
+/// no verb, unless the direction is certain.
 std::string headline(const RunResult& result);
 
 /// "steady", "drifting", "jumping", "switching" or "too short to tell".

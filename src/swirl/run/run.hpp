@@ -60,7 +60,8 @@ struct RunControl {
     bool orientations = false;
 
     /// The final state of another run of whole periods, from which this run starts instead of from
-    /// random positions (study/sweep_chain.hpp). Discs keep their positions relative to the container.
+    /// random positions (study/sweep_chain.hpp). Discs keep their positions relative to the
+    /// container.
     std::optional<FinalState> begin_from = {};
     /// Receives the final state of a run of whole periods when it is complete.
     FinalState* final_state = nullptr;

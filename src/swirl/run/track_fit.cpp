@@ -30,7 +30,7 @@ constexpr double off_centre = 0.7, constant_gap = 0.35;
 constexpr double loose_fit = 0.15;       // radii
 constexpr double phase_tolerance = 3.0;  // degrees
 constexpr double longest_window = 10.0;  // frames: smoothed over more, a jump is not sharp
-// Protrusion that every phase has: a twentieth of a radius by one disc, in every frame.
+// Protrusion that remains even with the best phase: a twentieth of a radius of one disc per frame.
 constexpr double squared_protrusion_per_frame = 0.003;
 
 template <class Holds>
@@ -67,7 +67,7 @@ std::string repaired_text(const Tracks& tracks) {
 
 double angle_between(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
 
-/// What does not quite fit, one line each.
+/// Remarks on small misfits, one line each.
 std::string fit_text(const TrackFit& fit) {
     std::string text;
     if (!fit.phase_fits)

@@ -70,8 +70,8 @@ double autocorrelation_time(std::size_t lags, const Autocovariance& autocovarian
     return std::max(1.0, sum / variance);
 }
 
-/// Mean and error of equally weighted values in order of time, without joining any of them; and their
-/// integrated autocorrelation time, NaN for fewer than two values.
+/// Mean and error of equally weighted values in order of time, without joining any of them; and
+/// their integrated autocorrelation time, NaN for fewer than two values.
 struct SeriesEstimate {
     Estimate estimate;
     double autocorrelation_time = not_available;

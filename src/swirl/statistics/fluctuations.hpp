@@ -1,8 +1,8 @@
 // How a series of equally weighted values, one per period, fluctuates about its mean m.
 //
-//   variance           V = μ₂ / (1 − τ/n), with μ_k = ⟨(x − m)^k⟩ and the integrated autocorrelation
-//                      time τ (block_average.hpp). The mean of n values takes up V τ/n, so V has no
-//                      bias of the order 1/n
+//   variance           V = μ₂ / (1 − τ/n), with μ_k = ⟨(x − m)^k⟩ and the integrated
+//                      autocorrelation time τ (block_average.hpp). The mean of n values takes up V
+//                      τ/n, so V has no bias of the order 1/n
 //   skewness           μ₃ / μ₂^(3/2)
 //   excess kurtosis    μ₄ / μ₂² − 3
 //   Binder cumulant    U = 1 − μ₄ / (3 μ₂²). Binder 1981 (doi:10.1007/BF01293604) has moments about

@@ -1,9 +1,9 @@
 // Fit of a power law y = a x^b, for scaling with the size of a system.
 //
-// A straight line ln y = ln a + b ln x by least squares, each point weighted with the inverse square
-// of its relative error. If the points scatter about the line more than their errors explain, χ² >
-// n − 2, the error of b grows by √(χ²/(n − 2)). The error also grows by Student's factor if the
-// scatter determines it.
+// A straight line ln y = ln a + b ln x by least squares, each point weighted with the inverse
+// square of its relative error. If the points scatter about the line more than their errors
+// explain, χ² > n − 2, the error of b grows by √(χ²/(n − 2)). The error also grows by Student's
+// factor if the scatter determines it.
 //
 // Limits: points without a positive finite value or error are omitted. Fewer than three points have
 // no law: all is NaN, because two points fit any law.

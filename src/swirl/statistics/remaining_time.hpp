@@ -73,7 +73,7 @@ class RemainingTime {
             done_weight_ += weight_;
             done_seconds_ += seconds - stage_begin_;
         }
-        // A task that begins with a share, continues an earlier one: its time does not count.
+        // A task whose first share is large continues an earlier one: its time does not count.
         constexpr double largest_first_step = 0.02;
         const bool continues = share > largest_first_step;
         stage_begin_ = has_begun_ || continues ? seconds : 0.0;

@@ -205,8 +205,8 @@ inline MeanChange most_likely_change(std::span<const double> blocks) {
     return change;
 }
 
-/// Upper bounds of the measured rates at which the tests of a steady series with so many effective
-/// samples find a change (docs/explanation/statistics.md).
+/// Upper bounds of the measured rates at which the tests of a steady series with this many
+/// effective samples find a change (docs/explanation/statistics.md).
 inline double false_alarm_rate(const MeanChange& change) {
     return change.effective_samples >= 100.0  ? 0.0005
            : change.effective_samples >= 50.0 ? 0.004

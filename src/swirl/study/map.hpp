@@ -19,8 +19,8 @@ namespace swirl {
 
 struct MapControl {
     const std::atomic<bool>* stop = nullptr;
-    /// Called from any thread with the decided and the known sites, the runs of the present step that
-    /// are done and their number, and the events so far.
+    /// Called from any thread with the decided and the known sites, the runs of the present step
+    /// that are done and their number, and the events so far.
     std::function<void(std::size_t decided, std::size_t sites, double done, double runs,
                        std::uint64_t events)>
         progress;
@@ -33,8 +33,8 @@ struct MapOutcome {
     std::string first_failure;
 };
 
-/// Reads the results and finds the missing runs. Throws FileError for a damaged result, Failure if the
-/// folder does not hold a map.
+/// Reads the results and finds the missing runs. Throws FileError for a damaged result, Failure if
+/// the folder does not hold a map.
 MapState read_map(const std::filesystem::path& folder, const SweepPlan& plan);
 
 /// Makes runs until the map is complete. Waits for runs that other processes work on.

@@ -1,5 +1,6 @@
-// The plan of an adaptive map: the plan of a sweep (sweep_plan.hpp) over one or two parameters, and over
-// the number of discs if N_c is asked for, with the quantity that decides where the map is refined.
+// The plan of an adaptive map: the plan of a sweep (sweep_plan.hpp) over one or two parameters, and
+// over the number of discs if N_c is asked for, with the quantity that decides where the map is
+// refined.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace swirl {
 /// Default length of each run in periods, of which 20 are warm-up.
 inline constexpr const char* default_map_periods = "120";
 
-/// An axis of the map. `values` is FROM:TO, a range with `steps` values; or FROM:STEP:TO or a list, as
-/// for a sweep.
+/// An axis of the map. `values` is FROM:TO, a range with `steps` values; or FROM:STEP:TO or a list,
+/// as for a sweep.
 struct MapAxisText {
     std::string name, values;
 };

@@ -25,7 +25,7 @@ struct Cell {
     bool can_halve() const { return x.can_halve() || y.can_halve(); }
 };
 
-/// `values` values, divided about every `coarse_step` of them.
+/// Divides the indices 0 … values − 1 into intervals of about `coarse_step`.
 std::vector<Interval> coarse_intervals(std::size_t values) {
     const std::size_t last = values - 1;
     if (last == 0) return {{0, 0}};
@@ -151,8 +151,8 @@ class MapSearch {
         return target_.change > 0.0 && most - least > target_.change;
     }
 
-    /// The sites in the middle of an edge depend on the ends of that edge alone, because the cell on
-    /// its other side may ask for them, too.
+    /// The sites in the middle of an edge depend on the ends of that edge alone, because the cell
+    /// on its other side may ask for them, too.
     void halve(const Cell& c, std::vector<Cell>& cells) {
         const auto decided = [&](std::size_t i, std::size_t j) { return &*at(i, j); };
         if (c.x.can_halve())
@@ -324,8 +324,8 @@ class MapSearch {
         return nearest.has_value();
     }
 
-    /// If the search began next to the neighbours' N_c and missed that of this site: numbers farther
-    /// out, and at last those of a site without neighbours.
+    /// If the search began next to the N_c of the neighbours and did not find that of this site:
+    /// adds numbers farther out, and finally those of a site without neighbours.
     bool add_beyond(Counts& counts, const std::vector<RotationPoint>& points) const {
         const std::size_t before = counts.size(), last = discs_.values - 1;
         const std::size_t low = counts.begin()->first, high = counts.rbegin()->first;

@@ -1,22 +1,23 @@
-// Finds the runs that an adaptive map needs. A map is a sweep (sweep.hpp) of which only some points are run. The
-// answer depends on the results alone, so any number of processes may work on one map, in any order.
+// Finds the runs that an adaptive map needs. A map is a sweep (sweep.hpp) of which only some points
+// are run. The answer depends on the results alone, so any number of processes may work on one map,
+// in any order.
 //
-// Sites. The values of the axes x and y span a grid of sites. First, sites about five steps apart in
-// each direction are computed. They divide the grid into cells. A cell is halved in both directions if
-// the sites in it and on its border differ: the quantity is above the level at one and below it at
-// another, or undetermined, or all runs of one failed, or (`change`) two values are farther apart. So
-// the map is fine at its zero line and coarse elsewhere.
+// Sites. The values of the axes x and y span a grid of sites. First, sites about five steps apart
+// in each direction are computed. They divide the grid into cells. A cell is halved in both
+// directions if the sites in it and on its border differ: the quantity is above the level at one
+// and below it at another, or undetermined, or all runs of one failed, or (`change`) two values are
+// farther apart. So the map is fine at its zero line and coarse elsewhere.
 //
 // Budget of a site. It begins with two runs (different seeds). While the quantity is within three
-// errors (certain_sign) of the level, the number of runs doubles, up to the plan's `replicas`. If it is
-// still within three errors then, it is undetermined.
+// errors (certain_sign) of the level, the number of runs doubles, up to the plan's `replicas`. If
+// it is still within three errors then, it is undetermined.
 //
-// N_c. At each site the number of discs is a further axis. Runs at five numbers of the range, then at
-// the middle of the bracket of the last change to counterrotation, lead to two neighbouring numbers
-// (statistics/zero_crossing.hpp). A site between others begins next to the N_c of these instead. The
-// numbers in the bracket get more runs until the error of N_c is below the tolerance; numbers outside
-// it, until their sign is certain. A cell is halved if the verdicts differ, one is undecided, or N_c
-// differs by more than `change`.
+// N_c. At each site the number of discs is a further axis. Runs at five numbers of the range, then
+// at the middle of the bracket of the last change to counterrotation, lead to two neighbouring
+// numbers (statistics/zero_crossing.hpp). A site between others begins next to the N_c of these
+// instead. The numbers in the bracket get more runs until the error of N_c is below the tolerance;
+// numbers outside it, until their sign is certain. A cell is halved if the verdicts differ, one is
+// undecided, or N_c differs by more than `change`.
 //
 // Failed runs count as done and are excluded. A site whose runs all failed has no value.
 #pragma once
@@ -55,8 +56,8 @@ struct MapState {
     std::vector<std::size_t> missing = {};  // points of the plan to run next, in ascending order
 };
 
-/// The site's runs so far, and which runs come next. `find_run` returns null for a point that has no
-/// result yet. The plan must be one of make_map_plan() (map_plan.hpp).
+/// The site's runs so far, and which runs come next. `find_run` returns null for a point that has
+/// no result yet. The plan must be one of make_map_plan() (map_plan.hpp).
 MapState explore_map(const SweepPlan& plan,
                      const std::function<const MapRun*(std::size_t point)>& find_run);
 

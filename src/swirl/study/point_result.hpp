@@ -29,8 +29,8 @@ struct PointResult {
     }
 };
 
-/// Reads DIR/results/NUMBER.json. Throws FileError if the file is damaged, in another format, or the
-/// result of another point.
+/// Reads DIR/results/NUMBER.json. Throws FileError if the file is damaged, in another format, or
+/// the result of another point.
 PointResult read_result(const std::filesystem::path& folder, const SweepPlan& plan,
                         std::size_t point);
 

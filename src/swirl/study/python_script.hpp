@@ -1,5 +1,5 @@
-// Runs the scripts in figures/, with the interpreter that SWIRL_PYTHON names, or else with Debian's:
-// another python3 may come first on the PATH and have no matplotlib.
+// Runs the scripts in figures/, with the interpreter that SWIRL_PYTHON names, or else with
+// Debian's: another python3 may come first on the PATH and have no matplotlib.
 #pragma once
 
 #include <atomic>

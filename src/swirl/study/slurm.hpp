@@ -15,9 +15,9 @@ struct SlurmJob {
     std::string time, partition;  // options of sbatch; empty: the cluster's default
 };
 
-/// The job script. `command` is the subcommand that each task calls with its part. Throws UsageError
-/// if an option, or the name of the folder, contains characters that would break a line of the
-/// script.
+/// The job script. `command` is the subcommand that each task calls with its part. Throws
+/// UsageError if an option, or the name of the folder, contains characters that would break a line
+/// of the script.
 std::string slurm_script(const SlurmJob& job, const std::filesystem::path& folder,
                          const char* command = "sweep --rest");
 

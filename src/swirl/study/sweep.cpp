@@ -30,7 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The command that runs one point on its own; for a chain, the sweep, of which no point runs alone.
+/// The command that runs one point on its own; for a chain, the sweep, of which no point runs
+/// alone.
 std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
     if (!plan.chain.empty()) {
         std::string sweep = "swirl sweep";

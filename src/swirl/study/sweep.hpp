@@ -50,8 +50,8 @@ struct SweepOutcome {
 struct SweepControl {
     const std::atomic<bool>* stop = nullptr;
     /// Called from any thread with the points of this call that are done (including fractions of
-    /// running points, and each weighted with the time that it probably takes), their total, and the
-    /// events so far.
+    /// running points, and each weighted with the time that it probably takes), their total, and
+    /// the events so far.
     std::function<void(double done, double all, std::uint64_t events)> progress;
 };
 

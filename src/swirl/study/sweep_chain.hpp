@@ -1,9 +1,11 @@
-// A sweep in which each run starts from the final state of its neighbour (SweepPlan::chain), so that
-// hysteresis shows: first with rising values of one parameter, then with falling ones. The first run
-// of a chain starts from random positions; the falling half starts from the end of the rising one.
+// A sweep in which each run starts from the final state of its neighbour (SweepPlan::chain), so
+// that hysteresis shows: first with rising values of one parameter, then with falling ones. The
+// first run of a chain starts from random positions; the falling half starts from the end of the
+// rising one.
 //
-// DIR/states/000012.state is the final state of point 12, in the format of a checkpoint. It is written
-// before the result, so a point with a result has a state, and a stopped sweep continues its chains.
+// DIR/states/000012.state is the final state of point 12, in the format of a checkpoint. It is
+// written before the result, so a point with a result has a state, and a stopped sweep continues
+// its chains.
 #pragma once
 
 #include <cstddef>

@@ -5,10 +5,10 @@
 // Measurements need the running simulation. With further measurements, all points are therefore run
 // again with the same seeds (bitwise identical) in DIR/results-2, -3, …; the old results stay.
 //
-// Chain. With a chain along a parameter, each combination of the other parameters and replica is one
-// chain: its points in ascending order of the parameter, then in descending order. Each starts from
-// the final state of the one before it. A point of a plan is then a combination, a direction and a
-// replica, the last varying fastest.
+// Chain. With a chain along a parameter, each combination of the other parameters and replica is
+// one chain: its points in ascending order of the parameter, then in descending order. Each starts
+// from the final state of the one before it. A point of a plan is then a combination, a direction
+// and a replica, the last varying fastest.
 //
 // Order. Points are numbered with the parameters in the order of `swirl run --help`; the last one
 // and then the replica vary fastest. The seed of a point is computed from its resolved parameters,

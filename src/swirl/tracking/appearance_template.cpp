@@ -20,7 +20,7 @@ constexpr double near_others = 1.0;  // width of the blur of a neighbour's edge,
 constexpr double gain_varies = 0.2, mode_varies = 0.15;  // standard deviations of the priors
 constexpr std::size_t modes = 4;
 constexpr std::size_t min_particles = 150;  // of each species, in all examples
-/// Texture and compression correlate the residuals of about so many neighbouring pixels.
+/// Texture and compression correlate the residuals of about this many neighbouring pixels.
 constexpr double pixels_of_a_patch = 4.0;
 
 int half_of(double radius) { return static_cast<int>((radius + beyond + 1.5) / step) + 1; }
@@ -687,7 +687,7 @@ std::optional<AppearanceTemplate> AppearanceTemplate::learned(const std::vector<
     double square = edges_alone;
     result.choose_weight(examples, edges, positions, square);
     if (square > required_gain * edges_alone) return std::nullopt;
-    // Half of the pairs overlap, so a distance errs by √2 of the rms overlap, and a position by
+    // Half of the pairs overlap, so a distance errs by √2 times the rms overlap, and a position by
     // 1/√2 of that.
     result.error_ = std::sqrt(square);
     return result;

@@ -23,8 +23,8 @@ struct Spread {
     double contact = 0.0, error = 1.0, decay = 1.0, share = 0.7;
 };
 
-/// Density of a normal plus an exponential deviate, at x from the mean of the former. `decay`: mean
-/// of the latter.
+/// Density of the sum of a normal and an exponential deviate. `x` counts from the mean of the
+/// normal one, `error` is its standard deviation, and `decay` is the mean of the exponential one.
 double normal_and_exponential(double x, double error, double decay) {
     const double rate = 1.0 / decay;
     const double inner = std::clamp(0.5 * rate * (rate * error * error - 2.0 * x), -300.0, 300.0);
@@ -134,7 +134,7 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
     const auto top = std::max_element(seen.number.begin(), seen.number.end());
     const double at = double(top - seen.number.begin());
     const Spread spread = most_likely(seen, {at - 1.0, 2.0, 0.15 * bins, 0.7});
-    // A contact at an end of the histogram, or as wide as it, is not one.
+    // A maximum at an end of the histogram, or nearly as wide as the histogram, is no contact.
     if (spread.contact < 0.1 * bins || spread.contact > 0.8 * bins || spread.error > 0.25 * bins)
         return std::nullopt;
     return Contact{nearest + seen.width * spread.contact, seen.width * spread.error,

@@ -161,8 +161,8 @@ double Linker::cost_of_turn(const std::vector<DetectedDisc>& discs, double angle
 
 /// The rotation about the container's centre, in its frame, that maps the discs of the first image
 /// to those of the second; 0 unless a rotation fits much better than none. At few frames per period
-/// discs that move independently are as far from where they were as from another disc. Of many
-/// rotations, the best one then fits better than none by accident, and all discs would be confused.
+/// discs that move independently are as far from where they were as from another disc. Among many
+/// rotations, one would then fit better than none by accident, and confuse all discs.
 double Linker::first_turn(const std::vector<DetectedDisc>& discs, double time) const {
     constexpr int per_step = 50, coarse = 5, first = -40, last = 80;
     constexpr std::size_t max_tracks = 600;  // more would take minutes
@@ -340,10 +340,10 @@ std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
         for (const double c : row)
             if (is_allowed(c)) maximum = std::max(maximum, c), min_cost = std::min(min_cost, c);
     // Shortest augmenting paths need at least as many columns as rows; added columns cost more than
-    // any allowed pair. A forbidden pair costs more than the largest possible difference between two
-    // assignments without forbidden pairs. So the result has as few of them as possible, and they
-    // are removed at the end. All costs of the search are finite, so every pass of its inner loop
-    // adds a column, and it terminates.
+    // any allowed pair. A forbidden pair costs more than the largest possible difference between
+    // two assignments without forbidden pairs. So the result has as few of them as possible, and
+    // they are removed at the end. All costs of the search are finite, so every pass of its inner
+    // loop adds a column, and it terminates.
     const std::size_t width = std::max(rows, columns);
     const double forbidden = (maximum - min_cost + 1.0) * static_cast<double>(width + 1);
     const auto at = [&](std::size_t r, std::size_t c) {

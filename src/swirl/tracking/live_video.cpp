@@ -233,7 +233,7 @@ std::string LiveVideo::unfinished_text() const {
     return "";
 }
 
-/// True if no more input is to be waited for.
+/// True if the input has ended: by a stop request, or without a new frame for the timeout.
 bool LiveVideo::is_over() {
     if (source_.stop && source_.stop->load()) return true;
     if (Clock::now() - last_ < std::chrono::duration<double>(source_.timeout)) return false;
@@ -265,7 +265,7 @@ void LiveVideo::throw_no_frames() const {
 }
 
 bool LiveVideo::next(cv::Mat& grey) {
-    constexpr int interval = 10;      // ms between two looks into the folder
+    constexpr int interval = 10;      // ms between two checks for input
     constexpr int flush_time = 2000;  // ms without output after which ffmpeg is ended
     int idle = 0;                     // ms
     while (source_.max_frames <= 0 || count_ < source_.max_frames) {

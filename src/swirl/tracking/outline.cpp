@@ -13,7 +13,7 @@ namespace {
 
 constexpr int outline_rays = 360;
 
-/// Linear between pixels.
+/// The brightness at p, interpolated linearly between pixels.
 float level_at(const cv::Mat& image, const Vec2& p) {
     const int column = static_cast<int>(p.x), row = static_cast<int>(p.y);
     const auto u = static_cast<float>(p.x - column), v = static_cast<float>(p.y - row);

@@ -25,7 +25,7 @@ std::vector<Particle*> linked_particles(const Links& links, Detections& all, std
 
 Contacts find_contacts(const Links& links, Detections& all, TrackedVideo& tracked) {
     constexpr Contact assumed{0.985,
-                              0.004};       // if distances do not determine it: error of the radii
+                              0.004};       // if distances do not determine it; error: of the radii
     constexpr double wall_range = 0.4;      // radii inwards from the outermost disc
     constexpr double max_wall_error = 1.3;  // times that of a distance: the wall is a circle
     const auto radius = [&](const Particle* p) { return tracked.species[p->species].radius; };
@@ -50,7 +50,7 @@ Contacts find_contacts(const Links& links, Detections& all, TrackedVideo& tracke
         contacts.discs = *found;
         tracked.contact_ratio = found->at;
         tracked.contact_fitted = true;
-        // The error of a distance, in pixels, is 2 radii times this; a coordinate's is that by √2.
+        // In pixels, a distance errs by 2 radii times this; a coordinate by that divided by √2.
         tracked.overlap_error = found->error * tracked.radius * std::sqrt(2.0);
     }
     // A tilted camera sees the rim, and with it the container's centre, shifted against the discs.

@@ -4,9 +4,9 @@
 //            container's and both polarities: votes, and the best circles that do not overlap. The
 //            radius whose circles explain the greatest length of edges is that of the discs.
 //            (Highlights are better circles, but short.) A size that most frames contradict is
-//            replaced by the next best one (particle_size.hpp). Then all radii from 0.6 to 1.9 times that
-//            compete. Fits with free radius decide between one and two species: two if the gap
-//            between the sizes is wide compared with the scatter within each.
+//            replaced by the next best one (particle_size.hpp). Then all radii from 0.6 to 1.9
+//            times that compete. Fits with free radius decide between one and two species: two if
+//            the gap between the sizes is wide compared with the scatter within each.
 //   find     In each frame: votes with the known radii, then fits with fixed radius, best first.
 //            `sure` particles do not overlap and have enough of their edge. The others are
 //            candidates for a search near the expected position of a missing disc.
@@ -37,7 +37,7 @@ struct ParticleAppearance {
     std::size_t number = 0;                // of all discs
     double blur = 0.6;                     // applied to frames against noise, pixels
     double sure = 0.45;                    // support that makes a circle a sure particle
-    /// Contact distance relative to the sum of radii. Above 1 if the circles are a part of each disc.
+    /// Contact distance relative to the sum of radii: above 1 if circles are a part of each disc.
     double spacing = 1.0;
     Lens lens;
     double steepest = 1.0;  // radius of the steepest brightness slope relative to the disc's: below

@@ -77,8 +77,8 @@ SizeCheck check_size(const ParticleSurvey& survey, const CommonCircle& size) {
     return check;
 }
 
-/// The contact distance in diameters: more than 1 if distances pile up there, and hardly any circles
-/// are in contact.
+/// The contact distance in diameters: more than 1 if distances pile up there, and hardly any
+/// circles are in contact.
 double spacing_of(const std::vector<double>& distances) {
     constexpr double contact = 1.15;  // diameters
     // Below, fits with free radius find the discs themselves, which is more accurate.

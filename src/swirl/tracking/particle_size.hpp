@@ -8,8 +8,8 @@
 //   flicker   the number of discs is constant
 //   end       the score still grows towards smaller radii: edges have no size of their own
 //
-// If circles never touch each other, but their distances pile up at a larger value, they are a part of
-// each disc, such as its lit side. That value is then the contact distance.
+// If circles never touch each other, but their distances pile up at a larger value, they are a part
+// of each disc, such as its lit side. That value is then the contact distance.
 //
 // Low contrast and strong compression produce such sizes. Then the other maxima of the score are
 // tried, the best first.

@@ -23,8 +23,8 @@ void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
         tracked.overlap_error = mad_to_sigma * quantile(overlaps, 0.5) / std::sqrt(2.0);
 }
 
-/// How far out the wall lets discs come, given the outermost disc of each frame. With many discs one
-/// is at the wall in most frames. With few, only the largest reaches are touches of the wall.
+/// How far out the wall lets discs come, given the outermost disc of each frame. With many discs
+/// one is at the wall in most frames. With few, only the largest reaches are touches of the wall.
 void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
     constexpr double most_frames = 0.8, nearly_all_frames = 0.98;
     constexpr double same_reach = 0.005;    // relative
@@ -78,9 +78,9 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
     set_reach(reaches, tracked);
     measure_contacts(gaps, tracked);
     // An edge determines how far its rays scatter, but not what shade, texture and compression do
-    // to all of them at once. If overlaps imply larger errors, these replace those of the edges. The
-    // rays of a soft edge scatter by more than the circle errs, so a fit to all distances replaces
-    // larger ones, too.
+    // to all of them at once. If overlaps imply larger errors, these replace those of the edges.
+    // The rays of a soft edge scatter by more than the circle errs, so a fit to all distances
+    // replaces larger ones, too.
     if (!(tracked.position_error > 0.0)) return;
     double error = tracked.overlap_error > tracked.position_error || tracked.contact_fitted
                        ? tracked.overlap_error

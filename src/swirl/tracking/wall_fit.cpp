@@ -120,8 +120,8 @@ void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& 
     if (!found) return;
     const Vec2 shift{found->value[1], found->value[2]};
     const double error = std::max(found->error[1], found->error[2]);
-    // The side that stands out from the floor: the bright side of bright balls, and of dark ones the
-    // dark side.
+    // The side that stands out from the floor: the bright side of bright balls, and of dark ones
+    // the dark side.
     const Vec2 towards = (tracked.bright ? 1.0 : -1.0) * brighter;
     if (length(shift) < stands_out * error ||
         dot(shift, towards) < min_share * length(shift) * length(towards))

@@ -1,6 +1,6 @@
-// Prints the hashes of the golden runs, and the rotation rates of their clusters over the last events,
-// computed by the baseline loops. compilers_test.py builds this with several compilers and levels of
-// optimisation.
+// Prints the hashes of the golden runs, and the rotation rates of their clusters over the last
+// events, computed by the baseline loops. compilers_test.py builds this with several compilers and
+// levels of optimisation.
 #include <bit>
 #include <cstdint>
 #include <cstdio>

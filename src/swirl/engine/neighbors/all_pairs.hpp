@@ -139,7 +139,7 @@ template <int G>
             const Others<8> discs = load_eight(columns, g);
             const Eight no_sooner = earliest_wall_times<8>(
                 state, centre, discs.flight.position_at(then), discs.flight.velocity, discs.radius);
-            // A better bound stays.
+            // If the old bound is later, it is kept.
             larger(no_sooner, Eight::load(columns.wall + 8 * g)).store(columns.wall + 8 * g);
         }
         return;

@@ -10,7 +10,7 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// On an arc the frame is renewed so many times per turn, as often as on the paper's polygon.
+/// How many times per turn the frame is renewed on an arc: as often as on the paper's polygon.
 inline constexpr double intervals_per_turn = 30.0;
 
 /// Sets the time until which the current predictions hold: the end of the segment, or on an arc the

@@ -118,7 +118,7 @@ template <class State>
     return first.disc;
 }
 
-/// Stores which event comes first of all, if the top level has so many rows.
+/// Stores which event comes first of all, for a top level of `Rows` rows.
 template <int Rows, bool in_order, class State>
 SWIRL_INLINE void update_first_of_rows(State& state) {
     EventQueue& queue = state.queue;

@@ -289,7 +289,7 @@ SWIRL_INLINE void leave(LinkedCellsState& state, std::uint32_t i) {
     Cell& cell = state.cells[number];
     if (cell.count > Cell::capacity) [[unlikely]]
         return leave_full(state, number, i);
-    // The eighth number of the cell is its count, but disc i stands before it.
+    // The search for i reads eight numbers, of which the last is the count; disc i precedes it.
     const std::uint32_t slot = index_in_list(cell.disc, 8, i);
     cell.disc[slot] = cell.disc[--cell.count];
 }

@@ -28,7 +28,7 @@ SWIRL_INLINE void begin_test(ListsOrCellsState& state) {
     state.collisions_at_test = state.disc_disc + state.disc_wall;
 }
 
-/// Lists are faster than cells up to so many list rebuilds per collision (measured).
+/// Up to this many list rebuilds per collision, lists are faster than cells (measured).
 inline constexpr double max_rebuilds_per_collision = 0.3;
 SWIRL_INLINE bool lists_do_not_last(const ListsOrCellsState& state) {
     return rebuilds_since_test(state) > max_rebuilds_per_collision * collisions_since_test(state);

@@ -1,6 +1,6 @@
 // Speed only; results stay bitwise identical. The search for many spheres, or coins. On a floor all
 // spheres are predicted again with every segment, so lists would not last long enough to be worth
-// building. The spheres that one may collide with are found in cells, at each prediction.
+// building. Each prediction finds the spheres that a sphere may collide with in cells.
 //
 // Time is divided into intervals, none longer than a segment. Seen from the floor, which moves with
 // the constant velocity u, a sphere without an event stays from time t to the end of the interval

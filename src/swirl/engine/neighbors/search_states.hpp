@@ -163,7 +163,7 @@ struct ListsOrCellsState : EngineState {
 
     bool chooses_search;         // false: do not replace cells by lists, nor these lists by cells
     double target_cell_width;    // of the cells that should take over; 0: lists should
-    double max_cell_width;       // cells were never to be wider than this again
+    double max_cell_width;       // cells must not be wider than this from now on
     std::uint32_t failed_lists;  // times that lists took over and did not last
     std::uint64_t rebuilds_at_test, collisions_at_test;  // when the choice was last tested
 };

@@ -187,7 +187,7 @@ SWIRL_INLINE void set_candidate(const VerletListsState& state, const CandidateCo
 
 SWIRL_INLINE void pad(const VerletListsState& state, Candidates& candidates) {
     candidates.padded = (candidates.count + 7u) & ~7u;
-    // Always eight, however many are needed: there is capacity, and no branch to mispredict.
+    // Always writes eight sentinels: there is capacity, and a loop of fixed length has no branch.
     for (std::uint32_t n = 0; n < 8; ++n) {
         candidates.gap[candidates.count + n] = never;
         candidates.reach[candidates.count + n] = 0.0;
