@@ -100,7 +100,7 @@ QUESTIONS = {
     "amplitude": "The paper has one amplitude, A/R = 0.22. Where does the direction of rotation change for others?",
 }
 
-# The content of each figure.
+# The description of each figure.
 CAPTIONS = {
     "1b": "Rotation frequency ϖ of the cluster about its centre of mass, in units of the swirl's Ω, against the "
           "number of discs. Above zero the cluster rotates with the swirl, below zero it counterrotates. Dashed: a "
@@ -186,8 +186,8 @@ CAPTIONS = {
                       "slip parameter s and the spin about the vertical. Below, for all spheres: the share that rolls "
                       "on the floor without slip, and the correlation of the rolling of neighbours along the line of "
                       "their centres.",
-    "spheres_flat_discs": "Rotation against the number of solid discs that lie flat on the floor, without friction "
-                          "against the floor and for three friction coefficients.",
+    "spheres_flat_discs": "Rotation against the number of solid discs that lie flat on the floor, with three "
+                          "coefficients of friction against the floor, and without it.",
     "spheres_direction": "Every number of spheres at which the direction of rotation changes, against the friction "
                          "coefficient of spheres and wall. Bars without a point: the change lies between two numbers "
                          "that were run. Crosses: the sign is undetermined there. Dashed: the changes in the paper's "

@@ -16,7 +16,8 @@
 namespace swirl {
 
 /// What contact times depend on: radii, and states at each disc's own time. Columns start at a
-/// cache line and go on to a multiple of eight with discs that no_disc meets: far away, at rest.
+/// cache line. They continue to a multiple of eight with discs far away and at rest, which no other
+/// disc can reach.
 struct FlightColumns {
     const double *x, *y, *vx, *vy, *time, *radius;
     std::size_t size;

@@ -34,7 +34,7 @@ Vec2 separation_at(const Flight<double>& disc, const Flight<double>& centre, dou
     return disc.position_at(time) - centre.position_at(time);
 }
 
-/// Whether a point at distance |apart| is inside a circle. A disc that is inside now and at a later
+/// True if a point at distance |apart| is inside a circle. A disc that is inside now and at a later
 /// time is inside in between, as a circle is convex. Near the edge the answer is no.
 bool is_well_inside(const Vec2& apart, double clearance) {
     return dot(apart, apart) * rounding_margin < clearance * clearance;
@@ -243,8 +243,8 @@ void NeighborListBaseline::renew_list(Number i, double time) {
             }
 }
 
-/// Whether disc i may reach the wall within `skin` of its home, for every position of the
-/// container.
+/// Determines for disc i whether it may reach the wall within `skin` of its home, in any position
+/// of the container.
 void NeighborListBaseline::update_at_wall(Number i) {
     const Vec2 home = homes_of_[i].position;
     const double farthest =

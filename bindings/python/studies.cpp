@@ -60,8 +60,8 @@ SweepPlan plan_of(const py::dict& given, std::int64_t replicas,
     if (!chain.empty()) set_chain(plan, chain);
     if (!chain.empty() && frames > 0)
         throw UsageError(
-            "chain and frames cannot be combined: a recording does not hold where its run started "
-            "from.\nhint: use series, or swirl.run(ramp=...) with a trajectory.");
+            "chain and frames cannot be combined: a recording does not store the state in which "
+            "its run starts.\nhint: use series, or swirl.run(ramp=...) with a trajectory.");
     return plan;
 }
 

@@ -98,8 +98,8 @@ def free_fixed(study):
         f"Residences at the wall end at θ = {ends(rows, 'residence_end')} (degrees; resultant length "
         f"{resultants(rows, 'residence_end_resultant')}). Over all N this angle moves by "
         f"{number(spread(rows, 'residence_end'))}°, and by {span_over_choices(spreads)}° with the "
-        f"{choices_in_words(choices)}. The same location (within {SAME_ANGLE:.0f}°) for certain with {count(same)} of "
-        f"them, different for certain with {count(same, FAILS)}. By the SI's criterion {ends(rows, 'depinning')}, "
+        f"{choices_in_words(choices)}. The location is certainly the same (within {SAME_ANGLE:.0f}°) with {count(same)} "
+        f"of them, and certainly different with {count(same, FAILS)}. By the SI's criterion {ends(rows, 'depinning')}, "
         f"with resultants {resultants(rows, 'depinning_resultant')}: it also counts discs that fly along the wall "
         f"far from it{two_locations(study, 'si_depinning')}.")
 

@@ -164,7 +164,8 @@ def snake(study):
     return either(found), (
         "After a long warm-up, ϖ/Ω and the share of the spheres that reside at the wall: " + "; ".join(
             f"{number(measured(row, 'by_time'))} and {value_at(row, 'residence_share')}" for row in rows) +
-        f" (μ = {PLASTIC:g}; a line that rolls with the swirl: within {NEAR_OMEGA} of 1, and more than {ALMOST_ALL}).")
+        f" (μ = {PLASTIC:g}). A line that rolls with the swirl has ϖ/Ω within {NEAR_OMEGA} of 1 and a share above "
+        f"{ALMOST_ALL}.")
 
 
 # --- What causes counterrotation ----------------------------------------------------------------

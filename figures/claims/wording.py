@@ -1,4 +1,4 @@
-"""Texts for numbers and curves."""
+"""Texts about numbers and curves."""
 
 import math
 
@@ -46,8 +46,8 @@ def lowest_to_highest(rows, name):
 
 
 def monotonic(rows, name, falling=False, least=None):
-    """Tests whether a curve rises (or falls) with N by `least`, by default LEAST_CHANGE of its first value. Returns
-    the judgement, and the text of the largest reversal."""
+    """Judges if a curve rises (or falls) with N by `least`, by default LEAST_CHANGE of its first value. Returns
+    the judgement and a text on the largest reversal."""
     rows = known(rows, name)
     found = values(rows, name)
     rising = [-v for v in found] if falling else found

@@ -131,6 +131,9 @@ CALLS = [
     ("--discs 5 --discs 6", 2, ["--discs may be given only once"]),
     ("--discs", 2, ["--discs needs a value"]),
     ("--frobnicate", 2, ["no option --frobnicate"]),
+    ("--quiet=3", 2, ["--quiet is a switch and takes no value"]),
+    ("--measure density,all", 2, ["--measure is 'density,all'", "'all' cannot be combined"]),
+    ("--measure density,,flow", 2, ["--measure is 'density,,flow'", "a name in the list is empty"]),
     ("--disc 5", 2, ["no option --disc", "did you mean --discs"]),
     ("48", 2, ["configuration file '48' does not exist", "--discs 48"]),
     ("--json", 2, ["--json needs a value"]),
@@ -253,6 +256,54 @@ class UsageErrors(InFolder):
             done = swirl(call[0], self.folder, *call[1:])
             self.assertEqual(done.returncode, 1)
             self.assertEqual(done.stderr, f"error: '{self.folder}' is a folder, but a file is needed.\n")
+
+    def test_a_file_instead_of_a_folder(self):
+        with open(self.path("file"), "w"):
+            pass
+        for call in (["sweep", "--discs", "2:3"], ["map", "--x", "mu=0:1"], ["paper", "--figure", "1c"]):
+            done = swirl(*call, "--out", self.path("file"))
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(done.stderr, f"error: '{self.path('file')}' is a file, but it must be a folder.\n")
+
+    def test_a_missing_recording(self):
+        for call in (["measure"], ["export", "--to", "xyz"], ["movie", "--out", "x.mp4"]):
+            done = swirl(call[0], self.path("missing.h5"), *call[1:])
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(done.stderr, f"error: '{self.path('missing.h5')}' does not exist.\n")
+
+    def test_another_kind_of_file_is_not_asked_for_its_calibration(self):
+        with open(self.path("notes.txt"), "w") as opened:
+            opened.write("hello\n")
+        for call in (["measure"], ["movie", "--out", "x.mp4"]):
+            done = swirl(call[0], self.path("notes.txt"), *call[1:])
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("the header must name the columns frame, particle, x and y", done.stderr)
+
+    def test_options_of_tracks_are_rejected_for_a_trajectory(self):
+        recording = self.path("t.h5")
+        self.assertEqual(swirl("run", "--events", 500, "--trajectory", recording, "--quiet").returncode, 0)
+        for name, value in (("scale", 3), ("container-radius", 3), ("centre", "1,2"), ("misfit", 0.1)):
+            self.assert_usage_error("measure", recording, f"--{name}", value,
+                                    says=f"--{name} applies to a camera's tracks, but '{recording}' is a trajectory")
+
+    def test_a_configuration_that_does_not_exist(self):
+        for command, example in (("paper", "--figure 5b"), ("crossing", "--mu 0.5"), ("sweep", "--discs 48")):
+            done = swirl(command, "5b", *(["--out", self.path("s")] if command == "sweep" else []))
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(done.stderr, "error: the configuration file '5b' does not exist.\n"
+                                          f"hint: options begin with --, as in {example}.\n")
+
+    def test_maps_and_sweeps_do_not_mix(self):
+        self.assertEqual(swirl("sweep", "--discs", "2:3", "--events", 100, "--out", self.path("s"),
+                               "--quiet").returncode, 0)
+        done = swirl("map", "--x", "mu=0:1", "--out", self.path("s"))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("holds a sweep (see its plan.json).\nhint: choose another folder.\n", done.stderr)
+
+    def test_every_error_ends_with_a_full_stop(self):
+        done = swirl("track", "--live", self.path("nowhere"), "--out", self.path("t.csv"))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, r"\Aerror: there is no camera or folder '[^\n]*'\.\nhint: ")
 
     def test_tracks_truncated_within_a_number(self):
         for name, whole in (("a.csv", "frame,particle,x,y\n0,0,1,2.5\n1,0,1,2.75\n"),

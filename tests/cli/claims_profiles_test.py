@@ -194,7 +194,7 @@ class Profiles(HandMadeTables):
         self.assertEqual(verdict, UNDECIDED)
         self.assertEqual(verdict.points, frozenset())  # more seeds would not decide
         self.assertIn("by 10 to 40° with the 3 choices", found)
-        self.assertIn("with 1 of them, different for certain with 2", found)
+        self.assertIn("with 1 of them, and certainly different with 2", found)
         self.residences(far, far, far)
         self.assertEqual(residence.free_fixed(self.study)[0], FAILS)
 

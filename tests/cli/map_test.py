@@ -1,4 +1,5 @@
-"""swirl map: adaptive maps are completed after an interruption, and the table does not depend on who made the runs."""
+"""swirl map: adaptive maps are completed after an interruption; the table is the same for any division of the
+runs between processes."""
 
 import csv
 import io
@@ -88,7 +89,7 @@ class Map(InFolder):
     def test_the_folder_is_that_of_a_sweep(self):
         table, results = self.whole()
         collected = self.good("collect", self.path("whole"), "--csv", "-")
-        self.assertNotIn("not done yet", collected.stderr)
+        self.assertNotIn("no result yet", collected.stderr)
         found = {(row["mu"], row["discs"]): row for row in csv.DictReader(io.StringIO(collected.stdout))}
         for row in csv.DictReader(io.StringIO(table)):
             self.assertEqual(row["by_time"], found[row["mu"], row["discs"]]["by_time"])

@@ -278,7 +278,7 @@ class Names(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.path("t.h5")
 
-    def assert_rejected(self, *call, code=2, says="is given for two different files"):
+    def assert_rejected(self, *call, code=2, says="is the name of two different files"):
         done = swirl(*call, cwd=self.folder)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertRegex(done.stderr, ONE_ERROR)

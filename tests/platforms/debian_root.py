@@ -1,4 +1,4 @@
-"""A Debian in a folder of its own, for tests of what a system without our packages does. Needs root,
+"""A Debian in a folder of its own, for tests on a system without our packages. Needs root,
 mmdebstrap and a mirror."""
 
 import os

@@ -1,4 +1,5 @@
-// Ramps: one value per period, the state kept, and the same bits however the run is made.
+// Ramps: one value per period, the state is kept, and results are bitwise identical however the run
+// is made.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -262,8 +262,8 @@ Returns a pandas DataFrame (swirl.collect()).
 out: folder of the sweep, in the format of the command line. Another call with the same folder does
     the missing runs; Python and the command line can continue each other's sweeps. Without `out` only
     the table is returned.
-seeds: replicates of each point. measure: names of measurements. frames: record every run with so many
-    frames per period. threads: simultaneous runs [one per core]. grow: add these values, replicates
+seeds: replicates of each point. measure: names of measurements. frames: record every run with this
+    number of frames per period. threads: simultaneous runs [one per core]. grow: add these values, replicates
     and measurements to an existing sweep. progress: True for a bar (needs tqdm), or a function of
     (finished runs, all runs, events). chain: a parameter with several values; each run starts from the
     final state of its neighbour, with rising and then with falling values, so that hysteresis shows.

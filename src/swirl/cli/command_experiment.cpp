@@ -112,8 +112,9 @@ void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& 
     const fs::path calibration = camera_file(table);
     if (!fs::exists(calibration))
         throw Failure(
-            fmt::format("'{}' has no calibration '{}' next to it, which `swirl track` writes.",
-                        table.string(), calibration.filename().string()));
+            fmt::format("there is no calibration '{}' next to '{}'.\nhint: give a video, or tracks "
+                        "by `swirl track`, which writes both files.",
+                        calibration.filename().string(), table.string()));
     container.found = nlohmann::ordered_json::parse(read_whole_file(calibration), nullptr, false);
     if (!container.found.is_object() || !container.found.contains("camera") ||
         !container.found.contains("discs"))
@@ -161,7 +162,8 @@ ContainerVideo measure_video(const ExperimentCall& call, const std::string& vide
         throw;
     } catch (const std::exception& failure) {  // the report then omits this video
         container.result = {{"failed", failure.what()}};
-        fmt::print(stderr, "warning: {}: {}\n", video, failure.what());
+        const bool is_only_video = call.rough.size() + call.smooth.size() == 1;  // error follows
+        if (!is_only_video) print_warning(fmt::format("{}: {}", video, failure.what()));
     }
     return container;
 }

@@ -12,6 +12,7 @@
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/sweep_options.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/reading.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/study/map.hpp"
 #include "swirl/study/map_plan.hpp"
@@ -63,6 +64,11 @@ void reject_without_axes(const Subcommand& subcommand, const MapCall& call) {
                     fmt::format("{} is given, but --x is not.\nhint: give all options of "
                                 "the map, or only --out to continue it.",
                                 name));
+    if (!call.parameters->empty())
+        throw UsageError(
+            fmt::format("{} is given, but --x is not.\nhint: give all options of "
+                        "the map, or only --out to continue it.",
+                        option_name(call.parameters->begin()->first)));
 }
 
 SweepPlan map_plan_of(MapCall& call) {
@@ -131,7 +137,7 @@ void warn_about(const MapState& state) {
     }
     if (unclear > 0)
         print_warning(
-            fmt::format("{} of {} points are undetermined with all runs allowed.\nhint: use a "
+            fmt::format("undetermined even with all allowed runs: {} of {} points.\nhint: use a "
                         "larger --seeds or longer runs in another folder.",
                         unclear, state.sites.size()));
     if (failed > 0)
@@ -199,8 +205,8 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
     MapSettings& s = call.settings;
     subcommand.add_option("--x", call.x, "Axis along x, such as mu=0:1", "NAME=VALUES", map);
     subcommand.add_option("--y", call.y, "Axis along y; without it, a curve", "NAME=VALUES", map);
-    subcommand.add_option("--of", s.of, "Quantity: N_c, a rotation rate, or slip.cluster [by_time]",
-                          "NAME", map);
+    subcommand.add_option(
+        "--of", s.of, "Quantity: N_c, a rotation rate or a measured row [by_time]", "NAME", map);
     subcommand
         .add_option("--out", call.out, "Folder of the map; a repeated call completes it", "DIR",
                     map)

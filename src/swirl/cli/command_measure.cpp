@@ -40,8 +40,11 @@ OpenedSeries open_series(const MeasureCall& call) {
             "swirl, a table of trackpy (CSV), or a LAMMPS text dump.",
             call.file));
     try_reading(call.file);
-    if (is_trajectory(call.file))
+    if (is_trajectory(call.file)) {
+        reject_track_options(call.camera, call.file);
+        if (!call.misfit.empty()) throw_option_of_tracks("misfit", call.file);
         return {series_of_run(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
+    }
     return open_tracks(call.file, call.camera,
                        number_option("misfit", call.misfit, default_misfit, 0.0));
 }

@@ -185,8 +185,7 @@ void add_paper_command(Subcommand& subcommand) {
                     "First runs of a point; unclear claims add more [8, quick 3]")
         ->type_name("NUMBER");
     subcommand.add_option("--out", call->out, "Output folder [out]")->type_name("DIR");
-    subcommand
-        .add_option("--part", call->share.part, "Only run this part of the runs, such as 2/10")
+    subcommand.add_option("--part", call->share.part, "Part of the runs to make, such as 2/10")
         ->type_name("K/M");
     add_threads_option(subcommand, call->share, "");
     subcommand.add_flag("--quiet", call->quiet, "No progress line");

@@ -93,8 +93,8 @@ PlanOfCall plan_of(SweepCall& call) {
     if (!call.chain.empty()) set_chain(plan, call.chain);
     if (!plan.chain.empty() && plan.frames > 0)
         throw UsageError(
-            "--chain and --frames cannot be combined: a recording does not hold where its run "
-            "started from.\nhint: use --series, or `swirl run --ramp` with --trajectory.");
+            "--chain and --frames cannot be combined: a recording does not store the state in "
+            "which its run starts.\nhint: use --series, or `swirl run --ramp` with --trajectory.");
     return {plan};
 }
 
@@ -120,9 +120,9 @@ void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutc
             fmt::format("stopped before the end.\nhint: run `swirl sweep --out {}` to continue.",
                         shell_word(call.out)));
     if (outcome.failed > 0)
-        throw Failure(fmt::format(
-            "{} of the runs failed. The first error is at {}\nhint: see all errors in '{}'.",
-            outcome.failed, outcome.first_failure, (fs::path(call.out) / "failures").string()));
+        throw Failure(fmt::format("{} of the runs failed (errors in '{}'), the first at {}",
+                                  outcome.failed, (fs::path(call.out) / "failures").string(),
+                                  outcome.first_failure));
 }
 
 std::string plan_text(const SweepPlan& plan) {
@@ -183,8 +183,8 @@ void add_sweep_command(Subcommand& subcommand) {
                           group);
     subcommand.add_option("--frames", call->frames, "Recorded frames per period of each run [none]",
                           "N", group);
-    subcommand.add_flag("--series", call->series, "Write the averages of every period of each run",
-                        group);
+    subcommand.add_flag("--series", call->series,
+                        "Table of the averages of every period, for each run", group);
     subcommand.add_option("--chain", call->chain,
                           "Parameter along which each run continues from the last", "NAME", group);
     add_threads_option(subcommand, call->sharing, group);
@@ -270,7 +270,7 @@ void collect(const CollectCall& call) {
                               crossings.empty() ? "" : ", crossings in " + call.crossings));
     if (call.plot) draw_table(call);
     if (s.done < s.points && !plan.map)  // a map does not need all points
-        print_warning(fmt::format("{} of {} runs are not done yet and missing from the table.",
+        print_warning(fmt::format("the table is incomplete: no result yet for {} of {} runs.",
                                   s.points - s.done, s.points));
     for (const std::string& warning : warnings(collected)) print_warning(warning);
 }

@@ -213,8 +213,9 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     if (const auto wrong = problem(config)) throw UsageError(*wrong);
     if (!has_m_frame(config))
         throw UsageError(
-            "a synthetic video states the amplitude and the phase of a circular path, but this "
-            "path is none.\nhint: use a counter-clockwise path that is nearly a circle.");
+            "the ground truth of a video has the amplitude and the phase of a circular path, but "
+            "this path is not nearly a circle.\nhint: use a counter-clockwise path that is nearly "
+            "a circle.");
     CameraSettings camera = camera_settings(call, config);
     const std::int64_t frames = call.frames.value_or(static_cast<std::int64_t>(
         call.periods * static_cast<double>(camera.frames_per_period) + 0.5));
@@ -326,23 +327,27 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     add("--rolling-shutter", call->rolling_shutter, "FRACTION",
         "Readout time of a frame per frame interval [0]");
     flag("--interlaced", call->interlaced, "Odd rows half a frame interval after even rows");
-    add("--auto-exposure", call->auto_exposure, "FRACTION", "Slow brightness variation [0]");
-    add("--hands", call->hands, "PERIODS", "Time a hand covers a part, at start and end [0]");
-    add("--floor-pattern", call->floor_pattern, "LEVELS", "Contrast of squares on the floor [0]");
+    add("--auto-exposure", call->auto_exposure, "FRACTION",
+        "Slow brightness variation, as of a phone [0]");
+    add("--hands", call->hands, "PERIODS", "Time with a hand in view, at start and end [0]");
+    add("--floor-pattern", call->floor_pattern, "LEVELS",
+        "Contrast of a pattern of squares on the floor [0]");
     add("--disc-variation", call->disc_variation, "FRACTION",
-        "Brightness variation from disc to disc, as of colours [0]");
-    add("--transparency", call->transparency, "FRACTION", "Share of glass in the discs [0]");
+        "Brightness variation from disc to disc (colours) [0]");
+    add("--transparency", call->transparency, "FRACTION",
+        "Transparency of the discs: 0 opaque, 1 clear glass [0]");
     flag("--flat", call->flat, "Draw discs as flat coins with a bright edge");
     add("--light-from", call->light_from, "DEG",
         "Side of the light, counter-clockwise from +x [135]");
     add("--light-elevation", call->light_elevation, "DEG",
         "Elevation of the light above the floor; 90: above [60]");
-    add("--light-share", call->light_share, "FRACTION", "Share of the light from that side");
+    add("--light-share", call->light_share, "FRACTION",
+        "Fraction of the light that comes from --light-from");
     add("--contrast", call->contrast, "RATIO",
         "Disc brightness relative to the floor's; sets --disc-level");
     flag("--roll", call->rolls, "Draw discs as spheres that roll on the floor");
     flag("--mirrored", call->mirrored, "Mirror the image, as seen from below");
-    flag("--still", call->still, "Let the camera move with the container");
+    flag("--still", call->still, "Camera that moves with the container");
     call->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
     subcommand.set_main_options({"--out", "--length", "--frames", "--fps", "--camera", "--scale",
                                  "--frames-per-period", "--discs", "--mu", "--seed"});

@@ -381,7 +381,7 @@ void add_track_command(Subcommand& subcommand) {
     add("--from", call->from, "K", "First frame to track, counted from 0 [0]");
     add("--to", call->to, "K", "Last frame to track [the last one]");
     add("--skip", call->skip, "LIST", "Frames that are not used, such as 40,60-64");
-    add("--accept", call->accept, "FAULTS", "Correct the times of duplicates, missing, or both");
+    add("--accept", call->accept, "FAULTS", "Frame faults to correct: duplicates, missing or both");
     add("--overlay", call->overlay, "FILE", "Movie of the video with the discs drawn over it");
     add("--report", call->report, "DIR", "Folder for a report on the tracking, report.html");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");

@@ -222,7 +222,7 @@ FrameTimes frame_times_in(const std::string& file, const std::string& text) {
             times.per_period = json.at("per_swirl").get<int>();
     } catch (const nlohmann::json::exception&) {
         throw Failure(fmt::format(
-            "'{}' cannot be verified: it does not say when its frames were taken.", file));
+            "'{}' cannot be verified: it does not store the times of its frames.", file));
     }
     if (times.events.value_or(1) < 1 || !(times.interval.value_or(1.0) > 0.0) ||
         times.per_period < 1)

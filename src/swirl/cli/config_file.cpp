@@ -18,13 +18,15 @@ namespace swirl {
 namespace {
 
 /// Errors in a configuration file are usage errors.
-Config parsed(const std::string& file, Lists lists) {
+Config parsed(const std::string& file, const std::string& command) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
-        throw UsageError(
-            fmt::format("the configuration file '{}' does not exist.\nhint: options begin with --, "
-                        "as in --discs {}.",
-                        file, lists == Lists::accepted ? "5:48" : "48"));
+        throw UsageError(fmt::format(
+            "the configuration file '{}' does not exist.\nhint: options begin with --, as in {}.",
+            file,
+            command == "paper"      ? "--figure 5b"
+            : command == "crossing" ? "--mu 0.5"
+                                    : "--discs 48"));
     std::string text = read_whole_file(file, largest_config);
     try {
         return parse_config(std::move(text), file);
@@ -95,7 +97,7 @@ std::string name_in_file(const Option& option) {
 
 ConfigFile read_config_file(const std::string& file, const std::vector<std::string>& names,
                             Lists lists, const std::string& command) {
-    Config config = parsed(file, lists);
+    Config config = parsed(file, command);
     ConfigFile found;
     for (const auto& [name, entry] : config.entries) {
         const std::string at = fmt::format("'{}', line {}", file, entry.line);

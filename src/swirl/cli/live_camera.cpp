@@ -23,7 +23,8 @@ void add_live_options(Subcommand& subcommand, LiveOptions& options) {
                           "Camera (/dev/video0), folder that receives images, or -", "SOURCE",
                           group);
     subcommand.add_option("--survey", options.survey_frames,
-                          "Frames to find the container and the discs [96]", "N", group);
+                          "Number of frames in the first search for rim and discs [96]", "N",
+                          group);
     subcommand.add_option("--timeout", options.timeout,
                           "Time without a new frame that ends the tracking [10]", "SECONDS", group);
     subcommand.add_option("--view", options.port,

@@ -60,7 +60,8 @@ void reject_same_files(const std::vector<std::filesystem::path>& files) {
         if (file.empty() || file == "-") continue;
         std::filesystem::path canonical = canonical_name(file);
         if (std::find(seen.begin(), seen.end(), canonical) != seen.end())
-            throw UsageError(fmt::format("'{}' is given for two different files.", file.string()));
+            throw UsageError(fmt::format("'{}' is the name of two different files of this call.",
+                                         file.string()));
         seen.push_back(std::move(canonical));
     }
 }
@@ -138,6 +139,8 @@ std::size_t terminal_width(int file, std::size_t otherwise) {
 void make_folder(const std::filesystem::path& folder) {
     reject_option(folder, "folder");
     std::error_code error;
+    if (std::filesystem::is_regular_file(folder, error))
+        throw Failure(fmt::format("'{}' is a file, but it must be a folder.", folder.string()));
     std::filesystem::create_directories(folder, error);
     if (error)
         throw Failure(
@@ -149,9 +152,14 @@ void make_folder(const std::filesystem::path& folder) {
 
 namespace {
 
-/// Allocates nothing: it also reports that memory ran out.
+/// Adds a full stop to the first line if it ends without punctuation. Allocates nothing: it also
+/// reports that memory ran out.
 void print_message(const char* prefix, std::string_view text) {
-    std::fprintf(stderr, "%s: %.*s\n", prefix, static_cast<int>(text.size()), text.data());
+    const std::string_view first = text.substr(0, text.find('\n')),
+                           rest = text.substr(first.size());
+    const bool ends = first.empty() || std::string_view(".!?:,;`").find(first.back()) != first.npos;
+    std::fprintf(stderr, "%s: %.*s%s%.*s\n", prefix, static_cast<int>(first.size()), first.data(),
+                 ends ? "" : ".", static_cast<int>(rest.size()), rest.data());
 }
 
 }  // namespace

@@ -105,6 +105,8 @@ Message message_on_extras(const CLI::App& app, const CLI::App& selected) {
 Message message_on_missing_value(const std::string& what) {
     const std::string option = what.substr(0, what.find(':'));
     if (what.find("At Most 1") != what.npos) return {option + " may be given only once."};
+    if (const auto flag = what.find(" was given a disallowed flag override"); flag != what.npos)
+        return {"--" + what.substr(0, flag) + " is a switch and takes no value."};
     return {option + " needs a value."};
 }
 
@@ -162,7 +164,7 @@ struct OptionAdder {
     const Option& option;
 
     CLI::Option* operator()(bool* flag) const {
-        return app.add_flag(option.name, *flag, option.description);
+        return app.add_flag(option.name, *flag, option.description)->disable_flag_override();
     }
     CLI::Option* operator()(std::vector<std::string>* values) const {
         return app.add_option(option.name, *values, option.description)->expected(1, max_values);

@@ -36,21 +36,12 @@ RollingBall ball_of(const SourceTexts& texts, const RunConfig& container) {
 
 /// The scale of tracks has no meaning for a run or a trajectory of this program.
 void reject_scale_options(const SourceTexts& texts) {
-    const TrackTexts& camera = texts.camera;
-    for (const auto& [name, given] :
-         {std::pair("camera-fps", !camera.fps.empty()), std::pair("scale", !camera.scale.empty()),
-          std::pair("omega", !camera.omega.empty()), std::pair("centre", !camera.centre.empty()),
-          std::pair("phase", !camera.phase.empty()), std::pair("clockwise", camera.clockwise),
-          std::pair("over", !texts.images.empty()),
-          std::pair("over-first", texts.first_image != 0)})
-        if (given)
-            throw UsageError(fmt::format(
-                "--{} applies to a camera's tracks, but {}.", name,
-                texts.file.empty() ? "no FILE is given"
-                                   : fmt::format("'{}' is a trajectory of swirl", texts.file)));
+    reject_track_options(texts.camera, texts.file);
+    if (!texts.images.empty()) throw_option_of_tracks("over", texts.file);
+    if (texts.first_image != 0) throw_option_of_tracks("over-first", texts.file);
 }
 
-/// Of the options of a run, only those of the container apply to tracks.
+/// Only the options of the container apply to tracks, not the other options of a run.
 FrameSource tracked_in(const SourceTexts& texts) {
     TrackTexts camera = texts.camera;
     ParameterTexts given = *texts.parameters;

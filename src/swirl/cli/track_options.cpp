@@ -187,26 +187,46 @@ void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::str
         ->group(group);
 }
 
+void throw_option_of_tracks(std::string_view name, const std::string& file) {
+    throw UsageError(fmt::format(
+        "--{} applies to a camera's tracks, but {}.", name,
+        file.empty() ? "no FILE is given" : fmt::format("'{}' is a trajectory of swirl", file)));
+}
+
+void reject_track_options(const TrackTexts& given, const std::string& file) {
+    for (const CameraNumber& number : camera_numbers)
+        if (!(given.*number.text).empty()) throw_option_of_tracks(number.name, file);
+    if (!given.centre.empty()) throw_option_of_tracks("centre", file);
+    if (given.clockwise) throw_option_of_tracks("clockwise", file);
+}
+
 bool is_named_as_tracks(const std::string& file) {
     return file.ends_with(".csv") || file.ends_with(".h5");
 }
 
 bool is_trajectory(const std::string& file) { return is_hdf5(file) && !is_track_recording(file); }
 
-Tracks read_tracks(const std::string& file, const TrackScale& scale) {
+namespace {
+
+/// The tracks as they are in the file.
+Tracks read_unrepaired_tracks(const std::string& file) {
     const std::string begin = file_signature(file);
-    const auto repaired = [&](Tracks tracks) {
-        repair(tracks, scale.pixels_per_radius);
-        return tracks;
-    };
-    if (is_hdf5(file)) return repaired(read_track_recording(file));
-    if (begin.starts_with("ITEM:")) return repaired(read_lammps_dump(file));
+    if (is_hdf5(file)) return read_track_recording(file);
+    if (begin.starts_with("ITEM:")) return read_lammps_dump(file);
     if (std::any_of(begin.begin(), begin.end(), [](char c) { return c >= 0 && c < '\t'; }))
         throw Failure(
             fmt::format("'{}' is none of these: swirl trajectory or tracks (HDF5), trackpy table "
                         "(CSV), LAMMPS text dump.",
                         file));
-    return repaired(read_trackpy_csv(file));
+    return read_trackpy_csv(file);
+}
+
+}  // namespace
+
+Tracks read_tracks(const std::string& file, const TrackScale& scale) {
+    Tracks tracks = read_unrepaired_tracks(file);
+    repair(tracks, scale.pixels_per_radius);
+    return tracks;
 }
 
 CameraRecord camera_record(const std::string& file) {
@@ -219,12 +239,14 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
     const TrackTexts texts = with_calibration(given, file);
     for (const auto& [name, text] :
          {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
-        if (text->empty())
+        if (text->empty()) {
+            (void)read_unrepaired_tracks(file);  // a file of another kind is the first problem
             throw UsageError(fmt::format(
                 "'{}' has no calibration next to it (a .camera.json file), so --{} is required.\n"
                 "hint: also check the defaults --camera-fps 1, --scale 1, --centre 0,0, "
                 "--amplitude 0 and --phase 0.",
                 file, name));
+        }
     TrackScale scale;
     scale.frames_per_time = parse_number(texts, "camera-fps");
     scale.pixels_per_radius = parse_number(texts, "scale");

@@ -29,6 +29,11 @@ double number_option(const std::string& name, const std::string& text, double ot
 /// define themselves.
 void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::string& group);
 
+/// Throws UsageError if one of these options is given for a trajectory of swirl, or for a run if
+/// `file` is empty.
+[[noreturn]] void throw_option_of_tracks(std::string_view name, const std::string& file);
+void reject_track_options(const TrackTexts& given, const std::string& file);
+
 /// True if the name ends with .csv or .h5.
 bool is_named_as_tracks(const std::string& file);
 /// True if the file is HDF5 or named so, but does not hold tracks. Throws Failure if unreadable.

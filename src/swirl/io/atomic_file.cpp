@@ -259,6 +259,8 @@ std::string file_signature(const std::filesystem::path& path) {
     std::error_code unknown;
     if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
         throw_not_regular(path);
+    if (!std::filesystem::exists(path, unknown) && !unknown)
+        throw FileError(fmt::format("'{}' does not exist.", path.string()));
     constexpr std::size_t size = 8;
     std::ifstream stream(path, std::ios::binary);
     if (!stream) throw FileError(fmt::format("'{}' could not be opened.", path.string()));

@@ -56,7 +56,7 @@ bool has_spheres(const SnapshotSeries& series) {
     return first.are_spheres() && !first.turned.empty();
 }
 
-/// The number of the type after those of the discs, from 1.
+/// Type number of the container: the one after those of the discs, which count from 1.
 std::int64_t type_of_container(const std::vector<std::int64_t>& species) {
     return species.empty() ? 1 : *std::max_element(species.begin(), species.end()) + 2;
 }
@@ -523,8 +523,8 @@ constexpr std::array formats{
     ExportFormat{"lammps", ".dump", "OVITO, VMD, MDAnalysis", write_single_file<write_lammps>},
     ExportFormat{"xyz", ".xyz", "extended XYZ: OVITO, ASE", write_single_file<write_xyz>},
     ExportFormat{"vtp", ".pvd", "ParaView, VTK", write_vtp},
-    ExportFormat{"csv", ".csv", "pixels, as in trackpy", write_single_file<write_csv>},
-    // Not the ending of csv: both formats of one trajectory have different default names.
+    ExportFormat{"csv", ".csv", "trackpy: positions in pixels", write_single_file<write_csv>},
+    // Another ending than that of csv, so that both formats have different default file names.
     ExportFormat{"table", ".table.csv", "CSV with all quantities", write_single_file<write_table>},
     ExportFormat{"gsd", ".gsd", "HOOMD", write_single_file<write_gsd>},
 };

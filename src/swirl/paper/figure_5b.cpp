@@ -34,8 +34,8 @@ std::string compare_rates(const std::vector<RotationPoint>& individual,
     };
     return fmt::format(
         "The paper's ϖ/Ω, the mean over the discs, compared with that of the rigid body that fits "
-        "the velocities best: lowest {}{}.",
-        both(lowest), lowest == last ? ", the last" : ", at the end " + both(last));
+        "the velocities best: the lowest is {}{}.",
+        both(lowest), lowest == last ? ", which is the last" : "; the last is " + both(last));
 }
 
 CurveFigure curves_of_5b(const std::string& name) {

@@ -421,8 +421,7 @@ std::vector<PaperFigure> figures_of_spheres() {
         {"spheres_flat_discs",
          "spheres that roll: for comparison, solid discs that slide on the floor",
          plan_figure_spheres_flat_discs},
-        {"spheres_map",
-         "spheres that roll: rotation of 36 against the friction of contacts and floor",
+        {"spheres_map", "36 spheres that roll: rotation against the friction of contacts and floor",
          plan_figure_spheres_map}};
 }
 

@@ -36,8 +36,10 @@ std::optional<std::string> problem(const StillConfig& config) {
     for (const FrameSource& source : config.sources)
         if (source.from && (first < *source.from - 1e-9 || config.at > *source.to + 1e-9))
             return fmt::format(
-                "the recording covers periods {:.3f} to {:.3f}, but {:.3f} to {:.3f} are needed.",
-                *source.from, *source.to, first, config.at);
+                "the recording covers periods {:.3f} to {:.3f}, but the image shows {}.",
+                *source.from, *source.to,
+                config.flashes == 1 ? fmt::format("period {:.3f}", config.at)
+                                    : fmt::format("periods {:.3f} to {:.3f}", first, config.at));
     return std::nullopt;
 }
 

@@ -104,9 +104,17 @@ std::vector<std::string> read_measurement_list(std::string_view list) {
         for (const MeasurementKind& kind : measurement_kinds()) names.emplace_back(kind.name);
         return names;
     }
+    const std::string given(list);
     while (true) {
         const std::size_t comma = list.find(',');
-        const std::string name(require_measurement(list.substr(0, comma)).name);
+        const std::string_view next = list.substr(0, comma);
+        if (next.empty())
+            throw UsageError(
+                fmt::format("--measure is '{}', but a name in the list is empty.", given));
+        if (next == "all")
+            throw UsageError(fmt::format(
+                "--measure is '{}', but 'all' cannot be combined with other names.", given));
+        const std::string name(require_measurement(next).name);
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
         if (comma == list.npos) return names;
         list.remove_prefix(comma + 1);

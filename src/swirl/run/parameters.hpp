@@ -120,7 +120,8 @@ struct RunConfig {
     /// not set.
     bool warmup_found = false;
 
-    /// For the averages by event. 0: chosen from the events of the last period (cluster_rotation.hpp).
+    /// For the averages by event. 0: chosen from the events of the last period
+    /// (cluster_rotation.hpp).
     std::int64_t events_per_sample = 0;
 
     std::uint64_t seed = 1;
@@ -585,7 +586,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .default_text = "20, at most 1/5 of run"},
     {.name = "events_per_sample",
      .form = "NUMBER",
-     .description = "Events per sample of averages by event; 0: chosen",
+     .description = "Events per sample of averages by event; 0: automatic",
      .details =
          "1 takes a sample after every event. By default a period with many events has about "
          "128 samples. The mean is the same.",
@@ -596,7 +597,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .written = WrittenIf::not_default},
     {.name = "ramp",
      .form = "NAME=FROM:TO@P..Q",
-     .description = "Parameter that changes, and in which periods",
+     .description = "Change of a parameter between periods P and Q",
      .details = "FROM:TO:… are values at equal distances from period P to Q, counted from 0; "
                 "each period has one value. Parameters: mu, mu_disc, mu_wall, restitution, "
                 "tangential_restitution, floor_friction, amplitude, period. Several ramps: repeat "

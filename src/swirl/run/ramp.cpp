@@ -31,12 +31,13 @@ std::string name_of_ramp(std::string_view text, std::string_view given) {
         const std::string meant = nearest_value_hint(name, names);
         throw_usage_error(fmt::format(
             "--ramp is '{}', but there is no parameter '{}'.{}", text, given,
-            meant.empty() ? fmt::format("\nhint: {} can change.", fmt::join(names, ", ")) : meant));
+            meant.empty() ? fmt::format("\nhint: these can change: {}.", fmt::join(names, ", "))
+                          : meant));
     }
     const bool is_of_the_discs =
         name == "inertia" || name == "mass" || name == "radius" || name == "mixture";
     throw_usage_error(fmt::format(
-        "--ramp is '{}', but {} cannot change during a run{}.\nhint: {} can.", text, name,
+        "--ramp is '{}', but {} cannot change during a run{}.\nhint: these can: {}.", text, name,
         is_of_the_discs ? ": it is a property of the particles" : "", fmt::join(names, ", ")));
 }
 

@@ -63,8 +63,7 @@ Json read_about(const std::filesystem::path& file, const Checkpoint& checkpoint)
     };
     if (!is_valid())
         throw FileError(fmt::format(
-            "the checkpoint '{}' does not say which run it belongs to.\nhint: remove it.",
-            file.string()));
+            "the checkpoint '{}' does not identify its run.\nhint: remove it.", file.string()));
     return about;
 }
 

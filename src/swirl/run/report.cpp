@@ -85,10 +85,11 @@ std::string first_periods(std::int64_t count) {
 std::string no_period_warning(const RunResult& r) {
     const char* const hint =
         r.config.periods ? "\nhint: use more --periods." : "\nhint: use more --events.";
-    return fmt::format("the run covers {:.2f} periods{}; averages are over whole periods.{}",
-                       r.periods,
-                       r.warmup > 0 ? fmt::format(", and {} warm-up", first_periods(r.warmup)) : "",
-                       r.complete ? hint : "");
+    return fmt::format(
+        "the run covers {:.2g} periods{}; averages are over whole periods, so there "
+        "are none.{}",
+        r.periods, r.warmup > 0 ? fmt::format(", and {} warm-up", first_periods(r.warmup)) : "",
+        r.complete ? hint : "");
 }
 
 std::string too_short_warning(const RunResult& r) {
@@ -290,10 +291,11 @@ std::string report(const RunResult& r, bool verbose) {
                              r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
     }
     const char* const body = body_word(r.config);
-    line("events", fmt::format("{}: {} {}–{}, {} {}–wall, {} vertices of the path{}",
-                               with_commas(r.events.total()), with_commas(r.events.disc_disc), body,
-                               body, with_commas(r.events.disc_wall), body,
-                               with_commas(r.events.path_vertex), floor_events_text(r)));
+    line("events",
+         fmt::format("{}: {} {}–{}, {} {}–wall, {} {} of the path{}", with_commas(r.events.total()),
+                     with_commas(r.events.disc_disc), body, body, with_commas(r.events.disc_wall),
+                     body, with_commas(r.events.path_vertex),
+                     r.events.path_vertex == 1 ? "vertex" : "vertices", floor_events_text(r)));
     line("periods", periods_text(r));
     if (r.config.ramps.empty()) line("steady", steady_text(r));
     if (verbose) {

@@ -200,8 +200,8 @@ std::vector<std::string> warnings(const CollectedSweep& collected) {
     if (collected.without_period > 0)
         all.push_back(
             fmt::format("{} of the runs completed no whole period after the warm-up and "
-                        "have no averages.\nhint: use more --events.",
-                        collected.without_period));
+                        "{} no averages.\nhint: use more --events.",
+                        collected.without_period, collected.without_period == 1 ? "has" : "have"));
     if (collected.not_steady > 0)
         all.push_back(
             fmt::format("steady state not verified in {} of {} rows (column steady_state).",

@@ -270,12 +270,12 @@ std::vector<std::string> warnings(const CrossingSearch& search) {
     std::vector<std::string> all;
     if (search.not_steady > 0)
         all.push_back(
-            fmt::format("{} of the runs that N_c depends on were not steady after the warm-up."
+            fmt::format("{} of the runs that N_c depends on {} not steady after the warm-up."
                         "\nhint: use a longer --warmup, or --warmup auto.",
-                        search.not_steady));
+                        search.not_steady, search.not_steady == 1 ? "was" : "were"));
     if (search.too_short > 0)
         all.push_back(fmt::format(
-            "steady state not verified for {} of the runs that N_c depends on: they are too short.",
+            "steady state not verified for {} of the runs that N_c depends on: too short.",
             search.too_short));
     if (search.disagreeing > 0)
         all.push_back(disagreement_warning(

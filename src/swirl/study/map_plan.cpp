@@ -110,8 +110,8 @@ void validate_settings(const MapSettings& s) {
         if (axis == "seed")
             throw UsageError("the seed cannot be an axis of a map: each run has its own seed.");
         if (s.parameters.contains(axis))
-            throw UsageError(fmt::format("{} is an axis of the map and cannot be given, too.",
-                                         option_name(axis)));
+            throw UsageError(fmt::format(
+                "{} is an axis of the map, so it cannot have another value.", option_name(axis)));
         if (s.of == "N_c" && axis == "discs")
             throw UsageError("the number of discs cannot be an axis of a map of N_c.");
     }

@@ -1,5 +1,5 @@
 // The plan of an adaptive map: the plan of a sweep (sweep_plan.hpp) over one or two parameters, and
-// over the number of discs if N_c is asked for, with the quantity that decides where the map is
+// over the number of discs if the quantity is N_c, with the quantity that decides where the map is
 // refined.
 #pragma once
 

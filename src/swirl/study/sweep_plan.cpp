@@ -299,10 +299,10 @@ void set_chain(SweepPlan& plan, std::string_view parameter) {
         throw UsageError(fmt::format("--chain is '{}', but it must be one of: {}.{}", parameter,
                                      fmt::join(names, ", "), nearest_value_hint(name, names)));
     if (!axis || axis->values.size() < 2)
-        throw UsageError(
-            fmt::format("--chain is '{}', but the sweep has no list of values of it.\nhint: give "
-                        "{} with several values, for example {} 0.1:0.1:1.",
-                        parameter, option_name(name), option_name(name)));
+        throw UsageError(fmt::format(
+            "--chain is '{}', but the sweep has fewer than two values of it.\nhint: give "
+            "{} with several values, for example {} 0.1:0.1:1.",
+            parameter, option_name(name), option_name(name)));
     if (!plan.axis("periods"))
         throw UsageError(
             "a chain needs runs of whole periods.\nhint: give their length with --periods.");
@@ -438,6 +438,8 @@ void replace_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan
 
 void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* grown_from) {
     std::error_code error;
+    if (fs::is_regular_file(folder, error))
+        throw Failure(fmt::format("'{}' is a file, but it must be a folder.", folder.string()));
     std::vector<fs::path> parts{part_of_sweep(folder, "results", plan), folder / "failures",
                                 part_of_sweep(folder, "checkpoints", plan)};
     if (plan.frames > 0) parts.push_back(folder / "trajectories");
@@ -450,11 +452,15 @@ void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* 
     // If two sweeps start in this folder at the same time, the first one gets it.
     const fs::path file = folder / "plan.json";
     if (!fs::exists(file) && write_new_file(file, plan_file_text(plan))) return;
-    if (read_plan(folder) != plan)
-        throw Failure(fmt::format(
-            "'{}' holds another sweep (see its plan.json).\nhint: choose another folder, continue "
-            "that sweep by giving only --out, or extend it with --grow.",
-            folder.string()));
+    const SweepPlan existing = read_plan(folder);
+    if (existing == plan) return;
+    const bool same_kind = existing.map.has_value() == plan.map.has_value();
+    throw Failure(fmt::format(
+        "'{}' holds {} {} (see its plan.json).\nhint: choose another folder{}.", folder.string(),
+        same_kind ? "another" : "a", existing.map ? "map" : "sweep",
+        !same_kind ? ""
+        : plan.map ? ", or continue that map by giving only --out"
+                   : ", continue that sweep by giving only --out, or extend it with --grow"));
 }
 
 }  // namespace swirl
