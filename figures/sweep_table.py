@@ -85,7 +85,8 @@ def main():
             axes.plot(style.column(points, x), style.column(points, quantity), **look)
     if quantity in tables.RATES:
         axes.axhline(0, color="0.6", linewidth=0.5, zorder=0)
-    axes.set_xlabel("number of discs $N$" if x == "discs" else x.replace("_", " "))
+    names = {"discs": "number of discs $N$", "mu": r"friction coefficient $\mu$"}
+    axes.set_xlabel(names.get(x, x.replace("_", " ")))
     axes.set_ylabel(label_of(quantity))
     if others:
         style.legend(axes)

@@ -22,18 +22,20 @@ void Frames::begin(const Snapshot& s) {
     inertia = s.inertia;
 }
 
-void Frames::add_time(std::int64_t whole_periods, double clock_now, const Vec2& centre,
-                      const Vec2& centre_velocity) {
+void Frames::add_time(std::int64_t whole_periods, double clock_now, const PeriodChange& since,
+                      const Vec2& centre, const Vec2& centre_velocity) {
     periods.push_back(whole_periods);
     clock.push_back(clock_now);
-    time.push_back(static_cast<double>(whole_periods) * period + clock_now);
+    time.push_back(since.time + static_cast<double>(whole_periods - since.periods) * period +
+                   clock_now);
     container_centre.insert(container_centre.end(), {centre.x, centre.y});
     container_velocity.insert(container_velocity.end(), {centre_velocity.x, centre_velocity.y});
 }
 
 void Frames::add(const Snapshot& s) {
     if (size() == 0) begin(s);
-    add_time(s.periods, s.clock, s.container_centre, s.container_velocity);
+    add_time(s.periods, s.clock, {s.periods_at_change, s.time_at_change}, s.container_centre,
+             s.container_velocity);
     const auto add_vector = [](std::vector<double>& column, const Vec2& v) {
         column.push_back(v.x);
         column.push_back(v.y);
@@ -49,11 +51,17 @@ void Frames::add(const Snapshot& s) {
     }
 }
 
-void Frames::add(const Simulation& simulation, const ContainerPath& path) {
-    if (size() == 0 || are_spheres) return add(simulation.snapshot());
+void Frames::add(const Simulation& simulation, const ContainerPath& path,
+                 const PeriodChange& since) {
+    if (size() == 0 || are_spheres) {
+        Snapshot s = simulation.snapshot();
+        s.periods_at_change = since.periods;
+        s.time_at_change = since.time;
+        return add(s);
+    }
     const double now = simulation.clock();
     const Segment& segment = path.segment_at(now);
-    add_time(simulation.periods(), now, segment.position_at(now), segment.velocity_at(now));
+    add_time(simulation.periods(), now, since, segment.position_at(now), segment.velocity_at(now));
     const std::size_t at = angle.size();
     for (auto* column : {&position, &velocity}) column->resize(2 * (at + discs));
     for (auto* column : {&angle, &spin}) column->resize(at + discs);
@@ -74,6 +82,10 @@ Snapshot Frames::frame(std::size_t k) const {
     s.periods = periods[k];
     s.clock = clock[k];
     s.period = period;
+    if (time[k] != s.time()) {  // a ramp has changed the period
+        s.periods_at_change = periods[k];
+        s.time_at_change = time[k] - clock[k];
+    }
     s.container_radius = container_radius;
     s.on_floor = on_floor;
     s.lie_flat = lie_flat;

@@ -8,6 +8,7 @@
 #include "swirl/engine/simulation.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/snapshot.hpp"
+#include "swirl/run/ramp.hpp"
 
 namespace swirl::python {
 
@@ -29,13 +30,14 @@ struct Frames {
     void reserve(std::size_t frames, std::size_t of_discs);
     void add(const Snapshot& snapshot);
     /// Adds the present state. Equals add(simulation.snapshot()), but is faster.
-    void add(const Simulation& simulation, const ContainerPath& path);
+    void add(const Simulation& simulation, const ContainerPath& path,
+             const PeriodChange& since = {});
     Snapshot frame(std::size_t k) const;
 
   private:
     void begin(const Snapshot& snapshot);
-    void add_time(std::int64_t whole_periods, double clock_now, const Vec2& centre,
-                  const Vec2& centre_velocity);
+    void add_time(std::int64_t whole_periods, double clock_now, const PeriodChange& since,
+                  const Vec2& centre, const Vec2& centre_velocity);
 };
 
 /// A single snapshot, in the same columns.

@@ -15,6 +15,7 @@
 #include "simulation_archive.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/ramp.hpp"
 #include "swirl/run/simd.hpp"
 
 namespace swirl::python {
@@ -28,10 +29,10 @@ struct EventRow {
     double normal_x, normal_y, normal_impulse, tangential_impulse, overlap;
 };
 
-EventRow row_of(const Event& e, double period) {
+EventRow row_of(const Event& e, double time) {
     return {e.periods,
             e.clock,
-            static_cast<double>(e.periods) * period + e.clock,
+            time,
             static_cast<std::int64_t>(e.kind),
             e.i,
             e.j,
@@ -42,6 +43,10 @@ EventRow row_of(const Event& e, double period) {
             e.overlap};
 }
 
+bool ramps_change_path(const RunConfig& config) {
+    return config.ramp_of("amplitude") != nullptr || config.ramp_of("period") != nullptr;
+}
+
 /// A simulation that Python drives. Any thread may call it; simultaneous calls wait for each other.
 class InteractiveSimulation {
   public:
@@ -50,7 +55,8 @@ class InteractiveSimulation {
         : config_(std::move(config)),
           is_custom_(is_custom),
           scene_(std::move(scene)),
-          simulation_(scene_, progress, selected_tuning(stop)) {
+          simulation_(scene_, progress, selected_tuning(stop)),
+          since_(last_period_change(config_, progress.periods)) {
         scene_.discs.clear();
         scene_.discs.shrink_to_fit();
     }
@@ -83,21 +89,28 @@ class InteractiveSimulation {
         EventRow* const begin = rows.mutable_data();
         std::int64_t done = 0;
         repeat_interruptibly([&] {
-            for (const auto end = std::min(count, done + events_per_step); done < end; ++done)
-                begin[done] = row_of(simulation_.step(), scene_.path.period);
+            for (const auto end = std::min(count, done + events_per_step); done < end; ++done) {
+                const Event event = simulation_.step();
+                begin[done] = row_of(event, time_at(event.periods, event.clock));
+                follow_ramps(event.periods);
+            }
             return done < count;
         });
         return rows;
     }
     Event next() {
-        return exclusively([](Simulation& s) { return s.step(); });
+        return exclusively([&](Simulation& s) {
+            const Event event = s.step();
+            follow_ramps(event.periods);
+            return event;
+        });
     }
     void run(std::int64_t count) {
         if (count < 0)
             throw UsageError(fmt::format("events is {}, but it must be 0 or more.", count));
         repeat_interruptibly([&] {
             const std::int64_t part = std::min(count, events_per_step);
-            simulation_.run(static_cast<std::uint64_t>(part));
+            execute(static_cast<std::uint64_t>(part));
             count -= part;
             return count > 0;
         });
@@ -108,11 +121,16 @@ class InteractiveSimulation {
             return !advance_towards(*to);
         });
     }
+    void advance_periods(double number) {
+        repeat_interruptibly([&, to = std::optional<Time>()]() mutable {
+            if (!to) to = time_after_periods(number);
+            return !advance_towards(*to);
+        });
+    }
     void advance_to(std::int64_t periods, double clock) {
-        if (!(clock >= 0.0 && clock < scene_.path.period))
-            throw UsageError(
-                fmt::format("clock is {}, but it must be from 0 to below the period, {}.", clock,
-                            scene_.path.period));
+        if (const double period = period_in(periods); !(clock >= 0.0 && clock < period))
+            throw UsageError(fmt::format(
+                "clock is {}, but it must be from 0 to below the period, {}.", clock, period));
         repeat_interruptibly([&, checked = false]() mutable {
             const Progress now = simulation_.progress();
             if (!checked &&
@@ -132,6 +150,7 @@ class InteractiveSimulation {
         repeat_interruptibly([&] {
             if (!begin) {
                 begin = {simulation_.periods(), simulation_.clock()};
+                require_one_period(*begin, double(count - 1) / double(per_period));
                 frames->reserve(static_cast<std::size_t>(count), simulation_.size());
             }
             const Time time = normalised(
@@ -139,14 +158,19 @@ class InteractiveSimulation {
                  begin->clock + scene_.path.period * double(k % per_period) / double(per_period)});
             if (!advance_towards(time)) return true;
             if (k == count) return false;
-            frames->add(simulation_, scene_.path);
+            frames->add(simulation_, scene_.path, since_);
             ++k;
             return true;
         });
         return frames;
     }
     SingleFrame snapshot() {
-        return exclusively([](Simulation& s) { return SingleFrame(s.snapshot()); });
+        return exclusively([&](Simulation& s) {
+            Snapshot now = s.snapshot();
+            now.periods_at_change = since_.periods;
+            now.time_at_change = since_.time;
+            return SingleFrame(now);
+        });
     }
     std::string to_bytes() {
         ArchivedSimulation archived{config_, is_custom_, scene_, {}};
@@ -159,6 +183,9 @@ class InteractiveSimulation {
 
     std::string config() const { return config_text(config_); }
     double period() const { return scene_.path.period; }
+    double time() {
+        return exclusively([&](Simulation& s) { return time_at(s.periods(), s.clock()); });
+    }
     double container_radius() const { return scene_.container_radius; }
     /// Time, x and y at the beginning of each segment.
     std::vector<double> path() const {
@@ -198,10 +225,66 @@ class InteractiveSimulation {
         error.rethrow();
     }
 
+    /// To be called after each event with the period before it: at the start of a period, ramps
+    /// change the surroundings.
+    void follow_ramps(std::int64_t period_before) {
+        const std::int64_t period = simulation_.periods();
+        if (config_.ramps.empty() || period == period_before || !changes_in_period(config_, period))
+            return;
+        InitialState next = surroundings_in(config_, period);
+        if (!ramps_change_path(config_)) next.path = scene_.path;  // it may be custom
+        simulation_.change_surroundings(next, selected_tuning(nullptr));
+        since_ = last_period_change(config_, period);
+        scene_ = std::move(next);
+    }
+    /// Executes all events of the present period but its last, at most `maximum`. Returns whether
+    /// these were fewer.
+    bool run_in_period(std::uint64_t& maximum) {
+        EventSpan span;
+        simulation_.run_before(never, maximum, span);
+        maximum -= span.events;
+        return maximum > 0;
+    }
+    void end_period() {
+        const std::int64_t before = simulation_.periods();
+        simulation_.step();
+        follow_ramps(before);
+    }
+    void execute(std::uint64_t count) {
+        if (config_.ramps.empty()) return simulation_.run(count);
+        for (; count > 0 && run_in_period(count); --count) end_period();
+    }
     /// Returns true when the time is reached.
     bool advance_towards(const Time& time) {
-        return simulation_.advance_to(time.periods, time.clock,
-                                      static_cast<std::uint64_t>(events_per_step));
+        auto left = static_cast<std::uint64_t>(events_per_step);
+        while (!config_.ramps.empty() && simulation_.periods() < time.periods) {
+            if (!run_in_period(left)) return false;
+            end_period();
+        }
+        return simulation_.advance_to(time.periods, time.clock, left);
+    }
+
+    double time_at(std::int64_t periods, double clock) const {
+        return since_.time + static_cast<double>(periods - since_.periods) * scene_.path.period +
+               clock;
+    }
+    /// Length of a period, which a ramp may change.
+    double period_in(std::int64_t period) const {
+        const Ramp* const ramp = config_.ramp_of("period");
+        return ramp ? ramp->value_in(period) : scene_.path.period;
+    }
+    /// All frames have the same length of the period. `length`: from the first to the last one, in
+    /// periods.
+    void require_one_period(const Time& begin, double length) const {
+        const Ramp* const ramp = config_.ramp_of("period");
+        if (!ramp) return;
+        const double last = std::floor(begin.clock / scene_.path.period + length);
+        for (std::int64_t k = 1; double(k) <= last && begin.periods + k <= ramp->end; ++k)
+            if (period_in(begin.periods + k) != scene_.path.period)
+                throw UsageError(fmt::format(
+                    "sample() returns frames of one length of the period, but the ramp changes it "
+                    "in period {}.\nhint: call sample() for one period at a time.",
+                    begin.periods + k));
     }
     /// The same time with a clock below the period.
     Time normalised(const Time& time) const {
@@ -212,7 +295,23 @@ class InteractiveSimulation {
         const double clock = std::max(0.0, time.clock - whole * period);
         return clock >= period ? Time{periods + 1, 0.0} : Time{periods, clock};
     }
+    Time time_after_periods(double number) const {
+        if (!config_.ramp_of("period")) return time_after(number * scene_.path.period);
+        const double share = simulation_.clock() / scene_.path.period + number;
+        const double whole = std::floor(share);
+        const std::int64_t period = simulation_.periods() + static_cast<std::int64_t>(whole);
+        return {period, (share - whole) * period_in(period)};
+    }
     Time time_after(double duration) const {
+        if (const Ramp* const ramp = config_.ramp_of("period")) {
+            Time time{simulation_.periods(), simulation_.clock() + duration};
+            for (; time.periods < ramp->end && time.clock >= period_in(time.periods);
+                 ++time.periods)
+                time.clock -= period_in(time.periods);
+            const double period = period_in(time.periods), whole = std::floor(time.clock / period);
+            return {time.periods + static_cast<std::int64_t>(whole),
+                    std::max(0.0, time.clock - whole * period)};
+        }
         const double period = scene_.path.period;
         const double periods = std::floor(duration / period);
         return normalised({simulation_.periods() + static_cast<std::int64_t>(periods),
@@ -225,6 +324,7 @@ class InteractiveSimulation {
     // A signal handler may use the simulation that it interrupts.
     std::recursive_mutex mutex_;
     Simulation simulation_;
+    PeriodChange since_;
 };
 
 std::unique_ptr<InteractiveSimulation> make_simulation(const py::dict& parameters,
@@ -232,10 +332,10 @@ std::unique_ptr<InteractiveSimulation> make_simulation(const py::dict& parameter
                                                        const std::optional<Numbers>& path,
                                                        const std::optional<Numbers>& path_times) {
     const RunConfig config = resolve(texts_of(parameters));
-    if (!config.ramps.empty())
+    if (path && ramps_change_path(config))
         throw UsageError(
-            "ramp is given, but a Simulation has none.\nhint: swirl.run(ramp=...) runs it; "
-            "series=True returns the averages of every period.");
+            "ramp changes the amplitude or the period, but path defines the path.\nhint: give path "
+            "as an array with the columns t, x and y.");
     const bool is_custom = given || path;
     if (is_custom && config.shape() != Shape::disc)
         throw UsageError("position and path are allowed only for discs without a floor.");
@@ -317,6 +417,7 @@ void bind_simulation(py::module_& module) {
         .def("next", &Self::next)
         .def("run", &Self::run)
         .def("advance", &Self::advance)
+        .def("advance_periods", &Self::advance_periods)
         .def("advance_to", &Self::advance_to)
         .def("sample", &Self::sample)
         .def("snapshot", &Self::snapshot)
@@ -325,6 +426,7 @@ void bind_simulation(py::module_& module) {
                     [](const py::bytes& b) { return Self::from_bytes(std::string_view(b)); })
         .def("config", &Self::config)
         .def_property_readonly("period", &Self::period)
+        .def_property_readonly("time", &Self::time)
         .def_property_readonly("container_radius", &Self::container_radius)
         .def("path", &Self::path)
         .def("__len__",

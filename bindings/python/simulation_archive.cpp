@@ -13,6 +13,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/particle_sizes.hpp"
+#include "swirl/run/ramp.hpp"
 
 namespace swirl::python {
 namespace {
@@ -32,9 +33,10 @@ bool same_segments(const std::vector<Segment>& a, const std::vector<Segment>& b)
                       });
 }
 
-/// The path must be that of the parameters, or what polygon() makes of its vertices.
-void require_path(const std::vector<Segment>& segments, const RunConfig& config, bool is_custom) {
-    if (same_segments(segments, make_path(config).segments)) return;
+/// The path must be that of the parameters (`path`), or what polygon() makes of its vertices.
+void require_path(const std::vector<Segment>& segments, const ContainerPath& path,
+                  const RunConfig& config, bool is_custom) {
+    if (same_segments(segments, path.segments)) return;
     if (!is_custom) reject_archive("its path does not match its parameters");
     Numbers vertices(std::vector<py::ssize_t>{signed_size(segments.size()), 2}),
         times(signed_size(segments.size()));
@@ -110,8 +112,10 @@ ArchivedSimulation read_archive(std::string_view bytes) {
         const RunConfig& config = archived.config;
         if (archived.is_custom && config.shape() != Shape::disc)
             reject_archive("only discs can be given as arrays");
-        require_path(segments, config, archived.is_custom);
-        archived.scene = without_discs(config, {config.period, std::move(segments)});
+        if (progress.periods < 0) reject_archive("its number of periods is negative");
+        archived.scene = surroundings_in(config, progress.periods);
+        require_path(segments, archived.scene.path, config, archived.is_custom);
+        archived.scene.path.segments = std::move(segments);
         archived.scene.discs = std::move(discs);
         if (const char* const reason = impossible_to_continue(archived.scene, progress))
             reject_archive(reason);

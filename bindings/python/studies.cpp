@@ -96,9 +96,11 @@ py::tuple collect(const std::string& folder) {
     const SweepPlan plan = read_plan(folder);
     const CollectedSweep collected = collect_sweep(folder, plan);
     const SweepStatus status = sweep_status(folder, plan);
-    return py::make_tuple(collected.table.csv(), status.points, status.done, status.running,
-                          status.failed, collected.disagreeing, collected.not_steady,
-                          collected.without_period);
+    return py::make_tuple(
+        collected.table.csv(), status.points, status.done, status.running, status.failed,
+        collected.disagreeing, collected.not_steady, collected.without_period,
+        plan.chain.empty() ? std::string()
+                           : loop_table(plan, collected.loops, collected.loop_quantities).csv());
 }
 
 CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
@@ -172,6 +174,13 @@ void write_map_plan(const std::string& folder, const py::dict& x, const py::dict
     write_plan(folder, plan);
 }
 
+/// Without axes or with 0 seeds, these do not change.
+void grow_map(const std::string& folder, const py::dict& x, const py::dict& y, std::int64_t steps,
+              std::int64_t seeds) {
+    const SweepPlan before = read_plan(folder);
+    write_plan(folder, grown_map(before, {axis_of(x), axis_of(y)}, steps, seeds), &before);
+}
+
 /// The table as CSV, and the report.
 py::tuple make_map(const std::string& folder, unsigned threads, const ProgressCallback& callback) {
     const SweepPlan plan = read_plan(folder);
@@ -186,7 +195,8 @@ py::tuple make_map(const std::string& folder, unsigned threads, const ProgressCa
     const MapOutcome outcome = interruptible(
         stop, [&] { return run_map(folder, plan, share, control); },
         [&] { latest.forward_to(callback); });
-    return py::make_tuple(map_table(plan, outcome.state).csv(), map_summary(plan, outcome.state));
+    return py::make_tuple(map_table(plan, outcome.state).csv(), map_summary(plan, outcome.state),
+                          first_failure(folder, plan));
 }
 
 }  // namespace
@@ -221,6 +231,7 @@ void bind_studies(py::module_& module) {
     module.def("collect", &collect);
     module.def("crossing", &crossing);
     module.def("write_map_plan", &write_map_plan);
+    module.def("grow_map", &grow_map);
     module.def("make_map", &make_map);
 }
 

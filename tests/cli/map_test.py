@@ -138,6 +138,62 @@ class Map(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertIn("error: every run failed", done.stderr)
 
+    def test_failed_runs_are_tried_again_and_the_reason_is_reported(self):
+        call = ["map", "--x", "restitution=0.1,1", "--contact-duration", 0, "--periods", 10, "--seeds", 2, "--no-figure",
+                "--quiet", "--out", self.path("m")]
+        done = self.good(*call)
+        self.assertIn("tries them again. The first is --restitution 0.1, replica 1: the last ", done.stderr)
+        self.assertIn("inelastic collapse", done.stderr)
+        self.assertIn("hint: use a --contact-duration", done.stderr)
+        # An error that does not come back, as from a full disk: the run has no result, and its message remains.
+        names = self.results(self.path("m"))
+        self.assertEqual(len(names), 2)
+        before = self.table(self.path("m"))
+        os.remove(self.path(f"m/results/{names[0]}"))
+        failure = self.path(f"m/failures/{names[0][:-5]}.txt")
+        with open(failure, "w", encoding="utf-8") as opened:
+            opened.write("the disk is full.\n")
+        again = self.good("map", "--out", self.path("m"), "--no-figure", "--quiet")
+        self.assertNotIn("disk is full", again.stderr)
+        self.assertFalse(os.path.exists(failure))
+        self.assertEqual(self.table(self.path("m")), before)
+        self.assertEqual(len(os.listdir(self.path("m/failures"))), 2)
+
+    def test_a_grown_map_keeps_its_runs(self):
+        self.whole()
+        folder = self.path("whole/results")
+        made = {name: os.stat(os.path.join(folder, name)).st_mtime_ns for name in os.listdir(folder)}
+        self.good("map", "--out", self.path("whole"), "--grow", "--x", "mu=0:1.5", "--steps", 10, "--seeds", 8,
+                  "--no-figure", "--quiet")
+        for name, time_of in made.items():
+            self.assertEqual(os.stat(os.path.join(folder, name)).st_mtime_ns, time_of)
+        rows = self.rows(self.path("whole/map.csv"))
+        self.assertEqual(sum(int(row["seeds"]) for row in rows), len(os.listdir(folder)))
+        self.assertEqual(max(float(row["mu"]) for row in rows), 1.5)
+        order = [(float(row["discs"]), float(row["mu"])) for row in rows]
+        self.assertEqual(order, sorted(order))
+        # The same points at the same seeds as in a map without growth have the same values.
+        alone = self.good("map", "--x", "mu=0,0.5,1,1.5", "--y", "discs=4:40", "--steps", 7, "--level", 0.5, "--periods",
+                          12, "--seeds", 8, "--no-figure", "--quiet", "--out", self.path("alone"))
+        self.assertEqual(alone.returncode, 0)
+        grown = {(row["mu"], row["discs"]): row for row in rows}
+        shared = [row for row in self.rows(self.path("alone/map.csv")) if (row["mu"], row["discs"]) in grown]
+        self.assertGreater(len(shared), 4)
+        for row in shared:
+            if row["seeds"] == grown[row["mu"], row["discs"]]["seeds"]:
+                self.assertEqual(row, grown[row["mu"], row["discs"]])
+        # The grown map continues with its folder alone, and is as large.
+        before = self.table(self.path("whole"))
+        self.good("map", "--out", self.path("whole"), "--no-figure", "--quiet")
+        self.assertEqual(self.table(self.path("whole")), before)
+        for wrong, says in ((["--mu", 1], "--mu"), (["--of", "spin"], "--of"), ([], "no --x"),
+                            (["--x", "period=1:2"], "not an axis"), (["--seeds", 2], "can only grow"),
+                            (["--steps", 5, "--seeds", 9], "no axis")):
+            done = swirl("map", "--out", self.path("whole"), "--grow", *wrong)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, ONE_ERROR)
+            self.assertIn(says, done.stderr)
+
     def test_invalid_calls_are_rejected_before_anything_is_written(self):
         for wrong, says in ((["--x", "mu"], "NAME=VALUES"), (["--x", "colour=1:2"], "colour"),
                             (["--x", "mu=1:0"], "below"), (["--x", "mu=0:1", "--y", "mu=0:1"], "both"),

@@ -164,6 +164,42 @@ class Chain(InFolder):
         verified = swirl("verify", "loop/results/000002.json", cwd=self.folder)
         self.assertIn("started from the end of another", verified.stderr)
 
+    def test_the_area_of_a_loop_is_the_integral_between_its_branches(self):
+        self.sweep("loop", "--plot")
+        for file in ("table.csv", "table.png", "table.pdf", "loops.csv"):
+            self.assertGreater(os.path.getsize(os.path.join(self.folder, "loop", file)), 100)
+        with open(os.path.join(self.folder, "loop", "loops.csv"), encoding="utf-8") as opened:
+            rows = list(csv.DictReader(opened))
+        self.assertEqual([(row["amplitude"], row["replicas"]) for row in rows], [("1.5", "2"), ("2", "2")])
+        areas, squares = {}, {}  # (amplitude, replica): of every loop, from its runs; of the errors
+        for result in self.results("loop").values():
+            key = result["config"]["amplitude"], result["replica"]
+            # 0.4 between the values: half of it for the outer ones.
+            weight = 0.4 if result["config"]["mu_disc"] == 0.6 else 0.2
+            sign = 1 if result["direction"] == "down" else -1
+            rate = result["rotation"]["by_time"]
+            areas[key] = areas.get(key, 0.0) + sign * weight * rate["mean"]
+            squares[key] = squares.get(key, 0.0) + (weight * rate["error"]) ** 2
+        for row in rows:
+            pair = [areas[float(row["amplitude"]), replica] for replica in (0, 1)]
+            self.assertAlmostEqual(float(row["by_time"]), sum(pair) / 2, delta=1e-12)
+            # At least the error that follows from those of the runs; the program rounds 1.96 in it.
+            square = sum(squares[float(row["amplitude"]), replica] for replica in (0, 1)) / 4
+            self.assertGreaterEqual(float(row["by_time_error"]), 0.9999 * square ** 0.5)
+        done = swirl("collect", "loop", cwd=self.folder)
+        self.assertRegex(done.stdout, r"loop area of by_time --amplitude 1.5: \S+ ± \S+ \(2 loops\)")
+        # A loop with a missing run does not count.
+        os.remove(os.path.join(self.folder, "loop", "results", "000000.json"))
+        done = swirl("collect", "loop", "--loops", "-", "--csv", "t.csv", cwd=self.folder)
+        self.assertEqual([row["replicas"] for row in csv.DictReader(done.stdout.splitlines())], ["1", "2"])
+        for wrong, says in ((("collect", "plain", "--loops", "l.csv"), "not a chain"),
+                            (("sweep", "--out", "plain", "--plot", "--slurm"), "--plot")):
+            if not os.path.exists(os.path.join(self.folder, "plain")):
+                swirl("sweep", "--discs", "5,6", "--events", 500, "--out", "plain", "--quiet", cwd=self.folder)
+            done = swirl(*wrong, cwd=self.folder)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(says, done.stderr)
+
     def test_a_continued_chain_is_bitwise_identical(self):
         self.sweep("whole")
         self.sweep("parts")

@@ -29,6 +29,16 @@ def test_code_runs(page, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.parametrize("page", ["docs/how-to/paths.md", "docs/how-to/series_and_ramps.md"])
+def test_complete_examples_run(page, tmp_path):
+    """Blocks that import what they use; the others continue a call of the reader."""
+    blocks = [block for block in re.findall(r"^```python\n(.*?)^```$", text_of(page), re.M | re.S)
+              if "import swirl" in block]
+    assert len(blocks) == 1 and "assert" in blocks[0]
+    done = subprocess.run([sys.executable, "-B", "-c", blocks[0]], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+
+
 def test_recordings_are_read_as_shown(tmp_path):
     """The block is the same on both pages."""
     how_to, reference = (re.findall(r"^```python\n(.*?)^```$", text_of(page), re.M | re.S)

@@ -398,8 +398,9 @@ def test_the_fluctuations_of_a_series_are_estimates():
 def test_a_ramp_is_rejected_where_it_cannot_be():
     with pytest.raises(ValueError, match="property of the particles"):
         swirl.run(ramp="inertia=1:2@3..4")
-    with pytest.raises(ValueError, match="a Simulation has none"):
-        swirl.Simulation(discs=5, ramp="mu=0:1@3..4")
+    square = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
+    with pytest.raises(ValueError, match="path defines the path"):
+        swirl.Simulation(discs=5, path=square, ramp="amplitude=1:2@3..4")
     with pytest.raises(ValueError, match="needs a steady state"):
         swirl.crossing(ramp="mu=0:1@3..4")
     with pytest.raises(ValueError, match="must end in .csv"):

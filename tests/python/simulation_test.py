@@ -45,6 +45,80 @@ def test_state_is_that_of_the_command_line_for_every_way_of_advancing(scene):
         np.testing.assert_array_equal(rows[name][:4000], [getattr(e, name) for e in seen])
 
 
+RAMPS = ["mu=0.2:1:0.2@2..10", "amplitude=1.5:2.5@1..9;mu_wall=1:0.1@3..8",
+         "period=12:8@2..10;restitution=1:0.9@2..4", "amplitude=0:2@3..4"]
+
+
+@pytest.mark.parametrize("ramp", RAMPS)
+def test_a_ramp_is_that_of_the_command_line_for_every_way_of_advancing(ramp):
+    given = dict(discs=30, ramp=ramp)
+    expected = result_of(given, "--periods", 12)
+    assert expected["events"]["total"] > 2000
+    sims = [swirl.Simulation(**given) for _ in range(5)]
+    sims[0].advance(periods=12)
+    # Observed, copied and pickled within and between periods.
+    while sims[1].periods < 11.5:
+        sims[1].sample(0.37, 20) if sims[1].clock / sims[1].period < 0.6 else sims[1].advance(periods=0.21)
+        sims[1].snapshot().m_frame()
+        sims[1] = pickle.loads(pickle.dumps(copy.copy(sims[1])))
+    sims[1].advance_to(12)
+    while sims[2].whole_periods < 12:
+        sims[2].step(1)
+    for _ in sims[3].events(1000):
+        sims[3].snapshot()
+    sims[3].advance(events=expected["events"]["total"] - 1000)
+    # By time, in one call: the sum of the periods.
+    end = sims[0].time
+    sims[4].advance(time=math.nextafter(end, math.inf))
+    for sim in sims[:4]:
+        assert sim.state_hash == expected["state_hash"]
+        assert sim.counts == sims[0].counts
+        assert sim.time == end
+    assert sims[4].whole_periods == 12
+    assert sims[4].clock == pytest.approx(0, abs=1e-9)
+    assert sims[4].counts.total == sims[0].counts.total
+
+
+def test_times_in_a_ramp_of_the_period_are_sums_of_its_periods():
+    sim = swirl.Simulation(discs=3, ramp="period=10:6@1..3")
+    lengths = [10, 10, 8, 6, 6]
+    for whole, length in enumerate(lengths):
+        assert sim.period == length
+        assert sim.time == sum(lengths[:whole])
+        sim.advance(periods=0.5)
+        snapshot = sim.snapshot()
+        assert snapshot.time == sim.time == sum(lengths[:whole]) + length / 2
+        assert sim.periods == whole + 0.5
+        # An event has the time at which it happened, also the last one of a period.
+        rows = sim.step(1)
+        while rows["whole_periods"][-1] == sim.whole_periods:
+            rows = sim.step(1)
+        assert rows["time"][-1] == pytest.approx(sum(lengths[:whole + 1]), abs=1e-9)
+    # Half a period of 6 from here, and 2.5 of them by time.
+    sim.advance(time=15)
+    assert sim.periods == pytest.approx(7.5)
+    with pytest.raises(ValueError, match="one period at a time"):
+        swirl.Simulation(discs=3, ramp="period=10:6@1..3").sample(3, 10)
+
+
+def test_a_custom_path_is_kept_by_other_ramps():
+    square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
+    sim = swirl.Simulation(discs=12, path=square, ramp="mu=0:1@1..3")
+    steady = swirl.Simulation(discs=12, path=square, mu=0)
+    for each in (sim, steady):
+        each.advance(periods=1)
+    assert sim.state_hash == steady.state_hash
+    assert sim.container_path().tolist() == steady.container_path().tolist()
+    for each in (sim, steady):
+        each.advance(periods=3)
+    assert sim.state_hash != steady.state_hash
+    assert sim.container_path().tolist() == steady.container_path().tolist()
+    restored = pickle.loads(pickle.dumps(sim))
+    for each in (sim, restored):
+        each.advance(periods=1)
+    assert restored.state_hash == sim.state_hash
+
+
 def test_events_describe_collisions():
     sim = swirl.Simulation(discs=10, seed=3)
     rows = sim.step(5000)

@@ -78,6 +78,13 @@ def test_a_chain_equals_that_of_the_command_line(tmp_path):
     theirs = swirl.collect(tmp_path / "theirs")
     pandas.testing.assert_frame_equal(ours, theirs, check_exact=True)
     assert set(ours["direction"]) == {"up", "down"}
+    # The area of the loop, by the trapezoidal rule.
+    branches = [ours[ours["direction"] == name].set_index("mu")["by_time"] for name in ("down", "up")]
+    difference = (branches[0] - branches[1]).sort_index()
+    loop, = ours.attrs["loops"]
+    means = (difference.to_numpy()[1:] + difference.to_numpy()[:-1]) / 2
+    assert loop["by_time"] == pytest.approx((means * np.diff(difference.index)).sum(), abs=1e-12)
+    assert loop["by_time_error"] > 0 and loop["replicas"] == 2
     assert ({file.name: file.read_bytes() for file in (tmp_path / "ours/series").iterdir()}
             == {file.name: file.read_bytes() for file in (tmp_path / "theirs/series").iterdir()} != {})
 
@@ -155,6 +162,24 @@ def test_parameter_map_equals_that_of_the_command_line(tmp_path):
     # Each continues the map of the other.
     again = swirl.parameter_map(tmp_path / "theirs")
     pandas.testing.assert_frame_equal(ours, again, check_exact=True)
+    # Both grow alike, and keep their runs.
+    larger = swirl.parameter_map(tmp_path / "ours", grow=True, x="mu=0:1.5", steps=7, seeds=8)
+    done = command("map", "--out", tmp_path / "theirs", "--grow", "--x", "mu=0:1.5", "--steps", 7, "--seeds", 8,
+                   "--no-figure", "--quiet")
+    assert done.returncode == 0, done.stderr
+    theirs = pandas.read_csv(tmp_path / "theirs/map.csv", float_precision="round_trip")
+    pandas.testing.assert_frame_equal(larger, theirs, check_exact=True)
+    assert larger["mu"].max() == 1.5 and len(larger) > len(ours)
+    with pytest.raises(ValueError, match="all else stays"):
+        swirl.parameter_map(tmp_path / "ours", grow=True, x="mu=0:2", mu_wall=1)
+    with pytest.raises(ValueError, match="not an axis"):
+        swirl.parameter_map(tmp_path / "ours", grow=True, x="period=1:2")
+
+
+def test_failed_runs_of_a_map_are_reported():
+    with pytest.warns(swirl.SweepWarning, match="inelastic collapse"):
+        table = swirl.parameter_map(x=("restitution", [0.1, 1]), contact_duration=0, periods=10, seeds=2)
+    assert table["failed"].tolist() == [2, 0]
 
 
 @pytest.mark.parametrize("wrong, kind", [

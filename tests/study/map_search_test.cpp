@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -25,6 +26,10 @@ class KnownMap {
         : plan_(make_map_plan(settings)), known_(std::move(known)), error_(error) {}
 
     const SweepPlan& plan() const { return plan_; }
+    /// The runs so far keep their numbers.
+    void grow(const std::vector<MapAxisText>& axes, std::int64_t steps, std::int64_t max_runs) {
+        plan_ = grown_map(plan_, axes, steps, max_runs);
+    }
     void fail_if(std::function<bool(double x, double y)> fails) { fails_ = std::move(fails); }
 
     /// Makes all missing runs of each step, or, with `random`, a random part of them.
@@ -52,9 +57,9 @@ class KnownMap {
         for (const auto& [point, run] : runs_) done.insert(point);
         return done;
     }
-    double value(const std::string& axis, std::size_t index) const {
+    double value(const std::string& axis, std::size_t rank) const {
         for (const SweepAxis& a : plan_.axes)
-            if (a.name == axis) return *read_number(a.values[index]);
+            if (a.name == axis) return *read_number(a.values[ascending_order(a)[rank]]);
         return 0.0;
     }
 
@@ -247,6 +252,112 @@ TEST(MapSearch, MoreRunsReachTheToleranceOfTheCrossing) {
         EXPECT_LE(s.value.error, 0.4);
         EXPECT_GT(s.runs, 20);
     }
+}
+
+std::size_t runs_in(const MapState& state) {
+    std::size_t runs = 0;
+    for (const MapSite& s : state.sites) runs += static_cast<std::size_t>(s.runs + s.failed);
+    return runs;
+}
+
+// complete() checks that no run is made twice; a site that the larger map omitted would be missing
+// from the sum of the runs.
+TEST(MapGrowth, UsesEveryRunOfTheSmallerMap) {
+    KnownMap map(square_map(), circle, 0.01);
+    MapState state = map.complete();
+    const std::set<std::size_t> before = map.points();
+    const std::size_t sites = state.sites.size();
+    map.grow({{"mu", "0:1"}, {"restitution", "0:1"}}, 31, 32);
+    state = map.complete();
+    EXPECT_EQ(runs_in(state), map.points().size());
+    EXPECT_TRUE(
+        std::includes(map.points().begin(), map.points().end(), before.begin(), before.end()));
+    EXPECT_GT(state.sites.size(), sites);
+    for (const MapSite& s : state.sites) {
+        const double x = map.value("mu", s.x), y = map.value("restitution", s.y);
+        // Certain at three errors of 32 runs, at least.
+        if (std::abs(circle(x, y, 0.0)) > 3.5 * 0.01 / std::sqrt(32.0)) {
+            EXPECT_EQ(s.verdict, circle(x, y, 0.0) > 0.0 ? "above" : "below") << x << " " << y;
+        }
+    }
+    // Twice as fine at the line: every cell of the new grid that it enters has all its corners.
+    constexpr std::size_t n = 31;
+    const auto above = [&](std::size_t i, std::size_t j) {
+        return circle(map.value("mu", i), map.value("restitution", j), 0.0) > 0.0;
+    };
+    for (std::size_t j = 0; j + 1 < n; ++j)
+        for (std::size_t i = 0; i + 1 < n; ++i) {
+            const int corners =
+                above(i, j) + above(i + 1, j) + above(i, j + 1) + above(i + 1, j + 1);
+            if (corners == 0 || corners == 4) continue;
+            EXPECT_TRUE(site_at(state, i, j) && site_at(state, i + 1, j + 1)) << i << " " << j;
+        }
+}
+
+TEST(MapGrowth, AddsCellsBeyondTheOldRange) {
+    // The circle leaves the old range to the right and downwards.
+    const auto large = [](double x, double y, double) {
+        return std::hypot(x - 1.0, y - 0.2) - 0.5;
+    };
+    MapSettings settings = square_map(11);
+    settings.x = {"amplitude", "0.2:1.2"};
+    settings.y = {"restitution", "0.3:0.8"};
+    KnownMap map(settings, large, 1e-6);
+    map.complete();
+    map.grow({{"amplitude", "0:2"}}, 21, 0);
+    map.complete();
+    map.grow({{"restitution", "0:1"}}, 21, 0);
+    const MapState state = map.complete();
+    EXPECT_EQ(runs_in(state), map.points().size());
+    const std::size_t columns = map.plan().axis("amplitude")->values.size(),
+                      rows = map.plan().axis("restitution")->values.size();
+    EXPECT_EQ(columns, 21u);
+    EXPECT_EQ(rows, 21u);
+    for (const std::size_t i : {std::size_t{0}, columns - 1})
+        for (const std::size_t j : {std::size_t{0}, rows - 1})
+            EXPECT_NE(site_at(state, i, j), nullptr);
+    const auto above = [&](std::size_t i, std::size_t j) {
+        return large(map.value("amplitude", i), map.value("restitution", j), 0.0) > 0.0;
+    };
+    for (std::size_t j = 0; j + 1 < rows; ++j)
+        for (std::size_t i = 0; i + 1 < columns; ++i) {
+            const int corners =
+                above(i, j) + above(i + 1, j) + above(i, j + 1) + above(i + 1, j + 1);
+            if (corners == 0 || corners == 4) continue;
+            EXPECT_TRUE(site_at(state, i, j) && site_at(state, i + 1, j + 1)) << i << " " << j;
+        }
+}
+
+TEST(MapGrowth, FindsCrossingsAndDoesNotDependOnTheOrderOfTheRuns) {
+    MapSettings settings;
+    settings.x = {"mu", "0:1"};
+    settings.steps = 6;
+    settings.of = "N_c";
+    settings.change = 1.0;
+    const auto rotation = [](double x, double, double n) { return 0.01 * (20.3 + 15.0 * x - n); };
+    KnownMap in_order(settings, rotation, 1e-4);
+    in_order.complete();
+    in_order.grow({{"mu", "0:1.6"}}, 21, 32);
+    const MapState expected = in_order.complete();
+    EXPECT_EQ(runs_in(expected), in_order.points().size());
+    for (const MapSite& s : expected.sites)
+        EXPECT_NEAR(s.value.mean, 20.3 + 15.0 * in_order.value("mu", s.x), 1e-9);
+    std::mt19937 random(4);
+    KnownMap map(settings, rotation, 1e-4);
+    map.complete(&random);
+    map.grow({{"mu", "0:1.6"}}, 21, 32);
+    EXPECT_EQ(map.complete(&random).sites.size(), expected.sites.size());
+    EXPECT_EQ(map.points(), in_order.points());
+}
+
+TEST(MapGrowth, RejectsOtherMaps) {
+    const SweepPlan plan = make_map_plan(square_map());
+    EXPECT_THROW(grown_map(plan, {{"period", "1:2"}}, 16, 0), UsageError);
+    EXPECT_THROW(grown_map(plan, {}, 16, 8), UsageError);  // has 16 runs
+    EXPECT_THROW(grown_map(plan, {{"mu", "0:1"}}, 1, 0), UsageError);
+    EXPECT_THROW(grown_map(make_plan({{"mu", "0,1"}}, 2), {{"mu", "0:2"}}, 16, 0), UsageError);
+    EXPECT_THROW(grown(plan, {{"mu", "2"}}, 0, {}), UsageError);
+    EXPECT_EQ(grown_map(plan, {{"mu", "0:1"}}, 16, 0), plan);
 }
 
 TEST(MapPlan, HasTheValuesOfItsAxes) {

@@ -111,7 +111,7 @@ class Simulation:
             whole_periods, clock = self._engine.now()
             self._engine.advance_to(whole_periods + int(length), clock)
         else:
-            self._engine.advance(length * self.period if periods is not None else length)
+            (self._engine.advance if periods is None else self._engine.advance_periods)(length)
 
     def advance_to(self, whole_periods: int, clock: float = 0.0) -> None:
         """Advances to a time: whole periods since the start, and the time since then. Raises
@@ -155,8 +155,7 @@ class Simulation:
     @property
     def time(self) -> float:
         """The time since the start."""
-        whole_periods, clock = self._engine.now()
-        return whole_periods * self.period + clock
+        return self._engine.time
 
     @property
     def periods(self) -> float:
@@ -178,6 +177,7 @@ class Simulation:
 
     @property
     def period(self) -> float:
+        """The present length of a period, T."""
         return self._engine.period
 
     @property
@@ -283,6 +283,9 @@ path: a shape ("circle", "ellipse:0.5", "lissajous:2:3"), a CSV file, or an arra
 sizes: a distribution ("normal:1:0.1", "file:sizes.csv") or an array, radius [disc] or the columns
     radius and mass. Masses that are not given follow from one material: mass ~ radius² for discs,
     radius³ for spheres.
+
+ramp: "mu=0.1:1@20..220" changes parameters at the start of periods, as in swirl.run(). However the
+    simulation is advanced, it stays bitwise identical to that run.
 
 A simulation can be copied, pickled and saved; copies continue independently and bitwise identically.
 Several threads may use different simulations at the same time. Calls of several threads to one

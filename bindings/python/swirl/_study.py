@@ -91,10 +91,11 @@ def collect(out: PathName) -> Any:
 
     Each combination of parameters is one row. It has the mean and the standard error, within and
     between replicates, of the rotation and of every measured number. `table.attrs["runs"]` counts
-    planned, done, running and failed runs.
+    planned, done, running and failed runs. For a chain, `table.attrs["loops"]` has the areas of the
+    hysteresis loops and their errors.
     """
     import pandas
-    csv, points, done, running, failed, disagreeing, not_steady, without = _engine.collect(
+    csv, points, done, running, failed, disagreeing, not_steady, without, loops = _engine.collect(
         os.fspath(out))
     # As text: a hash such as 12345678e9012345 looks like a number.
     table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip",
@@ -102,6 +103,9 @@ def collect(out: PathName) -> Any:
     table.attrs["runs"] = {"planned": points, "done": done, "running": running, "failed": failed}
     table.attrs["disagreeing"] = disagreeing
     table.attrs["not_steady"] = not_steady
+    if loops:
+        table.attrs["loops"] = pandas.read_csv(
+            io.StringIO(loops), float_precision="round_trip").to_dict("records")
     if without:
         warnings.warn(f"{without} runs have no whole period after the warm-up, so they have no "
                       "averages.\nhint: increase events.", SweepWarning, stacklevel=2)
@@ -184,12 +188,14 @@ def _axis(name: str, axis: Optional[Axis]) -> dict[str, Values]:
 
 def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y: Optional[Axis] = None,
                   of: str = "by_time", steps: int = 16, level: float = 0.0,
-                  change: Optional[float] = None, seeds: int = 16, tolerance: float = 0.5,
+                  change: Optional[float] = None, seeds: int = 16, grow: bool = False, tolerance: float = 0.5,
                   rate: str = "by_time", min_discs: int = 5, max_discs: int = 48, threads: int = 0,
                   progress: Optional[Callable[[int, int, int], object]] = None,
                   **parameters: Any) -> Any:
     import pandas
     if out is None:
+        if grow:
+            raise ValueError("grow is given, but out, the folder of the map, is not.")
         with tempfile.TemporaryDirectory(prefix="swirl-map-") as folder:
             return parameter_map(folder, x=x, y=y, of=of, steps=steps, level=level, change=change,
                                  seeds=seeds, tolerance=tolerance, rate=rate, min_discs=min_discs,
@@ -197,7 +203,14 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
     folder = os.fspath(out)
     _count("threads", threads, 0)
     given = {name: value for name, value in parameters.items() if value is not None}
-    if x is not None or y is not None or given:
+    if grow:
+        if given or (of, level, change, tolerance, rate, min_discs, max_discs) != (
+                "by_time", 0.0, None, 0.5, "by_time", 5, 48):
+            raise ValueError("grow adds values of x and y and seeds; all else stays as it is.\n"
+                             "hint: use another folder for another map.")
+        _engine.grow_map(folder, _axis("x", x), _axis("y", y), _count("steps", steps, 2),
+                         0 if seeds == 16 else _count("seeds", seeds, 1))
+    elif x is not None or y is not None or given:
         _engine.write_map_plan(folder, _axis("x", x), _axis("y", y), of, rate, float(level), change,
                                float(tolerance), _count("steps", steps, 2), _count("seeds", seeds, 1),
                                _count("min_discs", min_discs, 1), _count("max_discs", max_discs, 1),
@@ -208,7 +221,9 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
                          "or only out to continue it.")
     elif not os.path.exists(os.path.join(folder, "plan.json")):
         raise ValueError("x is missing.\nhint: give an axis, such as x='mu=0:1'.")
-    csv, summary = _engine.make_map(folder, threads, progress)
+    csv, summary, failure = _engine.make_map(folder, threads, progress)
+    if failure:
+        warnings.warn(f"some runs of the map failed; the first is {failure}", SweepWarning, stacklevel=2)
     table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip", dtype={"verdict": str})
     table.attrs["summary"] = summary
     return table
@@ -297,6 +312,7 @@ out: folder of the map, in the format of the command line. A repeated call compl
     further arguments continues it. x, y: axes; a range "0:1" has `steps` values. of: N_c, a rotation rate,
     or a number of a measurement, such as "slip.cluster". level: the map is fine where the quantity crosses
     it. change: and where neighbours differ by more [never; N_c 2]. seeds: maximum number of runs at a point.
+grow: add the values of x and y, and raise the maximum of runs to seeds, in an existing map.
 tolerance, rate, min_discs, max_discs: for N_c, as in swirl.crossing(). threads: simultaneous runs [one per
     core]. progress: a function of (decided points, known points, events). periods [120]: length of each run.
 """)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
+#include <optional>
 
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
@@ -31,6 +33,7 @@ struct MapCall {
     MapSettings settings;
     std::string config_file, x, y, out, table;
     ShareOptions sharing;
+    bool grow = false, seeds_given = false;
     bool status = false, dry_run = false, no_figure = false, quiet = false;
 
     fs::path table_file() const {
@@ -53,32 +56,67 @@ SweepPlan existing_map_plan(const MapCall& call) {
     return plan;
 }
 
-/// Without axes the map in the folder continues, and its plan cannot change.
-void reject_without_axes(const Subcommand& subcommand, const MapCall& call) {
-    if (!call.x.empty() || !call.y.empty()) return;
+/// The first of these options that is given, or "".
+std::string first_given(const Subcommand& subcommand, std::initializer_list<const char*> names) {
     for (const Option& option : subcommand.options())
-        for (const char* name : {"--of", "--steps", "--level", "--change", "--seeds", "--from",
-                                 "--to", "--rate", "--tolerance"})
-            if (option.name == name && option.is_given)
-                throw UsageError(
-                    fmt::format("{} is given, but --x is not.\nhint: give all options of "
-                                "the map, or only --out to continue it.",
-                                name));
-    if (!call.parameters->empty())
-        throw UsageError(
-            fmt::format("{} is given, but --x is not.\nhint: give all options of "
-                        "the map, or only --out to continue it.",
-                        option_name(call.parameters->begin()->first)));
+        for (const char* name : names)
+            if (option.name == name && option.is_given) return name;
+    return "";
 }
 
-SweepPlan map_plan_of(MapCall& call) {
+/// Without axes the map in the folder continues, and its plan cannot change. A plan that grows gets
+/// further values and runs only.
+void reject_options_of_other_maps(const Subcommand& subcommand, const MapCall& call) {
+    const bool has_axes = !call.x.empty() || !call.y.empty();
+    if (call.grow) {
+        std::string name = first_given(
+            subcommand, {"--of", "--level", "--change", "--from", "--to", "--rate", "--tolerance"});
+        if (!call.parameters->empty()) name = option_name(call.parameters->begin()->first);
+        if (!name.empty())
+            throw UsageError(
+                fmt::format("{} is given, but --grow keeps it as it is.\nhint: give --x, --y, "
+                            "--steps and --seeds, or use another folder.",
+                            name));
+        if (!has_axes && !call.seeds_given)
+            throw UsageError("--grow is given, but no --x, --y or --seeds.");
+        if (!has_axes && !first_given(subcommand, {"--steps"}).empty())
+            throw UsageError("--steps is given, but no axis.\nhint: give --x, --y or both.");
+        return;
+    }
+    if (has_axes) return;
+    const std::string name =
+        first_given(subcommand, {"--of", "--steps", "--level", "--change", "--seeds", "--from",
+                                 "--to", "--rate", "--tolerance"});
+    if (!name.empty())
+        throw UsageError(
+            fmt::format("{} is given, but --x is not.\nhint: give all options of the map, or only "
+                        "--out to continue it.",
+                        name));
+}
+
+/// The plan of a call, and the plan that it was grown from.
+struct MapPlanOfCall {
+    SweepPlan plan;
+    std::optional<SweepPlan> grown_from = {};
+};
+
+MapPlanOfCall map_plan_of(MapCall& call) {
+    if (call.grow) {
+        SweepPlan before = read_plan(call.out);
+        std::vector<MapAxisText> axes;
+        if (!call.x.empty()) axes.push_back(read_map_axis("--x", call.x));
+        if (!call.y.empty()) axes.push_back(read_map_axis("--y", call.y));
+        SweepPlan larger = grown_map(before, axes, call.settings.steps,
+                                     call.seeds_given ? call.settings.max_runs : 0);
+        return {std::move(larger), std::move(before)};
+    }
     if (call.x.empty() && call.y.empty() && call.parameters->empty())
-        return existing_map_plan(call);
+        return {existing_map_plan(call)};
     MapSettings& settings = call.settings;
     if (!call.x.empty()) settings.x = read_map_axis("--x", call.x);
     if (!call.y.empty()) settings.y = read_map_axis("--y", call.y);
     settings.parameters = *call.parameters;
-    return make_map_plan(settings);
+    return {make_map_plan(settings)};
 }
 
 void reject_wrong_table(const MapCall& call) {
@@ -129,7 +167,7 @@ std::string write_map_files(const MapCall& call, const SweepPlan& plan, const Ma
     return fmt::format("{}, {} and {}", file.string(), with(".png"), with(".pdf"));
 }
 
-void warn_about(const MapState& state) {
+void warn_about(const MapCall& call, const SweepPlan& plan, const MapState& state) {
     std::size_t unclear = 0, failed = 0;
     for (const MapSite& s : state.sites) {
         unclear += s.verdict == "undetermined" || s.verdict == "undecided" ? 1 : 0;
@@ -141,8 +179,12 @@ void warn_about(const MapState& state) {
                         "larger --seeds or longer runs in another folder.",
                         unclear, state.sites.size()));
     if (failed > 0)
-        print_warning(fmt::format("runs failed at {} of {} points (column failed).", failed,
-                                  state.sites.size()));
+        print_warning(
+            fmt::format("runs failed at {} of {} points (column failed; all reasons in '{}'). The "
+                        "next call tries "
+                        "them again. The first is {}",
+                        failed, state.sites.size(), (fs::path(call.out) / "failures").string(),
+                        first_failure(call.out, plan)));
 }
 
 void report_map(const MapCall& call, const SweepPlan& plan, const MapOutcome& outcome) {
@@ -156,7 +198,7 @@ void report_map(const MapCall& call, const SweepPlan& plan, const MapOutcome& ou
         if (!files.empty()) text += "; wrote " + files;
     }
     if (!call.quiet && call.table != "-") print_all(text + "\n");
-    warn_about(outcome.state);
+    warn_about(call, plan, outcome.state);
     const bool nothing = std::all_of(outcome.state.sites.begin(), outcome.state.sites.end(),
                                      [](const MapSite& s) { return s.runs == 0; });
     if (nothing)
@@ -183,7 +225,7 @@ std::string map_plan_text(const SweepPlan& plan) {
 
 void make_map(MapCall& call) {
     if (call.status) return print_map_status(call, existing_map_plan(call));
-    const SweepPlan plan = map_plan_of(call);
+    const auto [plan, grown_from] = map_plan_of(call);
     const SweepShare share = call.sharing.share();
     const SlurmJob job = call.sharing.slurm_job();
     if (call.dry_run) return print_all(map_plan_text(plan));
@@ -191,7 +233,7 @@ void make_map(MapCall& call) {
     const std::string script = call.sharing.slurm ? slurm_script(job, call.out, "map") : "";
     make_folder(call.out);
     if (!call.table.empty() && call.table != "-") reject_unwritable(call.table);
-    write_plan(call.out, plan);
+    write_plan(call.out, plan, grown_from ? &*grown_from : nullptr);
     if (!call.sharing.slurm)
         return report_map(call, plan, run_map_with_progress(call, plan, share));
     print_all(
@@ -221,6 +263,7 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
     add_threads_option(subcommand, call.sharing, map);
     subcommand.add_option("--csv", call.table, "File for the table, or - for stdout [DIR/map.csv]",
                           "FILE|-", map);
+    subcommand.add_flag("--grow", call.grow, "Extend an existing map; finished runs are kept", map);
     subcommand.add_flag("--no-figure", call.no_figure, "Do not draw the map", map);
     subcommand.add_flag("--status", call.status, "Print the numbers of points and runs", map);
     subcommand.add_flag("--dry-run", call.dry_run, "Print the plan and do not run", map);
@@ -246,10 +289,12 @@ void add_map_command(Subcommand& subcommand) {
         "undetermined. A point gets two runs, and more near the level: their number doubles "
         "until its sign is certain. The figure shows the level with its 95 % band. With --of "
         "N_c, each point is a search for the number of discs at which the rotation changes its "
-        "sign.\n");
+        "sign. With --grow, the values of --x and --y are added to the map in DIR, and --seeds is "
+        "its new maximum.\n");
     subcommand.set_main_options({"--discs", "--mu", "--periods", "--x", "--y", "--of", "--out",
-                                 "--steps", "--seeds", "--threads", "--status"});
+                                 "--steps", "--seeds", "--threads", "--grow", "--status"});
     subcommand.set_examples({"swirl map --x mu=0:1 --y amplitude=0.5:4 --out map",
+                             "swirl map --out map --grow --x mu=0:2 --steps 31 --seeds 32",
                              "swirl map --x mu=0:1 --y discs=20:48 --of rigid_by_time --out map",
                              "swirl map --x mu=0.1:1 --of N_c --out N_c",
                              "swirl map --x mu=0.1:1 --y amplitude=1:3 --of N_c --out N_c_map",
@@ -258,7 +303,8 @@ void add_map_command(Subcommand& subcommand) {
         if (!call->config_file.empty())
             take_config_file(subcommand, call->config_file, *call->parameters, Lists::rejected,
                              "map");
-        reject_without_axes(subcommand, *call);
+        call->seeds_given = !first_given(subcommand, {"--seeds"}).empty();
+        reject_options_of_other_maps(subcommand, *call);
         make_map(*call);
     });
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -15,6 +16,8 @@
 #include "swirl/cli/sweep_options.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/reading.hpp"
+#include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/python_script.hpp"
@@ -31,7 +34,7 @@ struct SweepCall {
     std::shared_ptr<ParameterTexts> parameters;
     std::string config_file, out, seeds, measure, frames, chain;
     ShareOptions sharing;
-    bool status = false, dry_run = false, quiet = false, grow = false, series = false;
+    bool status = false, dry_run = false, quiet = false, grow = false, series = false, plot = false;
 };
 
 constexpr std::int64_t max_replicas = 1'000'000, max_frames = 1'000'000;
@@ -150,8 +153,37 @@ SweepOutcome run_with_progress(const SweepCall& call, const SweepPlan& plan,
     return run_sweep(call.out, plan, share, control);
 }
 
+struct CollectCall {
+    std::string folder, table, crossings, loops, quantity;
+    bool plot = false, quiet = false;
+
+    std::string table_file() const {
+        return table.empty() ? (fs::path(folder) / "table.csv").string() : table;
+    }
+    /// A table on the standard output is alone there.
+    bool prints_report() const {
+        return !quiet && table_file() != "-" && crossings != "-" && loops != "-";
+    }
+};
+void collect(const CollectCall& call);
+
+/// Table and figure of a complete sweep, and the areas of its loops if it is a chain.
+void draw_sweep(const SweepCall& call, const SweepPlan& plan) {
+    CollectCall tables;
+    tables.folder = call.out;
+    if (!plan.chain.empty()) tables.loops = (fs::path(call.out) / "loops.csv").string();
+    tables.plot = true;
+    tables.quiet = call.quiet;
+    collect(tables);
+}
+
 void sweep(SweepCall& call) {
     if (call.status) return print_status(call, read_plan(call.out));
+    if (call.plot && (call.sharing.slurm || !call.sharing.part.empty()))
+        throw UsageError(fmt::format(
+            "--plot cannot be used with --slurm or --part: each task makes a part of the runs.\n"
+            "hint: run `swirl collect {} --plot` when all runs are done.",
+            shell_word(call.out)));
     const auto [plan, grown_from] = plan_of(call);
     const SweepShare share = call.sharing.share();
     const SlurmJob job = call.sharing.slurm_job();
@@ -160,7 +192,11 @@ void sweep(SweepCall& call) {
     const std::string script = call.sharing.slurm ? slurm_script(job, call.out) : "";
     make_folder(call.out);
     write_plan(call.out, plan, grown_from ? &*grown_from : nullptr);
-    if (!call.sharing.slurm) return print_outcome(call, plan, run_with_progress(call, plan, share));
+    if (!call.sharing.slurm) {
+        print_outcome(call, plan, run_with_progress(call, plan, share));
+        if (call.plot) draw_sweep(call, plan);
+        return;
+    }
     print_all(
         fmt::format("Submitted as job {}; for its progress run `swirl sweep --out {} "
                     "--status`.\n",
@@ -188,6 +224,8 @@ void add_sweep_command(Subcommand& subcommand) {
     subcommand.add_option("--chain", call->chain,
                           "Parameter along which each run continues from the last", "NAME", group);
     add_threads_option(subcommand, call->sharing, group);
+    subcommand.add_flag("--plot", call->plot, "Collect and draw the table when all runs are done",
+                        group);
     subcommand.add_flag("--grow", call->grow, "Extend an existing sweep; finished runs are kept",
                         group);
     subcommand.add_flag("--status", call->status, "Print the numbers of runs done and failed",
@@ -206,19 +244,10 @@ void add_sweep_command(Subcommand& subcommand) {
     subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
                              "swirl sweep --out study --grow --discs 49:55 --seeds 16",
                              "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
-                             "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop",
+                             "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop --plot",
                              "swirl sweep --out study --status"});
     subcommand.callback([call] { sweep(*call); });
 }
-
-struct CollectCall {
-    std::string folder, table, crossings, quantity;
-    bool plot = false;
-
-    std::string table_file() const {
-        return table.empty() ? (fs::path(folder) / "table.csv").string() : table;
-    }
-};
 
 /// The table must not overwrite the files of the sweep.
 void reject_part_of_sweep(const fs::path& folder, const fs::path& output) {
@@ -229,11 +258,30 @@ void reject_part_of_sweep(const fs::path& folder, const fs::path& output) {
         (folder / output.filename().replace_extension(".csv")).string()));
 }
 
-void write_tables(const CollectCall& call, const std::string& table, const std::string& crossings) {
-    if (call.table_file() != "-") write_output(call.table_file(), table);
-    if (!call.crossings.empty() && call.crossings != "-") write_output(call.crossings, crossings);
-    if (call.table_file() == "-") print_all(table);
-    if (call.crossings == "-") print_all(crossings);
+void write_or_print(const std::string& file, const std::string& table) {
+    if (file == "-")
+        print_all(table);
+    else if (!file.empty())
+        write_output(file, table);
+}
+
+std::string loops_text(const CollectCall& call, const SweepPlan& plan,
+                       const CollectedSweep& collected) {
+    const std::string name = call.quantity.empty() ? "by_time" : call.quantity;
+    const auto& all = collected.loop_quantities;
+    const auto found = std::find(all.begin(), all.end(), name);
+    if (found == all.end()) return "";
+    std::string text;
+    for (const LoopAreas& loop : collected.loops) {
+        const Estimate& area = loop.areas[static_cast<std::size_t>(found - all.begin())];
+        std::string where;
+        for (const auto& [parameter, value] : loop.parameters)
+            if (plan.axis(parameter)->values.size() > 1)
+                where += fmt::format(" {} {}", option_name(parameter), value);
+        text += fmt::format("loop area of {}{}: {} ({})\n", name, where,
+                            with_error(area.mean, area.error), counted(loop.replicas, "loop"));
+    }
+    return text;
 }
 
 void reject_plot_options(const CollectCall& call) {
@@ -250,24 +298,34 @@ void draw_table(const CollectCall& call) {
     if (!call.quantity.empty()) arguments.push_back(call.quantity);
     run_python_script("sweep_table.py", arguments, &stop_signal());
     const fs::path stem = fs::path(call.table_file()).replace_extension();
-    if (call.table_file() != "-" && call.crossings != "-")
-        print_all(fmt::format("drawn: {0}.png, {0}.pdf\n", stem.string()));
+    if (call.prints_report()) print_all(fmt::format("drawn: {0}.png, {0}.pdf\n", stem.string()));
 }
 
 void collect(const CollectCall& call) {
     const fs::path folder = call.folder;
     const std::string file = call.table_file();
-    reject_same_files({file, call.crossings});
+    reject_same_files({file, call.crossings, call.loops});
     reject_plot_options(call);
-    for (const std::string& output : {file, call.crossings}) reject_part_of_sweep(folder, output);
+    for (const std::string& output : {file, call.crossings, call.loops})
+        reject_part_of_sweep(folder, output);
     const SweepPlan plan = read_plan(folder);
+    if (!call.loops.empty() && plan.chain.empty())
+        throw UsageError(
+            "--loops is given, but the sweep is not a chain, which has rising and falling "
+            "values.\nhint: make one with swirl sweep --chain NAME.");
     const CollectedSweep collected = collect_sweep(folder, plan);
     const std::string crossings = call.crossings.empty() ? "" : crossings_in(plan, collected).csv();
     const SweepStatus s = sweep_status(folder, plan);
-    write_tables(call, collected.table.csv(), crossings);
-    if (file != "-" && call.crossings != "-")
-        print_all(fmt::format("{} of {} runs in {}{}\n", s.done, s.points, file,
-                              crossings.empty() ? "" : ", crossings in " + call.crossings));
+    write_or_print(file, collected.table.csv());
+    write_or_print(call.crossings, crossings);
+    if (!call.loops.empty())
+        write_or_print(call.loops,
+                       loop_table(plan, collected.loops, collected.loop_quantities).csv());
+    if (call.prints_report())
+        print_all(fmt::format("{} of {} runs in {}{}{}\n", s.done, s.points, file,
+                              crossings.empty() ? "" : ", crossings in " + call.crossings,
+                              call.loops.empty() ? "" : ", areas of loops in " + call.loops) +
+                  loops_text(call, plan, collected));
     if (call.plot) draw_table(call);
     if (s.done < s.points && !plan.map)  // a map does not need all points
         print_warning(fmt::format("the table is incomplete: no result yet for {} of {} runs.",
@@ -282,11 +340,15 @@ void add_collect_command(Subcommand& subcommand) {
                           "File for the table, or - for stdout [DIR/table.csv]", "FILE|-");
     subcommand.add_option("--crossings", call->crossings,
                           "File for a table of N_c, or - for stdout", "FILE|-");
+    subcommand.add_option("--loops", call->loops,
+                          "File for the areas of hysteresis loops of a chain, or - for stdout",
+                          "FILE|-");
     subcommand.add_flag("--plot", call->plot, "Draw the table as PNG and PDF next to it");
     subcommand.add_option("--quantity", call->quantity, "Column to draw [by_time]", "NAME");
     subcommand.explain(
         "N_c is the number of discs at which the rotation (by time) changes its sign, for each "
-        "combination of the other parameters.\n");
+        "combination of the other parameters. The area of a loop is the integral of the values "
+        "with falling minus those with rising parameter.\n");
     subcommand.set_examples({"swirl collect study", "swirl collect study --crossings N_c.csv",
                              "swirl collect study --csv -",
                              "swirl collect study --plot --quantity energy"});

@@ -185,9 +185,12 @@ struct GroundTruth {
     }
 };
 
-nlohmann::ordered_json truth_json(const SyntheticVideoCall& call, const RunConfig& config,
-                                  const CameraSettings& camera, const Vec2& path_centre,
-                                  std::int64_t frames, double phase) {
+using Json = nlohmann::ordered_json;
+
+/// Only a circular path has a phase and a direction.
+Json truth_json(const SyntheticVideoCall& call, const RunConfig& config,
+                const CameraSettings& camera, const Vec2& path_centre, std::int64_t frames,
+                double phase) {
     return {{"video", fs::path(call.out).filename().string()},
             {"frames", frames},
             {"discs", config.discs},
@@ -196,8 +199,8 @@ nlohmann::ordered_json truth_json(const SyntheticVideoCall& call, const RunConfi
             {"amplitude", config.amplitude * camera.scale},
             {"container_radius", config.container_radius * camera.scale},
             {"omega", 2.0 * pi / double(camera.frames_per_period)},
-            {"phase", phase},
-            {"clockwise", camera.mirrored},
+            {"phase", has_m_frame(config) ? Json(phase) : Json()},
+            {"clockwise", has_m_frame(config) ? Json(camera.mirrored) : Json()},
             {"distortion", camera.distortion},
             {"tilt", camera.tilt},
             {"tilt_towards", camera.towards},
@@ -211,11 +214,6 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     validate(call);
     const RunConfig config = resolve(*call.parameters);
     if (const auto wrong = problem(config)) throw UsageError(*wrong);
-    if (!has_m_frame(config))
-        throw UsageError(
-            "the ground truth of a video has the amplitude and the phase of a circular path, but "
-            "this path is not nearly a circle.\nhint: use a counter-clockwise path that is nearly "
-            "a circle.");
     CameraSettings camera = camera_settings(call, config);
     const std::int64_t frames = call.frames.value_or(static_cast<std::int64_t>(
         call.periods * static_cast<double>(camera.frames_per_period) + 0.5));

@@ -11,6 +11,7 @@
 #include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
+#include "swirl/cli/recorded_path.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/track_options.hpp"
 #include "swirl/cli/tracked_video.hpp"
@@ -34,7 +35,7 @@ namespace {
 struct TrackCall {
     VideoSource source;
     LiveOptions live;
-    std::string out, json, overlay, report;
+    std::string out, path, json, overlay, report;
     std::optional<double> fps;
     std::optional<std::int64_t> discs, frames;
     std::optional<std::int64_t> from, to;
@@ -225,10 +226,26 @@ void make_overlay(const TrackedVideo& video, const TrackCall& call) {
                         shell_word(call.overlay)));
 }
 
+/// Without tracks only the container is followed.
+void reject_options_of_tracks(const TrackCall& call) {
+    for (const auto& [name, given] :
+         {std::pair("overlay", !call.overlay.empty()), std::pair("report", !call.report.empty()),
+          std::pair("json", !call.json.empty()), std::pair("spin", call.spin),
+          std::pair("live", !call.live.source.empty()), std::pair("accept", !call.accept.empty())})
+        if (given)
+            throw UsageError(
+                fmt::format("--{} is given, but --out is not.\nhint: give --out FILE.csv.", name));
+}
+
 /// Throws UsageError or Failure before any work is done.
 void validate(const TrackCall& call) {
-    if (call.out.empty()) throw UsageError("missing required option --out FILE.csv|FILE.h5.");
-    if (!is_named_as_tracks(call.out))
+    if (call.out.empty() && call.path.empty())
+        throw UsageError("missing required option --out FILE.csv|FILE.h5, or --path FILE.csv.");
+    if (!call.path.empty() && !call.path.ends_with(".csv"))
+        throw UsageError(
+            fmt::format("--path is '{}', but its name must end with .csv.", call.path));
+    if (call.out.empty()) reject_options_of_tracks(call);
+    if (!call.out.empty() && !is_named_as_tracks(call.out))
         throw UsageError(
             fmt::format("--out is '{}', but its name must end with .csv or .h5.", call.out));
     check_video_options(call.fps, call.frames);
@@ -239,7 +256,8 @@ void validate(const TrackCall& call) {
           std::pair("disc-diameter", call.source.disc_diameter)})
         if (given && !(*given > 0.0))
             throw UsageError(fmt::format("--{} is {}, but it must be above 0.", name, *given));
-    reject_unwritable(call.out);
+    if (!call.out.empty()) reject_unwritable(call.out);
+    if (!call.path.empty()) reject_unwritable(call.path);
     if (!call.overlay.empty()) {
         if (!movie_format(call.overlay))
             throw UsageError(
@@ -249,16 +267,17 @@ void validate(const TrackCall& call) {
     }
     if (!call.json.empty() && call.json != "-") reject_unwritable(call.json);
     std::vector<std::filesystem::path> all{call.live.source.empty() ? call.source.video : "",
-                                           call.out, camera_file(call.out), call.overlay,
-                                           call.json};
+                                           call.out, call.path, call.overlay, call.json};
+    if (!call.out.empty()) all.push_back(camera_file(call.out));
     if (!call.report.empty())
         for (const char* file : video_report_files)
             all.push_back(std::filesystem::path(call.report) / file);
     reject_same_files(all);
     if (!call.report.empty()) make_folder(call.report);
-    if (!call.overwrite && std::filesystem::exists(call.out))
-        throw Failure(
-            fmt::format("'{}' already exists.\nhint: use --overwrite to replace it.", call.out));
+    for (const std::string& file : {call.out, call.path})
+        if (!call.overwrite && std::filesystem::exists(file))
+            throw Failure(
+                fmt::format("'{}' already exists.\nhint: use --overwrite to replace it.", file));
 }
 
 void warn_of_missing_spins(const VideoSpins& spins, TrackedVideo& video) {
@@ -322,6 +341,18 @@ std::string add_live_results(const LiveResult& live, nlohmann::ordered_json& jso
                        counted(std::int64_t(r.periods), "period"), live.surveyed_frames);
 }
 
+/// Follows the container alone, on any path.
+void record_path(const TrackCall& call, TrackingSettings& settings, ProgressLine& line) {
+    settings.motion_only = true;
+    const TrackedVideo video = track_container(settings);
+    const RecordedMotion motion = record_motion(video);
+    line.clear();
+    write_motion(video, motion, call.source, call.path);
+    for (const std::string& text : video.warnings) print_warning(text);
+    for (const std::string& text : motion_warnings(motion)) print_warning(text);
+    if (!call.quiet) print_all(motion_text(video, motion, call.source, call.path));
+}
+
 void track(TrackCall call) {
     call.source = checked_source(call);
     const KnownCamera camera = known_camera(call);
@@ -334,6 +365,7 @@ void track(TrackCall call) {
     settings.spins = call.spin;
     if (call.source.disc_diameter && call.source.container_diameter)
         settings.radius_share = *call.source.disc_diameter / *call.source.container_diameter;
+    if (call.out.empty()) return record_path(call, settings, line);
     std::optional<LiveResult> live;
     if (!call.live.source.empty()) live = track_live_source(call.live, settings, call.quiet);
     TrackedVideo video = live ? std::move(live->video) : track_video(settings);
@@ -343,6 +375,12 @@ void track(TrackCall call) {
     if (spins) warn_of_missing_spins(*spins, video);
     warn_of_contradictory_diameters(call.source, video);
 
+    std::optional<RecordedMotion> motion;
+    if (!call.path.empty()) {
+        motion = record_motion(video);
+        write_motion(video, *motion, call.source, call.path);
+        for (const std::string& text : motion_warnings(*motion)) video.warnings.push_back(text);
+    }
     nlohmann::ordered_json json =
         write_tracks(video, call.source, call.out, spins ? &*spins : nullptr);
     const std::string live_text = live ? add_live_results(*live, json) : "";
@@ -353,7 +391,8 @@ void track(TrackCall call) {
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
     if (call.quiet) return;
-    print_all(summary(video, call) + live_text);
+    print_all(summary(video, call) + live_text +
+              (motion ? motion_text(video, *motion, call.source, call.path) : ""));
     if (!report.empty()) print_all(fmt::format("wrote {}\n", report.string()));
 }
 
@@ -368,6 +407,8 @@ void add_track_command(Subcommand& subcommand) {
         "Video file, numbered images (%05d.png) or camera device");
     add("--out", call->out, "FILE.csv|FILE.h5",
         "Tracks; calibration goes next to them (.camera.json)");
+    add("--path", call->path, "FILE.csv",
+        "Motion of the container, for swirl run --path; alone, any path");
     add("--fps", call->fps, "N", "Frames per second [from the video]");
     add("--container-diameter", call->source.container_diameter, "MM",
         "Inner diameter of the container");
@@ -390,12 +431,13 @@ void add_track_command(Subcommand& subcommand) {
                         "Measure spins from textures; adds columns to the tracks");
     subcommand.add_flag("--overwrite", call->overwrite, "Replace existing tracks");
     subcommand.add_flag("--quiet", call->quiet, "No progress line and no summary");
-    subcommand.set_main_options({"--out", "--fps", "--container-diameter", "--disc-diameter",
-                                 "--discs", "--tilt", "--overlay", "--report", "--json", "--spin",
-                                 "--live"});
+    subcommand.set_main_options({"--out", "--path", "--fps", "--container-diameter",
+                                 "--disc-diameter", "--discs", "--tilt", "--overlay", "--report",
+                                 "--json", "--spin", "--live"});
     subcommand.set_examples({"swirl track dish.mp4 --out tracks.csv",
                              "swirl track slow-motion.mp4 --fps 960 --out tracks.csv",
                              "swirl track --live frames --view 8080 --out tracks.csv",
+                             "swirl track shaker.mp4 --path shaker.csv",
                              "swirl measure tracks.csv --measure density,flow,slip",
                              "swirl movie tracks.csv --over dish.mp4 --out overlay.mp4"});
     subcommand.callback([call] { track(*call); });

@@ -219,6 +219,18 @@ std::optional<std::string> problem_with_ramps(const RunConfig& config) {
     return {};
 }
 
+PeriodChange last_period_change(const RunConfig& config, std::int64_t periods) {
+    PeriodChange last;
+    const Ramp* const ramp = config.ramp_of("period");
+    if (!ramp) return last;
+    for (std::int64_t k = ramp->begin + 1; k <= std::min(periods, ramp->end); ++k) {
+        const double before = ramp->value_in(k - 1);
+        if (ramp->value_in(k) != before)
+            last = {k, last.time + static_cast<double>(k - last.periods) * before};
+    }
+    return last;
+}
+
 std::int64_t end_of_ramps(const RunConfig& config) {
     std::int64_t end = 0;
     for (const Ramp& ramp : config.ramps) end = std::max(end, ramp.end);

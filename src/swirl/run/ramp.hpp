@@ -45,6 +45,13 @@ InitialState surroundings_in(const RunConfig& config, std::int64_t period);
 /// Why a value of a ramp cannot be run, as an error message; nothing if all can.
 std::optional<std::string> problem_with_ramps(const RunConfig& config);
 
+/// The last change of the period T up to a time: whole periods and time at that moment.
+struct PeriodChange {
+    std::int64_t periods = 0;
+    double time = 0.0;
+};
+PeriodChange last_period_change(const RunConfig& config, std::int64_t periods);
+
 /// The first period in which all ramps have their last value; 0 without ramps.
 std::int64_t end_of_ramps(const RunConfig& config);
 

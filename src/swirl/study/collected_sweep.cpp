@@ -16,6 +16,7 @@
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/crossing_search.hpp"
 #include "swirl/study/disagreement.hpp"
+#include "swirl/study/hysteresis.hpp"
 #include "swirl/study/point_result.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
@@ -188,6 +189,10 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
             if (!plan.chain.empty()) texts["direction"] = plan.direction(points[first]);
             add_row(collected, plan, texts, quantities, replicas);
         }
+    if (plan.chain.empty()) return collected;
+    for (const Quantity& quantity : quantities)
+        if (!quantity.is_direction) collected.loop_quantities.push_back(quantity.name);
+    collected.loops = loop_areas(plan, results, collected.loop_quantities);
     return collected;
 }
 

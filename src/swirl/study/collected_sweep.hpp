@@ -9,6 +9,7 @@
 
 #include "swirl/io/table.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/study/hysteresis.hpp"
 #include "swirl/study/sweep_plan.hpp"
 
 namespace swirl {
@@ -21,6 +22,8 @@ struct CollectedRow {
 struct CollectedSweep {
     Table table;
     std::vector<CollectedRow> rows = {};
+    std::vector<LoopAreas> loops = {};  // of a chain (hysteresis.hpp)
+    std::vector<std::string> loop_quantities = {};
     std::size_t disagreeing = 0;     // rows whose replicas scatter more than their errors explain
     std::size_t not_steady = 0;      // rows with a replica that is not steady or too short to test
     std::size_t without_period = 0;  // runs without a whole period after the warm-up

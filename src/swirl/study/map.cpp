@@ -9,6 +9,7 @@
 #include <thread>
 #include <unordered_map>
 
+#include "swirl/io/atomic_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/point_result.hpp"
@@ -33,6 +34,14 @@ class MapResults {
         const std::size_t points = plan_.points();
         done_ = numbered_files(part_of_sweep(folder_, "results", plan_), ".json", points);
         failed_ = numbered_files(folder_ / "failures", ".txt", points);
+    }
+
+    /// Removes the errors of failed runs, so that they are missing again.
+    void retry_failed_runs() {
+        update();
+        std::error_code ignored;
+        for (std::size_t point = 0; point < failed_.size(); ++point)
+            if (failed_[point] && !done_[point]) fs::remove(failure_file(folder_, point), ignored);
     }
 
     const MapRun* find(std::size_t point) {
@@ -89,6 +98,7 @@ MapState read_map(const fs::path& folder, const SweepPlan& plan) {
 MapOutcome run_map(const fs::path& folder, const SweepPlan& plan, const SweepShare& given,
                    const MapControl& control) {
     MapResults results(folder, plan);
+    results.retry_failed_runs();
     MapOutcome outcome;
     std::uint64_t events_before = 0;
     for (;;) {
@@ -111,7 +121,6 @@ MapOutcome run_map(const fs::path& folder, const SweepPlan& plan, const SweepSha
         events_before += events;
         outcome.done += made.done;
         outcome.failed += made.failed;
-        if (outcome.first_failure.empty()) outcome.first_failure = made.first_failure;
         const bool idle = made.done == 0 && made.failed == 0;
         if (made.stopped || (idle && !wait_for_others(control.stop))) {
             outcome.stopped = true;
@@ -119,6 +128,21 @@ MapOutcome run_map(const fs::path& folder, const SweepPlan& plan, const SweepSha
             return outcome;
         }
     }
+}
+
+std::string first_failure(const fs::path& folder, const SweepPlan& plan) {
+    const std::vector<bool> failed = numbered_files(folder / "failures", ".txt", plan.points());
+    for (std::size_t point = 0; point < failed.size(); ++point) {
+        if (!failed[point]) continue;
+        std::string text = read_whole_file(failure_file(folder, point));
+        while (text.ends_with('\n')) text.pop_back();
+        std::string where;
+        for (const auto& [name, value] : plan.parameters(point))
+            if (plan.axis(name)->values.size() > 1)
+                where += fmt::format("{} {}, ", option_name(name), value);
+        return fmt::format("{}replica {}: {}", where, plan.replica(point) + 1, text);
+    }
+    return "";
 }
 
 Table map_table(const SweepPlan& plan, const MapState& state) {
@@ -130,10 +154,12 @@ Table map_table(const SweepPlan& plan, const MapState& state) {
     if (target.is_of_crossing()) columns.insert(columns.end(), {"N_c_lower", "N_c_upper"});
     columns.insert(columns.end(), {"verdict", "periods", "seeds", "failed"});
     Table table(columns);
+    const std::vector<std::size_t> x_order = ascending_order(*x),
+                                   y_order = y ? ascending_order(*y) : std::vector<std::size_t>();
     for (const MapSite& s : state.sites) {
         if (!s.decided) continue;
-        std::vector<Table::Cell> row{cell_of(x->values[s.x])};
-        if (y) row.push_back(cell_of(y->values[s.y]));
+        std::vector<Table::Cell> row{cell_of(x->values[x_order[s.x]])};
+        if (y) row.push_back(cell_of(y->values[y_order[s.y]]));
         row.insert(row.end(), {s.value.mean, s.value.error});
         if (target.is_of_crossing()) row.insert(row.end(), {s.lower, s.upper});
         row.emplace_back(s.verdict);

@@ -30,16 +30,19 @@ struct MapOutcome {
     MapState state;
     std::size_t done = 0, failed = 0;  // runs made by this call
     bool stopped = false;
-    std::string first_failure;
 };
 
 /// Reads the results and finds the missing runs. Throws FileError for a damaged result, Failure if
 /// the folder does not hold a map.
 MapState read_map(const std::filesystem::path& folder, const SweepPlan& plan);
 
-/// Makes runs until the map is complete. Waits for runs that other processes work on.
+/// Makes runs until the map is complete. Runs that failed before are tried once more. Waits for runs
+/// that other processes work on.
 MapOutcome run_map(const std::filesystem::path& folder, const SweepPlan& plan,
                    const SweepShare& share, const MapControl& control);
+
+/// The failed run with the lowest number: its parameters and the error message; "" if there is none.
+std::string first_failure(const std::filesystem::path& folder, const SweepPlan& plan);
 
 /// A row for each decided site: the values of the axes, the quantity and its error (for N_c its
 /// interval), the verdict, the periods of all runs, and their number.

@@ -92,14 +92,19 @@ std::string measurement_of(const std::string& quantity) {
                      : name + " has " + rows + "."));
 }
 
+void validate_steps(std::int64_t steps) {
+    if (steps < 2 || steps > max_steps)
+        throw UsageError(fmt::format("--steps is {}, but it must be a whole number from 2 to {}.",
+                                     steps, max_steps));
+}
+
 void validate_settings(const MapSettings& s) {
     const auto reject = [](const char* name, auto value, const std::string& must) {
         throw UsageError(fmt::format("{} is {}, but it must be {}.", name, value, must));
     };
     if (s.x.name.empty()) throw UsageError("missing required option --x NAME=VALUES.");
     if (s.x.name == s.y.name) throw UsageError(fmt::format("--x and --y are both {}.", s.x.name));
-    if (s.steps < 2 || s.steps > max_steps)
-        reject("--steps", s.steps, fmt::format("a whole number from 2 to {}", max_steps));
+    validate_steps(s.steps);
     if (s.max_runs < 1 || s.max_runs > max_runs_at_a_point)
         reject("--seeds", s.max_runs,
                fmt::format("a whole number from 1 to {}", max_runs_at_a_point));
@@ -133,6 +138,35 @@ MapAxisText read_map_axis(const char* option, const std::string& text) {
     std::string name = text.substr(0, equals);  // as given, for error messages
     std::replace(name.begin(), name.end(), '-', '_');
     return {name, text.substr(equals + 1)};
+}
+
+SweepPlan grown_map(const SweepPlan& plan, const std::vector<MapAxisText>& axes, std::int64_t steps,
+                    std::int64_t max_runs) {
+    constexpr double same = 1e-9;  // relative to the range: a rounding error of its steps
+    if (!plan.map)
+        throw UsageError("the folder holds a sweep, not a map.\nhint: use swirl sweep --grow.");
+    validate_steps(steps);
+    std::vector<SweepAxis> more;
+    for (const MapAxisText& given : axes) {
+        if (given.name.empty()) continue;
+        if (given.name != plan.map->x && given.name != plan.map->y)
+            throw UsageError(fmt::format(
+                "{} is not an axis of this map, which has {}{}.\nhint: use another folder.",
+                given.name, plan.map->x, plan.map->y.empty() ? "" : " and " + plan.map->y));
+        std::vector<double> known;
+        for (const std::string& value : plan.axis(given.name)->values)
+            known.push_back(read_number(value).value_or(not_available));
+        const auto [least, most] = std::minmax_element(known.begin(), known.end());
+        const double range = *most - *least;
+        SweepAxis added{given.name, {}};
+        for (const std::string& value : values_of(given, steps))
+            if (std::none_of(known.begin(), known.end(), [&](double k) {
+                    return std::abs(k - *read_number(value)) <= same * range;
+                }))
+                added.values.push_back(value);
+        more.push_back(std::move(added));
+    }
+    return with_values(plan, more, max_runs, {});
 }
 
 SweepPlan make_map_plan(const MapSettings& s) {

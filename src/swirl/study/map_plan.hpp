@@ -36,6 +36,11 @@ struct MapSettings {
 /// "mu=0:1". Throws UsageError.
 MapAxisText read_map_axis(const char* option, const std::string& text);
 
+/// The plan with further values of its axes and more runs at a point; an axis without a name and 0
+/// runs leave them unchanged. Throws UsageError for another axis.
+SweepPlan grown_map(const SweepPlan& plan, const std::vector<MapAxisText>& axes, std::int64_t steps,
+                    std::int64_t max_runs);
+
 /// Throws UsageError for an invalid range, a value that cannot be run, or an unknown quantity.
 SweepPlan make_map_plan(const MapSettings& settings);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "swirl/run/reading.hpp"
@@ -14,45 +15,101 @@ namespace {
 
 constexpr std::size_t first_runs = 2, coarse_step = 5, min_coarse_cells = 3, coarse_numbers = 5;
 
+/// Ranks of two values of an axis.
 struct Interval {
     std::size_t a = 0, b = 0;
-    bool can_halve() const { return b - a > 1; }
-    std::size_t middle() const { return (a + b) / 2; }
 };
 
 struct Cell {
     Interval x, y;
-    bool can_halve() const { return x.can_halve() || y.can_halve(); }
 };
 
-/// Divides the indices 0 … values − 1 into intervals of about `coarse_step`.
-std::vector<Interval> coarse_intervals(std::size_t values) {
-    const std::size_t last = values - 1;
-    if (last == 0) return {{0, 0}};
-    const std::size_t cells = std::max(last / coarse_step, std::min(min_coarse_cells, last));
-    std::vector<Interval> intervals;
-    for (std::size_t k = 0; k < cells; ++k)
-        intervals.push_back({last * k / cells, last * (k + 1) / cells});
-    return intervals;
-}
-
-std::vector<Interval> halves(const Interval& i) {
-    if (!i.can_halve()) return {i};
-    return {{i.a, i.middle()}, {i.middle(), i.b}};
-}
-
-/// An axis of the plan: the number of its values, and the distance of neighbours in the product.
-struct MapAxis {
-    std::size_t values = 1, stride = 0;
-};
-
-MapAxis axis_named(const SweepPlan& plan, const std::string& name) {
-    std::size_t stride = static_cast<std::size_t>(plan.replicas);
-    for (auto axis = plan.axes.rbegin(); axis != plan.axes.rend(); ++axis) {
-        if (axis->name == name) return {axis->values.size(), stride};
-        stride *= axis->values.size();
+/// The values of an axis by rank, and their places in the plan. A plan that has grown holds its
+/// values in the order in which they came.
+class MapAxis {
+  public:
+    MapAxis() = default;
+    MapAxis(const SweepPlan& plan, const std::string& name) {
+        std::size_t stride = static_cast<std::size_t>(plan.replicas);
+        for (std::size_t a = plan.axes.size(); a-- > 0; stride *= plan.axes[a].values.size()) {
+            if (plan.axes[a].name != name) continue;
+            stride_ = stride;
+            index_ = ascending_order(plan.axes[a]);
+            ranks_.clear();
+            for (const SweepStage& stage : plan.before) add_stage(stage.values[a]);
+            add_stage(index_.size());
+        }
+        while (ranks_.size() <= plan.before.size())  // without a name: one value
+            ranks_.push_back({0});
     }
-    return {};
+
+    std::size_t size() const { return index_.size(); }
+    /// What a rank adds to the index in the product of the axes.
+    std::size_t offset(std::size_t rank) const { return index_[rank] * stride_; }
+
+    /// The coarse intervals of a stage: all of the first one, later those beyond its values.
+    std::vector<Interval> coarse_intervals(std::size_t stage) const {
+        const std::vector<std::size_t>& ranks = ranks_[stage];
+        if (stage == 0) return divided(ranks, min_coarse_cells);
+        const std::vector<std::size_t>& before = ranks_[stage - 1];
+        const auto begin = std::lower_bound(ranks.begin(), ranks.end(), before.front());
+        const auto end = std::lower_bound(ranks.begin(), ranks.end(), before.back());
+        const std::vector<std::size_t> below(ranks.begin(), begin + 1), above(end, ranks.end());
+        std::vector<Interval> intervals;
+        for (const auto* part : {&below, &above})
+            if (part->size() > 1)
+                for (const Interval& i : divided(*part, 1)) intervals.push_back(i);
+        return intervals;
+    }
+
+    /// The rank that halves an interval, among the values of the earliest stage with one between. A
+    /// map that has grown thus uses the points that it had.
+    std::optional<std::size_t> middle(const Interval& i, std::size_t stage) const {
+        for (std::size_t s = 0; s <= stage; ++s) {
+            const std::vector<std::size_t>& ranks = ranks_[s];
+            const auto first = std::upper_bound(ranks.begin(), ranks.end(), i.a) - ranks.begin();
+            const auto last = std::lower_bound(ranks.begin(), ranks.end(), i.b) - ranks.begin();
+            if (first < last) return ranks[static_cast<std::size_t>(first + last - 1) / 2];
+        }
+        return std::nullopt;
+    }
+
+  private:
+    /// The ranks of the first `values` values.
+    void add_stage(std::size_t values) {
+        std::vector<std::size_t>& ranks = ranks_.emplace_back();
+        for (std::size_t rank = 0; rank < index_.size(); ++rank)
+            if (index_[rank] < values) ranks.push_back(rank);
+    }
+
+    /// Divided about every `coarse_step` of the ranks.
+    static std::vector<Interval> divided(const std::vector<std::size_t>& ranks,
+                                         std::size_t min_cells) {
+        const std::size_t last = ranks.size() - 1;
+        if (last == 0) return {{ranks[0], ranks[0]}};
+        const std::size_t cells = std::max(last / coarse_step, std::min(min_cells, last));
+        std::vector<Interval> intervals;
+        for (std::size_t k = 0; k < cells; ++k)
+            intervals.push_back({ranks[last * k / cells], ranks[last * (k + 1) / cells]});
+        return intervals;
+    }
+
+    std::size_t stride_ = 0;
+    std::vector<std::size_t> index_{0};  // by rank: the index of the value in the plan
+    // By stage: of its values, ascending.
+    std::vector<std::vector<std::size_t>> ranks_ = {std::vector<std::size_t>{0}};
+};
+
+std::vector<Interval> halves(const Interval& i, const std::optional<std::size_t>& middle) {
+    if (!middle) return {i};
+    return {{i.a, *middle}, {*middle, i.b}};
+}
+
+/// The number of a point from its index in the product of the axes.
+std::vector<std::size_t> points_by_index(const SweepPlan& plan) {
+    std::vector<std::size_t> points(plan.product_indices.size());
+    for (std::size_t p = 0; p < points.size(); ++p) points[plan.product_indices[p]] = p;
+    return points;
 }
 
 /// The runs at one point so far, combined.
@@ -70,32 +127,37 @@ class MapSearch {
     MapSearch(const SweepPlan& plan, const FindRun& find_run)
         : target_(*plan.map),
           find_run_(find_run),
-          x_(axis_named(plan, target_.x)),
-          y_(axis_named(plan, target_.y)),
-          discs_(axis_named(plan, "discs")),
-          max_runs_(static_cast<std::size_t>(plan.replicas)),
-          sites_(x_.values * y_.values) {
+          x_(plan, target_.x),
+          y_(plan, target_.y),
+          point_at_(points_by_index(plan)),
+          sites_(x_.size() * y_.size()),
+          begin_(sites_.size()) {
+        for (const SweepStage& stage : plan.before)
+            max_runs_of_.push_back(static_cast<std::size_t>(stage.replicas));
+        max_runs_of_.push_back(static_cast<std::size_t>(plan.replicas));
         if (!target_.is_of_crossing()) return;
+        discs_ = MapAxis(plan, "discs");
         first_number_ = static_cast<double>(*read_whole_number(plan.axis("discs")->values.front()));
     }
 
+    /// A map that has grown repeats its search stage by stage, so all its runs are used.
     MapState explore() {
         std::vector<Cell> cells;
-        for (const Interval& y : coarse_intervals(y_.values))
-            for (const Interval& x : coarse_intervals(x_.values)) {
-                cells.push_back({x, y});
-                for (const std::size_t j : {y.a, y.b})
-                    for (const std::size_t i : {x.a, x.b}) site(i, j, {});
-            }
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (std::size_t k = 0; k < cells.size(); ++k) {
-                if (!cells[k].can_halve() || !corners_are_decided(cells[k]) || !differs(cells[k]))
-                    continue;
-                const Cell cell = cells[k];
-                cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(k--));
-                halve(cell, cells);
-                changed = true;
+        for (stage_ = 0; stage_ < max_runs_of_.size() && missing_.empty(); ++stage_) {
+            max_runs_ = max_runs_of_[stage_];
+            decide_again();
+            add_coarse_cells(cells);
+            for (bool changed = true; changed;) {
+                changed = false;
+                for (std::size_t k = 0; k < cells.size(); ++k) {
+                    if (!can_halve(cells[k]) || !corners_are_decided(cells[k]) ||
+                        !differs(cells[k]))
+                        continue;
+                    const Cell cell = cells[k];
+                    cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(k--));
+                    halve(cell, cells);
+                    changed = true;
+                }
             }
         }
         MapState state;
@@ -108,19 +170,61 @@ class MapSearch {
 
   private:
     using Neighbours = std::vector<const MapSite*>;
+    /// Key: index of the number of discs. Value: number of runs.
+    using Counts = std::map<std::size_t, std::size_t>;
 
-    std::optional<MapSite>& at(std::size_t i, std::size_t j) { return sites_[j * x_.values + i]; }
+    std::optional<MapSite>& at(std::size_t i, std::size_t j) { return sites_[j * x_.size() + i]; }
+
+    /// The cells of this stage: all pairs with an interval that is new on one of the axes.
+    void add_coarse_cells(std::vector<Cell>& cells) {
+        const std::vector<Interval> new_x = x_.coarse_intervals(stage_),
+                                    new_y = y_.coarse_intervals(stage_);
+        const auto add = [&](const std::vector<Interval>& xs, const std::vector<Interval>& ys) {
+            for (const Interval& y : ys)
+                for (const Interval& x : xs) {
+                    cells.push_back({x, y});
+                    for (const std::size_t j : {y.a, y.b})
+                        for (const std::size_t i : {x.a, x.b}) site(i, j, {});
+                }
+        };
+        add(new_x, coarse_y_);
+        coarse_x_.insert(coarse_x_.end(), new_x.begin(), new_x.end());
+        add(coarse_x_, new_y);
+        coarse_y_.insert(coarse_y_.end(), new_y.begin(), new_y.end());
+    }
+
+    /// Sites that were open with the runs allowed before.
+    void decide_again() {
+        if (stage_ == 0 || max_runs_ == max_runs_of_[stage_ - 1]) return;
+        for (std::size_t k = 0; k < sites_.size(); ++k)
+            if (sites_[k] && (sites_[k]->verdict == "undetermined" ||
+                              sites_[k]->verdict == "undecided" || target_.is_of_crossing())) {
+                MapSite s{.x = sites_[k]->x, .y = sites_[k]->y};
+                decide(s, begin_[k]);
+                sites_[k] = std::move(s);
+            }
+    }
+
+    bool can_halve(const Cell& c) const {
+        return x_.middle(c.x, stage_).has_value() || y_.middle(c.y, stage_).has_value();
+    }
 
     /// Adds a site; its neighbours are decided and lie around it.
     void site(std::size_t i, std::size_t j, const Neighbours& neighbours) {
         std::optional<MapSite>& known = at(i, j);
         if (known) return;
         MapSite s{.x = i, .y = j};
+        Counts& begin = begin_[j * x_.size() + i];
+        if (target_.is_of_crossing()) begin = first_numbers(neighbours);
+        decide(s, begin);
+        known = std::move(s);
+    }
+
+    void decide(MapSite& s, const Counts& begin) {
         if (target_.is_of_crossing())
-            find_crossing_at(s, neighbours);
+            find_crossing_at(s, begin);
         else
             find_value_at(s);
-        known = std::move(s);
     }
 
     bool corners_are_decided(const Cell& c) {
@@ -155,30 +259,32 @@ class MapSearch {
     /// on its other side may ask for them, too.
     void halve(const Cell& c, std::vector<Cell>& cells) {
         const auto decided = [&](std::size_t i, std::size_t j) { return &*at(i, j); };
-        if (c.x.can_halve())
+        const auto x_middle = x_.middle(c.x, stage_), y_middle = y_.middle(c.y, stage_);
+        if (x_middle)
             for (const std::size_t j : {c.y.a, c.y.b})
-                site(c.x.middle(), j, {decided(c.x.a, j), decided(c.x.b, j)});
-        if (c.y.can_halve())
+                site(*x_middle, j, {decided(c.x.a, j), decided(c.x.b, j)});
+        if (y_middle)
             for (const std::size_t i : {c.x.a, c.x.b})
-                site(i, c.y.middle(), {decided(i, c.y.a), decided(i, c.y.b)});
-        if (c.x.can_halve() && c.y.can_halve())
-            site(c.x.middle(), c.y.middle(),
+                site(i, *y_middle, {decided(i, c.y.a), decided(i, c.y.b)});
+        if (x_middle && y_middle)
+            site(*x_middle, *y_middle,
                  {decided(c.x.a, c.y.a), decided(c.x.b, c.y.a), decided(c.x.a, c.y.b),
                   decided(c.x.b, c.y.b)});
-        for (const Interval& y : halves(c.y))
-            for (const Interval& x : halves(c.x)) cells.push_back({x, y});
+        for (const Interval& y : halves(c.y, y_middle))
+            for (const Interval& x : halves(c.x, x_middle)) cells.push_back({x, y});
     }
 
     /// The first `count` runs at a point; asks for those that are missing.
     PointRuns runs_at(const MapSite& s, std::size_t number, std::size_t count) {
-        const std::size_t first = s.x * x_.stride + s.y * y_.stride + number * discs_.stride;
+        const std::size_t first = x_.offset(s.x) + y_.offset(s.y) + discs_.offset(number);
         PointRuns all{.complete = true};
         std::vector<Estimate> values;
         bool direction = false;
         for (std::size_t k = 0; k < count; ++k) {
-            const MapRun* const run = find_run_(first + k);
+            const std::size_t point = point_at_.empty() ? first + k : point_at_[first + k];
+            const MapRun* const run = find_run_(point);
             if (!run) {
-                missing_.push_back(first + k);
+                missing_.push_back(point);
                 all.complete = false;
                 continue;
             }
@@ -213,11 +319,8 @@ class MapSearch {
         }
     }
 
-    /// Key: index of the number of discs. Value: number of runs.
-    using Counts = std::map<std::size_t, std::size_t>;
-
     void add_coarse_numbers(Counts& counts) const {
-        const std::size_t last = discs_.values - 1;
+        const std::size_t last = discs_.size() - 1;
         for (std::size_t k = 0; k < coarse_numbers; ++k)
             counts.try_emplace(last * k / (coarse_numbers - 1), first());
     }
@@ -245,12 +348,11 @@ class MapSearch {
     double number(std::size_t index) const { return first_number_ + static_cast<double>(index); }
     std::size_t index_of(double discs) const {
         const double index = std::clamp(std::round(discs - first_number_), 0.0,
-                                        static_cast<double>(discs_.values - 1));
+                                        static_cast<double>(discs_.size() - 1));
         return static_cast<std::size_t>(index);
     }
 
-    void find_crossing_at(MapSite& s, const Neighbours& neighbours) {
-        Counts counts = first_numbers(neighbours);
+    void find_crossing_at(MapSite& s, Counts counts) {
         do {
             s.runs = s.failed = 0;
             s.periods = 0.0;
@@ -327,7 +429,7 @@ class MapSearch {
     /// If the search began next to the N_c of the neighbours and did not find that of this site:
     /// adds numbers farther out, and finally those of a site without neighbours.
     bool add_beyond(Counts& counts, const std::vector<RotationPoint>& points) const {
-        const std::size_t before = counts.size(), last = discs_.values - 1;
+        const std::size_t before = counts.size(), last = discs_.size() - 1;
         const std::size_t low = counts.begin()->first, high = counts.rbegin()->first;
         const std::size_t step = std::max<std::size_t>(2, (high - low) / 2);
         const auto certain = [](const RotationPoint& p, double sign) {
@@ -341,14 +443,30 @@ class MapSearch {
 
     const MapTarget target_;
     const FindRun& find_run_;
-    const MapAxis x_, y_, discs_;
-    const std::size_t max_runs_;
+    const MapAxis x_, y_;
+    MapAxis discs_;
+    const std::vector<std::size_t> point_at_;  // empty if the plan has not grown
+    std::vector<std::size_t> max_runs_of_;     // by stage
+    std::size_t stage_ = 0, max_runs_ = 0;
     double first_number_ = 0.0;
+    std::vector<Interval> coarse_x_, coarse_y_;
     std::vector<std::optional<MapSite>> sites_;
+    std::vector<Counts> begin_;  // of the sites, for N_c
     std::vector<std::size_t> missing_;
 };
 
 }  // namespace
+
+std::vector<std::size_t> ascending_order(const SweepAxis& axis) {
+    std::vector<std::size_t> order(axis.values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<double> numbers;
+    for (const std::string& value : axis.values)
+        numbers.push_back(read_number(value).value_or(not_available));
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+    return order;
+}
 
 MapState explore_map(const SweepPlan& plan,
                      const std::function<const MapRun*(std::size_t point)>& find_run) {

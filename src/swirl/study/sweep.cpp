@@ -159,12 +159,12 @@ class SweepWorker {
         } catch (const std::exception& error) {
             failure = error.what();
         }
-        const fs::path failure_file = folder_ / "failures" / (number_of_point(point) + ".txt");
+        const fs::path file = failure_file(folder_, point);
         if (failure.empty()) {
-            if (failed_before_[point]) ::unlink(failure_file.c_str());
+            if (failed_before_[point]) ::unlink(file.c_str());
             return true;
         }
-        write_file_atomically(failure_file, failure + "\n");
+        write_file_atomically(file, failure + "\n");
         const std::lock_guard lock(mutex_);
         if (outcome_.failed++ == 0)
             outcome_.first_failure = fmt::format("point {}: {}", point, failure);

@@ -19,6 +19,10 @@ fs::path result_file(const fs::path& folder, const SweepPlan& plan, std::size_t 
     return part_of_sweep(folder, "results", plan) / (number_of_point(point) + ".json");
 }
 
+fs::path failure_file(const fs::path& folder, std::size_t point) {
+    return folder / "failures" / (number_of_point(point) + ".txt");
+}
+
 bool belongs_to_sweep(const fs::path& folder, const fs::path& file) {
     static constexpr std::string_view parts[] = {
         "plan.json",    "locks", "job.sh",   "slurm_job", "results", "checkpoints",

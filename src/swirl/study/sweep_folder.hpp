@@ -21,6 +21,9 @@ std::filesystem::path part_of_sweep(const std::filesystem::path& folder, const c
 std::filesystem::path result_file(const std::filesystem::path& folder, const SweepPlan& plan,
                                   std::size_t point);
 
+/// The error message of a failed run.
+std::filesystem::path failure_file(const std::filesystem::path& folder, std::size_t point);
+
 /// True if a file is part of the sweep (plan, locks, results, checkpoints, …) or lies in a folder
 /// of it. Tables made from the sweep are not part of it. `file`: its canonical name.
 bool belongs_to_sweep(const std::filesystem::path& folder, const std::filesystem::path& file);

@@ -314,26 +314,33 @@ void set_chain(SweepPlan& plan, std::string_view parameter) {
 
 SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
                 const std::vector<std::string>& measure) {
-    if (plan.map)
-        throw UsageError(
-            "an adaptive map cannot grow.\nhint: start another map with further values.");
+    if (plan.map) throw UsageError("the folder holds a map.\nhint: use swirl map --grow.");
     if (!plan.chain.empty())
         throw UsageError(
             "a sweep with a chain cannot grow: each run starts from the one before it.\nhint: use "
             "another folder.");
-    SweepPlan larger = plan;
+    std::vector<SweepAxis> values;
     for (const auto& [given, text] : more) {
         const std::string name = plain_name(given);
-        const auto axis = std::find_if(larger.axes.begin(), larger.axes.end(),
-                                       [&](const SweepAxis& a) { return a.name == name; });
-        if (axis == larger.axes.end()) {
+        if (!plan.axis(name)) {
             resolve({{name, list_of_values(name, text).front()}});  // throws for an unknown name
             throw UsageError(
                 fmt::format("{} is not a parameter of this sweep, whose points use its default."
                             "\nhint: use another folder for a sweep over it.",
                             option_name(name)));
         }
-        for (const std::string& value : list_of_values(name, text))
+        values.push_back({name, list_of_values(name, text)});
+    }
+    return with_values(plan, values, replicas, measure);
+}
+
+SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
+                      std::int64_t replicas, const std::vector<std::string>& measure) {
+    SweepPlan larger = plan;
+    for (const SweepAxis& given : more) {
+        const auto axis = std::find_if(larger.axes.begin(), larger.axes.end(),
+                                       [&](const SweepAxis& a) { return a.name == given.name; });
+        for (const std::string& value : given.values)
             if (std::find(axis->values.begin(), axis->values.end(), value) == axis->values.end())
                 axis->values.push_back(value);
     }

@@ -103,6 +103,10 @@ void set_chain(SweepPlan& plan, std::string_view parameter);
 SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
                 const std::vector<std::string>& measure);
 
+/// The same for values of axes that the plan has.
+SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
+                      std::int64_t replicas, const std::vector<std::string>& measure);
+
 /// The plan of a folder; throws FileError if there is none.
 SweepPlan read_plan(const std::filesystem::path& folder);
 /// Creates the folder and writes the plan. Throws Failure if the folder holds a plan other than

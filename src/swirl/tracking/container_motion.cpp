@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
@@ -14,17 +15,22 @@ namespace swirl {
 
 namespace {
 
+/// The centres through a lens that differs by the standard error of its distortion.
+///
 /// All rims are seen through the same lens. The error of its distortion thus causes no scatter of
-/// their centres, and the fit of the path does not include it. The change of the path through a
-/// lens that differs by the standard error is added to the errors.
-void add_lens_error(const RimCentres& rims, TrackedVideo& tracked) {
+/// their centres, and a fit does not include it. The change of the fit is added to the errors.
+std::vector<Vec2> through_other_lens(const RimCentres& rims, const TrackedVideo& tracked) {
     Lens other = tracked.lens;
     other.k += tracked.lens.k_error;
     std::vector<Vec2> moved;
     moved.reserve(rims.centres.size());
     for (const Vec2& centre : rims.centres)
         moved.push_back(other.ideal(tracked.lens.image({centre, tracked.rim_radius})).centre);
-    const auto path = fit_container_path(moved, rims.times);
+    return moved;
+}
+
+void add_lens_error(const RimCentres& rims, TrackedVideo& tracked) {
+    const auto path = fit_container_path(through_other_lens(rims, tracked), rims.times);
     if (!path) return;
     TrackedPath& found = tracked.path;
     const double turned = std::remainder(path->phase - found.phase, 2.0 * pi);
@@ -36,8 +42,6 @@ void add_lens_error(const RimCentres& rims, TrackedVideo& tracked) {
 
 }  // namespace
 
-namespace {
-
 RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked) {
     RimCentres rims;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -48,6 +52,8 @@ RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked) {
     }
     return rims;
 }
+
+namespace {
 
 void fit_path(const RimCentres& rims, TrackedVideo& tracked) {
     const auto path = fit_container_path(rims.centres, rims.times);
@@ -86,6 +92,36 @@ void fit_container_motion(const TrackingSettings& settings, bool uneven_times, D
         if (all[k].rim.good) supports.push_back(all[k].rim.support);
     }
     tracked.rim_support = quantile(supports, 0.5);
+    tracked.rims = std::move(rims);
+}
+
+RecordedMotion record_motion(const TrackedVideo& tracked) {
+    constexpr int points = 64;
+    const RimCentres& rims = tracked.rims;
+    const auto frames = static_cast<std::size_t>(tracked.frame_count);
+    RecordedMotion motion = average_motion(rims.centres, rims.times, frames);
+    if (tracked.lens.k_error > 0.0) {
+        const RecordedMotion other =
+            average_motion(through_other_lens(rims, tracked), rims.times, frames);
+        double square = 0.0;
+        for (int k = 0; k < points; ++k) {
+            const double share = double(k) / points;
+            const Vec2 off = other.offset(share) - motion.offset(share);
+            square += 0.5 * dot(off, off) / points;
+        }
+        motion.point_error = std::hypot(motion.point_error, std::sqrt(square));
+        motion.omega_error = std::hypot(motion.omega_error, other.omega - motion.omega);
+    }
+    // Nearer to a tilted camera, the rim moves farther than the discs' plane (wall_fit.cpp).
+    if (tracked.lens.tilted() && tracked.path.amplitude > 0.0)
+        if (const auto rim = fit_container_path(rims.centres, rims.times)) {
+            const double ratio = tracked.path.amplitude / rim->amplitude;
+            for (auto* part : {&motion.cosine, &motion.sine})
+                for (Vec2& v : *part) v = ratio * v;
+            motion.point_error =
+                std::hypot(ratio * motion.point_error, tracked.path.amplitude_error);
+        }
+    return motion;
 }
 
 }  // namespace swirl

@@ -48,37 +48,44 @@ class RimSurvey {
 
     /// `shaken`: a rough path is better than none.
     std::optional<ContainerRim> run(bool shaken) {
-        std::vector<RimCandidate> candidates = distinct(candidates_by_votes());
+        const std::vector<RimCandidate> candidates = fitted_candidates();
         const RimCandidate* moving = nullptr;
         double best_score = 0.0;
-        for (RimCandidate& c : candidates) {
-            fit_in_all_frames(c);
-            if (c.centres.size() >= min_centres) c.path = circle_through(c.centres);
-        }
-        largest_ = candidates.front();
         for (const double max_scatter : {steady_scatter, shaken_scatter}) {
             if (moving || (!shaken && max_scatter == shaken_scatter)) break;
             for (const RimCandidate& c : candidates) {
                 if (c.centres.size() < min_centres || !moves(c, max_scatter)) continue;
-                const double score = c.support * double(c.centres.size()) / double(frames_.size());
-                if (score > best_score) best_score = score, moving = &c;
+                if (score(c) > best_score) best_score = score(c), moving = &c;
             }
         }
         if (!moving) return std::nullopt;
-        ContainerRim rim;
+        ContainerRim rim = rim_of(*moving);
         rim.rough = !moves(*moving, steady_scatter);
-        rim.polarity = moving->polarity;
-        rim.support = moving->support / sampled_;
         rim.path_centre = moving->path.centre;
         rim.amplitude = moving->path.radius;
-        rim.radius = median(moving->radii);
-        rim.second_container = second_container(rim);
+        return rim;
+    }
+    /// The best circle whose centre moves in most frames. Circles of noise move, too, but have less
+    /// support.
+    std::optional<ContainerRim> run_on_any_path() {
+        constexpr double min_share = 0.5;  // of the frames
+        const std::vector<RimCandidate> candidates = fitted_candidates();
+        const RimCandidate* moving = nullptr;
+        for (const RimCandidate& c : candidates)
+            if (double(c.centres.size()) >= min_share * double(frames_.size()) &&
+                c.reach() > still_reach && (!moving || score(c) > score(*moving)))
+                moving = &c;
+        if (!moving) return std::nullopt;
+        ContainerRim rim = rim_of(*moving);
+        std::vector<double> xs, ys;
+        for (const Vec2& c : moving->centres) xs.push_back(c.x), ys.push_back(c.y);
+        rim.path_centre = {median(xs), median(ys)};
         return rim;
     }
     /// After run() without a result: reports why.
     [[noreturn]] void throw_not_moving() const {
-        constexpr double still_scatter = 1.0, still_reach = 3.0;  // pixels: errors of a still rim
-        constexpr double shown_reach = 0.1;                       // pixels: as it is printed
+        constexpr double still_scatter = 1.0;  // pixels: errors of a still rim
+        constexpr double shown_reach = 0.1;    // pixels: as it is printed
         const RimCandidate& best = largest_;
         const double reach = best.reach();
         if (best.centres.size() >= min_centres && best.path.scatter < still_scatter &&
@@ -99,6 +106,30 @@ class RimSurvey {
     // Scatter of the centres about their path, of its radius: for a camera at rest, and at most.
     static constexpr double steady_scatter = 0.1, shaken_scatter = 0.25;
     static constexpr std::size_t max_candidates = 8;  // the container is among the best ones
+    static constexpr double still_reach = 3.0;        // pixels: errors of a still rim
+
+    std::vector<RimCandidate> fitted_candidates() {
+        std::vector<RimCandidate> candidates = distinct(candidates_by_votes());
+        for (RimCandidate& c : candidates) {
+            fit_in_all_frames(c);
+            if (c.centres.size() >= min_centres) c.path = circle_through(c.centres);
+        }
+        largest_ = candidates.front();
+        return candidates;
+    }
+
+    double score(const RimCandidate& c) const {
+        return c.support * double(c.centres.size()) / double(frames_.size());
+    }
+
+    ContainerRim rim_of(const RimCandidate& c) const {
+        ContainerRim rim;
+        rim.polarity = c.polarity;
+        rim.support = c.support / sampled_;
+        rim.radius = median(c.radii);
+        rim.second_container = second_container(rim);
+        return rim;
+    }
 
     /// All radii and polarities, best first.
     std::vector<RimCandidate> candidates_by_votes() const {
@@ -234,6 +265,13 @@ ContainerRim survey_container_rim(const std::vector<PreparedFrame>& frames) {
 
 std::optional<ContainerRim> find_moving_rim(const std::vector<PreparedFrame>& frames, bool shaken) {
     return RimSurvey(frames).run(shaken);
+}
+
+ContainerRim find_rim_on_any_path(const std::vector<PreparedFrame>& frames) {
+    RimSurvey survey(frames);
+    const std::optional<ContainerRim> rim = survey.run_on_any_path();
+    if (!rim) survey.throw_not_moving();
+    return *rim;
 }
 
 CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim) {

@@ -56,7 +56,8 @@ FrameDetections detect_frame(const TrackingSettings& settings, const VideoSurvey
     }
     const PreparedFrame frame(image, survey.reduction(), survey.appearance.blur);
     found.rim = find_container_rim(frame, survey.rim);
-    if (found.rim.good) found.particles = find_particles(frame, found.rim, survey.appearance);
+    if (found.rim.good && !settings.motion_only)
+        found.particles = find_particles(frame, found.rim, survey.appearance);
     return found;
 }
 

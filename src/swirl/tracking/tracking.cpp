@@ -147,11 +147,10 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     add_warnings(tracked);
 }
 
-TrackedVideo track_video(const TrackingSettings& settings) {
-    constexpr std::int64_t assumed_frames = 4 * survey_frames;  // if the number is unknown
-    TrackedVideo tracked;
-    cv::setNumThreads(1);  // the frames are distributed over our threads
-    const VideoTimes times = video_times(settings.video);
+namespace {
+
+/// The number of frames to track, or 0 if it is unknown. Throws Failure if there are none.
+std::int64_t expected_frames(const TrackingSettings& settings, const VideoTimes& times) {
     std::int64_t expected = times.frame_count;
     if (expected > 0 && settings.first_frame >= expected)
         throw Failure(fmt::format("frame {} is the first to be tracked, but '{}' has {} frames",
@@ -159,9 +158,42 @@ TrackedVideo track_video(const TrackingSettings& settings) {
     if (expected > 0) expected -= settings.first_frame;
     if (settings.max_frames > 0)
         expected = expected > 0 ? std::min(expected, settings.max_frames) : settings.max_frames;
+    return expected;
+}
+
+VideoSurvey planned_survey(const TrackingSettings& settings, std::int64_t expected) {
+    constexpr std::int64_t assumed_frames = 4 * survey_frames;  // if the number is unknown
     const std::int64_t planned = expected > 0 ? expected : assumed_frames;
     if (settings.planned) settings.planned(planned, settings.spins);
-    const VideoSurvey survey = survey_video(settings, planned);
+    return survey_video(settings, planned);
+}
+
+}  // namespace
+
+TrackedVideo track_container(const TrackingSettings& settings) {
+    TrackedVideo tracked;
+    cv::setNumThreads(1);
+    const VideoTimes times = video_times(settings.video);
+    const std::int64_t expected = expected_frames(settings, times);
+    const VideoSurvey survey = planned_survey(settings, expected);
+    Detections all = detect_frames(settings, survey, expected, tracked);
+    collect_camera_motion(all, tracked);
+    correct_lens(survey, all, tracked);
+    tracked.frame_count = static_cast<std::int64_t>(all.size());
+    set_frame_times(settings, times, all, tracked);
+    tracked.rims = rim_centres(all, tracked);
+    tracked.tilt = survey.tilt;
+    tracked.radius = survey.appearance.spacing * survey.appearance.radius();
+    tracked.container_radius = tracked.rim_radius;
+    return tracked;
+}
+
+TrackedVideo track_video(const TrackingSettings& settings) {
+    TrackedVideo tracked;
+    cv::setNumThreads(1);  // the frames are distributed over our threads
+    const VideoTimes times = video_times(settings.video);
+    const std::int64_t expected = expected_frames(settings, times);
+    const VideoSurvey survey = planned_survey(settings, expected);
     Detections all = detect_frames(settings, survey, expected, tracked);
     try {
         finish_tracking(settings, survey, times, all, tracked);

@@ -20,6 +20,7 @@
 #include "swirl/tracking/camera_motion.hpp"
 #include "swirl/tracking/lens.hpp"
 #include "swirl/tracking/path_polygon.hpp"
+#include "swirl/tracking/recorded_motion.hpp"
 #include "swirl/tracking/tilt.hpp"
 #include "swirl/tracking/tracked_path.hpp"
 
@@ -44,7 +45,8 @@ struct TrackingSettings {
     unsigned threads = 0;        // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string& step, double share)> progress;
-    bool spins = false;  // measure_spins() follows
+    bool spins = false;        // measure_spins() follows
+    bool motion_only = false;  // no discs in the frames; the container may move on any path
     /// Called before the first progress: how many frames there will probably be.
     std::function<void(std::int64_t frames, bool spins)> planned;
 
@@ -60,6 +62,13 @@ struct TrackedSpecies {
     std::size_t number = 0;
 };
 
+/// Centres of the rim in the frames where it was found.
+struct RimCentres {
+    std::vector<Vec2> centres;
+    std::vector<double> times;
+    std::vector<std::size_t> frames;
+};
+
 /// Positions and radii are those that an ideal camera would see that looks straight down.
 struct TrackedVideo {
     int width = 0, height = 0;
@@ -71,6 +80,7 @@ struct TrackedVideo {
     Tilt tilt;
     TrackedPath path;  // per second, or per frame
     PathPolygon polygon;
+    RimCentres rims;                // without the camera's motion
     double rim_radius = 0.0;        // median over the frames
     double reach = 0.0;             // of the outermost disc, in most frames
     double container_radius = 0.0;  // one of these two
@@ -125,5 +135,12 @@ struct TrackedVideo {
 
 /// Throws Failure with the likely cause, and Interrupted.
 TrackedVideo track_video(const TrackingSettings& settings);
+
+/// With `motion_only`: the rims, their times, and the sizes. The path is not a circle, in general.
+TrackedVideo track_container(const TrackingSettings& settings);
+
+/// The mean motion of the container, in the plane of the discs if the camera is tilted and the discs
+/// were tracked. The errors include that of the lens. Throws Failure.
+RecordedMotion record_motion(const TrackedVideo& tracked);
 
 }  // namespace swirl

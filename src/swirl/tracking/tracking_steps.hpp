@@ -101,12 +101,6 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
 bool set_frame_times(const TrackingSettings& settings, const VideoTimes& times, Detections& all,
                      TrackedVideo& tracked);
 
-/// Centres of the rim in the frames where it was found.
-struct RimCentres {
-    std::vector<Vec2> centres;
-    std::vector<double> times;
-    std::vector<std::size_t> frames;
-};
 /// Throws Failure if the video's clock advances by half a period or more between two frames.
 void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
                       const TrackedVideo& tracked);
@@ -114,8 +108,10 @@ void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
 /// times if the settings accept them. Duplicates are then no longer used. True if times changed.
 bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims, Detections& all,
                        TrackedVideo& tracked);
+
 // container_motion.cpp
 
+RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked);
 /// Sets all that the rim determines: path, polygon, shake. Throws Failure.
 void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
                           TrackedVideo& tracked);

@@ -214,7 +214,10 @@ VideoSurvey survey_images(const TrackingSettings& settings, std::vector<cv::Mat>
     const double reduction = std::min(1.0, rim_side / side);
     std::vector<PreparedFrame> frames = prepare_all(images, reduction, settings);
     const std::optional<ContainerRim> moving = find_moving_rim(frames, true);
-    survey.rim = moving ? *moving : survey_container_rim(frames);
+    const bool on_circle = moving && !(settings.motion_only && moving->rough);
+    survey.rim = on_circle              ? *moving
+                 : settings.motion_only ? find_rim_on_any_path(frames)
+                                        : survey_container_rim(frames);
     remove_camera_motion(settings, reduction, images, frames, survey);
     if (survey.rim.rough) survey.rim = survey_container_rim(frames);
     survey.appearance = survey_appearance(

@@ -1,0 +1,26 @@
+// The motion of a container in a video as a file for `swirl run --path`.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace swirl {
+
+struct RecordedMotion;
+struct TrackedVideo;
+struct VideoSource;
+
+/// Writes one period of the motion as a closed path of equal steps in time. Lengths are in disc
+/// radii. Times are in the program's unit: the period is that of the paper.
+void write_motion(const TrackedVideo& video, const RecordedMotion& motion,
+                  const VideoSource& source, const std::filesystem::path& file);
+
+/// Lines for the terminal: the motion with its errors, and the run that uses the file.
+std::string motion_text(const TrackedVideo& video, const RecordedMotion& motion,
+                        const VideoSource& source, const std::string& file);
+
+/// What a path of one period cannot describe.
+std::vector<std::string> motion_warnings(const RecordedMotion& motion);
+
+}  // namespace swirl
