@@ -44,9 +44,8 @@ Event Simulation::step() {
     return event;
 }
 
+/// Until the span has `count` events.
 void Simulation::run(EventSpan& span, std::uint64_t count, std::int64_t periods, double clock) {
-    span.events = 0;
-    span.max_overlap = 0.0;
     for (;;) {
         storage_->loop->run(*storage_->state, span, count, periods, clock);
         if (!storage_->state->should_switch_search) return;
@@ -65,7 +64,7 @@ void Simulation::run_before(double clock, std::uint64_t maximum, EventSpan& span
     // The largest double below `end`; −1 if `end` is 0, since no event is earlier than 0.
     const double last =
         end > 0.0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(end) - 1) : -1.0;
-    run(span, maximum, state.periods, last);
+    run(span, span.events + maximum, state.periods, last);
 }
 
 void Simulation::advance_to(std::int64_t periods, double clock) {
@@ -105,11 +104,15 @@ LoopCounts Simulation::loop_counts() const {
 Disc Simulation::disc(std::size_t i) const { return storage_->disc(static_cast<std::uint32_t>(i)); }
 
 /// `clock` is the time of the event that changed disc i, up to which its orientation is followed.
-SWIRL_INLINE void Simulation::copy(Snapshot& s, std::uint32_t i, double clock) const {
+SWIRL_INLINE void Simulation::copy_flight(Snapshot& s, std::uint32_t i, double clock) const {
     const EngineState& state = *storage_->state;
     const HotDisc& d = state.discs[i];
     if (state.spheres != nullptr) copy_sphere(s, i, clock);
-    s.set_motion(i, {d.position, d.velocity, d.time}, state.cold(i).angle, d.spin);
+    s.set_flight(i, {d.position, d.velocity, d.time}, d.spin);
+}
+SWIRL_INLINE void Simulation::copy(Snapshot& s, std::uint32_t i, double clock) const {
+    copy_flight(s, i, clock);
+    s.angle[i] = storage_->state->cold(i).angle;
 }
 
 [[gnu::noinline]] void Simulation::copy_sphere(Snapshot& s, std::uint32_t i, double clock) const {
@@ -167,14 +170,19 @@ void Simulation::refresh(Snapshot& s, const EventSpan& span) const {
     const bool all = span.events > std::min<std::uint64_t>(EventSpan::capacity, size) ||
                      (s.on_floor && std::any_of(span.discs, end, is_vertex));
     if (all) {
-        for (std::uint32_t i = 0; i < size; ++i) copy(s, i, s.clock);
+        for (std::uint32_t i = 0; i < size; ++i) copy_flight(s, i, s.clock);
     } else {
         for (const EventDiscs* pair = span.discs; pair < end; ++pair) {
-            copy(s, pair->i, s.clock);
-            copy(s, pair->j, s.clock);
+            copy_flight(s, pair->i, s.clock);
+            copy_flight(s, pair->j, s.clock);
         }
     }
     set_time(s);
+}
+
+void Simulation::refresh_angles(Snapshot& s) const {
+    for (std::uint32_t i = 0; i < storage_->state->size; ++i)
+        s.angle[i] = storage_->state->cold(i).angle;
 }
 
 std::uint64_t Simulation::state_hash() const {

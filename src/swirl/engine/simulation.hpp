@@ -87,7 +87,7 @@ class Simulation {
     /// starting points.
     void change_surroundings(InitialState scene, const Tuning& tuning = {});
     /// Executes at most `maximum` events, all before this time of the present period and before its
-    /// end.
+    /// end, and adds them to the span.
     void run_before(double clock, std::uint64_t maximum, EventSpan& span);
 
     std::int64_t periods() const;
@@ -104,8 +104,11 @@ class Simulation {
     /// Updates an earlier snapshot of this simulation after one step. Touches only the discs of
     /// that event; or all discs, if a new period has begun.
     void refresh(Snapshot& snapshot, const Event& event) const;
-    /// The same after a span of events. It does not follow orientations.
+    /// The same after a span of events, but without the angles, which few observers need. It does
+    /// not follow orientations.
     void refresh(Snapshot& snapshot, const EventSpan& span) const;
+    /// Updates the angles of all discs.
+    void refresh_angles(Snapshot& snapshot) const;
 
     /// 64-bit hash of every disc's state, the segment and the time. Equal states have equal hashes.
     std::uint64_t state_hash() const;
@@ -114,6 +117,7 @@ class Simulation {
     struct Storage;
     void run(EventSpan& span, std::uint64_t count, std::int64_t periods, double clock);
     void copy(Snapshot& snapshot, std::uint32_t i, double clock) const;
+    void copy_flight(Snapshot& snapshot, std::uint32_t i, double clock) const;
     void copy_sphere(Snapshot& snapshot, std::uint32_t i, double clock) const;
     void set_time(Snapshot& snapshot) const;
     void switch_search();

@@ -28,7 +28,7 @@ struct EventDiscs {
     std::uint32_t i, j;
 };
 
-/// Events executed together. Observers need only what they changed.
+/// The events since a snapshot was brought up to date. Observers need only what these changed.
 struct EventSpan {
     static constexpr std::uint64_t capacity = 64;
     std::uint64_t events = 0;

@@ -109,16 +109,20 @@ struct Snapshot {
         up_to_date(now);
         return now;
     }
-    /// Sets the flight, angle and spin of disc i after an event of a simulation.
-    void set_motion(std::size_t i, const Flight<double>& flight, double new_angle,
-                    double new_spin) {
+    /// Sets the flight and the spin of disc i after an event of a simulation.
+    void set_flight(std::size_t i, const Flight<double>& flight, double new_spin) {
         x[i] = flight.position.x;
         y[i] = flight.position.y;
         vx[i] = flight.velocity.x;
         vy[i] = flight.velocity.y;
-        angle[i] = new_angle;
         spin[i] = new_spin;
         held_at[i] = flight.time;
+    }
+    /// The same and the angle.
+    void set_motion(std::size_t i, const Flight<double>& flight, double new_angle,
+                    double new_spin) {
+        set_flight(i, flight, new_spin);
+        angle[i] = new_angle;
     }
     void set_floor_motion(std::size_t i, const Vec2& rolling_spin, const Vec2& acceleration) {
         spin_x[i] = rolling_spin.x;

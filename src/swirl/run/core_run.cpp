@@ -68,6 +68,7 @@ double CoreRun::fraction() const {
 
 /// Also samples the snapshot at all sample times before the event.
 void CoreRun::execute_event() {
+    update_snapshot();
     // Constructed in place: a copy would first have to wait for the stores of the event.
     new (&event_) Event(simulation_.step());
     sample_by_event();
@@ -123,38 +124,60 @@ std::uint64_t CoreRun::execute_events() {
     for (bool stopped = true; !each_event && stopped;) {
         double due = rotation_times_.due(snapshot_.periods);
         if (samples_observations()) due = std::min(due, observation_times_.due(snapshot_.periods));
-        stopped = execute_span(due) && due < period_end;
+        // is_check_due() has counted the first event.
+        const std::uint64_t to_check = static_cast<std::uint64_t>(events_to_check_) + 1;
+        const std::uint64_t maximum = std::min(events_to_sample_, to_check);
+        const std::uint64_t events = execute_span(due, maximum);
+        // Ended by the next sample time?
+        stopped = events < maximum && due < period_end;
         if (stopped) {
             sample_by_event();
+            update_flights();
             sample_by_time(due);
         }
-        if (span_.events > 0) return span_.events;
+        if (events > 0) return events;
     }
     execute_event();
     pass_event();
     return 1;
 }
 
-/// Executes events until a sample by event or a check is due, but none after the sample time `due`
-/// or the end of the period. Returns true if one of these two times ended the span.
-bool CoreRun::execute_span(double due) {
-    // is_check_due() has counted the first event.
-    const std::uint64_t to_check = static_cast<std::uint64_t>(events_to_check_) + 1;
-    const std::uint64_t maximum = std::min(events_to_sample_, to_check);
+/// Executes at most this number of events, but none after the sample time `due` or the end of the
+/// period. The snapshot is updated only if it is sampled, because that reads all discs.
+std::uint64_t CoreRun::execute_span(double due, std::uint64_t maximum) {
+    const std::uint64_t before = span_.events;
     simulation_.run_before(due, maximum, span_);
-    if (span_.events == 0) return true;
-    events_to_check_ -= static_cast<int>(span_.events) - 1;
-    sample_by_event();
-    simulation_.refresh(snapshot_, span_);
-    count_to_sample(span_.events);
+    const std::uint64_t events = span_.events - before;
+    if (events == 0) return 0;
+    events_to_check_ -= static_cast<int>(events) - 1;
     result_.max_overlap = std::max(result_.max_overlap, span_.max_overlap);
-    return span_.events < maximum;
+    sample_by_event();
+    count_to_sample(events);
+    if (!rotation_is_sampled_) update_flights();
+    return events;
+}
+
+/// Brings the snapshot up to date after spans of events, except for the angles.
+void CoreRun::update_flights() {
+    if (span_.events == 0) return;
+    simulation_.refresh(snapshot_, span_);
+    span_.events = 0;
+    angles_are_old_ = true;
+}
+
+/// The same with the angles.
+void CoreRun::update_snapshot() {
+    update_flights();
+    if (angles_are_old_) simulation_.refresh_angles(snapshot_);
+    angles_are_old_ = false;
 }
 
 /// A run with a given number of events is also checked at its end; one with a number of periods is
 /// checked at the end of each period (begin_period).
 int CoreRun::events_until_check() const {
-    const int at_most = complete() ? 0 : events_between_checks(simulation_.size());
+    const bool visits_all_discs = observation_ || series_ || config_.events_per_sample > 0;
+    const int at_most =
+        complete() ? 0 : events_between_checks(visits_all_discs ? simulation_.size() : 1);
     if (config_.periods) return at_most;
     const std::int64_t left =
         config_.events - static_cast<std::int64_t>(simulation_.events().total());

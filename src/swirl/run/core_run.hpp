@@ -58,11 +58,12 @@ class CoreRun {
     /// For spheres, all states are moved to the snapshot's clock, so that observers need no
     /// accelerations.
     const Snapshot& snapshot() {
+        update_snapshot();
         if (!snapshot_.are_spheres()) return snapshot_;
         snapshot_.up_to_date(synchronised_);
         return synchronised_;
     }
-    /// The snapshot as the simulation stores it: each disc at its own time.
+    /// The snapshot as the simulation stores it: each disc at its own time. After pass_event().
     const Snapshot& stored_snapshot() const { return snapshot_; }
     const Simulation& simulation() const { return simulation_; }
     const ContainerPath& path() const { return path_; }
@@ -136,7 +137,9 @@ class CoreRun {
     std::string reason_for_collapse() const;
     void sample_by_event();
     void count_to_sample(std::uint64_t events);
-    bool execute_span(double due);
+    std::uint64_t execute_span(double due, std::uint64_t maximum);
+    void update_flights();
+    void update_snapshot();
     void sample_by_time(double clock);
     void begin_period();
     void add_period_to_series();
@@ -166,7 +169,8 @@ class CoreRun {
     std::uint64_t events_to_sample_;   // until the next sample
     std::uint64_t events_before_ = 0;  // before this period
     bool rotation_is_sampled_ = true;  // in the current state, if a sample is due
-    EventSpan span_;
+    EventSpan span_;                   // the events since the snapshot was updated
+    bool angles_are_old_ = false;      // of the snapshot
     RunResult result_;
 };
 
