@@ -32,7 +32,7 @@ void ResultWriter::write(std::string name, std::string bytes, std::function<void
     const std::lock_guard lock(mutex_);
     if (failure_) std::rethrow_exception(failure_);
     queue_.push_back({std::move(name), std::move(bytes), std::move(written)});
-    wake_.notify_all();
+    if (queue_.size() == 1) wake_.notify_all();  // later files do not wake the thread
 }
 
 void ResultWriter::finish() {

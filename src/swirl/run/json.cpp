@@ -15,6 +15,13 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+/// An object with room for its entries. Otherwise they are copied whenever it grows.
+Json object_of(std::size_t entries) {
+    Json::object_t object;
+    object.reserve(entries);
+    return object;
+}
+
 Json counts_json(const EventCounts& counts) {
     Json json = {{"total", counts.total()},
                  {"disc_disc", counts.disc_disc},
@@ -42,7 +49,7 @@ struct ToJson {
 }  // namespace
 
 Json config_json(const RunConfig& config) {
-    Json json = Json::object();
+    Json json = object_of(run_parameters.size());
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
         const ParameterValue value = value_of(p, config);
@@ -74,10 +81,12 @@ ParameterTexts parameters_in(const Json& config) {
 }
 
 Json estimate_json(const Estimate& e) {
-    return {{"mean", e.mean},
-            {"error", e.error},
-            {"effective_samples", e.effective_samples},
-            {"blocks", e.blocks}};
+    Json json = object_of(8);  // callers add some
+    json["mean"] = e.mean;
+    json["error"] = e.error;
+    json["effective_samples"] = e.effective_samples;
+    json["blocks"] = e.blocks;
+    return json;
 }
 
 Json row_json(const ReportRow& row) {
@@ -116,15 +125,16 @@ Json series_json(const PeriodSeries& series) {
 }
 
 Json result_json(const RunResult& r) {
-    Json json = {{"format", result_format},
-                 {"config", config_json(r.config)},
-                 {"complete", r.complete},
-                 {"events", counts_json(r.events)},
-                 {"periods", r.periods},
-                 {"warmup", {{"periods", r.warmup}, {"events", r.warmup_events.total()}}},
-                 {"rotation", Json::object()},
-                 {"steady_state",
-                  {{"verdict", verdict(r.steady_state())}, {"found", steady_state_found(r)}}}};
+    Json json = object_of(32);
+    json["format"] = result_format;
+    json["config"] = config_json(r.config);
+    json["complete"] = r.complete;
+    json["events"] = counts_json(r.events);
+    json["periods"] = r.periods;
+    json["warmup"] = {{"periods", r.warmup}, {"events", r.warmup_events.total()}};
+    json["rotation"] = object_of(rotation_rates.size());
+    json["steady_state"] = {{"verdict", verdict(r.steady_state())},
+                            {"found", steady_state_found(r)}};
     r.report([&](std::string_view group, const ReportRow& row) {
         (group.empty() ? json : json[std::string(group)])[row.name] = row_json(row);
     });

@@ -139,7 +139,6 @@ class Recorder {
           files_(files),
           observation_(observation),
           series_(series),
-          run_name_(run_name(identity(config, files, observation))),
           overwrites_(files.overwrite),
           frame_times_(files.frames.per_period, config.period, files.frames.interval.value_or(0.0)),
           last_checkpoint_(Clock::now()) {
@@ -181,11 +180,11 @@ class Recorder {
     void start(Provenance provenance, const std::atomic<bool>* stop) {
         reject_ramps_in_recordings();
         if (files_.overwrite) back_up(files_.checkpoint);
-        provenance.emplace_back(run_entry, run_name_);
+        if (files_.trajectory.empty() && files_.event_log.empty()) return;
+        provenance.emplace_back(run_entry, name());
         provenance.emplace_back("frames", frames_entry(files_));
         for (const auto& file : {files_.trajectory, files_.event_log})
-            if (!file.empty() && !files_.overwrite) reject_foreign_recording(file, run_name_);
-        if (files_.trajectory.empty() && files_.event_log.empty()) return;
+            if (!file.empty() && !files_.overwrite) reject_foreign_recording(file, name());
         const InitialState scene = make_initial_state(config_, stop);
         const Snapshot first = Simulation(scene, {}, selected_tuning(stop)).snapshot();
         if (stop && stop->load()) throw Interrupted("stopped before the first event.");
@@ -243,9 +242,15 @@ class Recorder {
         run_name_ = about.value("run", std::string());
         overwrites_ = about.value("overwrites", false);
         if (!files_.trajectory.empty())
-            trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames, run_name_);
+            trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames, name());
         if (!files_.event_log.empty())
-            event_log_ = EventLogWriter::resume(files_.event_log, logged, run_name_);
+            event_log_ = EventLogWriter::resume(files_.event_log, logged, name());
+    }
+
+    /// The run's name in its recordings, which a short run does not need.
+    const std::string& name() {
+        if (!run_name_) run_name_ = run_name(identity(config_, files_, observation_));
+        return *run_name_;
     }
 
     /// Returns the number of events executed; 0 at the end of the run.
@@ -304,7 +309,7 @@ class Recorder {
         const Json about{{"version", version()},
                          {"law", law_of(config_.shape())},
                          {"identity", identity(config_, files_, observation_)},
-                         {"run", run_name_},
+                         {"run", name()},
                          {"call", files_.call},
                          {"overwrites", overwrites_}};
         write_checkpoint(files_.checkpoint, {about.dump(), std::move(state).bytes()});
@@ -315,7 +320,7 @@ class Recorder {
     const RunFiles& files_;
     const Observation* observation_;
     const PeriodSeries* series_;
-    std::string run_name_;
+    std::optional<std::string> run_name_;
     bool overwrites_;  // stays true when a run that was started with --overwrite is resumed
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<EventLogWriter> event_log_;

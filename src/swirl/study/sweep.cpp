@@ -181,8 +181,13 @@ class SweepWorker {
         const RunResult result = run_point(point, config, files, command, observation, link);
         if (!result.complete) return false;
         if (!plan_.chain.empty()) write_final_state(folder_, plan_, point, link.end);
-        Json json{{"format", result_format}, {"point", point}, {"replica", plan_.replica(point)}};
         Json results = result_json(result);
+        Json::object_t all;
+        all.reserve(results.size() + 6);
+        Json json = std::move(all);
+        json["format"] = result_format;
+        json["point"] = point;
+        json["replica"] = plan_.replica(point);
         if (!plan_.chain.empty()) {
             json["direction"] = plan_.direction(point);
             json["started_from"] = link.from ? Json(*link.from) : Json();
