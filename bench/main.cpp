@@ -22,7 +22,7 @@ std::atomic<bool> interrupted{false};
 
 struct Options {
     bool full = false, quiet = false;
-    std::string width = "best", json, csv;
+    std::string width = "best", only, json, csv;
     double seconds = 0.0;
 };
 
@@ -53,6 +53,7 @@ void print_or_write(const std::string& file, const std::string& text) {
 void measure(const Options& options, const std::string& command) {
     BenchSettings settings;
     settings.full = options.full;
+    settings.only = options.only;
     settings.widths = widths_of(options.width);
     settings.seconds = options.seconds > 0.0 ? options.seconds : options.full ? 1.0 : 0.25;
     settings.stop = &interrupted;
@@ -73,6 +74,8 @@ int run(int argc, char** argv) {
     app.add_flag("--full", options.full, "Include the scenes with 10^5 and 10^6 discs");
     app.add_option("--width", options.width, "Vector width of the engine [best]")
         ->check(CLI::IsMember({"best", "all", baseline_name, "avx2", "avx512"}));
+    app.add_option("--only", options.only, "Measure only scenes whose name contains TEXT")
+        ->type_name("TEXT");
     app.add_option("--seconds", options.seconds,
                    "Processor time for each rate [0.25; 1 with --full]")
         ->check([](const std::string& text) {

@@ -349,7 +349,8 @@ BenchRow bench_row(const BenchScene& scene, Width width, const BenchSettings& se
 /// A run with its averages, without an observation.
 class WithAverages : public Contender {
   public:
-    explicit WithAverages(const InitialState& settled) : run_(config_of(settled), settled) {
+    WithAverages(const InitialState& settled, const Tuning& tuning)
+        : run_(config_of(settled), settled, nullptr, {}, tuning) {
         // The first period has a sample after every event (cluster_rotation.hpp).
         while (settled.discs.size() <= 128 && run_.periods() < 1.0) run();
     }
@@ -380,10 +381,12 @@ class WithAverages : public Contender {
 };
 
 /// A scene with its averages, compared with the same scene without them.
-BenchRow row_with_averages(const BenchScene& scene, const BenchSettings& settings) {
+BenchRow row_with_averages(const BenchScene& scene, Width width, const BenchSettings& settings) {
     const InitialState settled = settled_state(scene, settings);
-    Engine alone(scene, settled, {});
-    WithAverages with_averages(settled);
+    Tuning tuning = stopped_by(settings.stop);
+    tuning.width = width;
+    Engine alone(scene, settled, tuning);
+    WithAverages with_averages(settled, tuning);
     std::vector<double> ratios;
     for (int turn = 0; turn < turns; ++turn) {
         check(settings.stop);
@@ -436,12 +439,14 @@ BenchResult bench(const BenchSettings& settings) {
     result.machine = processor();
     std::vector<BenchScene> chosen;
     for (const BenchScene& scene : bench_scenes())
-        if (settings.full || !scene.only_full) chosen.push_back(scene);
+        if ((settings.full || !scene.only_full) &&
+            scene.name.find(settings.only) != std::string::npos)
+            chosen.push_back(scene);
     std::vector<BenchScene> averaged;
     std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(averaged),
                  is_measured_with_averages);
     const auto pieces =
-        static_cast<double>(chosen.size() * settings.widths.size() + averaged.size());
+        static_cast<double>((chosen.size() + averaged.size()) * settings.widths.size());
     const auto report = [&](const std::string& what) {
         check(settings.stop);
         if (settings.progress)
@@ -452,10 +457,11 @@ BenchResult bench(const BenchSettings& settings) {
             report(fmt::format("{}, N = {}", scene.name, scene.discs));
             result.rows.push_back(bench_row(scene, width, settings));
         }
-    for (const BenchScene& scene : averaged) {
-        report(fmt::format("{} with averages, N = {}", scene.name, scene.discs));
-        result.rows.push_back(row_with_averages(scene, settings));
-    }
+    for (const BenchScene& scene : averaged)
+        for (const Width width : settings.widths) {
+            report(fmt::format("{} with averages, N = {}", scene.name, scene.discs));
+            result.rows.push_back(row_with_averages(scene, width, settings));
+        }
     return result;
 }
 

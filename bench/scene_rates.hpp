@@ -23,6 +23,7 @@ namespace swirl {
 
 struct BenchSettings {
     bool full = false;                          // 10⁵ and 10⁶ discs, too
+    std::string only = {};                      // scenes whose name contains this text
     std::vector<Width> widths = {Width::best};  // of the event loop
     double seconds = 1.0;                       // of processor time for each rate
     const std::atomic<bool>* stop = nullptr;
