@@ -343,6 +343,12 @@ class TrackTest(InFolder):
             self.skipTest("this build has no camera support")
         for percent in re.findall(r"([0-9.]+) %", done.stdout + done.stderr):
             self.assertLessEqual(float(percent), 100.0)
+        # Edges do not show these balls, but their shading does.
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = Comparison(video, self.path("tracks.csv"))
+        self.assertEqual(result.found["discs"], 28)
+        self.assertGreater(result.complete, 0.9)
+        self.assertLess(result.rms, 2.0)  # 2.9 by edges and with a given number
         if done.returncode == 0:
             with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
                 found = json.load(file)
@@ -359,11 +365,11 @@ class TrackTest(InFolder):
         # Fewer contacts than in a longer video, and outlines that err by the shading: within 8 %.
         self.assertLess(abs(found["species"][0]["radius"] / 15.0 - 1.0), 0.08)
 
-    @slow("four videos of two periods; the wall of most other tests is reached in every frame")
+    @slow("six videos of two periods; the wall of most other tests is reached in every frame")
     def test_container_radius_with_few_discs(self):
-        # Eight discs touch the wall about three times per period. With fewer contacts, the program
-        # uses the rim.
-        for discs in (8, 16, 24, 36):
+        # Four discs bounce off the wall about three times per period. With fewer contacts, the
+        # program uses the rim.
+        for discs in (4, 8, 12, 16, 24, 36):
             video = self.video(of=["--discs", discs, "--width", 400, "--height", 400, "--scale", 15,
                                    "--frames-per-period", 60, "--quality", 18, "--from", 25], length=2,
                                name=f"of{discs}.mp4")

@@ -582,9 +582,10 @@ bool AppearanceTemplate::set_reach(const std::vector<Example>& examples) {
 
 /// Sets `soft_` from the typical contrast with the floor; false if that is too low.
 bool AppearanceTemplate::learn_contrast(const std::vector<Example>& examples) {
-    constexpr double inner = 0.5;         // radii: half side of the square that is sampled
-    constexpr double min_contrast = 3.0;  // grey levels
-    constexpr double soft_share = 0.38;   // of the contrast
+    constexpr double inner = 0.5;                  // radii: half side of the square that is sampled
+    constexpr double min_contrast = 3.0;           // grey levels
+    constexpr double soft_share = 0.38;            // of the contrast
+    constexpr double soft_share_of_shading = 1.0;  // its excess has both signs, and no saturation
     std::vector<double> contrasts;
     for (const Example& e : examples) {
         const double of_illumination = 1.0 / illumination(e.sharp, e.rim, e.particles);
@@ -595,15 +596,16 @@ bool AppearanceTemplate::learn_contrast(const std::vector<Example>& examples) {
             for (int y = row - near; y <= row + near; y += 2)
                 for (int x = column - near; x <= column + near; x += 2) {
                     if (x < 0 || y < 0 || x >= e.sharp.cols || y >= e.sharp.rows) continue;
-                    contrasts.push_back(appearance_.polarity *
-                                        (of_illumination * double(e.sharp.at<float>(y, x)) -
-                                         double(floor_.at<float>(y, x))));
+                    const double excess = of_illumination * double(e.sharp.at<float>(y, x)) -
+                                          double(floor_.at<float>(y, x));
+                    contrasts.push_back(appearance_.shading ? std::abs(excess)
+                                                            : appearance_.polarity * excess);
                 }
         }
     }
     if (contrasts.empty()) return false;
     const double contrast = median(contrasts);
-    soft_ = soft_share * contrast;
+    soft_ = (appearance_.shading ? soft_share_of_shading : soft_share) * contrast;
     return contrast > min_contrast;
 }
 
@@ -662,12 +664,11 @@ std::optional<AppearanceTemplate> AppearanceTemplate::learned(const std::vector<
         for (const Particle& b : e.particles) edges.back().push_back(b.centre);
     }
     const double edges_alone = overlap(examples, edges, edges, 0.0, appearance);
-    if (edges_alone < good_edges * good_edges) return std::nullopt;
+    if (!appearance.shading && edges_alone < good_edges * good_edges) return std::nullopt;
     result.learn_floor(examples, threads);
     if (!result.learn_contrast(examples)) return std::nullopt;
     for (const ParticleSpecies& one : appearance.species)
         result.templates_.push_back({one.radius, 1.0, {}});
-
     std::vector<Excess> excesses(examples.size());
     parallel_for(
         examples.size(),
@@ -685,9 +686,12 @@ std::optional<AppearanceTemplate> AppearanceTemplate::learned(const std::vector<
     for (std::size_t species = 0; species < appearance.species.size(); ++species)
         result.learn_template(examples, excesses, positions, species, threads);
     double square = edges_alone;
-    result.choose_weight(examples, edges, positions, square);
-    if (square > required_gain * edges_alone) return std::nullopt;
-    // Half of the pairs overlap, so a distance errs by √2 times the rms overlap, and a position by
+    if (appearance.shading)  // there are no edges
+        square = overlap(examples, edges, positions, result.weight_ = 1.0, appearance);
+    else
+        result.choose_weight(examples, edges, positions, square);
+    if (!appearance.shading && square > required_gain * edges_alone) return std::nullopt;
+    // Half of the pairs overlap, so a distance errs by √2 of the rms overlap, and a position by
     // 1/√2 of that.
     result.error_ = std::sqrt(square);
     return result;

@@ -9,6 +9,7 @@
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/tracking/appearance_template.hpp"
 #include "swirl/tracking/particle_size.hpp"
+#include "swirl/tracking/shading_detection.hpp"
 
 namespace swirl {
 
@@ -346,6 +347,7 @@ void refine_position(Particle& particle, const std::vector<Particle>& all,
     // independent, so a weighted mean is better than both; those of profiles are smaller.
     const double profile_weight = radius > small_discs ? 0.7 : 0.5;
     if (!fit.good || length(fit.centre - particle.centre) > std::max(1.5, 0.06 * radius)) return;
+    particle.disagreement = length(fit.centre - particle.centre);
     particle.centre = (1.0 - profile_weight) * particle.centre + profile_weight * fit.centre;
     particle.error = fit.error;
 }
@@ -469,7 +471,8 @@ class TemplateSearch {
                 for (double y = -rim_.radius; y < rim_.radius; y += stride) {
                     Candidate c{{rim_.centre + Vec2{x, y}, species, 0.0, 0.0, false}, {}, 0.0};
                     if (!template_.inside(excess_, c.particle.centre, species)) continue;
-                    if (!(template_.excess_at(excess_, c.particle.centre) > 0.3 * template_.soft()))
+                    if (!appearance_.shading &&
+                        !(template_.excess_at(excess_, c.particle.centre) > 0.3 * template_.soft()))
                         continue;
                     if (overlaps(c.particle, min_distance)) continue;
                     c.score = score(c.particle);
@@ -596,6 +599,12 @@ Particle refit_from_around(const Particle& particle, const PreparedFrame& frame,
 
 std::vector<Particle> find_particles(const PreparedFrame& frame, const CircleFit& rim,
                                      const ParticleAppearance& appearance) {
+    if (appearance.shading) {
+        const std::vector<Particle> found =
+            find_by_shading(frame.sharp, rim, *appearance.shading, appearance.number);
+        return appearance.appearance_template ? search_with_template(found, frame, rim, appearance)
+                                              : found;
+    }
     const std::vector<EdgePixel> edges = edges_inside(frame, rim);
     std::vector<Particle> all;
     for (std::size_t species = 0; species < appearance.species.size(); ++species) {

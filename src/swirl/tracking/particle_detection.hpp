@@ -30,6 +30,13 @@ struct ParticleSpecies {
     std::size_t number = 0;  // of discs of this species
 };
 
+/// Finds balls by their shading (shading_detection.hpp).
+struct ShadingFilter {
+    Vec2 towards{1.0, 0.0};   // direction in which the brightness of a ball grows
+    double radius = 0.0;      // pixels
+    double min_height = 0.0;  // of the response to a ball
+};
+
 /// What discs of a video look like.
 struct ParticleAppearance {
     Polarity polarity = 1;
@@ -44,6 +51,7 @@ struct ParticleAppearance {
                             // 1 for a shaded edge
     std::vector<EdgeProfile> edge_profiles;  // of each species, with the blur of this video
 
+    std::optional<ShadingFilter> shading;  // set if edges do not show the discs
     /// Set if edges alone are too poor (appearance_template.hpp).
     std::shared_ptr<const AppearanceTemplate> appearance_template;
 
@@ -55,6 +63,7 @@ struct Particle {
     std::size_t species = 0;
     double support = 0.0, error = 0.0;
     bool sure = false;
+    double disagreement = 0.0;  // distance of the two fits to its edge, pixels; 0: there is one fit
 };
 
 /// Properties of the discs that the user gave.

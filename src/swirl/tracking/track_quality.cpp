@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
@@ -11,8 +13,10 @@ namespace {
 
 /// Discs in contact: the mean gap is 0, and half of the gaps are negative by errors of positions.
 void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
-    constexpr std::size_t min_gaps = 100, min_overlaps = 50;  // for an onset; for a median
-    constexpr double window = 0.02;                           // radii
+    // For an onset, and for a median. Few discs are seldom in contact, and the onset of few gaps may be
+    // off by several per cent.
+    constexpr std::size_t min_gaps = 1000, min_overlaps = 50;
+    constexpr double window = 0.02;  // radii
     if (gaps.size() > min_gaps && !tracked.contact_fitted)
         tracked.contact_ratio = 1.0 + onset(gaps, window * tracked.radius) / (2.0 * tracked.radius);
     if (tracked.overlap_error > 0.0) return;  // known from the distances of contact, and better
@@ -23,17 +27,98 @@ void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
         tracked.overlap_error = mad_to_sigma * quantile(overlaps, 0.5) / std::sqrt(2.0);
 }
 
-/// How far out the wall lets discs come, given the outermost disc of each frame. With many discs
-/// one is at the wall in most frames. With few, only the largest reaches are touches of the wall.
+constexpr double same_reach = 0.005;    // relative: touches of one wall
+constexpr double touches_needed = 3.0;  // per period
+
+/// Positions of one disc that was seen in successive frames.
+struct SeenDisc {
+    std::vector<std::size_t> frames;
+    std::vector<Vec2> positions;
+    double radius = 0.0;
+};
+
+std::vector<SeenDisc> seen_discs(const TrackedVideo& tracked) {
+    std::map<std::int64_t, SeenDisc> discs;
+    for (std::size_t k = 0; k < tracked.tracks.frames.size(); ++k) {
+        const TrackFrame& f = tracked.tracks.frames[k];
+        for (std::size_t i = 0; i < f.id.size(); ++i) {
+            if (!tracked.seen[k][i]) continue;
+            SeenDisc& disc = discs[f.id[i]];
+            disc.frames.push_back(k);
+            disc.positions.push_back(f.position[i]);
+            disc.radius = f.radius[i];
+        }
+    }
+    std::vector<SeenDisc> result;
+    for (auto& [id, disc] : discs) result.push_back(std::move(disc));
+    return result;
+}
+
+/// A disc bounces off the wall between frames j and j + 1. Its straight flights before and after
+/// meet at the wall: returns their distance from the container's centre there.
+std::optional<double> bounce(const SeenDisc& disc, std::size_t j, const TrackedVideo& tracked) {
+    constexpr std::size_t rising = 2;  // frames before and after, in which the distance changes
+    constexpr int steps = 40;          // of the time between the two frames
+    if (j < rising || j + 1 + rising >= disc.frames.size() ||
+        disc.frames[j + 1 + rising] - disc.frames[j - rising] != 2 * rising + 1)
+        return std::nullopt;
+    const auto distance = [&](std::size_t at) {
+        return length(disc.positions[at] - tracked.container(disc.frames[at]));
+    };
+    for (std::size_t n = 0; n < rising; ++n)
+        if (distance(j - n) <= distance(j - n - 1) || distance(j + 1 + n) <= distance(j + 2 + n))
+            return std::nullopt;
+    const Vec2 before = disc.positions[j] - disc.positions[j - 1],
+               after = disc.positions[j + 1] - disc.positions[j + 2];
+    const double start = tracked.times[disc.frames[j]], end = tracked.times[disc.frames[j + 1]];
+    double previous = 0.0;
+    for (int n = 0; n <= steps; ++n) {
+        const double u = double(n) / steps;
+        const Vec2 centre = tracked.path.at(start + u * (end - start));
+        const double incoming = length(disc.positions[j] + u * before - centre),
+                     outgoing = length(disc.positions[j + 1] + (1.0 - u) * after - centre);
+        if (n > 0 && previous * (incoming - outgoing) <= 0.0)
+            return 0.5 * (incoming + outgoing) + disc.radius;
+        previous = incoming - outgoing;
+    }
+    return std::nullopt;
+}
+
+struct BouncedWall {
+    double reach = 0.0;    // distance of the wall from the container's centre
+    double scatter = 0.0;  // of single bounces: about the error of a coordinate
+};
+
+/// The wall from discs that bounce off it: the distance at which most bounces agree. None if these
+/// are less than three per period. Bounces off other discs are at many smaller distances.
+std::optional<BouncedWall> wall_from_bounces(const TrackedVideo& tracked, double periods) {
+    std::vector<double> bounces;
+    for (const SeenDisc& disc : seen_discs(tracked))
+        for (std::size_t j = 0; j < disc.frames.size(); ++j)
+            if (const auto at = bounce(disc, j, tracked)) bounces.push_back(*at);
+    std::sort(bounces.begin(), bounces.end());
+    std::vector<double> most;
+    for (auto first = bounces.begin(); first != bounces.end(); ++first) {
+        const auto end = std::upper_bound(first, bounces.end(), (1.0 + same_reach) * *first);
+        if (end - first >= std::ptrdiff_t(most.size())) most.assign(first, end);
+    }
+    if (double(most.size()) < std::max(touches_needed, touches_needed * periods))
+        return std::nullopt;
+    BouncedWall wall{quantile(most, 0.5), 0.0};
+    for (double& b : most) b = std::abs(b - wall.reach);
+    wall.scatter = mad_to_sigma * quantile(most, 0.5);
+    return wall;
+}
+
+/// How far out the wall lets discs come, given the outermost disc of each frame. With many discs one
+/// is at the wall in most frames. Few discs only bounce off it, and mostly between two frames.
 void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
     constexpr double most_frames = 0.8, nearly_all_frames = 0.98;
-    constexpr double same_reach = 0.005;    // relative
-    constexpr double touches_needed = 3.0;  // per period
     tracked.reach = quantile(reaches, most_frames);
     const double farthest = quantile(reaches, nearly_all_frames);
     // If circles are only parts of discs, the farthest ones may be noise.
-    if (farthest > (1.0 + same_reach) * tracked.reach && tracked.spacing == 1.0)
-        tracked.reach = farthest;
+    const bool few = farthest > (1.0 + same_reach) * tracked.reach && tracked.spacing == 1.0;
+    if (few) tracked.reach = farthest;
     double touches = 0.0;
     for (std::size_t k = 1; k + 1 < reaches.size(); ++k)
         if (reaches[k] > reaches[k - 1] && reaches[k] >= reaches[k + 1] &&
@@ -42,6 +127,27 @@ void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
     const double periods =
         double(reaches.size()) * tracked.step() * tracked.path.omega / (2.0 * pi);
     tracked.wall_reached = touches >= touches_needed * periods;
+    if (!few) return;
+    if (const auto wall = wall_from_bounces(tracked, periods)) {
+        tracked.reach = wall->reach;
+        tracked.wall_reached = true;
+        if (!tracked.contact_fitted) tracked.overlap_error = wall->scatter;
+    }
+}
+
+/// Error of a coordinate from the two fits to the edge of each disc. Their errors are about equal and
+/// nearly independent, so that of the mean is half of their difference. It contains what the texture
+/// does to all rays of a fit, for as long as a patch is at the edge.
+double error_from_fits(const Detections& all) {
+    double square = 0.0;
+    std::size_t count = 0;
+    for (const FrameDetections& frame : all)
+        for (const Particle& p : frame.particles)
+            if (p.sure && p.disagreement > 0.0) {
+                square += 0.5 * p.disagreement * p.disagreement;
+                ++count;
+            }
+    return count ? 0.5 * std::sqrt(square / double(count)) : 0.0;
 }
 
 }  // namespace
@@ -82,9 +188,10 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
     // The rays of a soft edge scatter by more than the circle errs, so a fit to all distances
     // replaces larger ones, too.
     if (!(tracked.position_error > 0.0)) return;
-    double error = tracked.overlap_error > tracked.position_error || tracked.contact_fitted
-                       ? tracked.overlap_error
-                       : tracked.position_error;
+    double error =
+        tracked.contact_fitted
+            ? tracked.overlap_error
+            : std::max({tracked.overlap_error, tracked.position_error, error_from_fits(all)});
     // All discs share the error of a shift that was removed, so overlaps do not contain it.
     error = std::hypot(error, tracked.shading_shift_error);
     if (error == tracked.position_error) return;

@@ -7,6 +7,7 @@
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/tracking/appearance_template.hpp"
 #include "swirl/tracking/contact_distance.hpp"
+#include "swirl/tracking/shading_detection.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
 namespace swirl {
@@ -67,7 +68,20 @@ ParticleAppearance survey_appearance(const std::vector<cv::Mat>& images,
     KnownDiscs known;
     if (settings.discs) known.number = static_cast<std::size_t>(*settings.discs);
     known.radius_share = settings.radius_share;
-    return survey_particles(part, rims, known, thread_count(settings));
+    const auto by_shading = [&] {
+        return survey_shading(part, rims, known, thread_count(settings));
+    };
+    try {
+        const ParticleAppearance by_edges =
+            survey_particles(part, rims, known, thread_count(settings));
+        // Circles that are only the lit parts of balls are displaced by different amounts.
+        if (by_edges.spacing > 1.0)
+            if (const auto found = by_shading()) return *found;
+        return by_edges;
+    } catch (const Failure&) {
+        if (const auto found = by_shading()) return *found;
+        throw;
+    }
 }
 
 std::vector<AppearanceTemplate::Example> find_examples(const std::vector<cv::Mat>& images,
@@ -147,11 +161,16 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
     std::vector<AppearanceTemplate::Example> examples = find_examples(images, settings, survey);
     if (correct_radius_by_contacts(examples, survey.appearance))
         examples = find_examples(images, settings, survey);
-    survey.brighter = mean_gradient(examples, survey.appearance);
+    if (!survey.appearance.shading) survey.brighter = mean_gradient(examples, survey.appearance);
     if (auto learned =
             AppearanceTemplate::learned(examples, survey.appearance, thread_count(settings)))
         survey.appearance.appearance_template =
             std::make_shared<const AppearanceTemplate>(std::move(*learned));
+    else if (survey.appearance.shading)
+        throw Failure(
+            "the container was found, but no discs: balls were found by their shading, but they "
+            "have no common appearance.\n"
+            "hint: a higher contrast and less compression help.");
 }
 
 /// If the background shows that the camera moves, stabilises the images and surveys the rim again.
@@ -223,7 +242,10 @@ VideoSurvey survey_images(const TrackingSettings& settings, std::vector<cv::Mat>
     survey.appearance = survey_appearance(
         images, frames, std::min(1.0, particle_side * rim_side / side), survey.rim, settings);
     settings.throw_if_stopped();
-    survey.tilt = find_tilt(frames, settings.camera, survey.rim, survey.appearance.lens);
+    // Where edges are too poor for discs, they are too poor for the tilt.
+    KnownCamera camera = settings.camera;
+    if (survey.appearance.shading && !camera.tilt) camera.tilt = 0.0;
+    survey.tilt = find_tilt(frames, camera, survey.rim, survey.appearance.lens);
     learn_appearance(images, settings, survey);
     return survey;
 }

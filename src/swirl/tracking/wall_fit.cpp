@@ -103,7 +103,8 @@ void move_path_to_wall(TrackedVideo& tracked) {
 
 void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& all,
                           TrackedVideo& tracked) {
-    constexpr double min_share = 0.5;  // of the shift along the gradient of the brightness
+    constexpr double unknown_shift = 0.1;  // radii: rms of a coordinate in four videos
+    constexpr double min_share = 0.5;      // of the shift along the gradient of the brightness
     if (tracked.lens.tilted()) return;
     WallRows wall;
     for_each_linked(links, [&](std::size_t k, std::size_t, std::size_t d) {
@@ -117,13 +118,17 @@ void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& 
         wall.outer.push_back(distance + radius);
     });
     const auto found = fit_wall(wall, tracked.spacing * tracked.radius, links.species.size());
+    // A template without edges does not define a centre, so its shift is removed in any case. If the
+    // wall does not show it, the positions err by it.
+    const bool unknown = length(brighter) == 0.0;
+    if (!found && unknown) tracked.shading_shift_error = unknown_shift * tracked.radius;
     if (!found) return;
     const Vec2 shift{found->value[1], found->value[2]};
     const double error = std::max(found->error[1], found->error[2]);
     // The side that stands out from the floor: the bright side of bright balls, and of dark ones
     // the dark side.
     const Vec2 towards = (tracked.bright ? 1.0 : -1.0) * brighter;
-    if (length(shift) < stands_out * error ||
+    if ((!unknown && length(shift) < stands_out * error) ||
         dot(shift, towards) < min_share * length(shift) * length(towards))
         return;
     tracked.shading_shift = shift;
