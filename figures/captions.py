@@ -98,6 +98,12 @@ QUESTIONS = {
               "between both predict the torque that drives the spins?",
     "closure": "Which coefficients has the cluster as a micropolar fluid, and how much of the stresses do they explain?",
     "amplitude": "The paper has one amplitude, A/R = 0.22. Where does the direction of rotation change for others?",
+    "cooling": "Does a gas of rough discs in a container at rest cool as the mean-field theory of Huthmann and Zippelius "
+               "(1997) says?",
+    "scherer": "Scherer et al. (2000) distinguish rotation, counterrotation and concentric rings by the sign of dE/dN, with "
+               "the mean kinetic energy E of a particle, and see hypocycloids. Does the model agree?",
+    "instability": "Zhao and Pöschel (2020, 2021) see a dense region form above a threshold of the amplitude, and a dense core "
+                   "that rotates against the swirl. From which amplitude on does a layer of rolling spheres have them?",
 }
 
 # The description of each figure.
@@ -237,6 +243,15 @@ CAPTIONS = {
     "closure": "Coefficients divided by √(mT), with the granular temperature T, in ranges of the packing fraction; below, the "
                "share of the square of the stress that each explains. Bars are standard errors over the seeds.",
     "amplitude": "The same as figure “size” for different amplitudes, in containers of two sizes.",
+    "cooling": "Temperatures of the translation (full symbols) and of the spins (open) against the number of collisions of a "
+               "disc, with the mean-field theory (lines); the relative deviations of both from the theory; and the collision "
+               "rate in equilibrium in units of Enskog's, for gases of different size. φ = 0.2.",
+    "scherer": "Mean kinetic energy of a particle in units of that of the container's speed, and rotation, against the number "
+               "of particles, for the container of the paper's experiment and for other amplitudes and periods; the number "
+               "density around the centre of mass; and the distance of the particles' paths from hypotrochoids.",
+    "instability": "Layers of rolling spheres in a container of R/r = 17 against the amplitude: distance of the centre of mass from "
+                   "that of a layer that moves freely, the part of it that turns with the swirl, and the rotation of the "
+                   "core and of the layer at the wall.",
     "spheres_map": "Rotation of the cluster as colour and as number. Positive values rotate with the swirl, negative "
                    "values against it.",
 }

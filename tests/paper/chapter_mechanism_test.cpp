@@ -11,18 +11,47 @@
 namespace swirl {
 namespace {
 
-TEST(CoarseZero, IsThatOfTheStraightLineBetweenTheNeighbouringPoints) {
+TEST(CoarseZero, IsThatOfTheParabolaThroughThreePoints) {
     const CoarseZero zero = last_zero({{20, 0.5, 0.01}, {30, 0.3, 0.03}, {40, -0.1, 0.01}});
     EXPECT_TRUE(zero.falls);
-    // The zero is 30 + 10 · 0.3/0.4. The errors have the weights ¼ and ¾ and are divided by the
-    // slope of 0.04.
-    EXPECT_NEAR(zero.discs, 37.5, 1e-12);
-    EXPECT_NEAR(zero.error, std::hypot(0.25 * 0.03, 0.75 * 0.01) / 0.04, 1e-12);
+    // At 30 + u the parabola is 0.3 − 0.03 u − 0.001 u². The straight line has its zero at 37.5; the
+    // distance is the error of the interpolation. The errors of the points have the weights ¼ and ¾
+    // and are divided by the slope of 0.04.
+    const double u = (std::sqrt(0.0009 + 0.0012) - 0.03) / 0.002;
+    EXPECT_NEAR(zero.discs, 30.0 + u, 1e-9);
+    EXPECT_NEAR(zero.error, std::hypot(std::hypot(0.25 * 0.03, 0.75 * 0.01) / 0.04, u - 7.5), 1e-9);
     EXPECT_FALSE(last_zero({{20, -0.5, 0.01}, {30, 0.3, 0.03}}).falls);
-    // The last of two changes, and no change where the signs are uncertain.
-    EXPECT_NEAR(last_zero({{10, -1, 0.1}, {20, 1, 0.1}, {30, -1, 0.1}}).discs, 25.0, 1e-12);
     EXPECT_FALSE(last_zero({{20, 0.5, 0.01}, {30, -0.1, 0.1}}).exists());
     EXPECT_FALSE(last_zero({}).exists());
+    // The last of two changes. By symmetry the parabola 1 − (x − 20)²/50 has it at 20 + √50.
+    EXPECT_NEAR(last_zero({{10, -1, 0.1}, {20, 1, 0.1}, {30, -1, 0.1}}).discs,
+                20.0 + std::sqrt(50.0), 1e-9);
+}
+
+TEST(CoarseZero, TwoPointsHaveTheErrorOfAUniformDistribution) {
+    const CurveZero zero = zero_of_curve({{20, 0.3, 0.0}, {32, -0.1, 0.0}}, 0);
+    EXPECT_NEAR(zero.discs, 29.0, 1e-12);
+    EXPECT_NEAR(zero.error(), 12.0 / std::sqrt(12.0), 1e-12);
+}
+
+// A parabola has no error of interpolation. The zero of a cubic is within the error.
+TEST(CoarseZero, OfASmoothCurveLiesWithinTheErrorOfTheInterpolation) {
+    constexpr double at[] = {28, 32, 36, 44, 48};
+    for (const double truth : {33.0, 37.0, 43.9})
+        for (const double cubic : {0.0, 1e-5, -3e-5}) {
+            const auto value = [&](double x) {
+                const double d = x - truth;
+                return -0.01 * d - 1e-4 * d * d + cubic * d * d * d;
+            };
+            std::vector<RotationPoint> curve;
+            for (const double x : at) curve.push_back({x, value(x), 1e-9});
+            const std::size_t k = truth < 36.0 ? 1 : 2;
+            const CurveZero zero = zero_of_curve(curve, k);
+            EXPECT_LE(std::fabs(zero.discs - truth), zero.interpolation + 1e-9) << truth;
+            if (cubic == 0.0) {
+                EXPECT_NEAR(zero.interpolation, 0.0, 1e-9);
+            }
+        }
 }
 
 TEST(RankCorrelation, HasTheClosedFormsOfSmallSamples) {

@@ -81,18 +81,23 @@ TEST(DirectionChanges, AreTheZerosOfTheCurveOfEachDish) {
     ASSERT_EQ(changes.size(), 2u);
     EXPECT_TRUE(changes[0].to_counterrotation);
     EXPECT_FALSE(changes[1].to_counterrotation);
-    // 0.3 to −0.1 over 0.2: the zero is at three quarters, with the slope −2.
-    EXPECT_NEAR(changes[0].packing_fraction, 0.35, 1e-12);
+    // At 0.2 + u the parabola through all three points is 0.3 − 3.5 u + 7.5 u². The straight line has
+    // the slope −2, its zero at 0.35, and there the statistical error.
+    const double u = (3.5 - std::sqrt(12.25 - 9.0)) / 15.0;
+    EXPECT_NEAR(changes[0].packing_fraction, 0.2 + u, 1e-9);
     EXPECT_NEAR(changes[0].slope, -2.0, 1e-12);
     EXPECT_NEAR(changes[0].slope_error, 0.01 * std::sqrt(2.0) / 0.2, 1e-12);
-    EXPECT_NEAR(changes[0].error, std::hypot(0.25 * 0.01, 0.75 * 0.01) / 2.0, 1e-12);
-    EXPECT_NEAR(changes[0].largest, 0.5, 1e-12);
+    EXPECT_NEAR(changes[0].interpolation_error, 0.15 - u, 1e-9);
+    EXPECT_NEAR(changes[0].error, std::hypot(std::hypot(0.25 * 0.01, 0.75 * 0.01) / 2.0, 0.15 - u),
+                1e-9);
+    EXPECT_NEAR(changes[0].largest, 0.2 + 2.0 * u, 1e-9);
     EXPECT_NEAR(changes[0].reach, 0.9, 1e-12);
-    // 35 discs, a tenth of them at the wall, where 9 π would fit.
-    EXPECT_NEAR(changes[0].occupied, 3.5 / (9.0 * pi), 1e-12);
+    // A tenth of the discs is at the wall, where 9 π would fit.
+    EXPECT_NEAR(changes[0].occupied, 10.0 * (0.2 + u) / (9.0 * pi), 1e-9);
     EXPECT_STREQ(kind_of(changes[0]), "wall");
     EXPECT_STREQ(kind_of(changes[1]), "back");
-    EXPECT_NEAR(changes[1].packing_fraction, 0.5, 1e-12);
+    // The other zero of the same parabola.
+    EXPECT_NEAR(changes[1].packing_fraction, 0.2 + (3.5 + std::sqrt(12.25 - 9.0)) / 15.0, 1e-9);
     const std::vector<std::string> sentences = change_sentences(points, changes);
     ASSERT_EQ(sentences.size(), 2u);
     EXPECT_NE(sentences[1].find("no certain change"), std::string::npos);

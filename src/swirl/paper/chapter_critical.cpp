@@ -27,7 +27,6 @@
 #include "swirl/run/ramp.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/statistics/power_law.hpp"
-#include "swirl/statistics/replicates.hpp"
 
 namespace swirl {
 namespace {
@@ -212,14 +211,6 @@ Json loop_run(const RunConfig& config, const RunControl& control) {
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k] /= counts[k];
     return {{"up", std::vector<double>(sums.begin(), sums.begin() + bins)},
             {"down", std::vector<double>(sums.rbegin(), sums.rbegin() + bins)}};
-}
-
-/// The mean over the runs of a number of each run.
-template <class NumberOf>
-Estimate over_runs(const std::vector<Json>& runs, const NumberOf& number_of) {
-    std::vector<Estimate> values;
-    for (const Json& run : runs) values.push_back({.mean = number_of(run)});
-    return ensemble(values).estimate;
 }
 
 std::vector<std::int64_t> branches(const PaperSettings& settings) {

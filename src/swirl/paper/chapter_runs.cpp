@@ -161,16 +161,17 @@ DishCurve curve_of_dish(const DishPoints& all, const std::vector<Json>& results,
     return curve;
 }
 
-/// The zero of the straight line between the points k and k + 1.
+/// The zero between the points k and k + 1.
 DirectionChange change_between(const DishCurve& curve, std::size_t k, const Dish& dish) {
     const RotationPoint &a = curve.points[k], &b = curve.points[k + 1];
     const Json &left = *curve.results[k], &right = *curve.results[k + 1];
     const double area = dish.radius * dish.radius, step = b.discs - a.discs;
-    const LineZero zero = zero_of_line(a, b);
+    const CurveZero zero = zero_of_curve(curve.points, k);
     const double f = zero.fraction;
     DirectionChange change{dish};
     change.packing_fraction = zero.discs / area;
-    change.error = zero.error / area;
+    change.error = zero.error() / area;
+    change.interpolation_error = zero.interpolation / area;
     change.slope = (b.mean - a.mean) / step * area;
     change.slope_error = std::hypot(a.error, b.error) / step * area;
     change.largest = between(left, right, f, "contact_network", "largest");
@@ -268,10 +269,11 @@ const char* kind_of(const DirectionChange& change) {
 }
 
 Table change_table(const std::vector<DirectionChange>& changes) {
-    Table table(joined({"container_radius", "amplitude_ratio", "direction", "kind",
-                        "packing_fraction", "packing_fraction_error", "slope", "slope_error",
-                        "before", "after", "largest", "wall", "occupied", "elongation", "reach"},
-                       number_columns({"susceptibility", "correlation", "binder"})));
+    Table table(
+        joined({"container_radius", "amplitude_ratio", "direction", "kind", "packing_fraction",
+                "packing_fraction_error", "interpolation_error", "slope", "slope_error", "before",
+                "after", "largest", "wall", "occupied", "elongation", "reach"},
+               number_columns({"susceptibility", "correlation", "binder"})));
     for (const DirectionChange& c : changes) {
         std::vector<Table::Cell> row{
             c.dish.radius,
@@ -280,6 +282,7 @@ Table change_table(const std::vector<DirectionChange>& changes) {
             std::string(kind_of(c)),
             c.packing_fraction,
             c.error,
+            c.interpolation_error,
             c.slope,
             c.slope_error,
             c.before,

@@ -80,8 +80,10 @@ DishPoints dishes_of_sizes(const PaperSettings& settings);
 struct DirectionChange {
     Dish dish;
     bool to_counterrotation = false;
-    double packing_fraction = not_available, error = not_available;  // at the zero
-    double slope = not_available, slope_error = not_available;       // dϖ/dφ there, in Ω
+    double packing_fraction = not_available,
+           error = not_available;                               // at the zero (coarse_zero.hpp)
+    double interpolation_error = not_available;                 // its part in the error
+    double slope = not_available, slope_error = not_available;  // dϖ/dφ there, in Ω
     double before = not_available, after = not_available;  // φ of the points with certain signs
     // At the zero, interpolated:
     double largest = not_available;     // share of the discs in the largest touching group

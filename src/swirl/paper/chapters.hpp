@@ -16,6 +16,8 @@ std::vector<PaperFigure> chapter_mechanism();
 std::vector<PaperFigure> chapter_material();
 std::vector<PaperFigure> chapter_spheres();
 std::vector<PaperFigure> chapter_fields();
+std::vector<PaperFigure> chapter_cooling();
+std::vector<PaperFigure> chapter_experiments();
 
 /// Of all chapters, in their order.
 std::vector<PaperFigure> chapter_figures();

@@ -2,11 +2,14 @@
 // the paper's parameters. Several figures need the same point; it is run once.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
 #include "swirl/paper/paper.hpp"
 #include "swirl/paper/paper_parameters.hpp"
+#include "swirl/statistics/replicates.hpp"
 
 namespace swirl {
 
@@ -61,5 +64,13 @@ void add_seeds(FigurePlan& plan, const RunConfig& config, int seeds, const std::
                double cost, Json (*work)(const RunConfig&, const RunControl&));
 /// The results of the k-th group of `seeds` tasks, without the failed ones.
 std::vector<Json> results_of_seeds(const std::vector<Json>& results, std::size_t k, int seeds);
+
+/// The mean over the runs of a number of each run. The error is that between the runs.
+template <class NumberOf>
+Estimate over_runs(const std::vector<Json>& runs, const NumberOf& number_of) {
+    std::vector<Estimate> values;
+    for (const Json& run : runs) values.push_back({.mean = number_of(run)});
+    return ensemble(values).estimate;
+}
 
 }  // namespace swirl
