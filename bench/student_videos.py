@@ -1,12 +1,15 @@
 """Videos as students make them: swirl track, and on request trackpy, against the ground truth.
 
     student_videos.py               the table of kinds in docs/explanation/tracking_accuracy.md (minutes)
-    student_videos.py --trackpy     the table of the comparison as well; needs trackpy, pandas and scipy
+    student_videos.py --trackpy     with trackpy on the same videos; needs trackpy, pandas and scipy
     student_videos.py --kind NAME   this kind only; may be repeated
-    student_videos.py --small       the first two kinds with a video of two periods
+    student_videos.py --periods N   length of the videos [4]
 
 SWIRL is the program. Each video has 28 discs and is made by `swirl synthetic-video --camera student` (30 frames
 per second, 2 periods per second, 640x480 pixels) with the options of its kind.
+
+In interlaced videos the odd rows are half a frame interval later than the even rows. The ground truth is that of
+the even rows. A video that is rejected with a hint is tracked again with the options of the hint.
 
 trackpy gets more than swirl: the size and the number of the discs, whether they are bright, and the position of
 the container in each frame, outside which the image is blank. Its diameter is the best of three on a few frames.
@@ -17,6 +20,7 @@ import argparse
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -26,15 +30,18 @@ import track_test  # noqa: E402
 from program import swirl  # noqa: E402
 
 PERIOD = 15  # frames
+HEIGHT = 480  # pixels
 COMMON = ["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23]
+LARGE = ["--width", 1920, "--height", 1080, "--scale", 44]
 # Name, options of synthetic-video, what is done to the video afterwards.
 KINDS = [
     ("plain", [], None),
     ("steel balls", ["--disc-level", 60, "--floor-level", 200, "--gloss", 200, "--texture", 0.1], None),
-    ("1080p", ["--width", 1920, "--height", 1080, "--scale", 44], None),
+    ("1080p", LARGE, None),
     ("rolling shutter", ["--rolling-shutter", 0.8], None),
     ("variable frame rate", ["--frames-per-period", 4 * PERIOD], "uneven"),
-    ("interlaced", ["--interlaced"], None),
+    ("interlaced", ["--frames-per-period", 4 * PERIOD], "interlaced"),
+    ("interlaced 1080p", ["--frames-per-period", 4 * PERIOD, *LARGE], "interlaced"),
     ("auto-exposure", ["--auto-exposure", 0.3], None),
     ("hands", ["--hands", 0.7], None),
     ("rotated", [], "rotated"),
@@ -66,6 +73,8 @@ class Video:
         self.path, regular = made, self.truth
         if after == "uneven":
             regular = self.drop_frames(folder, made)
+        elif after == "interlaced":
+            regular = self.interleave_fields(folder, made)
         elif after == "rotated":
             self.path = os.path.join(folder, "rotated.mp4")
             ffmpeg("-i", made, "-c", "copy", "-metadata:s:v:0", "rotate=90", self.path)
@@ -88,18 +97,27 @@ class Video:
         self.about["omega"] *= 4.0
         return regular
 
+    def interleave_fields(self, folder, made):
+        """Even rows of frames 1, 5, 9, …, and odd rows of frames 3, 7, 11, …"""
+        self.path = os.path.join(folder, "interlaced.mp4")
+        ffmpeg("-i", made, "-vf", "select=mod(n\\,2),setpts=N/(60*TB),tinterlace=interleave_top", "-crf", 18,
+               self.path)
+        regular = {k // 4: self.truth[k] for k in range(0, len(self.truth), 4)}
+        self.truth = {k // 4: self.truth[k] for k in range(1, len(self.truth), 4)}
+        self.centres = self.centres[1::4]
+        self.about["omega"] *= 4.0
+        return regular
+
     def turn_truth(self):
         """A player turns the video clockwise by 90 degrees."""
-        height = 480
-
         def turned(p):
-            return (height - 1 - p[1], p[0])
+            return (HEIGHT - 1 - p[1], p[0])
         self.truth = {k: {i: turned(p) for i, p in discs.items()} for k, discs in self.truth.items()}
         self.centres = [turned(p) for p in self.centres]
 
 
 def rotation(folder, positions, about):
-    """ϖ/Ω by time of {frame: {id: (x, y)}}."""
+    """ϖ/Ω by time of {frame: {id: (x, y)}}, and its error."""
     table = os.path.join(folder, "positions.csv")
     with open(table, "w", encoding="utf-8") as file:
         file.write("frame,particle,x,y\n")
@@ -107,25 +125,30 @@ def rotation(folder, positions, about):
             for disc in sorted(positions[frame]):
                 file.write("%d,%d,%r,%r\n" % (frame, disc, *positions[frame][disc]))
     return measured("measure", table, "--camera-fps", 1, "--scale", about["scale"], "--omega", about["omega"],
-                 "--centre", "%r,%r" % tuple(about["centre"]), "--phase", about["phase"], "--amplitude",
-                 about["amplitude"] / about["scale"], "--container-radius",
-                 about["container_radius"] / about["scale"])
+                    "--centre", "%r,%r" % tuple(about["centre"]), "--phase", about["phase"], "--amplitude",
+                    about["amplitude"] / about["scale"], "--container-radius",
+                    about["container_radius"] / about["scale"])
 
 
 def measured(*call):
-    """ϖ/Ω by time. Overlaps are permitted in all frames: inaccurate positions are scored, not rejected."""
+    """ϖ/Ω by time and its error. Overlaps are permitted in all frames: inaccurate positions are scored, not
+    rejected."""
     done = swirl(*call, "--misfit", 1, "--json", "-")
-    return json.loads(done.stdout)["rotation"]["by_time"]["mean"] if done.returncode == 0 else math.nan
+    if done.returncode != 0:
+        return math.nan, math.nan
+    found = json.loads(done.stdout)["rotation"]["by_time"]
+    return found["mean"], math.nan if found["error"] is None else found["error"]
 
 
 class Result(track_test.Score):
-    """The score of tracks with ϖ."""
+    """The score of tracks with ϖ. Frames before the first and after the last tracked one are not scored."""
 
     def __init__(self, video, found, varpi):
-        super().__init__(video.truth, found, video.about)
+        truth = {frame: discs for frame, discs in video.truth.items() if min(found) <= frame <= max(found)}
+        super().__init__(truth, found, video.about)
         self.varpi = varpi
         radius, there, total = 0.5 * video.about["scale"], 0, 0
-        for frame, discs in video.truth.items():
+        for frame, discs in truth.items():
             tracked = list(found.get(frame, {}).values())
             total += len(discs)
             there += sum(any(math.dist(p, q) < radius for q in tracked) for p in discs.values())
@@ -133,14 +156,28 @@ class Result(track_test.Score):
 
 
 def track(folder, video):
-    """The result of swirl track, the claimed error, and the message if the video is rejected."""
+    """The result of swirl track, the claimed error, and what the program printed. The result is None if the video
+    is rejected, also with the frames of the hint."""
     out = os.path.join(folder, "tracks.csv")
-    done = swirl("track", video.path, "--out", out, "--overwrite", "--quiet", timeout=3000)
+    options, said = [], ""
+    for _ in range(2):
+        done = swirl("track", video.path, "--out", out, "--overwrite", "--quiet", *options, timeout=3000)
+        said += done.stderr
+        if done.returncode == 0:
+            break
+        options = re.findall(r"--(?:from|to|accept) \S+|--discs", done.stderr.partition("hint:")[2])
+        options = [word for option in options
+                   for word in ((option, video.about["discs"]) if option == "--discs" else option.split())]
+        if not options:
+            break
     if done.returncode != 0:
-        return None, math.nan, done.stderr.splitlines()[0]
+        return None, math.nan, said
+    if options:
+        said += "tracked with " + " ".join(map(str, options)) + "\n"
     with open(out[:-4] + ".camera.json", encoding="utf-8") as file:
         claimed = json.load(file)["quality"]["position_error"]
-    return Result(video, track_test.positions(out), measured("measure", out)), claimed, done.stderr
+    found = track_test.positions(out)
+    return Result(video, found, measured("measure", out)), claimed, said
 
 
 def track_with_trackpy(folder, video):
@@ -172,7 +209,7 @@ def track_with_trackpy(folder, video):
         found = {}
         for k, table in table_of.items():
             found[k] = {n: p for n, p in enumerate(zip(table["x"], table["y"]))}
-        return Result(Sample(video, table_of), found, 0.0).rms
+        return Result(Sample(video, table_of), found, None).rms
 
     tried = {}
     for factor in (1.0, 1.4, 1.8):
@@ -200,13 +237,13 @@ def track_with_trackpy(folder, video):
             found = {}
             for row in linked.itertuples():
                 found.setdefault(int(row.frame), {})[int(row.particle)] = (row.x, row.y)
-            result = Result(video, found, 0.0)
+            result = Result(video, found, None)
             if best is None or result.swaps < best[0].swaps:
                 best = result, found
     result, found = best
     about = video.about
     if video.name == "rotated":  # ϖ does not depend on the position of the dish
-        about = dict(about, centre=[480 - 1 - about["centre"][1], about["centre"][0]])
+        about = dict(about, centre=[HEIGHT - 1 - about["centre"][1], about["centre"][0]])
     result.varpi = rotation(folder, found, about)
     return result
 
@@ -223,43 +260,33 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--trackpy", action="store_true")
     parser.add_argument("--kind", action="append")
-    parser.add_argument("--small", action="store_true")
+    parser.add_argument("--periods", type=int, default=4)
     call = parser.parse_args()
     if call.trackpy:
         import trackpy
         print(f"trackpy {trackpy.__version__}")
     kinds = [kind for kind in KINDS if not call.kind or kind[0] in call.kind]
-    periods = 2 if call.small else 4
-    if call.small:
-        kinds = kinds[:2]
-    print("| kind | discs found | identity swaps per 1000 | rms, pixels | claimed/true | ϖ/Ω, true | ϖ/Ω, tracks |")
-    print("|---|---|---|---|---|---|---|")
-    compared = []
+    head = ["kind", "found", "swaps per 1000", "rms, pixels", "claimed/true", "ϖ/Ω, true", "ϖ/Ω, tracks"]
+    if call.trackpy:
+        head += ["trackpy: found", "swaps per 1000", "rms, pixels", "ϖ/Ω"]
+    print("| " + " | ".join(head) + " |\n|" + len(head) * "---|", flush=True)
     with tempfile.TemporaryDirectory(prefix="swirl-students-") as folder:
         for kind in kinds:
-            video = Video(folder, kind, periods)
+            video = Video(folder, kind, call.periods)
             result, claimed, message = track(folder, video)
-            if result is None:
-                print(f"| {video.name} | rejected: {message} | | | | {video.varpi:+.3f} | |", flush=True)
-            else:
-                print(f"| {video.name} | {100 * result.found:.1f} % | {result.swaps_per_thousand:.0f} | "
-                      f"{result.rms:.2f} | {claimed / result.rms:.2f} | {video.varpi:+.3f} | "
-                      f"{result.varpi:+.3f} |", flush=True)
-                for line in message.splitlines():
-                    print(f"{video.name}: {line}", file=sys.stderr)
+            cells = [video.name, *(["rejected", "", "", ""] if result is None else scores(result))]
+            cells[4:4] = ["" if result is None else f"{claimed / result.rms:.2f}", f"{video.varpi[0]:+.3f}"]
             if call.trackpy:
-                compared.append((video, result, track_with_trackpy(folder, video)))
-    if call.trackpy:
-        print("\n| kind | found: swirl | trackpy | swaps per 1000: swirl | trackpy | rms, pixels: swirl | trackpy | "
-              "ϖ/Ω: true | swirl | trackpy |")
-        print("|" + 10 * "---|")
-        for video, result, other in compared:
-            mine = ["n/a"] * 4 if result is None else [
-                f"{100 * result.found:.1f} %", f"{result.swaps_per_thousand:.0f}", f"{result.rms:.2f}",
-                f"{result.varpi:+.3f}"]
-            print(f"| {video.name} | {mine[0]} | {100 * other.found:.1f} % | {mine[1]} | "
-                  f"{other.swaps_per_thousand:.0f} | {mine[2]} | {other.rms:.2f} | {video.varpi:+.3f} | {mine[3]} | "
-                  f"{other.varpi:+.3f} |")
+                cells += scores(track_with_trackpy(folder, video), with_error=False)
+            print("| " + " | ".join(cells) + " |", flush=True)
+            for line in message.splitlines():
+                print(f"{video.name}: {line}", file=sys.stderr, flush=True)
+
+
+def scores(result, with_error=True):
+    """Cells of the table."""
+    varpi = f"{result.varpi[0]:+.3f}" + (f" ± {result.varpi[1]:.3f}" if with_error else "")
+    return [f"{100 * result.found:.1f} %", f"{result.swaps_per_thousand:.0f}", f"{result.rms:.2f}", varpi]
 
 
 if __name__ == "__main__":

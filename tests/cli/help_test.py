@@ -113,6 +113,7 @@ class Help(unittest.TestCase):
                 options.pop("--help")
                 self.assertLessEqual(len(options), 15)
                 self.assertLessEqual(options.items(), dict(described_options(full.stdout)).items())
+                self.assertIn(f"\nUsage: swirl {name} [OPTIONS]", short.stdout)
                 self.assertIn(f"All options: swirl {name} --help\n", short.stdout)
                 self.assertEqual(examples(short.stdout), examples(full.stdout))
         self.assertLess(len(swirl("run", "-h").stdout), 0.4 * len(swirl("run", "--help").stdout))

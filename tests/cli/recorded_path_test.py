@@ -119,7 +119,7 @@ class RecordedPath(InFolder):
         skipped = ",".join(f"{FRAMES * k}-{FRAMES * k + 11}" for k in range(4))  # a quarter of each period
         moving = self.video()
         for video, more, says in ((self.video("--still", name="still.mp4"), (), "stands still"),
-                                  (self.video(length=1.3, name="short.mp4"), (), "1.3"),
+                                  (self.video(length=1.3, name="short.mp4"), (), "at least two"),
                                   (moving, ("--skip", skipped), "gap")):
             done = swirl("track", video, "--path", self.path("p.csv"), *more)
             if "no camera support" in done.stderr:

@@ -216,7 +216,7 @@ class Chain(InFolder):
     def test_wrong_chains_are_rejected(self):
         for arguments, part in (
                 (("--mu", "0.1,1", "--chain", "mu"), "needs runs of whole periods"),
-                (("--mu", "1", "--periods", 5, "--chain", "mu"), "no list of values"),
+                (("--mu", "1", "--periods", 5, "--chain", "mu"), "fewer than two values"),
                 (("--inertia", "1,2", "--periods", 5, "--chain", "inertia"), "must be one of: mu"),
                 (("--mu", "0.1,1", "--periods", 5, "--chain", "mu", "--frames", 8), "--frames")):
             done = swirl("sweep", *arguments, "--out", "bad", cwd=self.folder)

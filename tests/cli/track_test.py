@@ -246,6 +246,27 @@ class TrackTest(InFolder):
             self.assertEqual(done.returncode, 2)
             self.assertIn(option, done.stderr)
 
+    def test_interlaced_video_is_tracked_at_the_time_of_its_first_fields(self):
+        # Each frame has the even rows of one frame of a faster video, and the odd rows of the next.
+        fast = list(SMALL)
+        fast[fast.index("--frames-per-period") + 1] = 128
+        made = self.video(of=fast)
+        faster = positions(made[:-4] + ".truth.csv", "x_ideal", "y_ideal")
+        about = dict(Truth(made).about)
+        about["omega"] *= 2.0  # per frame of the interlaced video
+        for first, rows_ in some((("top", "odd"), ("bottom", "even")), 1):
+            with self.subTest(first=first):
+                video = self.path(first + ".mp4")
+                subprocess.run(["ffmpeg", "-v", "error", "-i", made, "-vf", f"tinterlace=interleave_{first}",
+                                "-crf", "14", video], check=True)
+                tracks, said = self.track(video, name=first + ".csv")
+                self.assertIn(f"the video is interlaced: the {rows_} rows", said)
+                score = Score({k // 2: discs for k, discs in faster.items() if k % 2 == 0}, positions(tracks), about)
+                self.assertGreater(score.complete, 0.95)
+                self.assertEqual(score.swaps, 0)
+                # The limit of test_rotation_from_a_video. The fields are 1.1 pixels apart.
+                self.assertLess(score.rms, 0.4)
+
     def test_hdf5_and_csv_tracks_give_equal_results(self):
         video = self.video(length=1.05)
         table, _ = self.track(video, "--quiet", name="table.csv")
@@ -503,6 +524,11 @@ class TrackTest(InFolder):
         after = positions(tracks)
         for frame in range(48, 70):
             self.assertEqual(len(after[frame]), 20, frame)  # all discs are found again
+        self.assertNotIn("leaves these frames out", said)
+        for enable, option in (("lt(n,7)", "--from 7"), ("gt(n,66)", "--to 66")):
+            _, said = changed(option[2:4] + ".mp4", "-vf", "drawbox=x=130:y=0:w=110:h=240:color=0x9a8070:t=fill:"
+                              f"enable='{enable}'", "-qp", "14")
+            self.assertIn(f"perhaps a hand; a disc may have different IDs before and after; {option} leaves", said)
         _, said = changed("cut.mp4", "-vf", "crop=150:240:0:0", "-qp", "14")
         self.assertIn("not entirely in the frame", said)
         tracks, said = changed("uneven.mp4", "-vf", "select='not(mod(n,7))+mod(n,2)'", "-vsync", "vfr",

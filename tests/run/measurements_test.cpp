@@ -176,13 +176,19 @@ TEST(Measurements, ListKeepsTheOrderAndDropsDuplicates) {
     EXPECT_EQ(everything().size(), measurement_kinds().size());
 }
 
-TEST(Measurements, UnknownNameIsRejectedWithTheListOfNames) {
-    for (const char* list : {"flow,dennsity", "", "flow,", "all,flow"}) {
+TEST(Measurements, InvalidListsAreRejectedWithTheirCause) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"flow,dennsity", "density, flow, profile"},
+        {"", "a name in the list is empty"},
+        {"flow,", "a name in the list is empty"},
+        {"all,flow", "cannot be combined"},
+    };
+    for (const auto& [list, cause] : cases) {
         try {
             read_measurement_list(list);
             FAIL() << list;
         } catch (const UsageError& wrong) {
-            EXPECT_THAT(wrong.what(), HasSubstr("density, flow, profile"));
+            EXPECT_THAT(wrong.what(), HasSubstr(cause)) << list;
         }
     }
 }

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "swirl/math/random.hpp"
@@ -76,6 +80,63 @@ TEST(AscendingTimes, EqualTimesAreRejected) {
     EXPECT_THROW(ascending_times({1.0, 1.0, 1.0}), Failure);
     EXPECT_THROW(ascending_times({nan, nan}), Failure);
     EXPECT_THROW(ascending_times({}), Failure);
+}
+
+/// Numbered images of a bright disc that moves to the right by four pixels per frame.
+class Fields : public ::testing::Test {
+  protected:
+    static constexpr int frames = 16, width = 160, height = 120;
+    static constexpr double begin = 40.0, speed = 4.0, radius = 20.0;
+
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    /// The rows are taken at these times, in frames from that of the image on. Returns the pattern.
+    std::string write(double even, double odd) {
+        std::filesystem::create_directories(folder_);
+        for (int k = 0; k < frames; ++k) {
+            std::ofstream file(folder_ / fmt::format("{:02}.pgm", k), std::ios::binary);
+            file << "P5\n" << width << " " << height << "\n255\n";
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x) {
+                    const double centre = begin + speed * (k + (y % 2 == 0 ? even : odd));
+                    const double inside = radius - std::hypot(x - centre, y - 0.5 * height);
+                    file.put(static_cast<char>(
+                        std::lround(40.0 + 160.0 * std::clamp(inside + 0.5, 0.0, 1.0))));
+                }
+        }
+        return (folder_ / "%02d.pgm").string();
+    }
+
+  private:
+    const std::filesystem::path folder_ =
+        std::filesystem::path(::testing::TempDir()) /
+        fmt::format("swirl_fields_{}",
+                    ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(Fields, OrderIsFoundFromTheMotion) {
+    EXPECT_EQ(field_order(write(0.0, 0.0), 0), FieldOrder::progressive);
+    EXPECT_EQ(field_order(write(0.0, 0.5), 0), FieldOrder::top_first);
+    EXPECT_EQ(field_order(write(0.5, 0.0), 2), FieldOrder::bottom_first);
+}
+
+TEST_F(Fields, FramesShowTheTimeOfTheFirstField) {
+    for (const FieldOrder order : {FieldOrder::top_first, FieldOrder::bottom_first}) {
+        const bool top = order == FieldOrder::top_first;
+        Video video(write(top ? 0.0 : 0.5, top ? 0.5 : 0.0), 1, 0, order);
+        cv::Mat grey;
+        for (int k = 0; k < frames; ++k) {
+            ASSERT_TRUE(video.next(grey));
+            double sum = 0.0, weight = 0.0;
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x) {
+                    const double level = grey.ptr(y)[x] - 40.0;
+                    sum += x * level, weight += level;
+                }
+            // The fields are two pixels apart, so their mean would be one pixel off.
+            EXPECT_NEAR(sum / weight, begin + speed * k, 0.1) << k;
+        }
+        EXPECT_FALSE(video.next(grey));
+    }
 }
 
 }  // namespace

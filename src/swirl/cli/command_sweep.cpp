@@ -311,8 +311,8 @@ void collect(const CollectCall& call) {
     const SweepPlan plan = read_plan(folder);
     if (!call.loops.empty() && plan.chain.empty())
         throw UsageError(
-            "--loops is given, but the sweep is not a chain, which has rising and falling "
-            "values.\nhint: make one with swirl sweep --chain NAME.");
+            "--loops is given, but this sweep is not a chain with rising and falling values.\n"
+            "hint: use --chain NAME of `swirl sweep`, and then `swirl collect`.");
     const CollectedSweep collected = collect_sweep(folder, plan);
     const std::string crossings = call.crossings.empty() ? "" : crossings_in(plan, collected).csv();
     const SweepStatus s = sweep_status(folder, plan);
@@ -341,8 +341,7 @@ void add_collect_command(Subcommand& subcommand) {
     subcommand.add_option("--crossings", call->crossings,
                           "File for a table of N_c, or - for stdout", "FILE|-");
     subcommand.add_option("--loops", call->loops,
-                          "File for the areas of hysteresis loops of a chain, or - for stdout",
-                          "FILE|-");
+                          "File for the areas of hysteresis loops, or - for stdout", "FILE|-");
     subcommand.add_flag("--plot", call->plot, "Draw the table as PNG and PDF next to it");
     subcommand.add_option("--quantity", call->quantity, "Column to draw [by_time]", "NAME");
     subcommand.explain(

@@ -408,7 +408,7 @@ void add_track_command(Subcommand& subcommand) {
     add("--out", call->out, "FILE.csv|FILE.h5",
         "Tracks; calibration goes next to them (.camera.json)");
     add("--path", call->path, "FILE.csv",
-        "Motion of the container, for swirl run --path; alone, any path");
+        "Motion of the container, as a path for swirl run --path");
     add("--fps", call->fps, "N", "Frames per second [from the video]");
     add("--container-diameter", call->source.container_diameter, "MM",
         "Inner diameter of the container");

@@ -11,7 +11,6 @@
 #ifdef SWIRL_CAMERA
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/render/frame_server.hpp"
-#include "swirl/render/jpeg.hpp"
 #include "swirl/tracking/live_tracking.hpp"
 #endif
 
@@ -92,7 +91,8 @@ class LiveStatusLine {
         std::string text = fmt::format("frame {}, {:.0f} frames/s: {} of {} discs", frame.number,
                                        rate, frame.discs.size(), frame.number_of_discs);
         const LiveRotation& r = frame.rotation;
-        if (r.periods > 0)
+        if (r.periods == 1) text += fmt::format(", ϖ/Ω = {:.3f} in 1 period", r.mean.mean);
+        if (r.periods > 1)
             text += fmt::format(", ϖ/Ω = {:.3f} ± {:.3f} in {} periods, last {:.3f}", r.mean.mean,
                                 r.mean.error, r.periods, r.last_period);
         return text;
@@ -103,12 +103,6 @@ class LiveStatusLine {
     Clock::time_point next_{}, last_ = Clock::now();
     std::int64_t last_number_ = 0;
 };
-
-std::string jpeg_of_frame(const LiveFrame& frame) {
-    constexpr int quality = 85;
-    const cv::Mat image = draw_live_frame(frame);
-    return jpeg_of(image.ptr(), {image.cols, image.rows}, quality);
-}
 
 }  // namespace
 
@@ -135,7 +129,7 @@ LiveResult track_live_source(const LiveOptions& options, TrackingSettings settin
     LiveStatusLine line(quiet);
     live.show = [&](const LiveFrame& frame) {
         line.show(frame);
-        if (server) server->publish([frame] { return jpeg_of_frame(frame); });
+        if (server) server->publish([frame] { return live_jpeg(frame); });
     };
     try {
         return track_live(video, settings, live);

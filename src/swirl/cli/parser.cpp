@@ -200,12 +200,12 @@ void set_help_options(CLI::App& app) {
 
 /// The answer to -h.
 std::string short_help(const CLI::App& app, const Subcommand& subcommand) {
-    CLI::App main_only(app.get_description());
+    CLI::App main_only(app.get_description(), app.get_name());
     set_help_options(main_only);
     add_to(main_only, subcommand, Options::main);
     const std::string& examples = subcommand.examples();
     main_only.footer(fmt::format("All options: swirl {} --help\n\n{}", app.get_name(), examples));
-    return main_only.help("swirl " + app.get_name());
+    return main_only.help("swirl");
 }
 
 void note_given(const CLI::App& app, Subcommand& subcommand) {

@@ -42,9 +42,9 @@ std::vector<PaperFigure> in_order() {
 
 std::vector<PaperFigure> chapter_figures() {
     std::vector<PaperFigure> all;
-    for (const auto& chapter : {chapter_size(), chapter_critical(), chapter_mechanism(),
-                                chapter_material(), chapter_spheres(), chapter_fields(),
-                                chapter_cooling(), chapter_experiments()})
+    for (const auto& chapter :
+         {chapter_size(), chapter_critical(), chapter_mechanism(), chapter_material(),
+          chapter_spheres(), chapter_fields(), chapter_cooling(), chapter_experiments()})
         all.insert(all.end(), chapter.begin(), chapter.end());
     return all;
 }

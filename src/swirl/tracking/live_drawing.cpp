@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>  // jpeglib.h does not include it
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
+
+// After <cstdio>.
+#include <jpeglib.h>
 
 #include "swirl/tracking/live_tracking.hpp"
 
@@ -30,19 +35,21 @@ cv::Scalar track_color(int track) {
     return {channel(0.0), channel(third), channel(2.0 * third)};
 }
 
-std::string status_text(const LiveFrame& frame) {
-    if (!frame.surveyed) return fmt::format("frame {}: survey", frame.number);
-    std::string text = fmt::format("frame {}: {} of {} discs", frame.number, frame.discs.size(),
-                                   frame.number_of_discs);
+/// Lines of text, in the letters that OpenCV draws.
+std::vector<std::string> status_lines(const LiveFrame& frame) {
+    if (!frame.surveyed) return {fmt::format("frame {}: survey", frame.number)};
+    std::vector<std::string> lines{fmt::format("frame {}: {} of {} discs", frame.number,
+                                               frame.discs.size(), frame.number_of_discs)};
     const LiveRotation& r = frame.rotation;
-    if (r.periods > 0)
-        text += fmt::format("; rotation/Omega {:+.3f} +- {:.3f} in {} periods, last {:+.3f}",
-                            r.mean.mean, r.mean.error, r.periods, r.last_period);
-    return text;
+    if (r.periods == 1)
+        lines.push_back(fmt::format("rotation/Omega {:+.3f} in 1 period", r.mean.mean));
+    if (r.periods > 1)
+        lines.push_back(fmt::format("rotation/Omega {:+.3f} +- {:.3f} in {} periods, last {:+.3f}",
+                                    r.mean.mean, r.mean.error, r.periods, r.last_period));
+    return lines;
 }
 
-}  // namespace
-
+/// The frame in colour (red, green, blue) with the discs, the rim and the results drawn.
 cv::Mat draw_live_frame(const LiveFrame& frame) {
     cv::Mat image;
     cv::cvtColor(frame.grey, image, cv::COLOR_GRAY2RGB);
@@ -51,12 +58,44 @@ cv::Mat draw_live_frame(const LiveFrame& frame) {
     for (const LiveDisc& disc : frame.discs)
         draw_circle(image, disc.position, disc.radius, track_color(disc.track), 2);
     const double size = std::clamp(image.cols / 1280.0, 0.35, 1.0);
-    const cv::Point at(6, cvRound(28.0 * size) + 2);
-    const std::string text = status_text(frame);
-    for (const auto& [color, width] : {std::pair(0.0, 3), std::pair(255.0, 1)})
-        cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, size, cv::Scalar::all(color), width,
-                    cv::LINE_AA);
+    cv::Point at(6, 2);
+    for (const std::string& text : status_lines(frame)) {
+        at.y += cvRound(34.0 * size);
+        for (const auto& [color, width] : {std::pair(0.0, 3), std::pair(255.0, 1)})
+            cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, size, cv::Scalar::all(color),
+                        width, cv::LINE_AA);
+    }
     return image;
+}
+
+}  // namespace
+
+std::string live_jpeg(const LiveFrame& frame) {
+    constexpr int quality = 85;
+    cv::Mat image = draw_live_frame(frame);
+    jpeg_error_mgr errors{};
+    jpeg_compress_struct jpeg{};
+    jpeg.err = jpeg_std_error(&errors);  // ends the program; only a lack of memory can occur
+    jpeg_create_compress(&jpeg);
+    unsigned char* bytes = nullptr;
+    unsigned long count = 0;
+    jpeg_mem_dest(&jpeg, &bytes, &count);
+    jpeg.image_width = static_cast<JDIMENSION>(image.cols);
+    jpeg.image_height = static_cast<JDIMENSION>(image.rows);
+    jpeg.input_components = image.channels();
+    jpeg.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_quality(&jpeg, quality, TRUE);
+    jpeg_start_compress(&jpeg, TRUE);
+    for (int row = 0; row < image.rows; ++row) {
+        JSAMPROW pixels = image.ptr(row);
+        jpeg_write_scanlines(&jpeg, &pixels, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    std::string file(reinterpret_cast<const char*>(bytes), count);
+    jpeg_destroy_compress(&jpeg);
+    std::free(bytes);
+    return file;
 }
 
 }  // namespace swirl

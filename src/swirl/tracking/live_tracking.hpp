@@ -62,7 +62,7 @@ struct LiveResult {
 /// likely cause.
 LiveResult track_live(LiveVideo& video, TrackingSettings settings, const LiveSettings& live);
 
-/// The frame in colour (8 bits; red, green, blue) with the discs, the rim and the results drawn.
-cv::Mat draw_live_frame(const LiveFrame& frame);
+/// The frame with the discs, the rim and the results drawn, as a JPEG file.
+std::string live_jpeg(const LiveFrame& frame);
 
 }  // namespace swirl

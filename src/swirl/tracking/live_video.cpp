@@ -265,9 +265,9 @@ void LiveVideo::throw_no_frames() const {
 }
 
 bool LiveVideo::next(cv::Mat& grey) {
-    constexpr int interval = 10;      // ms between two checks for input
-    constexpr int flush_time = 2000;  // ms without output after which ffmpeg is ended
-    int idle = 0;                     // ms
+    constexpr int interval = 10;       // ms between two checks for input
+    constexpr int flush_time = 60000;  // ms without output after which ffmpeg is ended: it hangs
+    int idle = 0;                      // ms
     while (source_.max_frames <= 0 || count_ < source_.max_frames) {
         if (take_frame(grey)) return true;
         if (!ffmpeg_ && !start()) {

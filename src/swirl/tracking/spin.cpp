@@ -332,7 +332,7 @@ void mask_highlights(double radius, const cv::Mat& original, MeanDisc& all) {
 MeanDiscs mean_discs(const TrackedVideo& tracked, const TrackingSettings& settings) {
     constexpr std::int64_t frames = 40;  // in the mean
     const std::int64_t every = std::max<std::int64_t>(1, tracked.frame_count / frames);
-    Video video(settings.video, every, settings.first_frame);
+    Video video(settings.video, every, settings.first_frame, tracked.fields);
     MeanDiscs means;
     cv::Mat grey;
     for (std::int64_t k = 0; k < tracked.frame_count && video.next(grey); k += every) {
@@ -399,7 +399,7 @@ using Steps =
 
 Steps measure_steps(const TrackedVideo& tracked, const TrackingSettings& settings, int step) {
     const MeanDiscs means = mean_discs(tracked, settings);
-    Video video(settings.video, 1, settings.first_frame);
+    Video video(settings.video, 1, settings.first_frame, tracked.fields);
     Steps steps(tracked.tracks.frames.size());
     std::vector<std::vector<DiscPatch>> recent(static_cast<std::size_t>(step) + 1);
     cv::Mat grey;

@@ -170,11 +170,13 @@ VideoSurvey planned_survey(const TrackingSettings& settings, std::int64_t expect
 
 }  // namespace
 
-TrackedVideo track_container(const TrackingSettings& settings) {
+TrackedVideo track_container(const TrackingSettings& given) {
+    TrackingSettings settings = given;
     TrackedVideo tracked;
     cv::setNumThreads(1);
     const VideoTimes times = video_times(settings.video);
     const std::int64_t expected = expected_frames(settings, times);
+    settings.fields = tracked.fields = field_order(settings.video, settings.first_frame);
     const VideoSurvey survey = planned_survey(settings, expected);
     Detections all = detect_frames(settings, survey, expected, tracked);
     collect_camera_motion(all, tracked);
@@ -188,11 +190,13 @@ TrackedVideo track_container(const TrackingSettings& settings) {
     return tracked;
 }
 
-TrackedVideo track_video(const TrackingSettings& settings) {
+TrackedVideo track_video(const TrackingSettings& given) {
+    TrackingSettings settings = given;
     TrackedVideo tracked;
     cv::setNumThreads(1);  // the frames are distributed over our threads
     const VideoTimes times = video_times(settings.video);
     const std::int64_t expected = expected_frames(settings, times);
+    settings.fields = tracked.fields = field_order(settings.video, settings.first_frame);
     const VideoSurvey survey = planned_survey(settings, expected);
     Detections all = detect_frames(settings, survey, expected, tracked);
     try {

@@ -23,6 +23,7 @@
 #include "swirl/tracking/recorded_motion.hpp"
 #include "swirl/tracking/tilt.hpp"
 #include "swirl/tracking/tracked_path.hpp"
+#include "swirl/tracking/video.hpp"
 
 namespace swirl {
 
@@ -37,6 +38,7 @@ struct TrackingSettings {
     std::optional<std::int64_t> discs;
     std::optional<double> radius_share;  // of a disc, relative to the container
     KnownCamera camera;
+    FieldOrder fields = FieldOrder::progressive;  // set by track_video() itself
     std::int64_t first_frame = 0;
     std::int64_t max_frames = 0;                             // 0: all
     std::vector<FrameRange> skip;                            // frames that are not used
@@ -73,6 +75,7 @@ struct RimCentres {
 struct TrackedVideo {
     int width = 0, height = 0;
     std::int64_t frame_count = 0;
+    FieldOrder fields = FieldOrder::progressive;
     double fps = 0.0;           // frames per second; 0: unknown, and times are in frames
     std::vector<double> times;  // ascending
 

@@ -42,6 +42,18 @@ Occlusion longest_occlusion(const TrackedVideo& tracked) {
     return longest;
 }
 
+/// How to leave out a part at the beginning or at the end; empty for any other part.
+std::string omission_text(const Occlusion& occlusion, const TrackedVideo& tracked) {
+    constexpr std::size_t one_in = 10;  // frames that may be left out in addition
+    const std::size_t frames = tracked.seen.size();
+    const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
+    if (one_in * occlusion.begin < frames)
+        return fmt::format("; --from {} leaves these frames out", first + occlusion.end);
+    if (one_in * (frames - occlusion.end) < frames)
+        return fmt::format("; --to {} leaves these frames out", first + occlusion.begin - 1);
+    return "";
+}
+
 /// Share of the rim, averaged over a period, that lies outside the frame.
 double share_outside(const TrackedVideo& tracked) {
     constexpr int steps = 36;  // of the period and of the rim: 10 degrees
@@ -84,6 +96,16 @@ void warn_about_motion(TrackedVideo& tracked) {
     if (tracked.rims_missed * max_missed > static_cast<std::size_t>(tracked.frame_count))
         warn(tracked, "the rim was not found in {:.0f} % of the frames",
              100.0 * double(tracked.rims_missed) / double(tracked.frame_count));
+}
+
+void warn_about_fields(TrackedVideo& tracked) {
+    if (tracked.fields == FieldOrder::progressive) return;
+    warn(tracked,
+         "the video is interlaced: the {} rows of each frame, which were taken later, are replaced "
+         "by estimates; ffmpeg -i VIDEO -vf bwdif=mode=send_field:parity={}:deint=all "
+         "-qp 16 twice.mp4 makes a video with twice as many frames per period",
+         tracked.fields == FieldOrder::top_first ? "odd" : "even",
+         tracked.fields == FieldOrder::top_first ? "tff" : "bff");
 }
 
 void warn_about_wall(TrackedVideo& tracked) {
@@ -131,13 +153,15 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
     constexpr std::size_t min_occlusion = 4;                  // frames
     constexpr double min_complete = 0.9, max_crowded = 0.05;  // of the frames
     const Occlusion occlusion = longest_occlusion(tracked);
+    const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
     const bool hidden = occlusion.size() >= min_occlusion && outside <= complete_rim;
     if (hidden)
         warn(
             tracked,
             "in frames {} to {} about {:.0f} % of the discs are missing at once: something covered "
-            "the container, perhaps a hand; a disc may have different IDs before and after",
-            occlusion.begin, occlusion.end - 1, 100.0 * occlusion.share);
+            "the container, perhaps a hand; a disc may have different IDs before and after{}",
+            first + occlusion.begin, first + occlusion.end - 1, 100.0 * occlusion.share,
+            omission_text(occlusion, tracked));
     if (tracked.complete_share < min_complete && !hidden)
         warn(tracked,
              "all {} discs are detected in only {:.1f} % of the frames: more even light, less "
@@ -175,6 +199,7 @@ void add_warnings(TrackedVideo& tracked) {
     constexpr double min_percent = 1.0;                    // printed without decimals
     constexpr double min_shake = 0.5, shake_factor = 3.0;  // pixels; position errors
     constexpr double max_contact_off = 0.03;               // of the contact ratio
+    warn_about_fields(tracked);
     warn_about_motion(tracked);
     warn_about_wall(tracked);
     const double outside = share_outside(tracked);

@@ -187,16 +187,48 @@ AscendingTimes ascending_times(const std::vector<double>& seconds) {
     return found;
 }
 
-Video::Video(std::string source, std::int64_t every, std::int64_t first)
+FieldOrder field_order(const std::string& source, std::int64_t first) {
+    constexpr std::int64_t frames = 60;  // examined
+    constexpr int min_share = 2;         // one in so many
+    if (is_camera_device(source)) return FieldOrder::progressive;
+    std::vector<std::string> arguments = input_arguments(source);
+    append(arguments, {"-an", "-vf",
+                       fmt::format("trim=start_frame={}:end_frame={},idet,metadata=mode=print:"
+                                   "key=lavfi.idet.multiple.current_frame:file='pipe\\:1'",
+                                   first, first + frames),
+                       "-f", "null", "-"});
+    Ffmpeg ffmpeg(arguments, Ffmpeg::Side::output, missing_ffmpeg);
+    const std::string text = read_all(ffmpeg);
+    ffmpeg.end();
+    const auto number = [&](const std::string& value) {
+        const std::string line = "current_frame=" + value + "\n";
+        int count = 0;
+        for (std::size_t at = 0; (at = text.find(line, at)) != text.npos; at += line.size())
+            ++count;
+        return count;
+    };
+    const int top = number("tff"), bottom = number("bff");
+    const int all = top + bottom + number("progressive") + number("undetermined");
+    if (min_share * std::max(top, bottom) <= all) return FieldOrder::progressive;
+    return top > bottom ? FieldOrder::top_first : FieldOrder::bottom_first;
+}
+
+Video::Video(std::string source, std::int64_t every, std::int64_t first, FieldOrder fields)
     : video_(std::move(source)) {
     std::vector<std::string> arguments = input_arguments(video_);
     append(arguments, {"-an", "-fps_mode", "passthrough"});
+    const std::string deinterlace =
+        fields == FieldOrder::progressive
+            ? ""
+            : fmt::format("bwdif=mode=send_frame:parity={}:deint=all,",
+                          fields == FieldOrder::top_first ? "tff" : "bff");
     // Frames get new times, since ffmpeg reports errors for times that do not advance.
     const std::string select =
         every > 1 || first > 0
             ? fmt::format("select=gte(n\\,{0})*not(mod(n-{0}\\,{1})),", first, every)
             : "";
-    append(arguments, {"-vf", select + "settb=1/25,setpts=N", "-enc_time_base", "1:25"});
+    append(arguments,
+           {"-vf", deinterlace + select + "settb=1/25,setpts=N", "-enc_time_base", "1:25"});
     append(arguments, {"-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1"});
     ffmpeg_ = std::make_unique<Ffmpeg>(arguments, Ffmpeg::Side::output, missing_ffmpeg);
 }

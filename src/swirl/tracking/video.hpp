@@ -51,10 +51,19 @@ inline constexpr const char* missing_ffmpeg =
     "videos are read by the program ffmpeg, which was not found\n"
     "hint: install it (apt-get install ffmpeg)";
 
+/// Whether the even rows of a frame were taken before the odd ones.
+enum class FieldOrder { progressive, top_first, bottom_first };
+
+/// Determined from the motion in the frames from number `first` on, by ffmpeg's filter idet.
+/// Progressive for a camera, which cannot be read twice.
+FieldOrder field_order(const std::string& source, std::int64_t first);
+
 class Video {
   public:
-    /// Every `every`th frame from number `first` on. Throws Failure.
-    explicit Video(std::string source, std::int64_t every = 1, std::int64_t first = 0);
+    /// Every `every`th frame from number `first` on. The second field of interlaced frames is
+    /// replaced: the frame is an estimate for the time of its first field. Throws Failure.
+    explicit Video(std::string source, std::int64_t every = 1, std::int64_t first = 0,
+                   FieldOrder fields = FieldOrder::progressive);
 
     /// The next frame (8 bits a pixel), or false at the end. Throws Failure if there are no frames.
     bool next(cv::Mat& grey);

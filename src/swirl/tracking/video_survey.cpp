@@ -20,7 +20,7 @@ std::vector<cv::Mat> read_survey_frames(const TrackingSettings& settings,
     std::size_t maximum = max_survey_images;
     if (settings.max_frames > 0)
         maximum = std::min(maximum, static_cast<std::size_t>((frame_count + every - 1) / every));
-    Video video(settings.video, every, settings.first_frame);
+    Video video(settings.video, every, settings.first_frame, settings.fields);
     cv::Mat grey;
     std::vector<cv::Mat> images;
     while (images.size() < maximum && video.next(grey)) {
