@@ -30,7 +30,7 @@ import track_test  # noqa: E402
 from program import swirl  # noqa: E402
 
 PERIOD = 15  # frames
-HEIGHT = 480  # pixels
+WIDTH, HEIGHT = 640, 480  # pixels
 COMMON = ["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23]
 LARGE = ["--width", 1920, "--height", 1080, "--scale", 44]
 # Name, options of synthetic-video, what is done to the video afterwards.
@@ -78,6 +78,10 @@ class Video:
         elif after == "rotated":
             self.path = os.path.join(folder, "rotated.mp4")
             ffmpeg("-i", made, "-c", "copy", "-metadata:s:v:0", "rotate=90", self.path)
+            angle = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries",
+                                    "stream_side_data=rotation", "-of", "csv=p=0", self.path],
+                                   capture_output=True, check=True, text=True).stdout
+            self.turns_left = float(angle.strip()) > 0.0
         self.varpi = rotation(folder, regular, self.about)
         if after == "rotated":
             self.turn_truth()
@@ -109,9 +113,9 @@ class Video:
         return regular
 
     def turn_truth(self):
-        """A player turns the video clockwise by 90 degrees."""
+        """A player turns the video by 90 degrees. Versions of ffmpeg differ in the direction that they write."""
         def turned(p):
-            return (HEIGHT - 1 - p[1], p[0])
+            return (p[1], WIDTH - 1 - p[0]) if self.turns_left else (HEIGHT - 1 - p[1], p[0])
         self.truth = {k: {i: turned(p) for i, p in discs.items()} for k, discs in self.truth.items()}
         self.centres = [turned(p) for p in self.centres]
 
@@ -243,7 +247,8 @@ def track_with_trackpy(folder, video):
     result, found = best
     about = video.about
     if video.name == "rotated":  # ϖ does not depend on the position of the dish
-        about = dict(about, centre=[HEIGHT - 1 - about["centre"][1], about["centre"][0]])
+        x, y = about["centre"]
+        about = dict(about, centre=[y, WIDTH - 1 - x] if video.turns_left else [HEIGHT - 1 - y, x])
     result.varpi = rotation(folder, found, about)
     return result
 
