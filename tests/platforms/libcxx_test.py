@@ -16,7 +16,7 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
 GENERATED = os.path.join(os.environ.get("SWIRL_LIBRARIES", os.path.join(SOURCE, "build", "tests")), "generated")
 COMPILER = "clang++-19"
 FLAGS = ["-std=c++20", "-stdlib=libc++", "-fsyntax-only", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror",
-         "-Wno-deprecated-declarations", f"-I{SOURCE}/src", f"-I{GENERATED}"]
+         "-Wno-deprecated-declarations", f"-I{SOURCE}/src", f"-I{GENERATED}", '-DSWIRL_BUILD=""']
 SYSTEM_FOLDERS = ("/usr/include/hdf5/serial", "/usr/include/opencv4")
 ONE_BY_ONE = ("cli", "engine")
 VECTORS = {"avx2": ["-mavx2"],

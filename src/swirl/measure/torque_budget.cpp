@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swirl/measure/coarse_graining.hpp"
 #include "swirl/measure/m_frame.hpp"
 
 namespace swirl {
@@ -30,10 +31,6 @@ double orbit_about_centre(const Cluster& c, const Snapshot& s) {
 }
 
 Vec2 tangent(const Event& event) { return {event.normal.y, -event.normal.x}; }
-
-bool is_collision(const Event& event) {
-    return event.kind == EventKind::disc_disc || event.kind == EventKind::disc_wall;
-}
 
 void grow(double& largest, double a, double b) { largest = std::fmax(largest, std::fabs(a - b)); }
 
