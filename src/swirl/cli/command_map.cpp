@@ -181,8 +181,7 @@ void warn_about(const MapCall& call, const SweepPlan& plan, const MapState& stat
     if (failed > 0)
         print_warning(
             fmt::format("runs failed at {} of {} points (column failed; all reasons in '{}'). The "
-                        "next call tries "
-                        "them again. The first is {}",
+                        "next call tries them again. The first is {}",
                         failed, state.sites.size(), (fs::path(call.out) / "failures").string(),
                         first_failure(call.out, plan)));
 }

@@ -274,11 +274,9 @@ std::string loops_text(const CollectCall& call, const SweepPlan& plan,
     std::string text;
     for (const LoopAreas& loop : collected.loops) {
         const Estimate& area = loop.areas[static_cast<std::size_t>(found - all.begin())];
-        std::string where;
-        for (const auto& [parameter, value] : loop.parameters)
-            if (plan.axis(parameter)->values.size() > 1)
-                where += fmt::format(" {} {}", option_name(parameter), value);
-        text += fmt::format("loop area of {}{}: {} ({})\n", name, where,
+        std::vector<std::string> where = varied_options(plan, loop.parameters);
+        where.insert(where.begin(), name);
+        text += fmt::format("loop area of {}: {} ({})\n", fmt::join(where, " "),
                             with_error(area.mean, area.error), counted(loop.replicas, "loop"));
     }
     return text;

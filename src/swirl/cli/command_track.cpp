@@ -343,7 +343,6 @@ std::string add_live_results(const LiveResult& live, nlohmann::ordered_json& jso
 
 /// Follows the container alone, on any path.
 void record_path(const TrackCall& call, TrackingSettings& settings, ProgressLine& line) {
-    settings.motion_only = true;
     const TrackedVideo video = track_container(settings);
     const RecordedMotion motion = record_motion(video);
     line.clear();

@@ -32,9 +32,8 @@ std::optional<std::int64_t> discs_in_densest_known_arrangement(double radius,
 ///    this works for up to 55 unit discs: 55 sites lie within √13 lattice spacings, and
 ///    (R − r)/√13 = 2.108 > 2.
 /// 2. A mixture that does not fit on the lattice of its largest disc starts on a narrower one. Its
-///    discs are then pushed apart until none of them overlap. Discs at least 16 times as small as
-///    the largest are put on a lattice of their own,
-///    in the gaps between larger ones.
+///    discs are then pushed apart until none of them overlap. Discs at least 16 times smaller than
+///    the largest are put on a lattice of their own, in the gaps between larger ones.
 /// 3. Dense: discs start at random positions, and the energy of their overlaps is minimised until
 ///    there are none. The paper's container thus takes up to 59 discs.
 /// 4. Two discs, or up to nine of one size, in a container that hardly holds them: they get their

@@ -27,30 +27,15 @@
 namespace swirl {
 namespace {
 
-/// Columns for numbers of swirled_run() and their errors.
-std::vector<std::string> columns_with_errors(const std::vector<std::string>& names) {
-    std::vector<std::string> columns;
-    for (const std::string& name : names) {
-        columns.push_back(name);
-        columns.push_back(name + "_error");
-    }
-    return columns;
-}
-void add_estimate(std::vector<Table::Cell>& row, const Estimate& e) {
-    row.emplace_back(e.mean);
-    row.emplace_back(e.error);
-}
 void add_over_runs(std::vector<Table::Cell>& row, const std::vector<std::string>& names,
                    const std::vector<Json>& runs) {
     for (const std::string& name : names)
         add_estimate(row, over_runs(runs, [&](const Json& run) { return number(run[name]); }));
 }
 
-// --- Energy, rings and paths
-// ----------------------------------------------------------------
+// --- Energy, rings and paths ---------------------------------------------------------------
 
-/// A dish with its particles; amplitude and period relative to those of the
-/// experiment.
+/// A dish with its particles; amplitude and period relative to those of the experiment.
 struct SchererSetting {
     const char *name, *words;
     bool spheres;
@@ -93,30 +78,24 @@ Estimate energy_slope(const std::vector<EnergyPoint>& curve, std::size_t k) {
     return {.mean = (b.energy.mean - a.energy.mean) / step,
             .error = std::hypot(a.energy.error, b.energy.error) / step};
 }
-int certain_sign_of(const Estimate& e) {
-    if (e.mean > certain_sign * e.error) return 1;
-    return e.mean < -certain_sign * e.error ? -1 : 0;
-}
-/// "4 of 6" points with a slope of this sign, among those with this sign of the
-/// rotation.
+int sign_of(const Estimate& e) { return certain_sign_of(e.mean, e.error); }
+/// "4 of 6" points with a slope of this sign, among those with this sign of the rotation.
 std::string count_of_slopes(const std::vector<EnergyPoint>& curve, int rotation, int slope) {
     int all = 0, found = 0;
     for (std::size_t k = 1; k + 1 < curve.size(); ++k) {
-        if (certain_sign_of(curve[k].rotation) != rotation) continue;
+        if (sign_of(curve[k].rotation) != rotation) continue;
         ++all;
-        if (certain_sign_of(energy_slope(curve, k)) == slope) ++found;
+        if (sign_of(energy_slope(curve, k)) == slope) ++found;
     }
     return fmt::format("{} of {}", found, all);
 }
 std::string energy_sentence(const SchererSetting& s, const std::vector<EnergyPoint>& curve) {
     std::vector<std::string> falls;
     for (std::size_t k = 1; k + 1 < curve.size(); ++k)
-        if (certain_sign_of(energy_slope(curve, k)) < 0)
-            falls.push_back(fmt::format("{}", curve[k].discs));
+        if (sign_of(energy_slope(curve, k)) < 0) falls.push_back(fmt::format("{}", curve[k].discs));
     return fmt::format(
-        "{}: dE/dN is certainly positive at {} N with rotation and at {} with "
-        "counterrotation; it is "
-        "certainly negative at N = {}.",
+        "{}: dE/dN is certainly positive at {} N with rotation and at {} with counterrotation; "
+        "it is certainly negative at N = {}.",
         s.words, count_of_slopes(curve, 1, 1), count_of_slopes(curve, -1, 1),
         falls.empty() ? "none" : fmt::format("{}", fmt::join(falls, ", ")));
 }
@@ -142,7 +121,7 @@ FigureOutcome finish_scherer(const std::vector<RunConfig>& configs,
     FigureOutcome outcome;
     Table table(
         joined(joined({"setting", "words", "amplitude", "period", "discs"},
-                      columns_with_errors(joined({"energy", "spin_energy"}, scherer_quantities))),
+                      number_columns(joined({"energy", "spin_energy"}, scherer_quantities))),
                {"slope", "slope_error", "seeds"}));
     Table rings({"setting", "discs", "distance", "about_centre_of_mass",
                  "about_centre_of_mass_error", "about_container", "about_container_error"});
@@ -233,9 +212,9 @@ CoarseZero threshold_of(const std::vector<RotationPoint>& excess) {
 FigureOutcome finish_instability(const std::vector<RunConfig>& configs, int seeds,
                                  const std::vector<Json>& results, const fs::path& out) {
     FigureOutcome outcome;
-    Table table(joined(
-        joined({"packing_fraction", "discs", "amplitude"}, columns_with_errors(layer_quantities)),
-        {"seeds"}));
+    Table table(
+        joined(joined({"packing_fraction", "discs", "amplitude"}, number_columns(layer_quantities)),
+               {"seeds"}));
     Table thresholds(
         {"packing_fraction", "discs", "random_distance", "threshold", "threshold_error"});
     const std::size_t amplitudes = configs.size() / std::size(layers_of_spheres);

@@ -125,19 +125,16 @@ Table table_of_maps(const FieldSeeds& seeds, double radius,
         const double x = first.at("x")[p], y = first.at("y")[p];
         if (!(x * x + y * y < radius * radius)) continue;
         std::vector<Table::Cell> row{x, y};
-        const auto add = [&](const Estimate& e) {
-            row.emplace_back(e.mean);
-            row.emplace_back(e.error);
-        };
         for (const std::string& name : mapped)
-            add(mean_of_seeds(seeds, [&](const FieldColumns& f) { return f.at(name)[p]; }));
+            add_estimate(
+                row, mean_of_seeds(seeds, [&](const FieldColumns& f) { return f.at(name)[p]; }));
         const double packing = std::get<double>(row[2]);
         double viscosity = not_available;
         for (const auto& [region, value] : viscosities)
             if (region.contains(packing, x, y)) viscosity = value.mean;
-        add(mean_of_seeds(seeds, [&](const FieldColumns& f) {
-            return viscosity * fluid_relations[0].at(f, p).x[0];
-        }));
+        add_estimate(row, mean_of_seeds(seeds, [&](const FieldColumns& f) {
+                         return viscosity * fluid_relations[0].at(f, p).x[0];
+                     }));
         table.add(std::move(row));
     }
     return table;
@@ -169,8 +166,7 @@ FigurePlan plan_figure_fields(const PaperSettings& settings) {
         outcome.findings.push_back(fmt::format(
             "R/r = {}, N = {}, {} seeds: Γ(curl u − 2ω) explains this share of the torque of the "
             "stress, by packing fraction: {}. Largest residual of the balances of mass, momentum "
-            "and "
-            "spin, relative to rounding errors: {:.1g}.",
+            "and spin, relative to rounding errors: {:.1g}.",
             p.dish.radius, p.discs, fields.size(), fmt::join(words, "; "), residual));
         return outcome;
     };

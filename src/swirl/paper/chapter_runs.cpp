@@ -292,10 +292,7 @@ Table change_table(const std::vector<DirectionChange>& changes) {
             c.occupied,
             c.elongation,
             c.reach};
-        for (const Estimate& e : {c.susceptibility, c.correlation, c.binder}) {
-            row.emplace_back(e.mean);
-            row.emplace_back(e.error);
-        }
+        for (const Estimate& e : {c.susceptibility, c.correlation, c.binder}) add_estimate(row, e);
         table.add(std::move(row));
     }
     return table;

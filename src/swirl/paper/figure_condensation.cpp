@@ -134,11 +134,8 @@ void add_row(Table& table, std::vector<std::string>& findings, std::int64_t disc
         mean.error, shortest,
         longest,    condensed > 0 ? events / static_cast<double>(condensed) : not_available};
     for (const char* phase : {"before", "after"})
-        for (const PhaseAverage& quantity : phase_averages) {
-            const Estimate e = over_seeds(runs, phase, quantity);
-            row.emplace_back(e.mean);
-            row.emplace_back(e.error);
-        }
+        for (const PhaseAverage& quantity : phase_averages)
+            add_estimate(row, over_seeds(runs, phase, quantity));
     table.add(std::move(row));
     findings.push_back(
         condensed == 0

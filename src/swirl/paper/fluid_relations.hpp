@@ -10,10 +10,9 @@
 // Rigid discs have no other scale of time than √(m/T), so Γ, η and D depend on the packing fraction
 // only, as long as the spins are as hot as the motion.
 //
-// Each is y = k x at every point of a region: the packing fraction, a mean over the seeds, is in a
-// range, and no contact with the wall contributes. Both
-// x and y have errors, which are correlated within a run. So only products of two different seeds i ≠ j
-// count:
+// Each is y = k x at every point of a region. There the packing fraction, a mean over the seeds, is
+// in a range, and no contact with the wall contributes. Both x and y have errors, which are
+// correlated within a run. So only products of two different seeds i ≠ j count:
 //
 //     k = Σ x_i y_j / Σ x_i x_j          explained = (Σ x_i y_j)² / (Σ x_i x_j · Σ y_i y_j)
 //
@@ -32,6 +31,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/paper/rank_correlation.hpp"
+#include "swirl/paper/rough_gas.hpp"
 #include "swirl/statistics/block_average.hpp"
 
 namespace swirl {
@@ -63,9 +63,9 @@ inline double thermal_speed(const FieldColumns& f, std::size_t point) {
     return std::sqrt(f.at("temperature")[point]);
 }
 
+/// p_H relative to an ideal gas.
 inline double henderson_ratio(double packing) {
-    const double free = 1.0 - packing;
-    return 1.0 + 2.0 * packing * (1.0 - 7.0 * packing / 16.0) / (free * free);
+    return 1.0 + 2.0 * packing * contact_correlation(packing);
 }
 
 inline constexpr FluidRelation fluid_relations[] = {

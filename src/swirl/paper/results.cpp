@@ -71,6 +71,11 @@ std::string steadiness(const Json& result) {
     return verdict.is_string() ? verdict.get<std::string>() : "failed";
 }
 
+void add_estimate(std::vector<Table::Cell>& row, const Estimate& estimate) {
+    row.emplace_back(estimate.mean);
+    row.emplace_back(estimate.error);
+}
+
 std::vector<std::string> number_columns(const std::vector<std::string>& quantities) {
     std::vector<std::string> columns;
     for (const std::string& quantity : quantities) {

@@ -45,6 +45,8 @@ std::vector<std::string> number_columns(const std::vector<std::string>& quantiti
 void add_numbers(std::vector<Table::Cell>& row, const std::vector<std::string>& quantities,
                  const Json& result);
 
+void add_estimate(std::vector<Table::Cell>& row, const Estimate& estimate);
+
 /// `front` followed by `back`.
 std::vector<std::string> joined(std::vector<std::string> front,
                                 const std::vector<std::string>& back);

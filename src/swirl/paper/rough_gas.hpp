@@ -84,11 +84,15 @@ struct RoughGas {
     }
 };
 
+/// g: Henderson's pair correlation at contact.
+inline double contact_correlation(double packing_fraction) {
+    const double free = 1.0 - packing_fraction;
+    return (1.0 - 7.0 / 16.0 * packing_fraction) / (free * free);
+}
+
 /// ν of discs of radius 1 and mass 1 at T = 1, with packing fraction φ.
 inline double enskog_collision_rate(double packing_fraction) {
-    const double free = 1.0 - packing_fraction, density = packing_fraction / pi;
-    const double g = (1.0 - 7.0 / 16.0 * packing_fraction) / (free * free);
-    return 4.0 * std::sqrt(pi) * density * g;
+    return 4.0 * std::sqrt(pi) * (packing_fraction / pi) * contact_correlation(packing_fraction);
 }
 
 }  // namespace swirl

@@ -13,8 +13,9 @@
 //                      state by the number of times the series leaves it
 //
 // Ideal answers, whatever the mean is. Gaussian noise: skewness, excess kurtosis and U are 0. Two
-// equally probable values: excess kurtosis −2, U = 2/3. x' = a x + noise: τ = (1 + a)/(1 − a), V = (variance of the noise)/(1 − a²). A state
-// that is left with probability p in each period: lifetime 1/p.
+// equally probable values: excess kurtosis −2, U = 2/3. x' = a x + noise: τ = (1 + a)/(1 − a),
+// V = (variance of the noise)/(1 − a²). A state that is left with probability p in each period:
+// lifetime 1/p.
 //
 // Several runs: one mean for all. Products of two periods, and visits, never extend over two runs.
 //

@@ -21,10 +21,7 @@ std::vector<RotationPoint> usable_points(std::span<const RotationPoint> points) 
     return usable;
 }
 
-/// +1, −1, or 0 if the sign is not certain.
-int sign_of(const RotationPoint& p) {
-    return p.mean > certain_sign * p.error ? 1 : p.mean < -certain_sign * p.error ? -1 : 0;
-}
+int sign_of(const RotationPoint& p) { return certain_sign_of(p.mean, p.error); }
 
 /// The part of the straight line from a to b that is compatible with zero, as fractions of its
 /// length: the part of 0 … 1 in which A f² + 2 B f + C ≤ 0. Empty (first > last) if there is none.

@@ -48,6 +48,10 @@ struct RotationPoint {
 /// Number of errors from zero that makes a sign certain. Two would not do: among many points, one
 /// or two are off by two errors.
 inline constexpr double certain_sign = 3.0;
+/// +1, −1, or 0 if the sign is not certain.
+inline int certain_sign_of(double mean, double error) {
+    return mean > certain_sign * error ? 1 : mean < -certain_sign * error ? -1 : 0;
+}
 
 /// One change of sign of a curve, which need not be monotonic.
 struct SignChange {

@@ -32,12 +32,7 @@ std::vector<std::size_t> rows_of(const SweepPlan& plan) {
     for (const SweepAxis& axis : plan.axes) {
         std::vector<std::size_t> order(axis.values.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::vector<double> numbers;
-        for (const std::string& value : axis.values)
-            if (const auto number = read_number(value)) numbers.push_back(*number);
-        if (!plan.before.empty() && numbers.size() == order.size())
-            std::stable_sort(order.begin(), order.end(),
-                             [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+        if (!plan.before.empty()) order = ascending_order(axis);
         std::vector<std::size_t> longer;
         longer.reserve(rows.size() * order.size());
         for (const std::size_t row : rows)

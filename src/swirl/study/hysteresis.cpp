@@ -6,7 +6,6 @@
 #include "swirl/run/reading.hpp"
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/collected_sweep.hpp"
-#include "swirl/study/map_search.hpp"
 
 namespace swirl {
 namespace {
@@ -15,14 +14,14 @@ namespace {
 /// each with.
 struct LoopOfChain {
     std::vector<const PointResult*> up, down;
-    std::vector<double> weights;
 
     bool is_complete() const {
         const auto exists = [](const PointResult* r) { return r->exists; };
         return std::all_of(up.begin(), up.end(), exists) &&
                std::all_of(down.begin(), down.end(), exists);
     }
-    Estimate area(std::size_t index, const std::string& name) const {
+    Estimate area(std::size_t index, const std::string& name,
+                  const std::vector<double>& weights) const {
         double sum = 0.0, square = 0.0;
         for (std::size_t k = 0; k < weights.size(); ++k) {
             const Estimate rising = up[k]->quantity(index, name),
@@ -56,13 +55,14 @@ std::vector<LoopAreas> loop_areas(const SweepPlan& plan, const std::vector<Point
     const std::vector<std::size_t> order = ascending_order(chain);
     std::vector<double> x;
     for (const std::size_t k : order) x.push_back(*read_number(chain.values[k]));
+    const std::vector<double> weights = trapezoidal_weights(x);
     const auto replicas = static_cast<std::size_t>(plan.replicas);
     std::vector<LoopAreas> all;
     for (std::size_t combination = 0; combination < combinations; ++combination) {
         if (combination / chain_stride % chain.values.size() != 0) continue;  // once per loop
         std::vector<LoopOfChain> loops;
         for (std::size_t r = 0; r < replicas; ++r) {
-            LoopOfChain loop{.up = {}, .down = {}, .weights = trapezoidal_weights(x)};
+            LoopOfChain loop;
             for (const std::size_t k : order) {
                 const std::size_t first = (combination + k * chain_stride) * 2 * replicas + r;
                 loop.up.push_back(&results[first]);
@@ -75,7 +75,8 @@ std::vector<LoopAreas> loop_areas(const SweepPlan& plan, const std::vector<Point
         here.parameters.erase(plan.chain);
         for (std::size_t q = 0; q < quantities.size(); ++q) {
             std::vector<Estimate> areas;
-            for (const LoopOfChain& loop : loops) areas.push_back(loop.area(q, quantities[q]));
+            for (const LoopOfChain& loop : loops)
+                areas.push_back(loop.area(q, quantities[q], weights));
             here.areas.push_back(ensemble(areas).estimate);
         }
         all.push_back(std::move(here));

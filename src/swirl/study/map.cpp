@@ -1,6 +1,7 @@
 #include "swirl/study/map.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -136,11 +137,9 @@ std::string first_failure(const fs::path& folder, const SweepPlan& plan) {
         if (!failed[point]) continue;
         std::string text = read_whole_file(failure_file(folder, point));
         while (text.ends_with('\n')) text.pop_back();
-        std::string where;
-        for (const auto& [name, value] : plan.parameters(point))
-            if (plan.axis(name)->values.size() > 1)
-                where += fmt::format("{} {}, ", option_name(name), value);
-        return fmt::format("{}replica {}: {}", where, plan.replica(point) + 1, text);
+        std::vector<std::string> where = varied_options(plan, plan.parameters(point));
+        where.push_back(fmt::format("replica {}", plan.replica(point) + 1));
+        return fmt::format("{}: {}", fmt::join(where, ", "), text);
     }
     return "";
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include "swirl/run/reading.hpp"
@@ -456,17 +455,6 @@ class MapSearch {
 };
 
 }  // namespace
-
-std::vector<std::size_t> ascending_order(const SweepAxis& axis) {
-    std::vector<std::size_t> order(axis.values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::vector<double> numbers;
-    for (const std::string& value : axis.values)
-        numbers.push_back(read_number(value).value_or(not_available));
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
-    return order;
-}
 
 MapState explore_map(const SweepPlan& plan,
                      const std::function<const MapRun*(std::size_t point)>& find_run) {

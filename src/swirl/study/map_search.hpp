@@ -61,9 +61,6 @@ struct MapState {
     std::vector<std::size_t> missing = {};  // points of the plan to run next, in ascending order
 };
 
-/// The indices of the values of an axis, from the smallest value to the largest.
-std::vector<std::size_t> ascending_order(const SweepAxis& axis);
-
 /// The site's runs so far, and which runs come next. `find_run` returns null for a point that has no
 /// result yet. The plan must be one of make_map_plan() (map_plan.hpp).
 MapState explore_map(const SweepPlan& plan,

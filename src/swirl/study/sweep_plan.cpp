@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
@@ -357,6 +358,28 @@ SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
     if (size_of(larger) != size_of(plan)) larger.before.push_back(size_of(plan));
     larger.product_indices = product_indices_of(larger);
     return larger;
+}
+
+std::vector<std::size_t> ascending_order(const SweepAxis& axis) {
+    std::vector<std::size_t> order(axis.values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<double> numbers;
+    for (const std::string& value : axis.values) {
+        const auto number = read_number(value);
+        if (!number) return order;
+        numbers.push_back(*number);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
+    return order;
+}
+
+std::vector<std::string> varied_options(const SweepPlan& plan, const ParameterTexts& parameters) {
+    std::vector<std::string> options;
+    for (const auto& [name, value] : parameters)
+        if (plan.axis(name)->values.size() > 1)
+            options.push_back(fmt::format("{} {}", option_name(name), value));
+    return options;
 }
 
 SweepPlan read_plan(const fs::path& folder) {

@@ -107,6 +107,12 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
 SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
                       std::int64_t replicas, const std::vector<std::string>& measure);
 
+/// The indices of an axis's values, the numbers ascending; as they are if a value is no number.
+std::vector<std::size_t> ascending_order(const SweepAxis& axis);
+
+/// "--mu 0.3" for each of these parameters that has several values in the plan.
+std::vector<std::string> varied_options(const SweepPlan& plan, const ParameterTexts& parameters);
+
 /// The plan of a folder; throws FileError if there is none.
 SweepPlan read_plan(const std::filesystem::path& folder);
 /// Creates the folder and writes the plan. Throws Failure if the folder holds a plan other than

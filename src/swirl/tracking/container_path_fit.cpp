@@ -14,9 +14,8 @@ PathCircle circle_through(const std::vector<Vec2>& points) {
     constexpr int passes = 8;          // of reweighting
     constexpr double far_ratio = 4.0;  // median distances from the middle: no point of the circle
     constexpr double cutoff = 4.5, min_cutoff = 0.2;  // standard deviations; pixels
-    std::vector<double> xs, ys, weights, distances;
-    for (const Vec2& p : points) xs.push_back(p.x), ys.push_back(p.y);
-    const Vec2 origin{median(xs), median(ys)};
+    std::vector<double> weights, distances;
+    const Vec2 origin = median_point(points);
     // The equations have squares of the distances, so one far outlier would decide the first pass.
     for (const Vec2& p : points) distances.push_back(length(p - origin));
     const double far = far_ratio * median(distances);
@@ -137,11 +136,10 @@ class PathRefinement {
     static constexpr double min_scale = 0.05;   // pixels: exact centres would give 0
     static constexpr double cutoff = 4.7;       // standard deviations, 95 % efficient
     static constexpr int max_passes = 25, min_passes = 5;
-    static constexpr double length_median = 1.1774;  // √(2 ln 2), of two standard normal deviates
-    static constexpr double settled = 1e-7;          // pixels, centre and amplitude together
-    static constexpr double min_weight = 5.0;        // the sum of weights: one for each parameter
-    static constexpr double min_used = 0.5;          // of the frames: fewer may be another motion
-    static constexpr double max_error = 0.05;        // of the amplitude
+    static constexpr double settled = 1e-7;    // pixels, centre and amplitude together
+    static constexpr double min_weight = 5.0;  // the sum of weights: one for each parameter
+    static constexpr double min_used = 0.5;    // of the frames: fewer may be another motion
+    static constexpr double max_error = 0.05;  // of the amplitude
     using Matrix = cv::Matx<double, 5, 5>;
     using Vector = cv::Vec<double, 5>;
 

@@ -77,9 +77,7 @@ class RimSurvey {
                 moving = &c;
         if (!moving) return std::nullopt;
         ContainerRim rim = rim_of(*moving);
-        std::vector<double> xs, ys;
-        for (const Vec2& c : moving->centres) xs.push_back(c.x), ys.push_back(c.y);
-        rim.path_centre = {median(xs), median(ys)};
+        rim.path_centre = median_point(moving->centres);
         return rim;
     }
     /// After run() without a result: reports why.

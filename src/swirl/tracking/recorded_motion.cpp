@@ -39,17 +39,14 @@ double RecordedMotion::amplitude() const {
 
 namespace {
 
-constexpr double length_median_ratio = 1.1774;  // √(2 ln 2): median length of two normal deviates
-
 /// The centres and their weights; fits of harmonics to a part of them.
 class MotionFit {
   public:
     MotionFit(const std::vector<Vec2>& centres, const std::vector<double>& times)
         : centres_(centres), times_(times), residuals_(centres.size()) {
         constexpr double far = 4.0;  // median distances: a wrong circle
-        std::vector<double> xs, ys, distances;
-        for (const Vec2& c : centres) xs.push_back(c.x), ys.push_back(c.y);
-        middle_ = {median(xs), median(ys)};
+        std::vector<double> distances;
+        middle_ = median_point(centres);
         for (const Vec2& c : centres) distances.push_back(length(c - middle_));
         const double limit = far * median(distances);
         double sum = 0.0, square = 0.0;
@@ -124,7 +121,7 @@ class MotionFit {
         constexpr double cutoff = 4.7, min_scale = 0.05;  // standard deviations; pixels
         std::vector<double> off;
         for (const Vec2& r : residuals_) off.push_back(length(r));
-        const double deviation = median(off) / length_median_ratio;
+        const double deviation = median(off) / length_median;
         for (std::size_t k = 0; k < off.size(); ++k)
             weights_[k] = tukey_weight(off[k] / (cutoff * std::max(deviation, min_scale)));
         return deviation;

@@ -5,10 +5,15 @@
 #include <cstddef>
 #include <vector>
 
+#include "swirl/math/median.hpp"
+#include "swirl/math/vec2.hpp"
+
 namespace swirl {
 
 /// Standard deviation of normal deviates, relative to their median absolute deviation.
 inline constexpr double mad_to_sigma = 1.4826;
+/// √(2 ln 2), the median length of a vector of two standard normal deviates.
+inline constexpr double length_median = 1.1774;
 
 /// Tukey's biweight of a residual `q` in units of the cutoff; 0 from the cutoff on.
 inline double tukey_weight(double q) {
@@ -31,6 +36,13 @@ inline double quantile(std::vector<double> values, double share) {
                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
+}
+
+/// The medians of both coordinates.
+inline Vec2 median_point(const std::vector<Vec2>& points) {
+    std::vector<double> xs, ys;
+    for (const Vec2& p : points) xs.push_back(p.x), ys.push_back(p.y);
+    return {median(xs), median(ys)};
 }
 
 }  // namespace swirl

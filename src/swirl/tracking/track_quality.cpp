@@ -13,8 +13,8 @@ namespace {
 
 /// Discs in contact: the mean gap is 0, and half of the gaps are negative by errors of positions.
 void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
-    // For an onset, and for a median. Few discs are seldom in contact, and the onset of few gaps may be
-    // off by several per cent.
+    // For an onset, and for a median. Few discs are seldom in contact, and the onset of few gaps may
+    // be off by several per cent.
     constexpr std::size_t min_gaps = 1000, min_overlaps = 50;
     constexpr double window = 0.02;  // radii
     if (gaps.size() > min_gaps && !tracked.contact_fitted)

@@ -161,24 +161,35 @@ std::int64_t expected_frames(const TrackingSettings& settings, const VideoTimes&
     return expected;
 }
 
-VideoSurvey planned_survey(const TrackingSettings& settings, std::int64_t expected) {
+/// A video whose frames have been searched.
+struct DetectedVideo {
+    VideoTimes times;
+    VideoSurvey survey;
+    Detections all;
+};
+
+/// Sets `settings.fields`.
+DetectedVideo detect_video(TrackingSettings& settings, TrackedVideo& tracked) {
     constexpr std::int64_t assumed_frames = 4 * survey_frames;  // if the number is unknown
+    cv::setNumThreads(1);  // the frames are distributed over our threads
+    DetectedVideo video;
+    video.times = video_times(settings.video);
+    const std::int64_t expected = expected_frames(settings, video.times);
+    settings.fields = tracked.fields = field_order(settings.video, settings.first_frame);
     const std::int64_t planned = expected > 0 ? expected : assumed_frames;
     if (settings.planned) settings.planned(planned, settings.spins);
-    return survey_video(settings, planned);
+    video.survey = survey_video(settings, planned);
+    video.all = detect_frames(settings, video.survey, expected, tracked);
+    return video;
 }
 
 }  // namespace
 
 TrackedVideo track_container(const TrackingSettings& given) {
     TrackingSettings settings = given;
+    settings.motion_only = true;
     TrackedVideo tracked;
-    cv::setNumThreads(1);
-    const VideoTimes times = video_times(settings.video);
-    const std::int64_t expected = expected_frames(settings, times);
-    settings.fields = tracked.fields = field_order(settings.video, settings.first_frame);
-    const VideoSurvey survey = planned_survey(settings, expected);
-    Detections all = detect_frames(settings, survey, expected, tracked);
+    auto [times, survey, all] = detect_video(settings, tracked);
     collect_camera_motion(all, tracked);
     correct_lens(survey, all, tracked);
     tracked.frame_count = static_cast<std::int64_t>(all.size());
@@ -193,12 +204,7 @@ TrackedVideo track_container(const TrackingSettings& given) {
 TrackedVideo track_video(const TrackingSettings& given) {
     TrackingSettings settings = given;
     TrackedVideo tracked;
-    cv::setNumThreads(1);  // the frames are distributed over our threads
-    const VideoTimes times = video_times(settings.video);
-    const std::int64_t expected = expected_frames(settings, times);
-    settings.fields = tracked.fields = field_order(settings.video, settings.first_frame);
-    const VideoSurvey survey = planned_survey(settings, expected);
-    Detections all = detect_frames(settings, survey, expected, tracked);
+    auto [times, survey, all] = detect_video(settings, tracked);
     try {
         finish_tracking(settings, survey, times, all, tracked);
     } catch (const Failure& failure) {

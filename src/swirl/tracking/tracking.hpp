@@ -47,8 +47,9 @@ struct TrackingSettings {
     unsigned threads = 0;        // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string& step, double share)> progress;
-    bool spins = false;        // measure_spins() follows
-    bool motion_only = false;  // no discs in the frames; the container may move on any path
+    bool spins = false;  // measure_spins() follows
+    /// Set by track_container() itself: no discs in the frames; the container may move on any path.
+    bool motion_only = false;
     /// Called before the first progress: how many frames there will probably be.
     std::function<void(std::int64_t frames, bool spins)> planned;
 
@@ -139,7 +140,7 @@ struct TrackedVideo {
 /// Throws Failure with the likely cause, and Interrupted.
 TrackedVideo track_video(const TrackingSettings& settings);
 
-/// With `motion_only`: the rims, their times, and the sizes. The path is not a circle, in general.
+/// The rims alone, their times, and the sizes. The path is not a circle, in general.
 TrackedVideo track_container(const TrackingSettings& settings);
 
 /// The mean motion of the container, in the plane of the discs if the camera is tilted and the discs

@@ -104,8 +104,7 @@ void warn_about_fields(TrackedVideo& tracked) {
          "the video is interlaced: the {} rows of each frame, which were taken later, are replaced "
          "by estimates; ffmpeg -i VIDEO -vf bwdif=mode=send_field:parity={}:deint=all "
          "-qp 16 twice.mp4 makes a video with twice as many frames per period",
-         tracked.fields == FieldOrder::top_first ? "odd" : "even",
-         tracked.fields == FieldOrder::top_first ? "tff" : "bff");
+         tracked.fields == FieldOrder::top_first ? "odd" : "even", parity_of(tracked.fields));
 }
 
 void warn_about_wall(TrackedVideo& tracked) {

@@ -220,8 +220,7 @@ Video::Video(std::string source, std::int64_t every, std::int64_t first, FieldOr
     const std::string deinterlace =
         fields == FieldOrder::progressive
             ? ""
-            : fmt::format("bwdif=mode=send_frame:parity={}:deint=all,",
-                          fields == FieldOrder::top_first ? "tff" : "bff");
+            : fmt::format("bwdif=mode=send_frame:parity={}:deint=all,", parity_of(fields));
     // Frames get new times, since ffmpeg reports errors for times that do not advance.
     const std::string select =
         every > 1 || first > 0

@@ -53,6 +53,10 @@ inline constexpr const char* missing_ffmpeg =
 
 /// Whether the even rows of a frame were taken before the odd ones.
 enum class FieldOrder { progressive, top_first, bottom_first };
+/// ffmpeg's name of the order of the fields, for its filter bwdif.
+inline const char* parity_of(FieldOrder order) {
+    return order == FieldOrder::top_first ? "tff" : "bff";
+}
 
 /// Determined from the motion in the frames from number `first` on, by ffmpeg's filter idet.
 /// Progressive for a camera, which cannot be read twice.
