@@ -14,8 +14,8 @@ constexpr double planted_gamma = 0.7, planted_eta = 1.3, planted_diffusion = 0.4
                  planted_ratio = 1.1;
 constexpr std::size_t field_points = 300;
 
-/// Seeds that have the same true fields, with noise in every column; `shared` is the covariance of the
-/// noise of the torque and of the spin.
+/// Seeds that have the same true fields, with noise in every column; `shared` is the covariance of
+/// the noise of the torque and of the spin.
 FieldSeeds planted_fields(std::size_t seeds, double noise, double shared = 0.0) {
     Random truth(1), random(2);
     FieldColumns f;

@@ -14,9 +14,9 @@ namespace {
 TEST(CoarseZero, IsThatOfTheParabolaThroughThreePoints) {
     const CoarseZero zero = last_zero({{20, 0.5, 0.01}, {30, 0.3, 0.03}, {40, -0.1, 0.01}});
     EXPECT_TRUE(zero.falls);
-    // At 30 + u the parabola is 0.3 − 0.03 u − 0.001 u². The straight line has its zero at 37.5; the
-    // distance is the error of the interpolation. The errors of the points have the weights ¼ and ¾
-    // and are divided by the slope of 0.04.
+    // At 30 + u the parabola is 0.3 − 0.03 u − 0.001 u². The straight line has its zero at 37.5;
+    // the distance is the error of the interpolation. The errors of the points have the weights ¼
+    // and ¾ and are divided by the slope of 0.04.
     const double u = (std::sqrt(0.0009 + 0.0012) - 0.03) / 0.002;
     EXPECT_NEAR(zero.discs, 30.0 + u, 1e-9);
     EXPECT_NEAR(zero.error, std::hypot(std::hypot(0.25 * 0.03, 0.75 * 0.01) / 0.04, u - 7.5), 1e-9);

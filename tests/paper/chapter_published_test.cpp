@@ -1,5 +1,5 @@
-// The chapters against published theory and experiments: the mean-field theory of rough discs, the fit
-// of paths, and the plans of the figures.
+// The chapters against published theory and experiments: the mean-field theory of rough discs, the
+// fit of paths, and the plans of the figures.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,8 +23,8 @@ double deviate(Random& random) {
     return sum;
 }
 
-/// The mean change of the two energies in a collision, by the engine's law. Pairs have the velocities
-/// and spins of a gas, and the weight of a pair is its speed of approach.
+/// The mean change of the two energies in a collision, by the engine's law. Pairs have the
+/// velocities and spins of a gas, and the weight of a pair is its speed of approach.
 Temperatures mean_changes(const RoughGas& gas, double beta, const Temperatures& T) {
     Random random(1);
     const Surface surface{1e6, gas.restitution, beta};
@@ -55,8 +55,8 @@ Temperatures mean_changes(const RoughGas& gas, double beta, const Temperatures& 
     return {translation / weight, spins / weight};
 }
 
-// N/2 collisions per unit of τ change N T + N T_s/2 by the mean changes: dT/dτ is half of the first,
-// dT_s/dτ is the second.
+// N/2 collisions per unit of τ change N T + N T_s/2 by the mean changes: dT/dτ is half of the
+// first, dT_s/dτ is the second.
 TEST(RoughGas, CoefficientsAreTheMeanChangesOfTheCollisionLaw) {
     struct Case {
         double e, beta, q;
@@ -67,8 +67,8 @@ TEST(RoughGas, CoefficientsAreTheMeanChangesOfTheCollisionLaw) {
         const RoughGas gas = RoughGas::of(c.e, c.beta, c.q);
         const Temperatures found = mean_changes(gas, c.beta, c.T);
         const double T = c.T.translation, S = c.T.spins;
-        // The changes scatter by about T_s + T, and 100 000 pairs approach: an error of 0.003 (T + T_s),
-        // and the tolerance is four of them.
+        // The changes scatter by about T_s + T, and 100 000 pairs approach: an error of
+        // 0.003 (T + T_s), and the tolerance is four of them.
         const double tolerance = 0.012 * (T + S);
         EXPECT_NEAR(0.5 * found.translation, -gas.a() * T + gas.b() * S, tolerance);
         EXPECT_NEAR(found.spins, 2.0 * gas.b() * T - 2.0 * gas.c() * S, tolerance);
@@ -134,8 +134,8 @@ TEST(Hypocycloids, FitFindsAPlantedRotationAndDistance) {
             }
         const HypocycloidFit fit = fit_hypocycloids(paths, 60);
         EXPECT_NEAR(fit.rotation, rotation, 0.0051);  // a step of the search
-        // In a disc of radius 0.1 the root mean square is 0.1/√2. The fit removes 4 of 480 numbers, and
-        // a wrong ϖ by half a step adds less than 0.01.
+        // In a disc of radius 0.1 the root mean square is 0.1/√2. The fit removes 4 of 480 numbers,
+        // and a wrong ϖ by half a step adds less than 0.01.
         EXPECT_NEAR(fit.distance, 0.1 / std::sqrt(2.0), 0.01);
     }
 }

@@ -81,8 +81,8 @@ TEST(DirectionChanges, AreTheZerosOfTheCurveOfEachDish) {
     ASSERT_EQ(changes.size(), 2u);
     EXPECT_TRUE(changes[0].to_counterrotation);
     EXPECT_FALSE(changes[1].to_counterrotation);
-    // At 0.2 + u the parabola through all three points is 0.3 − 3.5 u + 7.5 u². The straight line has
-    // the slope −2, its zero at 0.35, and there the statistical error.
+    // At 0.2 + u the parabola through all three points is 0.3 − 3.5 u + 7.5 u². The straight line
+    // has the slope −2, its zero at 0.35, and there the statistical error.
     const double u = (3.5 - std::sqrt(12.25 - 9.0)) / 15.0;
     EXPECT_NEAR(changes[0].packing_fraction, 0.2 + u, 1e-9);
     EXPECT_NEAR(changes[0].slope, -2.0, 1e-12);

@@ -1,6 +1,6 @@
-// The fuzzers of tests/fuzz start from files in tests/fuzz/seeds. A file that the program rejects at
-// once, because its format has changed, reaches only the first lines of a reader. So each file must
-// still be accepted. After a change of a format,
+// The fuzzers of tests/fuzz start from files in tests/fuzz/seeds. A file that the program rejects
+// at once, because its format has changed, reaches only the first lines of a reader. So each file
+// must still be accepted. After a change of a format,
 //
 //     SWIRL_WRITE_SEEDS=1 build/tests/tests/test_study --gtest_filter='FuzzSeeds.*'
 //

@@ -114,8 +114,8 @@ TEST(RecordedMotion, PeriodsThatDifferMakeTheErrorLarger) {
         video.centres.push_back(middle + sizes[std::size_t(turns)] * wave(1, 1, turns));
     }
     const RecordedMotion found = video.motion();
-    // Rms of a coordinate: 0.1 √((40² + 30²)/4) = 2.5 pixels, from 31 periods; its relative standard
-    // error is 1/√62 = 13 %.
+    // Rms of a coordinate: 0.1 √((40² + 30²)/4) = 2.5 pixels, from 31 periods; its relative
+    // standard error is 1/√62 = 13 %.
     EXPECT_NEAR(found.scatter, 2.5, 1.0);
     EXPECT_NEAR(found.point_error, found.scatter / std::sqrt(31.0), 1e-9);
 }

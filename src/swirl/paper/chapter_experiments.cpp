@@ -1,13 +1,14 @@
 // Against published experiments with spheres in a swirled dish.
 //
 // Figure "scherer". Scherer, Kötter, Markus, Goles and Rehberg (Phys. Rev. E 61, 4069, 2000) report
-// that the sign of dE/dN, with E the mean kinetic energy of a particle, distinguishes rotation (zero),
-// reptation, which is counterrotation (positive), and the appearance of concentric rings (negative),
-// and that particles of a large cluster follow hypocycloids.
+// that the sign of dE/dN, with E the mean kinetic energy of a particle, distinguishes rotation
+// (zero), reptation, which is counterrotation (positive), and the appearance of concentric rings
+// (negative), and that particles of a large cluster follow hypocycloids.
 //
-// Figure "instability". Zhao and Pöschel (arXiv 2008.12902 and 2107.14440) report that a uniform layer
-// becomes unstable beyond a threshold of the amplitude: a dense region forms and travels around the
-// dish. In denser layers a solid core rotates against the swirl, with a fluid layer at the wall.
+// Figure "instability". Zhao and Pöschel (arXiv 2008.12902 and 2107.14440) report that a uniform
+// layer becomes unstable beyond a threshold of the amplitude: a dense region forms and travels
+// around the dish. In denser layers a solid core rotates against the swirl, with a fluid layer at
+// the wall.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -190,15 +191,15 @@ std::vector<double> layer_amplitudes(const PaperSettings& settings) {
     return {0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0};
 }
 
-/// The mean distance of the centre of mass from the middle of the dish, in R, of N independent points
-/// in the circle that centres can reach. Each coordinate has the variance (R − r)²/4N.
+/// The mean distance of the centre of mass from the middle of the dish, in R, of N independent
+/// points in the circle that centres can reach. Each coordinate has the variance (R − r)²/4N.
 double distance_of_random_points(std::int64_t discs) {
     return (1.0 - 1.0 / layer_radius) * std::sqrt(pi / (8.0 * static_cast<double>(discs)));
 }
-/// The distance of an unstable layer, in that of random points.
+/// A layer is unstable if its distance exceeds that of random points by this factor.
 constexpr double unstable_distance = 2.0;
 
-/// The amplitude from which on the layer is unstable, with its error; n/a if there is no certain one.
+/// The amplitude above which the layer is unstable, with its error; NaN if none is certain.
 CoarseZero threshold_of(const std::vector<RotationPoint>& excess) {
     const Crossing found = find_crossing(excess);
     for (auto change = found.changes.rbegin(); change != found.changes.rend(); ++change) {

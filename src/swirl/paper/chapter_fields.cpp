@@ -1,9 +1,9 @@
 // Is a cluster of discs a micropolar fluid? The paper's outlook asks for continuum equations that
 // couple the spins to the vorticity of the flow.
 //
-// Figure "fields": maps of density, flow and spin in a large dish, and the torque of the stress against
-// the relation of a micropolar fluid. Figure "closure": the coefficients of all relations and the
-// share of the stresses that they explain, by packing fraction, in several dishes.
+// Figure "fields": maps of density, flow and spin in a large dish, and the torque of the stress
+// against the relation of a micropolar fluid. Figure "closure": the coefficients of all relations
+// and the share of the stresses that they explain, by packing fraction, in several dishes.
 //
 // The fit is that of fluid_relations.hpp, for one range of the packing fraction at a time. Fields:
 // measure/field_grid.hpp, with the kernel of four radii in the M-frame.
@@ -88,8 +88,8 @@ std::string words_of_range(const FieldRegion& region) {
     return fmt::format("{:.1f}–{:.1f}", region.low, region.high);
 }
 
-/// The ranges of the packing fraction in a dish of this radius. A kernel of four radii is out of reach of
-/// the wall's contacts, which extend inwards to the centres of the discs.
+/// The ranges of the packing fraction in a dish of this radius. A kernel of four radii is out of
+/// reach of the wall's contacts, which extend inwards to the centres of the discs.
 std::vector<FieldRegion> field_regions(double radius) {
     constexpr double kernel = 4.0, disc = 1.0;
     std::vector<FieldRegion> all;

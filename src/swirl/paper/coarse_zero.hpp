@@ -1,19 +1,20 @@
-// The zero of a curve whose points are several N apart. find_crossing (statistics/zero_crossing.hpp)
-// decides whether there is one, and reports no N for such curves, because the curve between the
-// points is unknown. Here it is interpolated.
+// The zero of a curve whose points are several N apart. find_crossing
+// (statistics/zero_crossing.hpp) decides whether there is one, and reports no N for such curves,
+// because the curve between the points is unknown. Here it is interpolated.
 //
-// Interpolation. Between the points k and k + 1, of opposite signs, a parabola through these two and a
-// third point has exactly one zero. There are two such parabolas, one with point k − 1 and one with
-// point k + 2. Their errors at x are f‴/6 times (x − x_k)(x − x_{k+1})(x − x_third), whose last factor
-// is positive for one and negative for the other. So the zero of a smooth curve whose third derivative
-// keeps its sign lies between the zeros of the two parabolas. N_c is their mean, and half of their
-// distance is the error of the interpolation. At the end of a curve there is one parabola; then the
-// distance from the zero of the straight line is the error. Two points alone have only the straight
-// line. Its zero may be anywhere between them: the error is a uniform distribution's, step/√12.
+// Interpolation. Between the points k and k + 1, of opposite signs, a parabola through these two
+// and a third point has exactly one zero. There are two such parabolas, one with point k − 1 and
+// one with point k + 2. Their errors at x are f‴/6 times (x − x_k)(x − x_{k+1})(x − x_third), whose
+// last factor is positive for one and negative for the other. So the zero of a smooth curve whose
+// third derivative keeps its sign lies between the zeros of the two parabolas. N_c is their mean,
+// and half of their distance is the error of the interpolation. At the end of a curve there is one
+// parabola; then the distance from the zero of the straight line is the error. Two points alone
+// have only the straight line. Its zero may be anywhere between them: the error is a uniform
+// distribution's, step/√12.
 //
-// The statistical error follows from the errors of the two points. The error is both together, as for
-// independent ones. A curve that jumps between two points, from one state to another, is not smooth;
-// then the parabolas differ much, but do not bound the zero.
+// The statistical error follows from the errors of the two points. The error is both together, as
+// for independent ones. A curve that jumps between two points, from one state to another, is not
+// smooth; then the parabolas differ much, but do not bound the zero.
 #pragma once
 
 #include <algorithm>
@@ -85,8 +86,8 @@ inline CurveZero zero_of_curve(const std::vector<RotationPoint>& curve, std::siz
     return {(discs - a.discs) / step, discs, line.error, interpolation};
 }
 
-/// The k for which the zero is between the points k and k + 1, inside the bracket of the change; the
-/// middle one of several.
+/// The k for which the zero is between the points k and k + 1, inside the bracket of the change;
+/// the middle one of several.
 inline std::size_t middle_zero(const std::vector<RotationPoint>& curve, const SignChange& change) {
     std::vector<std::size_t> zeros;
     for (std::size_t k = 0; k + 1 < curve.size(); ++k) {

@@ -20,8 +20,8 @@
 // "Explained" is the share of the square of the mean field y. All points have the same weight.
 //
 // Errors: jackknife over the seeds. Limits: at least two seeds, four for errors; otherwise NaN.
-// "Explained" is NaN if the fields are so noisy that a sum of squares is not positive. Points with a
-// missing value in any seed are omitted.
+// "Explained" is NaN if the fields are so noisy that a sum of squares is not positive. Points with
+// a missing value in any seed are omitted.
 #pragma once
 
 #include <cmath>

@@ -1,12 +1,12 @@
 // How closely do the paths of discs follow hypotrochoids? A rigid cluster whose centre orbits the
-// container's centre C with the swirl's Ω, and that rotates with ϖ about its own centre, moves each of
-// its discs along
+// container's centre C with the swirl's Ω, and that rotates with ϖ about its own centre, moves each
+// of its discs along
 //
 //     p(t) = D e^{iΩt} + ρ e^{iϖt}
 //
-// relative to C, as complex numbers. With ϖ < 0 this is a hypotrochoid. A cluster of radius R_c in a
-// container of radius R has |D| = R − R_c. If it rolls without slip, ϖ = Ω (1 − R/R_c); then a disc
-// at its rim, |ρ| = R_c, follows a hypocycloid with its cusps at the wall.
+// relative to C, as complex numbers. With ϖ < 0 this is a hypotrochoid. A cluster of radius R_c in
+// a container of radius R has |D| = R − R_c. If it rolls without slip, ϖ = Ω (1 − R/R_c); then a
+// disc at its rim, |ρ| = R_c, follows a hypocycloid with its cusps at the wall.
 //
 // The fit. D and ρ are free for each disc, ϖ is one number for all discs. For a given ϖ, with the
 // means over the samples a = ⟨p e^{−iΩt}⟩, b = ⟨p e^{−iϖt}⟩ and g = ⟨e^{i(ϖ−Ω)t}⟩, least squares
@@ -16,8 +16,8 @@
 //
 // for each disc. The ϖ of least residual is searched on a grid.
 //
-// Units: those of p; ϖ in Ω. Limits: at least two periods; ϖ is searched from −0.5 to 0.8 Ω, because
-// the two terms cannot be separated near ϖ = Ω.
+// Units: those of p; ϖ in Ω. Limits: at least two periods; ϖ is searched from −0.5 to 0.8 Ω,
+// because the two terms cannot be separated near ϖ = Ω.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,9 @@
-// The mean-field theory of a freely cooling gas of rough discs: translational temperature T = ½m⟨v²⟩
-// and temperature of the spins T_s = I⟨ω²⟩, of a homogeneous gas whose velocities and spins have
-// normal distributions. The theory is that of Huthmann and Zippelius (Phys. Rev. E 56, R6275, 1997,
-// cond-mat/9708093), which Luding, Huthmann, McNamara and Zippelius compared with simulations (Phys.
-// Rev. E 58, 3416, 1998). The derivation below uses the collision law of this program.
+// The mean-field theory of a freely cooling gas of rough discs: translational temperature
+// T = ½m⟨v²⟩ and temperature of the spins T_s = I⟨ω²⟩, of a homogeneous gas whose velocities and
+// spins have normal distributions. The theory is that of Huthmann and Zippelius (Phys. Rev. E 56,
+// R6275, 1997, cond-mat/9708093), which Luding, Huthmann, McNamara and Zippelius compared with
+// simulations (Phys. Rev. E 58, 3416, 1998). The derivation below uses the collision law of this
+// program.
 //
 // One collision. Two discs of mass m and radius r approach with the speed u along the normal. Their
 // contact slips at the rate s = w + rΣ, with w the tangential part of the relative velocity and Σ
@@ -58,8 +59,8 @@ struct RoughGas {
     double b() const { return roughness * roughness / inertia; }
     double c() const { return roughness / inertia * (1.0 - roughness / inertia); }
 
-    /// After τ collisions of a disc. With M = (−a, b; 2b, −2c), half its trace s, and h² = s² − det M:
-    /// exp(Mτ) = exp(sτ) (cosh(hτ) + (M − s) sinh(hτ)/h).
+    /// After τ collisions of a disc. With M = (−a, b; 2b, −2c), half its trace s, and
+    /// h² = s² − det M: exp(Mτ) = exp(sτ) (cosh(hτ) + (M − s) sinh(hτ)/h).
     Temperatures after(double tau, const Temperatures& start) const {
         const double half_trace = -0.5 * a() - c(), half_difference = 0.5 * a() - c();
         const double h = std::sqrt(half_difference * half_difference + 2.0 * b() * b());

@@ -1,6 +1,6 @@
 // What published experiments with swirled spheres report: kinetic energy, rings, paths of single
-// particles, the position of the dense region, and the rotation of core and wall layer. Averages over
-// the samples of one run after its warm-up.
+// particles, the position of the dense region, and the rotation of core and wall layer. Averages
+// over the samples of one run after its warm-up.
 #pragma once
 
 #include <complex>
@@ -18,8 +18,8 @@ class SwirledState {
     static constexpr int samples_per_period = 60;
     /// Periods of a path that is compared with a hypotrochoid.
     static constexpr int periods_of_a_path = 4;
-    /// Particles with their centres within this many radii of the wall are its layer: the first layer,
-    /// and half of the way to the next one.
+    /// Particles whose centres are within this many radii of the wall are its layer. This includes
+    /// the first layer, and half of the way to the next one.
     static constexpr double layer = 2.0;
     /// Rings of the radial density, per radius of a particle.
     static constexpr int rings_per_radius = 5;
@@ -28,7 +28,7 @@ class SwirledState {
     /// (carried_share).
     SwirledState(double container_radius, double carried);
     void sample(const Snapshot& snapshot);
-    /// Numbers, and the densities in rings about the centre of mass and about the container's centre.
+    /// The averages, and the densities in rings about the cluster's and the container's centre.
     Json json() const;
 
   private:

@@ -7,8 +7,9 @@
 //   excess kurtosis    μ₄ / μ₂² − 3
 //   Binder cumulant    U = 1 − μ₄ / (3 μ₂²). Binder 1981 (doi:10.1007/BF01293604) has moments about
 //                      zero, for a magnet whose states ±x are equal by symmetry. ϖ has no such
-//                      symmetry; moments about m serve for a liquid and its vapour (Rovere, Heermann,
-//                      Binder, "The gas-liquid transition of the two-dimensional Lennard-Jones fluid")
+//                      symmetry; moments about m serve for a liquid and its vapour (Rovere,
+//                      Heermann, Binder, "The gas-liquid transition of the two-dimensional
+//                      Lennard-Jones fluid")
 //   lifetimes          of the two states of the steady-state test (steady_state.hpp): the time in a
 //                      state by the number of times the series leaves it
 //

@@ -3,8 +3,8 @@
 //     ∮ = ∫ (q_down − q_up) dx   over the values x of the parameter, by the trapezoidal rule,
 //
 // for each quantity q of a run. It is positive if the quantity is larger with falling values. Each
-// replica has a loop of its own, with an error from the errors of its runs. The replicas' areas give
-// mean and error like those of runs (statistics/replicates.hpp).
+// replica has a loop of its own, with an error from the errors of its runs. The replicas' areas
+// give mean and error like those of runs (statistics/replicates.hpp).
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,8 @@ struct LoopAreas {
     std::vector<Estimate> areas = {};
 };
 
-/// For each combination of the other parameters, the areas of these quantities. `results` are in the
-/// order of the product of the axes (SweepPlan::product_index).
+/// For each combination of the other parameters, the areas of these quantities. `results` are in
+/// the order of the product of the axes (SweepPlan::product_index).
 std::vector<LoopAreas> loop_areas(const SweepPlan& plan, const std::vector<PointResult>& results,
                                   const std::vector<std::string>& quantities);
 

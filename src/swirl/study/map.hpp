@@ -36,12 +36,12 @@ struct MapOutcome {
 /// the folder does not hold a map.
 MapState read_map(const std::filesystem::path& folder, const SweepPlan& plan);
 
-/// Makes runs until the map is complete. Runs that failed before are tried once more. Waits for runs
-/// that other processes work on.
+/// Makes runs until the map is complete. Runs that failed before are tried once more. Waits for
+/// runs that other processes work on.
 MapOutcome run_map(const std::filesystem::path& folder, const SweepPlan& plan,
                    const SweepShare& share, const MapControl& control);
 
-/// The failed run with the lowest number: its parameters and the error message; "" if there is none.
+/// The parameters and the error message of the first failed run; "" if no run failed.
 std::string first_failure(const std::filesystem::path& folder, const SweepPlan& plan);
 
 /// A row for each decided site: the values of the axes, the quantity and its error (for N_c its

@@ -19,10 +19,10 @@
 // numbers outside it, until their sign is certain. A cell is halved if the verdicts differ, one is
 // undecided, or N_c differs by more than `change`.
 //
-// Growth. A plan may get further values of its axes and more replicas (sweep_plan.hpp). The search then
-// repeats that of the smaller plan, and continues with the larger one: cells beyond the old range are
-// added, sites that were undetermined get more runs, and a cell is halved at a value of the old plan
-// where one lies between. So every run of the smaller map is used.
+// Growth. A plan may get further values of its axes and more replicas (sweep_plan.hpp). The search
+// then repeats that of the smaller plan, and continues with the larger one: cells beyond the old
+// range are added, sites that were undetermined get more runs, and a cell is halved at a value of
+// the old plan where one lies between. So every run of the smaller map is used.
 //
 // Failed runs count as done and are excluded. A site whose runs all failed has no value.
 #pragma once
@@ -61,8 +61,8 @@ struct MapState {
     std::vector<std::size_t> missing = {};  // points of the plan to run next, in ascending order
 };
 
-/// The site's runs so far, and which runs come next. `find_run` returns null for a point that has no
-/// result yet. The plan must be one of make_map_plan() (map_plan.hpp).
+/// The site's runs so far, and which runs come next. `find_run` returns null for a point that has
+/// no result yet. The plan must be one of make_map_plan() (map_plan.hpp).
 MapState explore_map(const SweepPlan& plan,
                      const std::function<const MapRun*(std::size_t point)>& find_run);
 

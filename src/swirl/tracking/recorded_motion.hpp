@@ -2,11 +2,12 @@
 //
 //     C(t) = S + Σ a_n cos nΩt + b_n sin nΩt,   n = 1 … H,
 //
-// fitted to the centres of the rim. Ω is the highest frequency at which the motion repeats. H is the
-// highest harmonic that exceeds five standard errors, at most 12. Tukey's weights exclude outliers.
+// fitted to the centres of the rim. Ω is the highest frequency at which the motion repeats. H is
+// the highest harmonic that exceeds five standard errors, at most 12. Tukey's weights exclude
+// outliers.
 //
-// Errors. If the residuals are noise, the variance of a coordinate of the path is (2H + 1) σ²/K for K
-// frames. If the periods differ from each other by more than the noise, their scatter gives the
+// Errors. If the residuals are noise, the variance of a coordinate of the path is (2H + 1) σ²/K for
+// K frames. If the periods differ from each other by more than the noise, their scatter gives the
 // error instead: every period is fitted alone, as P independent estimates.
 //
 // Pixels, y down.

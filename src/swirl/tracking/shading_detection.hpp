@@ -2,8 +2,8 @@
 //
 // A ball that is lit from one side is brighter than the floor on that side and darker on the other.
 // At low contrast, compression leaves little of its outline, but the brightness falls in the same
-// direction across every ball. The response is the derivative of the blurred frame in that direction
-// t, with a Gaussian whose width is a fixed part of the radius a:
+// direction across every ball. The response is the derivative of the blurred frame in that
+// direction t, with a Gaussian whose width is a fixed part of the radius a:
 //
 //     D(x) = a t·∇(G ∗ I)(x)
 //
@@ -16,8 +16,8 @@
 //   number      The maxima of balls have similar heights. Their number must hardly change between
 //               frames.
 //
-// The positions are starting points for the appearance template (appearance_template.hpp). Both have
-// a common shift, which the wall shows (wall_fit.cpp).
+// The positions are starting points for the appearance template (appearance_template.hpp). Both
+// have a common shift, which the wall shows (wall_fit.cpp).
 #pragma once
 
 #include <optional>

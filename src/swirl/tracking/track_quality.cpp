@@ -13,8 +13,8 @@ namespace {
 
 /// Discs in contact: the mean gap is 0, and half of the gaps are negative by errors of positions.
 void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
-    // For an onset, and for a median. Few discs are seldom in contact, and the onset of few gaps may
-    // be off by several per cent.
+    // For an onset, and for a median. Few discs are seldom in contact, and the onset of few gaps
+    // may be off by several per cent.
     constexpr std::size_t min_gaps = 1000, min_overlaps = 50;
     constexpr double window = 0.02;  // radii
     if (gaps.size() > min_gaps && !tracked.contact_fitted)
@@ -110,8 +110,8 @@ std::optional<BouncedWall> wall_from_bounces(const TrackedVideo& tracked, double
     return wall;
 }
 
-/// How far out the wall lets discs come, given the outermost disc of each frame. With many discs one
-/// is at the wall in most frames. Few discs only bounce off it, and mostly between two frames.
+/// How far out the wall lets discs come, given the outermost disc of each frame. With many discs
+/// one is at the wall in most frames. Few discs only bounce off it, and mostly between two frames.
 void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
     constexpr double most_frames = 0.8, nearly_all_frames = 0.98;
     tracked.reach = quantile(reaches, most_frames);
@@ -135,9 +135,9 @@ void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
     }
 }
 
-/// Error of a coordinate from the two fits to the edge of each disc. Their errors are about equal and
-/// nearly independent, so that of the mean is half of their difference. It contains what the texture
-/// does to all rays of a fit, for as long as a patch is at the edge.
+/// Error of a coordinate from the two fits to the edge of each disc. Their errors are about equal
+/// and nearly independent, so that of the mean is half of their difference. It contains what the
+/// texture does to all rays of a fit, for as long as a patch is at the edge.
 double error_from_fits(const Detections& all) {
     double square = 0.0;
     std::size_t count = 0;

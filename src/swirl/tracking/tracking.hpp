@@ -143,8 +143,8 @@ TrackedVideo track_video(const TrackingSettings& settings);
 /// The rims alone, their times, and the sizes. The path is not a circle, in general.
 TrackedVideo track_container(const TrackingSettings& settings);
 
-/// The mean motion of the container, in the plane of the discs if the camera is tilted and the discs
-/// were tracked. The errors include that of the lens. Throws Failure.
+/// The mean motion of the container, in the plane of the discs if the camera is tilted and the
+/// discs were tracked. The errors include that of the lens. Throws Failure.
 RecordedMotion record_motion(const TrackedVideo& tracked);
 
 }  // namespace swirl

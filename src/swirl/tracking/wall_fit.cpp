@@ -118,8 +118,8 @@ void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& 
         wall.outer.push_back(distance + radius);
     });
     const auto found = fit_wall(wall, tracked.spacing * tracked.radius, links.species.size());
-    // A template without edges does not define a centre, so its shift is removed in any case. If the
-    // wall does not show it, the positions err by it.
+    // A template without edges does not define a centre, so its shift is removed in any case. If
+    // the wall does not show it, the positions err by it.
     const bool unknown = length(brighter) == 0.0;
     if (!found && unknown) tracked.shading_shift_error = unknown_shift * tracked.radius;
     if (!found) return;
