@@ -51,5 +51,10 @@ TEST(Collapse, ThresholdIsEventsPerDiscAndPeriod) {
     EXPECT_EQ(collapse->periods, 0.99e-4);
 }
 
+TEST(Collapse, TextDoesNotCountZeroPeriods) {
+    EXPECT_EQ(duration_text({20'000, 0.99e-4}), "the last 20000 events took only 9.9e-05 periods");
+    EXPECT_EQ(duration_text({500, 0.0}), "the last 500 events took no measurable time");
+}
+
 }  // namespace
 }  // namespace swirl

@@ -36,8 +36,14 @@ const rules: [RegExp, string][] = [
     [/^the last (\d+) events took only (\S+) periods \(collapse after (\S+) periods\): with restitution (\S+) .*$/,
      "Kollaps nach $3 Umläufen: Die letzten $1 Ereignisse brauchten nur $2 Umläufe. Mit der Stoßzahl $4 stoßen die Körper " +
          "immer schneller (inelastischer Kollaps)."],
+    [/^the last (\d+) events took no measurable time \(collapse after (\S+) periods\): with restitution (\S+) .*$/,
+     "Kollaps nach $2 Umläufen: Die letzten $1 Ereignisse brauchten keine messbare Zeit. Mit der Stoßzahl $3 stoßen die Körper " +
+         "immer schneller (inelastischer Kollaps)."],
     [/^the last (\d+) events took only (\S+) periods \(collapse after (\S+) periods\): friction .*$/,
      "Kollaps nach $3 Umläufen: Die letzten $1 Ereignisse brauchten nur $2 Umläufe. Reibung hat die Bewegung aneinander " +
+         "gepresster Körper aufgezehrt, und sie stoßen immer schneller (Reibungskollaps)."],
+    [/^the last (\d+) events took no measurable time \(collapse after (\S+) periods\): friction .*$/,
+     "Kollaps nach $2 Umläufen: Die letzten $1 Ereignisse brauchten keine messbare Zeit. Reibung hat die Bewegung aneinander " +
          "gepresster Körper aufgezehrt, und sie stoßen immer schneller (Reibungskollaps)."],
     [/^this path has no M-frame, .*$/, "Diese Bahn hat kein M-System, das die Seite braucht."],
     // Hinweise

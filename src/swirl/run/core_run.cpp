@@ -208,9 +208,8 @@ std::optional<std::string> CoreRun::overlap_problem() const {
 }
 
 std::string CoreRun::collapse_sentence(const Collapse& collapse) const {
-    return fmt::format(
-        "the last {} events took only {:.2g} periods (collapse after {:.3f} periods): {}",
-        collapse.events, collapse.periods, periods(), reason_for_collapse());
+    return fmt::format("{} (collapse after {:.3f} periods): {}", duration_text(collapse), periods(),
+                       reason_for_collapse());
 }
 
 std::string CoreRun::reason_for_collapse() const {

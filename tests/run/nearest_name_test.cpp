@@ -1,0 +1,50 @@
+// Suggestions for names that do not exist.
+#include <gtest/gtest.h>
+
+#include "swirl/run/reading.hpp"
+
+namespace swirl {
+namespace {
+
+const std::vector<std::string> options = {"--discs", "--mu",         "--mu-wall", "--frictionless",
+                                          "--json",  "--trajectory", "--threads"};
+
+std::string suggested(std::string_view unknown) {
+    return nearest_name(unknown, options).value_or("");
+}
+
+TEST(NearestName, CorrectsOneOrTwoCharacters) {
+    EXPECT_EQ(suggested("--disks"), "--discs");
+    EXPECT_EQ(suggested("--disc"), "--discs");
+    EXPECT_EQ(suggested("--dicss"), "--discs");
+    EXPECT_EQ(suggested("--tarjectroy"), "--trajectory");
+    EXPECT_EQ(nearest_name("rnu", {"map", "run"}), "run");
+    EXPECT_EQ(nearest_name("fone", {"phone"}), "phone");
+}
+
+TEST(NearestName, CompletesAWordThatOnlyOneNameBeginsWith) {
+    EXPECT_EQ(suggested("--traj"), "--trajectory");
+    EXPECT_EQ(nearest_name("dens", {"density", "flow"}), "density");
+    EXPECT_EQ(suggested("--m"), "");
+    EXPECT_EQ(suggested("--"), "");
+}
+
+// A name that differs in half of its characters is another word.
+TEST(NearestName, IsNoneForOtherShortWords) {
+    EXPECT_EQ(nearest_name("--out", {"--mu", "--to", "--at"}), std::nullopt);
+    EXPECT_EQ(nearest_name("--nu", {"--mu"}), std::nullopt);
+    EXPECT_EQ(suggested("--frobnicate"), "");
+}
+
+TEST(NearestName, FindsTheNameOfEqualMeaning) {
+    EXPECT_EQ(suggested("--out"), "--json");
+    EXPECT_EQ(suggested("--output"), "--json");
+    EXPECT_EQ(suggested("-o"), "--json");
+    EXPECT_EQ(nearest_name("--output", {"--json", "--out"}), "--out");
+    EXPECT_EQ(suggested("--friction"), "--mu");
+    EXPECT_EQ(nearest_name("particles", {"discs", "mu"}), "discs");
+    EXPECT_EQ(suggested("--cores"), "--threads");
+}
+
+}  // namespace
+}  // namespace swirl
