@@ -147,6 +147,18 @@ class Help(unittest.TestCase):
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertRegex(done.stderr, rf"\nhint: did you mean '{meant}'\?\n\Z")
 
+    def test_an_unknown_name_gets_a_suggestion_or_the_help_that_lists_all(self):
+        for call, hint in ((["run", "--out", "r.json"], "did you mean --json?"),
+                           (["collect", "sweep", "--out", "t.csv"], "did you mean --csv?"),
+                           (["run", "--friction=0.5"], "did you mean --mu?"),
+                           (["run", "--dicss", "5"], "did you mean --discs?"),
+                           (["run", "--frobnicate"], "`swirl run --help` lists all options."),
+                           (["frobnicate"], "`swirl --help` lists all commands.")):
+            with self.subTest(call):
+                done = swirl(*call)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertRegex(done.stderr, rf"\Aerror: there is no [^\n]+\.\nhint: {re.escape(hint)}\n\Z")
+
     def test_messages_name_only_options_that_exist(self):
         known = {name: set(re.findall(r"(--[a-z][a-z0-9-]+)", swirl(name, "--help").stdout))
                  for name in subcommands()}

@@ -4,23 +4,37 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace swirl {
 namespace {
 
+/// The number of characters to insert, remove or replace, or of neighbours to swap, to get from
+/// `a` to `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
+    std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
+        before_last = std::exchange(last, row);
         row[0] = i + 1;
         for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t change = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
+            row[j + 1] = std::min({last[j] + (a[i] != b[j]), row[j] + 1, last[j + 1] + 1});
+            if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
+                row[j + 1] = std::min(row[j + 1], before_last[j - 1] + 1);
         }
     }
     return row.back();
+}
+
+/// Words that users of other programs may try, and the names that have this meaning here.
+constexpr std::pair<std::string_view, std::string_view> names_of_equal_meaning[] = {
+    {"o", "out"},        {"o", "json"},        {"out", "json"},        {"out", "csv"},
+    {"output", "out"},   {"output", "json"},   {"output", "csv"},      {"friction", "mu"},
+    {"number", "discs"}, {"spheres", "discs"}, {"particles", "discs"}, {"jobs", "threads"},
+    {"cores", "threads"}};
+
+std::string_view without_dashes(std::string_view option) {
+    return option.substr(std::min(option.find_first_not_of('-'), option.size()));
 }
 
 }  // namespace
@@ -74,15 +88,23 @@ std::string counted(std::int64_t number, std::string_view noun) {
 
 std::optional<std::string> nearest_name(std::string_view unknown,
                                         const std::vector<std::string>& names) {
+    const std::string_view word = without_dashes(unknown);
+    for (const auto& [other, own] : names_of_equal_meaning)
+        for (const std::string& name : names)
+            if (word == other && without_dashes(name) == own) return name;
     std::optional<std::string> best;
-    std::size_t minimum = std::max<std::size_t>(2, unknown.size() / 3) + 1;
+    std::size_t minimum = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& name : names) {
-        const std::size_t distance = edit_distance(unknown, name);
-        if (distance >= minimum) continue;
+        const std::string_view candidate = without_dashes(name);
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance >= minimum || 2 * distance >= std::max(word.size(), candidate.size()))
+            continue;
         minimum = distance;
         best = name;
     }
-    const auto begins = [&](const std::string& name) { return name.starts_with(unknown); };
+    const auto begins = [&](const std::string& name) {
+        return !word.empty() && without_dashes(name).starts_with(word);
+    };
     if (!best && std::count_if(names.begin(), names.end(), begins) == 1)
         best = *std::find_if(names.begin(), names.end(), begins);
     return best;

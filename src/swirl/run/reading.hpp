@@ -32,8 +32,10 @@ std::string option_name(std::string_view name);
 /// "1 disc", "48 discs"
 std::string counted(std::int64_t number, std::string_view noun);
 
-/// The name with the smallest edit distance to `unknown`, if that is at most a third of its length,
-/// or 2; otherwise the only name that begins with `unknown`.
+/// The name that the user probably means: first one of equal meaning ("json" for "out"), then the
+/// one with the smallest edit distance, then the only one that begins with `unknown`. The distance
+/// must not exceed 2 or a third of the length of `unknown`, whichever is larger, and must be less
+/// than half of the length of the longer name. Dashes at the start do not count.
 std::optional<std::string> nearest_name(std::string_view unknown,
                                         const std::vector<std::string>& names);
 
