@@ -96,14 +96,14 @@ QUESTIONS = {
                       "resistance. By how much does the change of direction move between the limits of their values?",
     "fields": "The paper suggests continuum equations that couple the spins to the vorticity of the flow. Does the difference "
               "between both predict the torque that drives the spins?",
-    "closure": "Which coefficients has the cluster as a micropolar fluid, and how much of the stresses do they explain?",
+    "closure": "Described as a micropolar fluid, which coefficients does the cluster have, and how much of the stresses do they explain?",
     "amplitude": "The paper has one amplitude, A/R = 0.22. Where does the direction of rotation change for others?",
     "cooling": "Does a gas of rough discs in a container at rest cool as the mean-field theory of Huthmann and Zippelius "
                "(1997) says?",
     "scherer": "Scherer et al. (2000) distinguish rotation, counterrotation and concentric rings by the sign of dE/dN, with "
                "the mean kinetic energy E of a particle, and see hypocycloids. Does the model agree?",
     "instability": "Zhao and Pöschel (2020, 2021) see a dense region form above a threshold of the amplitude, and a dense core "
-                   "that rotates against the swirl. From which amplitude on does a layer of rolling spheres have them?",
+                   "that rotates against the swirl. Above which amplitude does a layer of rolling spheres show them?",
 }
 
 # The description of each figure.
@@ -206,13 +206,10 @@ CAPTIONS = {
             "A/R = 0.22 and μ = 1; the scale is logarithmic beyond ±0.1. Right: the sign of the rotation at each "
             "point "
             "(the area of a disc grows with |ϖ|), and the packing fractions at which the direction changes.",
-    "critical": "Above: N times the variance of the rotation, in periods of its correlation time τ; the correlation "
-                "time; "
-                "and the Binder cumulant, which is 0 for one normal state and 2/3 (dotted) for two equal states, all "
-                "at "
-                "A/R = 0.22. Below: slope, fluctuations and correlation time at each change of direction against the "
-                "size "
-                "of the container, with power laws (dashed) if there are three sizes.",
+    "critical": "Above, at A/R = 0.22: the variance of the rotation multiplied by N and by its correlation time τ; the "
+                "correlation time; and the Binder cumulant. This cumulant is 0 for one state with a normal distribution "
+                "and 2/3 (dotted) for two equally likely states. Below: slope, fluctuations and correlation time at each "
+                "change of direction against the size of the container, with power laws (dashed) if there are three sizes.",
     "hysteresis": "Rotation during a ramp of a parameter up (full) and down (open), each as a mean over an eighth of "
                   "the "
                   "ramp, for two ramp rates.",
@@ -238,7 +235,7 @@ CAPTIONS = {
     "spheres_bounds": "Rotation against the number of spheres, μ = 0.2, with one parameter at a limit of its range.",
     "fields": "Fields in the M-frame (M is at the bottom), kernel of four radii, means over the seeds. (a) Packing fraction and "
               "velocity relative to the centre of mass. (b) Spin of the discs and (c) half of the vorticity: equal if the discs "
-              "turn with the flow. (d) Torque of the stress per area and (e) that of a micropolar fluid, where no contact with "
+              "rotate with the flow. (d) Torque of the stress per area and (e) that of a micropolar fluid, where no contact with "
               "the wall contributes. (f) Both at each point; the line is equality, bars are standard errors.",
     "closure": "Coefficients divided by √(mT), with the granular temperature T, in ranges of the packing fraction; below, the "
                "share of the square of the stress that each explains. Bars are standard errors over the seeds.",
@@ -249,9 +246,9 @@ CAPTIONS = {
     "scherer": "Mean kinetic energy of a particle in units of that of the container's speed, and rotation, against the number "
                "of particles, for the container of the paper's experiment and for other amplitudes and periods; the number "
                "density around the centre of mass; and the distance of the particles' paths from hypotrochoids.",
-    "instability": "Layers of rolling spheres in a container of R/r = 17 against the amplitude: distance of the centre of mass from "
-                   "that of a layer that moves freely, the part of it that turns with the swirl, and the rotation of the "
-                   "core and of the layer at the wall.",
+    "instability": "Layers of rolling spheres in a container of R/r = 17 against the amplitude. Distance between the centre of mass and "
+                   "its position in a layer that moves freely; the part of this distance that rotates with the swirl; and "
+                   "the rotation of the core and of the layer at the wall.",
     "spheres_map": "Rotation of the cluster as colour and as number. Positive values rotate with the swirl, negative "
                    "values against it.",
 }

@@ -1,6 +1,6 @@
-// The discovery plot: each number of discs that is visited drops a point with its error, so that the paper's
-// Figure 5b draws itself. A point is a run of its own in the background. A short run gives the point at once,
-// and longer ones make it more precise while its number of discs stays.
+// The discovery plot: each number of discs that is selected adds a point with its error, so that the paper's
+// Figure 5b appears. A point is a separate run in the background. A short run gives the point at once, and
+// longer runs make it more precise while its number of discs stays selected.
 import {UsageError, perRate, type Crossing, type Rotation} from "./engine";
 import type {Host, Values} from "./host";
 import {addressOf} from "./share";
@@ -40,7 +40,7 @@ export function linkTextOf(setting: Setting): string {
         .map(([n, {mean, error, periods}]) => `${n}_${mean.toPrecision(4)}_${error.toPrecision(2)}_${periods}`).join(",");
 }
 
-/** The points in such a text; wrong ones are omitted. */
+/** The points in such a text; invalid ones are omitted. */
 export function settingFrom(text: string): Setting {
     const setting: Setting = new Map();
     for (const part of text.split(",").slice(0, maxInLink)) {
@@ -145,7 +145,7 @@ export class Discovery {
         return visited !== undefined;
     }
 
-    /** Undefined for a collapsed run or parameters that the engine rejects; the page itself says so. */
+    /** Undefined for a collapsed run or parameters that the engine rejects; the page itself reports that. */
     private async point(given: Values, periods: number): Promise<Visited | undefined> {
         try {
             const {rotation} = await this.runs.run(given, periods);

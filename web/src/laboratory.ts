@@ -7,11 +7,11 @@ import type {Frame, FromWorker, Maps, ToWorker} from "./messages";
 import {language} from "./start";
 import {engineMessage, texts} from "./texts";
 
-/** What the laboratory reports, and to whom: each part of the page listens to some of these. */
+/** The reports of the laboratory. Each part of the page listens to some of them. */
 export interface Reports {
     /** The engine is loaded, and `parameters` is complete. */
     ready: [];
-    /** A new simulation is on its way; there are no frames and averages until "started". */
+    /** A new simulation was requested; there are no frames and averages until "started". */
     begin: [];
     /** A new simulation has begun; `configuration` is complete. */
     started: [];
@@ -56,7 +56,7 @@ export class Laboratory {
     keepsDiscs = true;
     /** The simulation was changed, so no command line reproduces it. */
     wasChanged = false;
-    /** Discs for which there is no room yet. */
+    /** Number of discs that still have to be added, because there was no free position. */
     missing = 0;
     isByHand = false;
     isBackwards = false;
@@ -94,7 +94,7 @@ export class Laboratory {
         this.worker.postMessage(message);
     }
 
-    /** The same, if no answer is missing. Returns whether it was sent. */
+    /** Sends a message unless the answer to an earlier one is missing. Returns whether it was sent. */
     request(message: ToWorker): boolean {
         if (this.isWaiting) return false;
         this.isWaiting = true;
@@ -217,7 +217,7 @@ export class Laboratory {
     }
 
     private hear(data: FromWorker): void {
-        // Answers that belong to an earlier simulation come too late.
+        // Ignores answers that belong to an earlier simulation.
         if ("run" in data && data.run !== this.run) return;
         switch (data.kind) {
             case "ready":

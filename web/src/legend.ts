@@ -1,4 +1,4 @@
-// The legend of the colours, in a lower corner of the image. So saved images and movies have it, too.
+// The legend of the colours, in a lower corner of the image. It is part of the canvas, so saved images and movies contain it.
 import {mapColor} from "./maps";
 import {diverging, looseColor, pinnedColor, type DrawOptions, type Palette} from "./scene";
 import {texts} from "./texts";

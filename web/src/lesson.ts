@@ -1,5 +1,5 @@
-// The lesson: in each step the reader predicts, then sees, and then reads why. The next step opens when the
-// result of the present one is there.
+// The lesson: in each step the reader predicts, observes, and reads the explanation. The next step opens when
+// the result of the present one is known.
 import {searchCrossing, controlling, usualSearch} from "./crossing_search";
 import type {Host, Values} from "./host";
 import {button, element, withError} from "./page";
@@ -181,7 +181,7 @@ function teachingPanel(): HTMLElement {
         element("p", {textContent: team.more}), element("ul", {}, ...pages));
 }
 
-/** The site writes where its documentation is; a single file has none. */
+/** The address of the documentation, which `swirl site` writes into the page; a single file has none. */
 const documentationOf = (): string =>
     document.querySelector<HTMLMetaElement>('meta[name="swirl-documentation"]')?.content ?? "";
 
@@ -189,7 +189,7 @@ const documentationOf = (): string =>
 
 const lines = (count: number): HTMLElement[] => Array.from({length: count}, () => element("div", {className: "write"}));
 
-/** Squared paper with axes: N from 0 to 50, ϖ/Ω from −0.1 to 0.3. */
+/** Graph paper with axes: N from 0 to 50, ϖ/Ω from −0.1 to 0.3. */
 function graph(): SVGSVGElement {
     const space = "http://www.w3.org/2000/svg", width = 500, height = 200;
     const svg = document.createElementNS(space, "svg");

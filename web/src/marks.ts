@@ -127,7 +127,7 @@ export function drawNext(context: CanvasRenderingContext2D, f: Float64Array, fra
 }
 
 /** S, the centre of the path; C, the centre of the container; M, the point of the wall farthest from S. They
- *  have names in the M-frame, which they define. */
+ *  are labelled in the M-frame only, because they define it. */
 export function drawMarks(context: CanvasRenderingContext2D, frame: Frame, {view}: DrawOptions, palette: Palette,
                           hair: number): void {
     const m: [number, number] = [frame.centre[0] + frame.radius * frame.down[0],

@@ -1,5 +1,5 @@
 // Files of the command line on the page: a result or a checkpoint sets the parameters, and the page repeats the
-// run and compares; a trajectory is replayed on the dish.
+// run and compares; a trajectory is replayed in the container's view.
 import {rates, type Estimate} from "./engine";
 import type {Host, Values} from "./host";
 import {button, element, withError} from "./page";
@@ -22,7 +22,7 @@ export type Opened =
     | {kind: "checkpoint"; given: Values; events: number}
     | {kind: "trajectory"; given: Values; trajectory: Trajectory};
 
-/** A file that is no file of swirl; `problem` is a key of texts.opened. */
+/** Thrown for a file that the page cannot read; `problem` is a key of texts.opened. */
 export class NotReadable extends Error {
     constructor(readonly problem: "unknown" | "damaged" | "noParameters") { super(problem); }
 }

@@ -7,13 +7,13 @@ const lapsePace = 16; // periods per second
 const averagedInLapse = 12; // periods after the warm-up
 /** A period of more discs takes too long for a time-lapse. */
 const lapseDiscs = 300;
-/** A change of parameters is shown at the usual pace for so long, before the time-lapse to its averages. */
+/** Time for which a change of parameters is shown at the usual pace, before the time-lapse to its averages. */
 const watched = 3000; // milliseconds
 
 export class Player {
     isPlaying: boolean;
     pace = 1; // periods per second
-    /** The time-lapse starts by itself at the beginning and after a change of parameters. */
+    /** The time-lapse starts automatically at the beginning and after a change of parameters. */
     lapsesByItself = true;
     /** Period at which the time-lapse ends; 0: there is none. */
     private lapseEnd = 0;

@@ -1,5 +1,4 @@
-// A plot of curves: two linear axes, lines with gaps, and whatever its owner draws on top. Each change draws it
-// again.
+// A plot of curves: two linear axes, lines with gaps, and an optional drawing on top. Each change redraws it.
 import {element} from "./page";
 
 export interface Axis {

@@ -1,5 +1,6 @@
-// Die deutschen Texte der Seite, mit denselben Schlüsseln wie texts.en.ts; ein Test vergleicht beide. Meldungen
-// des Programms, Namen von Parametern und Schlüssel in Dateien bleiben englisch wie auf der Kommandozeile.
+// Die deutschen Texte der Seite, mit denselben Schlüsseln wie texts.en.ts; ein Test vergleicht beide. Die
+// Fehlermeldungen des Programms übersetzt texts.engine.de.ts. Namen von Parametern und Schlüssel in Dateien sind in
+// beiden Sprachen englisch.
 
 import type {Crossing, Rate} from "./engine";
 import {symbols} from "./symbols";
@@ -32,7 +33,7 @@ export const texts: typeof en.texts = {
     step: "Nächstes Ereignis (.)",
     lapse: "Vorspulen bis zu den Mittelwerten, ein Bild je Umlauf (F)",
     strobe: "Stroboskop",
-    strobeHelp: "Ein Bild je Umlauf: Das Schwappen verschwindet, die langsame Drehung bleibt (S)",
+    strobeHelp: "Ein Bild je Umlauf: So verschwindet das Schwappen, und die langsame Drehung wird sichtbar (S)",
     restart: "Neu beginnen (R)",
     image: "Bild speichern (PNG)",
     table: "ϖ je Umlauf speichern (CSV)",
@@ -42,7 +43,7 @@ export const texts: typeof en.texts = {
     movie: "Video speichern (WebM)",
     positions: "Orte speichern (XYZ)",
     compare: "Vergleichen",
-    compareHelp: "Behält diese Schale neben der nächsten",
+    compareHelp: "Behält diese Schale auf der Seite, neben einer neuen",
     comparedResult: (name: string, rotation: string): string => `${name}: ${symbols.rotation} = ${rotation}`,
     closeCompared: "Verglichene Schale schließen",
     backwards: "Zeit umkehren",
@@ -51,14 +52,14 @@ export const texts: typeof en.texts = {
     dragHelp: "Ziehe eine Scheibe im Laborsystem; die Zeit steht dabei still. " +
         "Tasten: [ und ] wählen eine Scheibe, Pfeile bewegen sie, Escape hebt die Auswahl auf",
     selected: (disc: number) => `Scheibe ${disc} ist ausgewählt. Pfeile bewegen sie, Escape hebt die Auswahl auf.`,
-    options: "Von Hand, Vergleich und mehr",
+    options: "Von Hand schwenken, vergleichen und mehr",
     speed: "Tempo",
     speedHelp: "Umläufe pro Sekunde",
     view: "Ansicht",
     views: {lab: "Laborsystem", m: "M-System", both: "Beide", density: "Karte: Dichte", flow: "Karte: Strömung",
         spin: "Karte: Eigendrehung"},
     color: "Farbe",
-    colors: {sector: "nach Sektor", spin: "Eigendrehung", speed: "Geschwindigkeit", pinned: "haftend", id: "Scheibe"},
+    colors: {sector: "nach Sektor", spin: "nach Eigendrehung", speed: "nach Geschwindigkeit", pinned: "haftend oder frei", id: "nach Scheibe"},
     pinned: "haftend: bewegt sich mit der Wand",
     loose: "frei",
     sparse: "leer",
@@ -67,7 +68,7 @@ export const texts: typeof en.texts = {
     spinWith: "im Schwenksinn",
     atRest: "in Ruhe",
     fast: "schnell",
-    flowKey: "eine Zelle lang: Geschwindigkeit der Schale",
+    flowKey: "Pfeil von einer Zelle: Geschwindigkeit der Schale",
     lapseNote: "Zeitraffer: ein Bild je Umlauf",
     strobeNote: "Stroboskop: ein Bild je Umlauf",
     forces: "Kräfte",
@@ -81,12 +82,12 @@ export const texts: typeof en.texts = {
     byHandHeadline: (turns: string): string =>
         `Bewege die Schale mit dem Zeiger. Der Haufen hat sich um ${turns} Umdrehungen gedreht.`,
     turned: "gedreht",
-    turnedHelp: "Die Drehrate ϖ, über die Zeit aufsummiert, wie der Bogen sie zeigt",
-    rotationHelp: "Drehrate des Haufens in Einheiten der Schwenkbewegung, Mittel über die Scheiben, zeitlich gemittelt, mit " +
+    turnedHelp: "Winkel, um den sich der Haufen gedreht hat: ϖ, über die Zeit summiert. Der Bogen zeigt diesen Winkel",
+    rotationHelp: "Drehrate des Haufens im Verhältnis zur Rate, mit der die Schale ihre Bahn umläuft: Mittel über Scheiben und Zeit, mit " +
         "Standardunsicherheit. Das Band auf der Skala ist das 95-%-Intervall.",
     periodsHelp: "Umläufe der Schale auf ihrer Bahn",
-    differ: (rigid: string): string => `Als starrer Körper, in dem äußere Scheiben mehr zählen, hat er sich um ${rigid} gedreht: ` +
-        "Innere und äußere Scheiben drehen sich nicht gleich.",
+    differ: (rigid: string): string => `Zählen äußere Scheiben mehr, wie bei einem starren Körper, so hat sich der Haufen um ${rigid} Umdrehungen gedreht: ` +
+        "Innere und äußere Scheiben drehen sich verschieden schnell.",
     sides: {with: "im Schwenksinn", against: "gegen den Schwenksinn"},
     verdict: (n: number, particles: string): [string, string] =>
         [`${particles} ${n === 1 ? "dreht" : "drehen"} sich `, "."],
@@ -98,7 +99,7 @@ export const texts: typeof en.texts = {
         "Eine Scheibe kam dem Schwerpunkt sehr nahe.",
     labels: {discs: "Anzahl der Scheiben", mu: "Reibung", amplitude: "Amplitude", mu_disc: "Reibung zwischen Scheiben",
         mu_wall: "Reibung an der Wand", preset: "Voreinstellung", body: "Körper", radius: "Scheibenradius", mass: "Masse einer Scheibe",
-        inertia: "Trägheitsmoment", mixture: "Zweite Größe", sizes: "Größenverteilung", restitution: "Stoßzahl",
+        inertia: "Trägheitsmoment", mixture: "Zweite Sorte", sizes: "Größenverteilung", restitution: "Stoßzahl",
         tangential_restitution: "Tangentiale Stoßzahl", contact_duration: "Kontaktdauer", floor: "Boden",
         floor_friction: "Reibung am Boden", gravity: "Fallbeschleunigung", rolling_resistance: "Rollwiderstand",
         vertical_disc: "Vertikaler Schlupf, Scheiben", vertical_wall: "Vertikaler Schlupf, Wand", container_radius: "Schalenradius",
@@ -135,7 +136,7 @@ export const texts: typeof en.texts = {
     discovery: {
         title: "Drehung und Anzahl der Scheiben",
         about: "Zu dieser Kurve",
-        help: "Jede Anzahl, die du einstellst, bekommt im Hintergrund einen eigenen Lauf, erst von 50 Umläufen, dann von " +
+        help: "Für jede Anzahl, die du einstellst, rechnet die Seite im Hintergrund einen eigenen Lauf: erst 50 Umläufe, dann " +
             "200 und 800. Balken sind 95-%-Intervalle. Die gestrichelte Linie markiert die jetzige Anzahl, der Ring ihren laufenden " +
             "Mittelwert. Die Punkte bleiben, bis du die Seite schließt; der Link enthält sie.",
         description: (points: number, finding: string): string =>
@@ -143,7 +144,7 @@ export const texts: typeof en.texts = {
         defaults: "Standardwerte",
         noCrossing: "Verschiebe den Regler für die Anzahl der Scheiben. Wo kehrt sich die Drehrichtung um?",
         bracket: (lower: number, upper: number): string =>
-            `Die Richtung kehrt sich zwischen N = ${lower} und N = ${upper} um. Stelle die Zahlen dazwischen ein.`,
+            `Die Richtung kehrt sich zwischen N = ${lower} und N = ${upper} um. Wähle die Zahlen dazwischen.`,
         crossing: (discs: string): string => `Aus deinen Punkten: Die Richtung kehrt sich bei N_c = ${discs} um.`,
         table: "CSV",
         tableHelp: "Die Punkte als Tabelle speichern",
@@ -156,7 +157,7 @@ export const texts: typeof en.texts = {
     },
     explorer: {
         title: "Erkunden: Drehrate oder N_c gegen einen beliebigen Parameter",
-        help: "Läufe auf allen Kernen dieses Rechners, mit den übrigen Parametern wie auf der Seite eingestellt. Die Punkte erscheinen mit " +
+        help: "Die Läufe nutzen alle Kerne dieses Rechners. Die übrigen Parameter sind die der Seite. Die Punkte erscheinen mit " +
             "ihren 95-%-Intervallen. Mit der Anzahl der Scheiben auf der Achse ist das Abbildung 5b der Veröffentlichung. N_c ist die " +
             "Anzahl der Scheiben, bei der sich die Richtung umkehrt.",
         quantity: "Zeige",
@@ -186,7 +187,7 @@ export const texts: typeof en.texts = {
         drop: "Ergebnis, Checkpoint oder Aufzeichnung von swirl hier ablegen",
         close: "Datei schließen",
         unknown: (name: string): string => `'${name}' ist kein Ergebnis, kein Checkpoint und keine Aufzeichnung von swirl.\n` +
-            "Tipp: Öffne eine Datei von swirl run --json, --checkpoint oder --trajectory.",
+            "Tipp: Öffne eine Datei, die swirl run mit --json, --checkpoint oder --trajectory geschrieben hat.",
         tooLarge: (name: string, most: number): string => `'${name}' ist größer als ${most} MB.\n` +
             "Tipp: Nimm swirl movie oder swirl export auf der Kommandozeile.",
         damaged: (name: string): string => `'${name}' ist nicht lesbar: beschädigt oder unvollständig.`,
@@ -198,7 +199,7 @@ export const texts: typeof en.texts = {
         trajectory: (name: string, frames: number, discs: number): string =>
             `Aufzeichnung ${name}: ${frames} Bilder von ${discs} Körpern`,
         incomplete: "Die Datei ist unvollständig; alle Bilder darin werden gezeigt.",
-        parametersSet: "Die Seite hat die Parameter der Datei.",
+        parametersSet: "Die Seite hat jetzt die Parameter der Datei.",
         comparing: "Die Seite wiederholt den Lauf …",
         sameHash: "Die Seite hat den Lauf wiederholt. Der Zustand nach dem letzten Ereignis ist bitgenau derselbe.",
         otherHash: "Die Seite hat den Lauf wiederholt. Der Zustand nach dem letzten Ereignis ist ein anderer.\n" +
@@ -254,7 +255,7 @@ export const texts: typeof en.texts = {
         "Behälter wählen.",
     paint: "Neu färben",
     paintHelp: "Färbt die Scheiben nach dem Sektor, in dem sie jetzt liegen (P)",
-    lapsesByItself: "Von selbst vorspulen",
+    lapsesByItself: "Automatisch vorspulen",
     lapsesHelp: "Am Anfang und drei Sekunden nach einer Änderung läuft die Zeit schnell, bis es Mittelwerte gibt",
     keys: "Tastatur",
     keysOn: "Einzelne Tasten sind Kurzbefehle",
@@ -376,12 +377,12 @@ export const worksheet: typeof en.worksheet = {
     crossing: "Die Richtung kehrt sich um bei N_c =",
     experiment: "Eigenes Experiment",
     experimentText: "Lege 5 mm große Kugeln oder gleich große Murmeln in einen Schraubdeckel. Bewege ihn auf dem Tisch im Kreis, etwa zwei " +
-        "Umläufe pro Sekunde, ohne ihn zu drehen. Bestimme, wie weit sich der Haufen in 20 Umläufen des Deckels dreht. " +
+        "Umläufe pro Sekunde, ohne ihn zu drehen. Miss, wie weit sich der Haufen in 20 Umläufen des Deckels dreht. " +
         "Markiere dazu eine Kugel farbig.",
     number: "Anzahl",
     turns: "Umdrehungen des Haufens",
     direction: "im (+) oder gegen (−) den Schwenksinn",
-    question: "Bei welcher Anzahl hört die Drehung auf? Warum kann sie von der Anzahl auf der Seite abweichen?",
+    question: "Bei welcher Anzahl von Kugeln hört die Drehung auf? Warum kann sie von der Anzahl auf der Seite abweichen?",
 };
 
 export const team: typeof en.team = {
@@ -395,8 +396,8 @@ export const team: typeof en.team = {
         "Aus Videos werden Drehraten: Die Befehle unten finden die Schale und die Kugeln und liefern " +
             "ϖ/Ω mit Unsicherheit.",
         "Unsicherheiten: Aufeinanderfolgende Umläufe sind nicht unabhängig. Teilt das Video deshalb in Blöcke aus mehreren Umläufen und nehmt " +
-            "die Streuung der Blockmittel. Wiederholt jede Anzahl mindestens dreimal mit neuem Anfang; die Streuung der Wiederholungen " +
-            "zeigt, was ein einzelnes Video verbirgt. Eine schiefe Kamera und eine unrunde Bahn ergeben systematische Abweichungen: " +
+            "die Streuung der Blockmittel. Wiederholt jede Anzahl mindestens dreimal, jedes Mal mit neuem Anfang. Die Streuung der " +
+            "Wiederholungen zeigt Abweichungen, die ein einzelnes Video verbirgt. Eine schiefe Kamera und eine unrunde Bahn ergeben systematische Abweichungen: " +
             "Schwenkt die leere Schale mit einer Marke und prüft, ob deren Bahn rund ist.",
         "Mit dem Modell vergleichen: Stellt auf dieser Seite die Werte eurer Schale ein, oder nehmt --preset experiment (rollende Kugeln). Die " +
             "Reibung kennt ihr am schlechtesten; tragt deshalb N_c gegen sie auf und sucht den Wert, der passt.",

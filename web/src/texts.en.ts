@@ -1,5 +1,5 @@
-// The English texts of the page. texts.de.ts has the same keys; a test compares them. The engine's texts remain
-// English, as on the command line: error messages, names of parameters, keys of files.
+// The English texts of the page. texts.de.ts has the same keys; a test compares them. The engine's error
+// messages are translated by texts.engine.de.ts. Names of parameters and keys of files are English in both languages.
 
 import type {Crossing, Rate} from "./engine";
 import {symbols} from "./symbols";
@@ -32,7 +32,7 @@ export const texts = {
     step: "Next event (.)",
     lapse: "Fast-forward to the averages, one image per period (F)",
     strobe: "Stroboscope",
-    strobeHelp: "One image per period: the sloshing stops, the slow turning remains (S)",
+    strobeHelp: "One image per period: this hides the sloshing and shows the slow rotation (S)",
     restart: "Restart (R)",
     image: "Save image (PNG)",
     table: "Save ϖ per period (CSV)",
@@ -42,7 +42,7 @@ export const texts = {
     movie: "Save movie (WebM)",
     positions: "Save positions (XYZ)",
     compare: "Compare",
-    compareHelp: "Keeps this container next to the next one",
+    compareHelp: "Keeps this container on the page, next to a new one",
     comparedResult: (name: string, rotation: string): string => `${name}: ${symbols.rotation} = ${rotation}`,
     closeCompared: "Close the compared container",
     backwards: "Reverse time",
@@ -51,14 +51,14 @@ export const texts = {
     dragHelp: "Drag a disc in the lab frame; time pauses meanwhile. " +
         "Keys: [ and ] select a disc, arrows move it, Escape deselects it",
     selected: (disc: number) => `Disc ${disc} is selected. Arrows move it, Escape deselects it.`,
-    options: "By hand, compare and more",
+    options: "Move by hand, compare and more",
     speed: "Pace",
     speedHelp: "Periods per second",
     view: "View",
     views: {lab: "Lab frame", m: "M-frame", both: "Both", density: "Map of density", flow: "Map of flow",
         spin: "Map of spin"},
     color: "Colour",
-    colors: {sector: "by sector", spin: "spin", speed: "speed", pinned: "pinned", id: "disc"},
+    colors: {sector: "by sector", spin: "by spin", speed: "by speed", pinned: "pinned or loose", id: "by disc"},
     pinned: "pinned: moves with the wall",
     loose: "loose",
     sparse: "empty",
@@ -67,7 +67,7 @@ export const texts = {
     spinWith: "with",
     atRest: "at rest",
     fast: "fast",
-    flowKey: "one cell long: speed of the container",
+    flowKey: "arrow one cell long: speed of the container",
     lapseNote: "time-lapse: one image per period",
     strobeNote: "stroboscope: one image per period",
     forces: "Forces",
@@ -81,12 +81,12 @@ export const texts = {
     byHandHeadline: (turns: string): string =>
         `Move the container with the pointer. The cluster has rotated by ${turns} turns.`,
     turned: "turned",
-    turnedHelp: "The rotation rate ϖ added up over time, as the arc shows it",
-    rotationHelp: "Rotation rate of the cluster in units of the swirl's, mean over the discs, by time, with its standard error. " +
-        "The band on the gauge is the 95 % interval.",
+    turnedHelp: "Angle by which the cluster has rotated: ϖ summed over time. The arc shows this angle",
+    rotationHelp: "Rotation rate of the cluster relative to the rate at which the container moves around its path: mean over discs and " +
+        "time, with its standard error. The band on the gauge is the 95 % interval.",
     periodsHelp: "Turns of the container on its path",
-    differ: (rigid: string): string => `As a rigid body, in which outer discs weigh more, it turned ${rigid}: ` +
-        "inner and outer discs do not turn alike.",
+    differ: (rigid: string): string => `With more weight on outer discs, as in a rigid body, the cluster has turned by ${rigid} turns: ` +
+        "inner and outer discs rotate at different rates.",
     sides: {with: "with the swirl", against: "against the swirl"},
     /** The text before and after the direction. */
     verdict: (n: number, particles: string): [string, string] => [`${particles} ${n === 1 ? "turns" : "turn"} `, "."],
@@ -99,10 +99,10 @@ export const texts = {
         "a disc passed close to the centre of mass.",
     labels: {discs: "Number of discs", mu: "Friction", amplitude: "Amplitude", mu_disc: "Friction between discs",
         mu_wall: "Friction at the wall", preset: "Preset", body: "Body", radius: "Disc radius", mass: "Disc mass",
-        inertia: "Moment of inertia", mixture: "Second size", sizes: "Distribution of sizes", restitution: "Bounciness",
+        inertia: "Moment of inertia", mixture: "Second species", sizes: "Distribution of sizes", restitution: "Bounciness",
         tangential_restitution: "Tangential bounciness", contact_duration: "Contact duration", floor: "Floor",
         floor_friction: "Friction of the floor", gravity: "Gravity", rolling_resistance: "Rolling resistance",
-        vertical_disc: "Vertical slip, discs", vertical_wall: "Vertical slip, wall", container_radius: "Dish radius",
+        vertical_disc: "Vertical slip, discs", vertical_wall: "Vertical slip, wall", container_radius: "Container radius",
         period: "Period", speed: "Speed", path: "Path", sides: "Sides of the path",
         direction: "Direction of the path", path_phase: "Start on the path", warmup: "Warm-up", seed: "Seed",
     } as Record<string, string>,
@@ -111,7 +111,7 @@ export const texts = {
     more: "More parameters",
     turns: (turns: string): string => `${turns} turns`,
     noCommand: "none, because the simulation was changed while it ran",
-    maps: {density: "density, mean so far", flow: "flow relative to the dish", spin: "mean spin"},
+    maps: {density: "density, mean so far", flow: "flow relative to the container", spin: "mean spin"},
     mapEmpty: "no averages yet",
     profile: "Rotation against the angle in the M-frame (the paper's Figure 3)",
     theta: "angle θ in the M-frame, M is at 270°",
@@ -136,15 +136,15 @@ export const texts = {
     discovery: {
         title: "Rotation against the number of discs",
         about: "About this plot",
-        help: "Each number of discs that you visit gets a run of its own in the background, first of 50 periods, then of " +
-            "200 and 800. Bars are 95 % intervals. The dashed line marks the present number, the ring its live average. " +
+        help: "For each number of discs that you select, the page makes a separate run in the background: first of 50 periods, " +
+            "then of 200 and 800. Bars are 95 % intervals. The dashed line marks the present number, the ring its live average. " +
             "The points stay until you close the page; the link contains them.",
         description: (points: number, finding: string): string =>
             `Plot of the rotation rate against the number of discs with ${points} points. ${finding}`,
         defaults: "default parameters",
         noCrossing: "Move the slider of the number of discs. Where does the direction of rotation change?",
         bracket: (lower: number, upper: number): string =>
-            `The direction changes between N = ${lower} and N = ${upper}. Visit the numbers in between.`,
+            `The direction changes between N = ${lower} and N = ${upper}. Select the numbers in between.`,
         crossing: (discs: string): string => `From your points: the direction changes at N_c = ${discs}.`,
         table: "CSV",
         tableHelp: "Save the points as a table",
@@ -157,7 +157,7 @@ export const texts = {
     },
     explorer: {
         title: "Explorer: rotation or N_c against any parameter",
-        help: "Runs on all cores of this computer, with the other parameters as set on the page. Points appear with their " +
+        help: "The runs use all cores of this computer. The other parameters are those of the page. Points appear with their " +
             "95 % intervals. With the number of discs on the axis, this is the paper's Figure 5b. N_c is the number of discs at which the direction changes.",
         quantity: "Show",
         crossing: "N_c",
@@ -184,8 +184,8 @@ export const texts = {
         help: "A result (JSON), a checkpoint or a trajectory (HDF5). You can also drop it on the page. It stays on this computer.",
         drop: "Drop a result, checkpoint or trajectory of swirl here",
         close: "Close the file",
-        unknown: (name: string): string => `'${name}' is no result, checkpoint or trajectory of swirl.\n` +
-            "hint: open a file of swirl run --json, --checkpoint or --trajectory.",
+        unknown: (name: string): string => `'${name}' is not a result, checkpoint or trajectory of swirl.\n` +
+            "hint: open a file that swirl run wrote with --json, --checkpoint or --trajectory.",
         tooLarge: (name: string, most: number): string => `'${name}' is larger than ${most} MB.\n` +
             "hint: use swirl movie or swirl export on the command line.",
         damaged: (name: string): string => `'${name}' cannot be read: it is damaged or incomplete.`,
@@ -197,7 +197,7 @@ export const texts = {
         trajectory: (name: string, frames: number, discs: number): string =>
             `Trajectory ${name}: ${frames} frames of ${discs} particles`,
         incomplete: "The file is incomplete; all frames in it are shown.",
-        parametersSet: "The page has the parameters of the file.",
+        parametersSet: "The page now has the parameters of the file.",
         comparing: "The page repeats the run…",
         sameHash: "The page repeated the run. The state after its last event is bitwise identical.",
         otherHash: "The page repeated the run. The state after its last event differs.\n" +
@@ -232,8 +232,8 @@ export const texts = {
         ranges: (lower: number, upper: number): string =>
             lower <= 0 ? `below ${upper + 1} discs` : upper === Infinity ? `${lower} discs or more` : `${lower} to ${upper} discs`,
         teaching: "For teachers and tournament teams",
-        worksheetHelp: "The lesson has six steps; in each, the class predicts, then sees, then explains. The worksheet has the " +
-            "same questions, squared paper for the points, and an experiment with marbles.",
+        worksheetHelp: "The lesson has six steps; in each, the class predicts, observes and explains. The worksheet has the " +
+            "same questions, graph paper for the points, and an experiment with marbles.",
         worksheet: "Print the worksheet",
         team: "For tournament teams",
     },
@@ -252,7 +252,7 @@ export const texts = {
         "arrangement without overlap was found within a second.\nhint: choose fewer discs, smaller ones, or a larger container.",
     paint: "Paint again",
     paintHelp: "Colours the discs by the sector in which they are now (P)",
-    lapsesByItself: "Fast-forward by itself",
+    lapsesByItself: "Fast-forward automatically",
     lapsesHelp: "At the start, and three seconds after a change, time runs fast until there are averages",
     keys: "Keyboard",
     keysOn: "Single keys are shortcuts",
@@ -263,7 +263,7 @@ export const texts = {
         h: ["H", "move by hand"], "+": ["+", "one disc more"], "-": ["−", "one disc less"], m: ["M", "more parameters"],
         l: ["L", "lesson"], e: ["E", "explorer"], d: ["D", "save and share"], "?": ["?", "this list"],
     } as Record<string, [string, string]>,
-    keysOfDish: "In the dish: [ and ] select a disc, the arrows move it, Escape deselects it.",
+    keysOfDish: "In the container: [ and ] select a disc, the arrows move it, Escape deselects it.",
     placing: (particles: string): string => `Placing ${particles}…`,
     running: {
         events: (done: number, all: number): string => `${done} of ${all} events done.`,
@@ -277,7 +277,7 @@ export const texts = {
     container: (particles: string, view: string): string => `${particles} in a swirled container, ${view}`,
     /** Translations of parameter groups and descriptions; the command line's texts are the default. */
     groups: {friction: "Friction", particles: "Particles", collisions: "Collisions", floor: "Floor and rolling",
-        container: "Dish and path", run: "Run"} as Record<string, string>,
+        container: "Container and path", run: "Run"} as Record<string, string>,
     descriptions: {} as Record<string, string>,
 };
 
@@ -313,7 +313,7 @@ export const lessonSteps: StepTexts[] = [
          "before. The rest of the lesson looks for the reason."},
     {title: "The change of direction",
      text: "Somewhere between 8 and 48 discs the direction changes. This number is called N_c. After your prediction, move " +
-         "the slider of the number of discs. Each number that you visit drops a point on the plot.",
+         "the slider of the number of discs. Each number that you select adds a point to the plot.",
      question: "At which number of discs does the direction change?",
      explanation: "Near N_c the cluster sloshes around the container without rotating. The page has searched for N_c with " +
          "many runs. Do your own points agree with it?"},
@@ -329,8 +329,8 @@ export const lessonSteps: StepTexts[] = [
      text: "The 48 discs keep their friction with each other, but now the wall is perfectly smooth.",
      question: "Which way does the cluster rotate without friction at the wall?",
      explanation: "A smooth belt cannot drag anything, so the cluster follows the swirl. Try the opposite, too: friction " +
-         "at the wall (mu_wall 1) but none between the discs (mu_disc 0). Then each disc rolls along the wall like a ball " +
-         "bearing, and the cluster again follows the swirl. Counterrotation needs friction at both."},
+         "at the wall (mu_wall 1) but none between the discs (mu_disc 0). Then each disc rolls along the wall as in a ball " +
+         "bearing, and the cluster again follows the swirl. Counterrotation needs both kinds of friction."},
     {title: "Frustration",
      text: "A disc at the wall tends to roll along it. Discs that touch and roll on each other spin in opposite " +
          "directions, like gears. Colours show the direction of the spin.",
@@ -352,14 +352,14 @@ export const worksheet = {
     table: "Step 3: my points",
     graph: "Rotation rate against the number of discs",
     crossing: "The direction changes at N_c =",
-    experiment: "Own experiment",
+    experiment: "Your own experiment",
     experimentText: "Put 5 mm spheres or marbles of one size into the lid of a jar. Move it in circles on the table, about two " +
-        "turns per second, without turning it. Count how far the cluster rotates in 20 turns of the container. " +
-        "Mark one sphere with a colour.",
+        "circles per second, without rotating it. Measure how far the cluster rotates in 20 circles of the lid. " +
+        "To see this, mark one sphere with a colour.",
     number: "number",
     turns: "turns of the cluster",
     direction: "with (+) or against (−) the swirl",
-    question: "At which number does the rotation stop? Why can it differ from the number on the page?",
+    question: "At which number of spheres does the rotation stop? Why can it differ from the number on the page?",
 };
 
 export const team = {
@@ -369,13 +369,13 @@ export const team = {
         "Measure with a phone: fix it above the dish with the camera axis vertical, and record in slow motion (120 or 240 frames " +
             "per second). Light from the side, a matt dark floor, and a coloured mark on the dish help the tracking.",
         "Vary one quantity at a time: number and size of the spheres, radius and frequency of the path, material of the wall. " +
-            "The explorer on this page shows which of them moves N_c.",
+            "The explorer on this page shows which of them changes N_c.",
         "Turn videos into rotation rates with the program: the commands below find the dish and the spheres, and " +
             "give ϖ/Ω with its error.",
         "Errors: successive periods are not independent, so divide the video into blocks of several periods and use the " +
-            "scatter of the block means. Repeat each number at least three times, with fresh starts; the scatter between repeats " +
-            "shows what a single video hides. A tilted camera and a path that is no circle give systematic errors: " +
-            "swirl the empty dish with one mark on it and check that its path is round.",
+            "scatter of the block means. Repeat each number at least three times, each time with a new start. The scatter between " +
+            "repeats shows errors that a single video hides. A tilted camera and a path that is not a circle give systematic " +
+            "errors: swirl the empty dish with one mark on it and check that the path of the mark is round.",
         "Compare with the model: set the parameters of your dish on this page or with --preset experiment (rolling spheres). Friction " +
             "is the quantity that you know least, so plot N_c against it and find the value that fits.",
     ],

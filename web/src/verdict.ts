@@ -78,7 +78,7 @@ export class Verdict {
         lab.on("progress", (unit, done, all) => this.say(texts.running[unit](done, all)));
     }
 
-    /** A text that stands in place of the verdict until the next one. */
+    /** Shows a text instead of the verdict until the next verdict. */
     say(text: string): void {
         if (text === this.said) return;
         this.said = text;

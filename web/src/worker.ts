@@ -136,7 +136,7 @@ function requestChange(given: Record<string, string>): void {
 
 const triesToFit = 12; // four periods
 
-/** Discs that have no room at this moment are added a third of a period later. */
+/** Discs without a free position at this moment are added a third of a period later. */
 function applyChange(given: Record<string, string>, tries = triesToFit): void {
     if (!engine) return;
     change = undefined;
@@ -146,7 +146,7 @@ function applyChange(given: Record<string, string>, tries = triesToFit): void {
         period = Number(configuration["period"]);
     }
     toFit = missing && tries > 0 ? {given, tries: tries - 1} : undefined;
-    // Without a place for all discs after some periods, a new simulation places them.
+    // If some discs still have no free position after some periods, a new simulation places all discs.
     send({kind: "changed", run: runNumber, kept: missing === 0 || toFit !== undefined,
           missing: missing ?? 0, configuration});
     show();

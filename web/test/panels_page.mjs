@@ -190,7 +190,7 @@ await page.waitForSelector('canvas[aria-label^="6 spheres"]');
 await page.fill("#parameter-discs", "9");
 await page.waitForSelector('canvas[aria-label^="9 spheres"]');
 assert.equal(await page.isVisible("#opened"), false);
-for (const [buffer, said] of [["no such thing", /'a\.txt' is no result/], ["{\"config\": {", /'a\.txt' cannot be read/],
+for (const [buffer, said] of [["no such thing", /'a\.txt' is not a result/], ["{\"config\": {", /'a\.txt' cannot be read/],
                               ["\x89HDF\r\n\x1a\n1234", /'a\.txt' cannot be read/]]) {
     await page.setInputFiles("#open-file", {name: "a.txt", mimeType: "text/plain", buffer: Buffer.from(buffer, "latin1")});
     await page.waitForFunction((wanted) => new RegExp(wanted).test(document.getElementById("error").textContent), said.source);
