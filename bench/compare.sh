@@ -44,7 +44,7 @@ if ! build "$old" "$work/old-$commit"; then
     build "$old" "$work/old-$commit" || { tail -20 "$work/old-$commit.log" >&2; exit 1; }
 fi
 
-processor=$(taskset -cp $$ | sed 's/.*[^0-9]//') # the last that we may use
+processor=$(taskset -cp $$ | sed 's/.*[^0-9]//') # the last one that this process may use
 for round in $(seq "$rounds"); do
     echo "round $round of $rounds" >&2
     for which in "old-$commit" new; do

@@ -12,7 +12,7 @@ target_include_directories(swirl_physics INTERFACE
 # The event loop and the averages by event are compiled once for each vector width; the program picks
 # the widest that the processor has. swirl_vector_sources(VARIABLE) gives NAME_avx2.cpp and
 # NAME_avx512.cpp in that list their instruction sets, and drops them on other architectures.
-# Everything else is baseline x86-64.
+# All other files are compiled for baseline x86-64.
 function(swirl_vector_sources variable)
   set(sources ${${variable}})
   set(avx2_sources ${sources})
@@ -21,7 +21,7 @@ function(swirl_vector_sources variable)
   list(FILTER avx512_sources INCLUDE REGEX "_avx512\\.cpp$")
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND SWIRL_WIDE_VECTORS)
     # The undefined-behaviour sanitizer checks the baseline loop only: the wide loops are the same
-    # source, and each of them takes the compiler a minute more with it.
+    # source, and with this sanitizer each takes a minute more to compile.
     set(once $<$<BOOL:${SWIRL_SANITIZE}>:-fno-sanitize=undefined>)
     set_source_files_properties(${avx2_sources} PROPERTIES COMPILE_OPTIONS "-mavx2;${once}")
     # g++ 12 warns about its own intrinsics there.
@@ -45,8 +45,8 @@ add_library(swirl_engine STATIC ${engine_sources})
 target_link_libraries(swirl_engine PUBLIC swirl_physics)
 target_compile_options(swirl_engine PRIVATE -fno-exceptions)
 if(SWIRL_FUZZ)
-  # Random input is for the readers of files. The engine has its own suite with sanitizers, which make
-  # the compiler take minutes for each of its loops.
+  # The fuzz targets test the readers of files. The engine has a separate suite with sanitizers; here they
+  # would add minutes of compilation for each event loop.
   target_compile_options(swirl_engine PRIVATE -fno-sanitize=all)
 endif()
 foreach(layer statistics measure)
@@ -56,7 +56,7 @@ endforeach()
 target_link_libraries(swirl_statistics PUBLIC swirl_physics)
 target_link_libraries(swirl_measure PUBLIC swirl_statistics)
 swirl_compiled_at_once(swirl_measure)
-# By these names, installed or as a subdirectory.
+# These names are valid for the installed package and for add_subdirectory.
 add_library(swirl::engine ALIAS swirl_engine)
 add_library(swirl::statistics ALIAS swirl_statistics)
 add_library(swirl::measure ALIAS swirl_measure)

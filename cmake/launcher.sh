@@ -3,8 +3,8 @@
 # tree, $me, its name, and $long, the duration of a first build on two cores. It may set $settings,
 # arguments for cmake, afterwards.
 #
-# All messages go to stderr: stdout belongs to the program (`--json -`). POSIX sh, and of find also
-# -cnewer, which GNU and BSD have.
+# All messages go to stderr: stdout belongs to the program (`--json -`). The functions use POSIX sh, and
+# `find -cnewer`, which GNU and BSD have.
 
 settings= # ignores a variable of that name in the environment
 
@@ -13,12 +13,12 @@ give_up() {
     say "$*"
     exit 1
 }
-wrong_call() {
+usage_error() {
     say "$*"
     exit 2
 }
 
-# A word as a shell reads it back.
+# Prints a word with the quotes that a shell needs to read it back.
 shell_word() {
     case $1 in
         '' | *[!A-Za-z0-9_+=./:,@%-]*) printf "'%s'" "$(printf %s "$1" | sed "s/'/'\\\\''/g")" ;;
@@ -47,7 +47,7 @@ listed_packages() {
     done
 }
 
-# Those of them that are not installed. One call of dpkg-query answers for all.
+# The packages of these sections that are not installed. One call of dpkg-query checks all of them.
 missing_packages() {
     wanted=$(listed_packages "$@")
     # shellcheck disable=SC2086
@@ -77,7 +77,7 @@ install_packages() {
         return 1
     fi
     if [ "${SWIRL_INSTALL-}" = no ]; then
-        say "some Debian packages are missing, and SWIRL_INSTALL=no forbids to install them; the command is:"
+        say "some Debian packages are missing, but SWIRL_INSTALL=no is set; this installs them:"
         echo "    apt-get install --no-install-recommends $missing" >&2
         return 1
     fi
@@ -85,7 +85,7 @@ install_packages() {
     say "installing Debian packages, once (SWIRL_INSTALL=no forbids it): $missing"
     # shellcheck disable=SC2086
     apt_install $missing </dev/null >"$log" 2>&1 && return 0
-    # A machine that has never installed packages has no lists of them, or old ones.
+    # The lists of packages may be missing or old, for example on a new machine.
     # shellcheck disable=SC2086
     if ! is_interrupted_dpkg && apt-get -o DPkg::Lock::Timeout=300 update </dev/null >>"$log" 2>&1 &&
         apt_install $missing </dev/null >>"$log" 2>&1; then
@@ -96,7 +96,7 @@ install_packages() {
         say "an earlier installation of packages was interrupted; this completes it, then try again:"
         echo "    dpkg --configure -a" >&2
     else
-        say "installing the packages failed (see above, all of it in $log); this is the command:"
+        say "installing the packages failed (see above; full log: $log); this is the command:"
         echo "    apt-get install --no-install-recommends $missing" >&2
     fi
     return 1
@@ -135,8 +135,8 @@ has_tools() {
     return 1
 }
 
-# Tells whether the packages in the sections "$@" are installed. Looks again only if packages were installed
-# or removed since.
+# Succeeds if the packages in the sections "$@" are installed. Asks dpkg again only if packages were
+# installed or removed since the last call.
 has_packages() {
     packages_stamp=$home/build/.packages-$(echo "$@" | tr ' ' '-')
     if [ "$packages_stamp" -nt /var/lib/dpkg/status ] && [ "$packages_stamp" -nt "$home/packages" ]; then
@@ -148,14 +148,14 @@ has_packages() {
 }
 
 # Installs the packages in the sections "$@", which a call needs in addition to the program. If that
-# fails, the program does what it can without them.
+# fails, the call continues, and the program reports what is missing.
 packages_for_this_call() {
     mkdir -p "$home/build" 2>/dev/null || return 0
     has_packages "$@" || ! install_packages "$@" || touch "$packages_stamp" 2>/dev/null || true
 }
 
-# Tells whether the sources, the current commit (which every result names) or the installed packages
-# have changed since the stamp; "$@" names more files and folders. It compares ctime, so that files moved
+# Succeeds if the sources, the current commit (which every result names) or the installed packages
+# have changed since the stamp was set; "$@" names more files and folders. It compares ctime, so that files moved
 # here with an old date count; a removed file counts because its folder has changed.
 changed_since() {
     changed=$(
@@ -173,15 +173,15 @@ changed_since() {
 
 # A lock is a symbolic link that names the process which has it: a link is created in one step or not at
 # all.
-is_running() { # also a process of another user, on Linux without ps, too
+is_running() { # also for a process of another user; on Linux also without ps
     kill -0 "$1" 2>/dev/null || [ -d "/proc/$1" ] || ps -p "$1" >/dev/null 2>&1
 }
 is_locked() {
     owner=$(readlink "$1" 2>/dev/null) && is_running "$owner"
 }
 
-# Waits for the lock $1 and takes it. The lock of a process that ended without removing it is removed, and
-# so is a file with this name, which names no process.
+# Waits for the lock $1 and takes it. Removes a lock whose process has ended, and an ordinary file with
+# this name, because it names no process.
 take_lock() {
     failed=0
     until ln -s $$ "$1" 2>/dev/null; do
@@ -205,7 +205,8 @@ unlock_build() { rm -f "$home/build/.building"; }
 # Renames a file or folder. Never moves it into an existing folder.
 rename() { ! [ -d "$2" ] && mv -f "$1" "$2"; }
 
-# The Python that has the packages of the file `packages`: on Debian its own, elsewhere the first on PATH.
+# Prints the Python that has the packages of the file `packages`: on Debian /usr/bin/python3, on other
+# systems the first python3 on PATH.
 system_python() {
     if command -v dpkg-query >/dev/null; then echo /usr/bin/python3; else command -v python3; fi
 }
@@ -222,7 +223,7 @@ report_progress() {
     done
 }
 
-# is_built PRESET [FOLDERS_WATCHED [TARGETS]]: whether build/PRESET is newer than all of its sources.
+# is_built PRESET [FOLDERS_WATCHED [TARGETS]]: succeeds if build/PRESET is newer than all of its sources.
 is_built() {
     stamp="$home/build/$1/.built${3:+ $3}${settings:+ $settings}"
     # shellcheck disable=SC2086
@@ -230,7 +231,7 @@ is_built() {
 }
 
 # build PRESET SECTIONS_NEEDED [FOLDERS_WATCHED [TARGETS]]
-# Builds in build/PRESET all or these targets, if they are not up to date.
+# Builds these targets, or all, in build/PRESET if they are not up to date.
 build() {
     if is_built "$1" "${3-}" "${4-}"; then return 0; fi
     case $home in
@@ -256,13 +257,14 @@ build() {
         rm -rf "$folder"
         mkdir -p "$folder"
     fi
-    # ninja compares modification times only, so files that changed otherwise get a new one.
+    # ninja compares modification times only. A file that was replaced by one with an old date has a newer
+    # ctime, so it gets a new date.
     if [ -e "$stamp" ]; then
         # shellcheck disable=SC2086
         (cd "$home" && find src cmake CMakeLists.txt ${3-} -type f -cnewer "$stamp" ! -newer "$stamp" \
             -exec touch {} + 2>/dev/null) || true
     fi
-    [ -e "$stamp" ] || say "building, once; on two cores this takes $long"
+    [ -e "$stamp" ] || say "building the program, only once; this takes $long on two cores"
     touch "$stamp.building"
     log=$folder/build.log
     : >"$log"
@@ -276,13 +278,13 @@ build() {
     if [ $built = no ]; then
         tail -n 40 "$log" >&2
         unlock_build
-        give_up "the build failed (see above, all of it in $log)."
+        give_up "the build failed (see above; full log: $log)."
     fi
     mv "$stamp.building" "$stamp" # dated before the build: later changes are newer
     unlock_build
 }
 
-# print_section HEADING: the first block of text below `## HEADING` of docs/reference/commands.md.
+# print_section HEADING: prints the first block of text below `## HEADING` of docs/reference/commands.md.
 print_section() {
     heading="## $1" awk '
         /^```/ { if (here && inside) exit; inside = !inside; next }

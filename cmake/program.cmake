@@ -6,7 +6,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(Threads REQUIRED)
 find_package(CLI11 REQUIRED)
-# Debian keeps HDF5's serial build in a folder of its own.
+# Debian has HDF5's serial build in a separate folder.
 find_path(hdf5_include hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_library hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_hl_library hdf5_hl PATH_SUFFIXES hdf5/serial REQUIRED)
@@ -29,7 +29,7 @@ swirl_layer(io -O2
   PUBLIC swirl_measure swirl_engine nlohmann_json::nlohmann_json fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${hdf5_library} ${hdf5_hl_library})
 target_include_directories(swirl_io SYSTEM PRIVATE ${hdf5_include})
-# Their classes have members of types in unnamed namespaces.
+# Classes in these files have members of types in unnamed namespaces. In a batch, g++ warns about them.
 set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer.cpp
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 swirl_layer(run -O1 PUBLIC swirl_io)

@@ -1,7 +1,7 @@
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=12
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-# Without git (not installed, or the tree belongs to another user) the folder .git
-# still tells the commit, though not whether the sources were changed since.
+# If git fails (it is not installed, or the tree belongs to another user), the folder .git still
+# contains the commit, but not whether the sources have changed since.
 if(NOT commit AND EXISTS ${SOURCE_DIR}/.git/HEAD)
   file(STRINGS ${SOURCE_DIR}/.git/HEAD commit LIMIT_COUNT 1)
   if(commit MATCHES "^ref: (.*)$")

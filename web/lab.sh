@@ -39,7 +39,7 @@ is_parameter() {
 given= # NAME=VALUE, one per line
 give() {
     case $2 in
-        *"$newline"*) wrong_call "--$1 contains a line break, but a value must be one line of text." ;;
+        *"$newline"*) usage_error "--$1 contains a line break, but a value must be one line of text." ;;
     esac
     given=$given$(printf %s "$1" | tr - _)=$2$newline
 }
@@ -51,7 +51,7 @@ while [ $# -gt 0 ]; do
     case $1 in
         -h | --help) usage && exit 0 ;;
         --port | --out)
-            [ $# -gt 1 ] || wrong_call "$1 needs a value. See swirl lab --help."
+            [ $# -gt 1 ] || usage_error "$1 needs a value. See swirl lab --help."
             [ "$1" = --out ] && out=$2 || port=$2
             shift 2
             ;;
@@ -60,34 +60,34 @@ while [ $# -gt 0 ]; do
         --no-browser) browser=no && shift ;;
         --quiet) quiet=yes && shift ;;
         --)
-            [ $# -eq 1 ] || wrong_call "unexpected argument '$2'. See swirl lab --help."
+            [ $# -eq 1 ] || usage_error "unexpected argument '$2'. See swirl lab --help."
             break
             ;;
         --*)
             name=${1#--}
             name=$(printf %s "${name%%=*}" | tr _ -)
-            is_parameter "$name" || wrong_call "there is no option '${1%%=*}'. See swirl lab --help."
+            is_parameter "$name" || usage_error "there is no option '${1%%=*}'. See swirl lab --help."
             case $1 in
                 *=*) give "$name" "${1#*=}" && shift ;;
                 *)
-                    [ $# -gt 1 ] || wrong_call "$1 needs a value. See swirl lab --help."
+                    [ $# -gt 1 ] || usage_error "$1 needs a value. See swirl lab --help."
                     give "$name" "$2"
                     shift 2
                     ;;
             esac
             ;;
-        *) wrong_call "there is no option '$1'. See swirl lab --help." ;;
+        *) usage_error "there is no option '$1'. See swirl lab --help." ;;
     esac
 done
 case $port in
-    '' | *[!0-9]* | ??????*) wrong_call "--port is '$port', but it must be a whole number from 1 to 65535." ;;
+    '' | *[!0-9]* | ??????*) usage_error "--port is '$port', but it must be a whole number from 1 to 65535." ;;
 esac
 [ "$port" -ge 1 ] && [ "$port" -le 65535 ] ||
-    wrong_call "--port is '$port', but it must be a whole number from 1 to 65535."
+    usage_error "--port is '$port', but it must be a whole number from 1 to 65535."
 
 # A rename would replace a device by a file, and would move the file into a folder.
 if [ -n "$out" ] && [ -e "$out" ] && ! [ -f "$out" ]; then
-    wrong_call "--out is '$out', which exists and is not a file. Choose another name."
+    usage_error "--out is '$out', which exists and is not a file. Choose another name."
 fi
 
 page=$home/build/lab/index.html

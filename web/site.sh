@@ -26,33 +26,33 @@ while [ $# -gt 0 ]; do
     case $1 in
         -h | --help) usage && exit 0 ;;
         --out | --report)
-            [ $# -gt 1 ] && [ -n "$2" ] || wrong_call "$1 needs a value. See swirl site --help."
+            [ $# -gt 1 ] && [ -n "$2" ] || usage_error "$1 needs a value. See swirl site --help."
             [ "$1" = --out ] && out=$2 || report=$2
             shift 2
             ;;
         --out=*) out=${1#*=} && shift ;;
         --report=*) report=${1#*=} && shift ;;
         --)
-            [ $# -eq 1 ] || wrong_call "unexpected argument '$2'. See swirl site --help."
+            [ $# -eq 1 ] || usage_error "unexpected argument '$2'. See swirl site --help."
             break
             ;;
-        *) wrong_call "there is no option '$1'. See swirl site --help." ;;
+        *) usage_error "there is no option '$1'. See swirl site --help." ;;
     esac
 done
-[ -n "$out" ] || wrong_call "missing required option --out DIR."
+[ -n "$out" ] || usage_error "missing required option --out DIR."
 if [ -n "$report" ] && ! [ -e "$report/report.html" ]; then
-    wrong_call "--report is '$report', but it contains no report.html. Run swirl paper first."
+    usage_error "--report is '$report', but it contains no report.html. Run swirl paper first."
 fi
 # Only a folder that this command wrote is replaced.
 if [ -e "$out" ] && ! [ -e "$out/.swirl-site" ] && [ -n "$(ls -A "$out" 2>/dev/null || echo no folder)" ]; then
-    wrong_call "--out is '$out', which is neither empty nor a site. Choose another name."
+    usage_error "--out is '$out', which is neither empty nor a site. Choose another name."
 fi
 
 # The site is built in a temporary folder next to it, which is locked meanwhile. After a kill that folder
 # remains without a lock. If the kill came between the two renames at the end, the old site is in it and
 # is moved back.
 out=${out%"${out##*[!/]}"} # without trailing slashes
-lock=lock.$(uname -n) # a process is known on its machine only
+lock=lock.$(uname -n) # a process number is valid on its machine only
 for left in "$out".partial.??????; do
     [ -h "$left/$lock" ] && ! is_locked "$left/$lock" || continue
     [ -e "$out" ] || ! [ -e "$left/before" ] || rename "$left/before" "$out"
@@ -88,7 +88,7 @@ elif ! "$python" "$home/web/notebooks.py" "$temporary/notebooks" "$home"/example
     tail -n 5 "$log" >&2
     give_up "the notebooks of examples/ could not be executed (see above)."
 fi
-# Pages of another Sphinx or theme are another site, so these are Debian's.
+# Other versions of Sphinx and of its theme make other pages, so Debian's are used.
 if ! "$(system_python)" -B "$home/web/site.py" "$home" "$source" "$temporary/gallery" "$temporary/notebooks" >"$log" 2>&1 ||
     ! sphinx-build -q -W --keep-going -c "$source/docs" -d "$temporary/doctrees" "$source" "$site" >"$log" 2>&1; then
     tail -n 20 "$log" >&2

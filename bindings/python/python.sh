@@ -4,7 +4,7 @@
 set -eu
 home=$(dirname "$(dirname "$(dirname "$(readlink -f "$0")")")")
 me=swirl
-long="three minutes or so"
+long="about three minutes"
 . "$home/cmake/launcher.sh"
 
 build release "build python" bindings/python swirl_python

@@ -6,7 +6,7 @@
 # A wheel with the Cairo of a distribution needs libX11 and libXrender. auditwheel does not put these into the
 # wheel, because it expects them on every Linux. Containers and servers often have no X11.
 # Needs meson, curl, and the headers of pixman, freetype, fontconfig and libpng.
-# SWIRL_CAIRO_URL names another place of the same file.
+# SWIRL_CAIRO_URL is another address of the same file.
 set -eu
 prefix=$1
 version=1.18.4
