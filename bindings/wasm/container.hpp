@@ -22,9 +22,9 @@
 
 namespace swirl {
 
-/// A simulated container with its measurements. An event is first found by executing it. The
-/// snapshot still holds the state before it, for frames in between. Then the event is passed, and
-/// the snapshot holds the state after it.
+/// A simulated container with its measurements. An event is found by executing it. At
+/// first the snapshot still holds the state before it, for frames in between. When the event is
+/// passed, the snapshot gets the state after it.
 class Container {
   public:
     Container(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
@@ -95,7 +95,7 @@ class Container {
     /// The error message with which a run of the command line would end here. After it there are no
     /// more events.
     const std::optional<std::string>& problem() const { return problem_; }
-    /// The same if this is the last event.
+    /// The same message if the run ends with this event.
     std::optional<std::string> problem_at_the_end() const {
         return problem_ || is_by_hand(path()) ? problem_ : run_.problem_at_the_end();
     }

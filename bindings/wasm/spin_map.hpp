@@ -1,5 +1,6 @@
-// How the discs spin, in the M-frame: the mean spin of the discs found in a cell, lab frame. A disc
-// that sticks to the wall has 0, since the container does not rotate; gears have opposite signs.
+// Map of the spin: the mean spin of the discs in each cell of the M-frame. The spin itself is that
+// in the lab frame. A disc that sticks to the wall has spin 0, since the container does not rotate.
+// Discs that roll on each other have opposite signs.
 #pragma once
 
 #include <cstdint>

@@ -147,13 +147,13 @@ class Help(unittest.TestCase):
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertRegex(done.stderr, rf"\nhint: did you mean '{meant}'\?\n\Z")
 
-    def test_an_unknown_name_gets_a_suggestion_or_the_help_that_lists_all(self):
-        for call, hint in ((["run", "--out", "r.json"], "did you mean --json?"),
-                           (["collect", "sweep", "--out", "t.csv"], "did you mean --csv?"),
-                           (["run", "--friction=0.5"], "did you mean --mu?"),
-                           (["run", "--dicss", "5"], "did you mean --discs?"),
-                           (["run", "--frobnicate"], "`swirl run --help` lists all options."),
-                           (["frobnicate"], "`swirl --help` lists all commands.")):
+    def test_an_unknown_name_gets_a_suggestion_only_if_it_is_likely(self):
+        for call, hint in ((["run", "--out", "r.json"], "did you mean --json? See `swirl run --help`."),
+                           (["collect", "sweep", "--out", "t.csv"], "did you mean --csv? See `swirl collect --help`."),
+                           (["run", "--friction=0.5"], "did you mean --mu? See `swirl run --help`."),
+                           (["run", "--dicss", "5"], "did you mean --discs? See `swirl run --help`."),
+                           (["run", "--frobnicate"], "see `swirl run --help`."),
+                           (["frobnicate"], "see `swirl --help`.")):
             with self.subTest(call):
                 done = swirl(*call)
                 self.assertEqual(done.returncode, 2, done.stderr)

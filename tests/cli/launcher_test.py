@@ -202,7 +202,7 @@ class Launcher(InFolder):
         self.assertEqual(self.parts("run")[0], ["ON,ON"])
         self.assertEqual(self.word(), "second")
 
-    def test_help_and_a_wrong_call_add_no_part(self):
+    def test_help_and_a_usage_error_add_no_part(self):
         self.assertEqual(self.parts("run"), (["OFF,OFF"], True))
         self.write("docs/reference/commands.md", "## swirl paper\n```text\nFigures: 1b\n```\n")
         # A program without the figures does not know their names, so the help is that of the docs.
@@ -274,7 +274,7 @@ exit 100
         with open(self.path("asked")) as file:
             self.assertNotIn("update", file.read())
 
-    def test_a_wrong_call_installs_nothing(self):
+    def test_a_usage_error_installs_nothing(self):
         self.write("packages", "[build]\ng++\n[movies]\nno-movies\n[camera]\nno-camera\n")
         self.stand_in("id", "echo 0\n")
         self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\n')

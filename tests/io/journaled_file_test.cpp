@@ -126,7 +126,7 @@ TEST(JournaledFile, KillDuringCommitLeavesOldOrNewState) {
         EXPECT_EQ(opened(journal.size(), copied), std::string(size, 'b')) << copied << " copied";
 }
 
-// Also if the first writer is not the creator.
+// This holds even if the object that writes first is not the one that created the file.
 TEST(JournaledFile, IsEmptyUntilFirstCommit) {
     const Scratch scratch;
     const auto path = scratch / "f";

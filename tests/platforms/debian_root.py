@@ -1,4 +1,4 @@
-"""A Debian in a folder of its own, for tests on a system without our packages. Needs root,
+"""A Debian installed in a separate folder, for tests on a system without our packages. Needs root,
 mmdebstrap and a mirror."""
 
 import os

@@ -98,9 +98,10 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     result.steady.change = {.before = 0.3, .after = 1.0, .size = 9.0, .max_size = 4.6};
     result.steady_spin.change = {.size = 1.0, .max_size = 4.7, .effective_samples = 10.0};
     EXPECT_THAT(report(result, false),
-                testing::HasSubstr("  steady      drifting; largest change 9.0 standard errors "
-                                   "(limit 4.6), of the spins 1.0 (limit 4.7); 3 % of steady "
-                                   "runs exceed a limit"));
+                testing::HasSubstr(
+                    "  steady      drifting; largest change of the rotation 9.0 standard errors "
+                    "(limit 4.6), of the spins 1.0 (limit 4.7); 3 % of steady "
+                    "runs exceed a limit"));
     EXPECT_THAT(
         warnings(result),
         testing::ElementsAre(testing::HasSubstr("not steady: the rotation drifts from 0.3 to 1.")));

@@ -226,7 +226,7 @@ def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measu
     periods at the start that are ignored. Each period is one block of the error estimate.
 
     Raises ValueError for a measurement that the recording does not allow, and TypeError if `recording`
-    is no recording.
+    is not a recording.
     """
     if isinstance(recording, _engine.Frames):
         recording = _Sampled(recording)

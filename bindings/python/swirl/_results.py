@@ -151,7 +151,7 @@ class Table:
 
 
 class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
-    """What one measurement has found: its numbers and tables by name.
+    """The results of one measurement: its numbers and tables by name.
 
     If its only table has no name, indexing gives the table's columns: measured["density"]["by_time"].
     """

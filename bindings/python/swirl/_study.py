@@ -118,10 +118,11 @@ class Crossing:
 
     `discs` is N_c, `error` its standard error, and `lower` to `upper` its 95 % interval. `discs` and
     `error` are NaN if only the interval is known. All of these refer to the rotation rate `rate`.
-    `verdict` tells whether there is a crossing, and `sentence` reports it with the evidence. `by_rate`
-    has the results for each of the four rates: N_c, N_c_error, N_c_lower, N_c_upper, every change of
-    sign, and the numbers whose sign is undetermined. Each of `points` has the number of discs, the
-    rotation (mean, error) by `rate` and by each of the four rates, and the number of runs.
+    `verdict` is "crosses", "always rotates", "always counterrotates" or "undecided"; `sentence`
+    reports it with the evidence. `by_rate` has the results for each of the four rates: N_c, N_c_error,
+    N_c_lower, N_c_upper, every change of sign, and the numbers whose sign is undetermined. Each of
+    `points` has the number of discs, the rotation (mean, error) by `rate` and by each of the four
+    rates, and the number of runs.
     """
 
     verdict: str
@@ -274,7 +275,7 @@ with_parameters(sweep, f"""Runs all combinations of parameter lists on all cores
 
 Returns a pandas DataFrame (swirl.collect()).
 
-out: folder of the sweep, in the format of the command line. Another call with the same folder does
+out: folder of the sweep, in the format of the command line. Another call with the same folder makes
     the missing runs; Python and the command line can continue each other's sweeps. Without `out` only
     the table is returned.
 seeds: replicates of each point. measure: names of measurements. frames: record every run with this
@@ -321,7 +322,7 @@ with_parameters(map_runs, f"""Runs all combinations of parameter lists on all co
     results = swirl.map(discs=range(5, 49), measure=[MyMeasurement])
 
 Returns a list of swirl.Result in the order of a sweep's points: replicates vary fastest, then the last
-list. Seeds are those of a sweep. A custom measurement that is a class gets an instance for each run;
-one that is an object is shared by threads.
+list. Seeds are those of a sweep. If a custom measurement is a class, each run has its own instance;
+if it is an object, all threads share it.
 
 {_LISTS}""")

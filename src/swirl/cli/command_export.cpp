@@ -140,7 +140,8 @@ void add_export_command(Subcommand& subcommand) {
     subcommand.add_option("--scale", call->scale, "Pixels per unit of length in csv [20]")
         ->type_name("NUMBER");
     subcommand
-        .add_option("--range", call->range, "Range of frames, counted from 0, both included [all]")
+        .add_option("--range", call->range,
+                    "Range of frames, counted from 0, both ends included [all]")
         ->type_name("FIRST:LAST");
     subcommand.add_option("--stride", call->stride, "Distance between exported frames [1]")
         ->type_name("N");

@@ -174,10 +174,10 @@ void warn_about(const MapCall& call, const SweepPlan& plan, const MapState& stat
         failed += s.failed > 0 ? 1 : 0;
     }
     if (unclear > 0)
-        print_warning(
-            fmt::format("undetermined even with all allowed runs: {} of {} points.\nhint: use a "
-                        "larger --seeds or longer runs in another folder.",
-                        unclear, state.sites.size()));
+        print_warning(fmt::format(
+            "the sign of {} of {} points is undetermined even with all allowed runs.\nhint: use a "
+            "larger --seeds or longer runs in another folder.",
+            unclear, state.sites.size()));
     if (failed > 0)
         print_warning(
             fmt::format("runs failed at {} of {} points (column failed; all reasons in '{}'). The "

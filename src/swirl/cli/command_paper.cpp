@@ -182,7 +182,7 @@ void add_paper_command(Subcommand& subcommand) {
         ->type_name("NUMBER");
     subcommand
         .add_option("--seeds", call->seeds,
-                    "First runs of a point; unclear claims add more [8, quick 3]")
+                    "Runs per point; undecided claims get more [8, quick 3]")
         ->type_name("NUMBER");
     subcommand.add_option("--out", call->out, "Output folder [out]")->type_name("DIR");
     subcommand.add_option("--part", call->share.part, "Part of the runs to make, such as 2/10")

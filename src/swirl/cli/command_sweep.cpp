@@ -116,7 +116,8 @@ void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutc
         std::string text =
             fmt::format("{} of {} runs done ({} by this call)", s.done, s.points, outcome.done);
         if (s.running > 0) text += fmt::format(", {} running elsewhere", s.running);
-        print_all(text + fmt::format("; table: swirl collect {}\n", shell_word(call.out)));
+        print_all(text +
+                  fmt::format("; to write the table: swirl collect {}\n", shell_word(call.out)));
     }
     if (outcome.stopped)
         throw Interrupted(
@@ -237,8 +238,8 @@ void add_sweep_command(Subcommand& subcommand) {
         "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. With "
         "--grow, the given values, replicas (--seeds is their new total) and measurements are "
         "added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in DIR/series. "
-        "With --chain NAME, each run starts from the final state of the one with the next lower "
-        "value of NAME, and then, down again, of the next higher one.\n");
+        "With --chain NAME, the runs follow each other in rising and then in falling values of "
+        "NAME, and each starts from the final state of the run before it.\n");
     subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--seeds", "--out",
                                  "--measure", "--threads", "--grow", "--status"});
     subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
@@ -299,6 +300,12 @@ void draw_table(const CollectCall& call) {
     if (call.prints_report()) print_all(fmt::format("drawn: {0}.png, {0}.pdf\n", stem.string()));
 }
 
+/// "11 of 12 runs"; "102 runs" of a map, which does not need all of its points.
+std::string runs_text(const SweepStatus& status, const SweepPlan& plan) {
+    return plan.map ? fmt::format("{} runs", status.done)
+                    : fmt::format("{} of {} runs", status.done, status.points);
+}
+
 void collect(const CollectCall& call) {
     const fs::path folder = call.folder;
     const std::string file = call.table_file();
@@ -320,9 +327,9 @@ void collect(const CollectCall& call) {
         write_or_print(call.loops,
                        loop_table(plan, collected.loops, collected.loop_quantities).csv());
     if (call.prints_report())
-        print_all(fmt::format("{} of {} runs in {}{}{}\n", s.done, s.points, file,
-                              crossings.empty() ? "" : ", crossings in " + call.crossings,
-                              call.loops.empty() ? "" : ", areas of loops in " + call.loops) +
+        print_all(fmt::format("wrote {} ({}){}{}\n", file, runs_text(s, plan),
+                              crossings.empty() ? "" : ", " + call.crossings + " (crossings)",
+                              call.loops.empty() ? "" : ", " + call.loops + " (areas of loops)") +
                   loops_text(call, plan, collected));
     if (call.plot) draw_table(call);
     if (s.done < s.points && !plan.map)  // a map does not need all points
@@ -344,8 +351,8 @@ void add_collect_command(Subcommand& subcommand) {
     subcommand.add_option("--quantity", call->quantity, "Column to draw [by_time]", "NAME");
     subcommand.explain(
         "N_c is the number of discs at which the rotation (by time) changes its sign, for each "
-        "combination of the other parameters. The area of a loop is the integral of the values "
-        "with falling minus those with rising parameter.\n");
+        "combination of the other parameters. The area of a loop is the integral, over the "
+        "parameter, of the curve with falling values minus the curve with rising values.\n");
     subcommand.set_examples({"swirl collect study", "swirl collect study --crossings N_c.csv",
                              "swirl collect study --csv -",
                              "swirl collect study --plot --quantity energy"});

@@ -195,10 +195,11 @@ class Comparison {
         if (next_ < recorded_)
             fail(fmt::format("the run has only {}", counted(std::int64_t(next_), item_)));
         if (quiet) return;
-        print_all(complete_
-                      ? fmt::format("bitwise identical: {}\n", counted(std::int64_t(next_), item_))
-                      : fmt::format("bitwise identical: all of an unfinished run: {}\n",
-                                    counted(std::int64_t(next_), item_)));
+        print_all(
+            complete_
+                ? fmt::format("bitwise identical: {}\n", counted(std::int64_t(next_), item_))
+                : fmt::format("bitwise identical: {}, all that an unfinished run has recorded\n",
+                              counted(std::int64_t(next_), item_)));
     }
 
   private:

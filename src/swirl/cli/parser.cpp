@@ -65,17 +65,14 @@ const CLI::App& selected_app(const CLI::App& app) {
     return subcommands.empty() ? app : selected_app(*subcommands.front());
 }
 
-/// "did you mean --discs?", or where all names are listed.
+/// "did you mean --discs?", or nothing.
 std::string nearest_name_hint(const CLI::App& app, const std::string& unknown) {
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
     for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(subcommand->get_name());
     const auto nearest = nearest_name(unknown.substr(0, unknown.find('=')), names);
-    if (nearest) return "did you mean " + *nearest + "?";
-    const std::string command = app.get_parent() ? app.get_name() + " " : "";
-    return fmt::format("`swirl {}--help` lists all {}.", command,
-                       command.empty() ? "commands" : "options");
+    return nearest ? "did you mean " + *nearest + "?" : "";
 }
 
 /// The parser does not end options at `--` once a subcommand has all its files. Each later word

@@ -20,7 +20,7 @@ void write_motion(const TrackedVideo& video, const RecordedMotion& motion,
 std::string motion_text(const TrackedVideo& video, const RecordedMotion& motion,
                         const VideoSource& source, const std::string& file);
 
-/// What a path of one period cannot describe.
+/// Warnings about parts of the motion that a path of one period cannot describe.
 std::vector<std::string> motion_warnings(const RecordedMotion& motion);
 
 }  // namespace swirl

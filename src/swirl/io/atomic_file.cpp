@@ -281,7 +281,7 @@ void remove_leftovers_in(const std::filesystem::path& folder, std::string_view t
         if (found.empty() || (!target.empty() && found != target)) continue;
         const int file = ::open(it->path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (file < 0) continue;
-        // A living writer holds the lock.
+        // The lock of a file is held as long as its writer runs.
         if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(it->path().c_str());
         ::close(file);
     }

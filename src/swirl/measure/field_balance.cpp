@@ -16,7 +16,7 @@ struct Cuts {
     void add(double t) { at[count++] = t; }
 };
 
-/// Adds to the cuts the root of `value` in each piece between two cuts, where it is monotonic.
+/// The cuts and the roots of `value`, which must be monotonic between neighbouring cuts.
 template <class Value, class Slope>
 Cuts with_roots(const Cuts& cuts, const Value& value, const Slope& slope) {
     Cuts more;

@@ -106,13 +106,13 @@ class Observation {
 
     void sample(const Snapshot& lab);
     void sample(const Event& event, const Snapshot& after);
-    /// The discs of the next sample are not those of the last.
+    /// To be called if the discs of the next sample are not those of the last one.
     void begin_tracks();
     void close_block();
     /// For smoothed velocities: ½⟨u²⟩ of a disc, relative to the container, is larger by `missing`.
     void add_energy(double missing);
 
-    /// In the order of the names.
+    /// One report for each measurement, in the order of their names.
     std::vector<MeasurementReport> report() const;
 
     /// Adds the closed blocks of another observation with the same names.

@@ -73,12 +73,12 @@ class PairCorrelation : public BlockAverages<PairCorrelation> {
                         contact()});
         visit(ReportRow{"inner_packing", "1", "packing fraction of the inner circle of radius R/2",
                         inner_packing()});
-        ReportTable table{
-            "function",
-            "pair correlation in the whole container and about discs of its inner circle",
-            {{"distance", "r"},
-             {"g", "1", with_error_column},
-             {"g_inner", "1", with_error_column}}};
+        ReportTable table{"function",
+                          "pair correlation g in the whole container, and g_inner about discs in "
+                          "its inner circle",
+                          {{"distance", "r"},
+                           {"g", "1", with_error_column},
+                           {"g_inner", "1", with_error_column}}};
         for (std::size_t bin = 0; bin < bins_.count; ++bin)
             table.add(bins_.middle(bin), g(bin), inner_g(bin));
         visit(std::move(table));

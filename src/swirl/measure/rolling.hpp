@@ -7,7 +7,7 @@
 //                     it); also among those at the wall, whose gap to it is below 0.1 R
 //   floor slip        ⟨|c|⟩, c = v − u − R ω × ẑ
 //   axis correlation  Σ ω_i·ω_j / Σ ½ (ω_i² + ω_j²) of the horizontal spins, over touching pairs: 1
-//                     where neighbours roll alike
+//                     where the spins of neighbours are equal
 //   contact rolling   the same for h = ω_x n_y − ω_y n_x, the rolling along the line of centres. It
 //                     is −1 for two spheres that roll on each other without slip. It is 1 where
 //                     both roll the same way and their surfaces slip with the sum of their speeds;
@@ -52,7 +52,7 @@ class Rolling : public ReportedAverages<Rolling> {
                        s.rolls_at_wall_},
             AverageRow{"floor_slip", "v", "magnitude of the slip on the floor", s.slip_},
             AverageRow{"axis_correlation", "1",
-                       "correlation of touching spheres' horizontal spins: 1 if they roll alike",
+                       "correlation of touching spheres' horizontal spins: 1 if they are equal",
                        s.axes_},
             AverageRow{"contact_correlation", "1",
                        "correlation of their rolling along the line of centres: −1 without slip, 1 "

@@ -65,9 +65,11 @@ class Segregation : public ReportedAverages<Segregation> {
                        s.radial_},
             AverageRow{"neighbours", "1", "neighbours are of like size: 1 all, 0 random mixture",
                        s.neighbours_},
-            AverageRow{"small_distance", "r", "mean distance of the small half from the centre",
+            AverageRow{"small_distance", "r",
+                       "mean distance of the smaller half of the particles from the centre",
                        s.small_},
-            AverageRow{"large_distance", "r", "mean distance of the large half from the centre",
+            AverageRow{"large_distance", "r",
+                       "mean distance of the larger half of the particles from the centre",
                        s.large_}};
     }
 

@@ -71,18 +71,19 @@ class WallResidences {
     template <class Visitor>
     void report(Visitor&& visit) const {
         visit(direction_row("pinning", "θ where residences in the wall layer begin", pinning()));
-        visit(direction_row("depinning", "θ where they end", depinning()));
-        visit(ReportRow{"share", "1", "share of the discs that is on such a residence", share()});
+        visit(direction_row("depinning", "θ where residences in the wall layer end", depinning()));
+        visit(ReportRow{"share", "1", "share of the discs that reside in the wall layer", share()});
         visit(ReportRow{"length", "T", "length of a residence, in periods", length()});
-        ReportTable sensitivity{"sensitivity",
-                                "the same for other layers and minimum lengths of a residence",
-                                {{"layer", "r"},
-                                 {"min_length", "T"},
-                                 {"pinning", "°", with_error_column},
-                                 {"pinned_concentration", "1"},
-                                 {"depinning", "°", with_error_column},
-                                 {"free_concentration", "1"},
-                                 {"share", "1", with_error_column}}};
+        ReportTable sensitivity{
+            "sensitivity",
+            "these quantities for other layers and minimum lengths of a residence",
+            {{"layer", "r"},
+             {"min_length", "T"},
+             {"pinning", "°", with_error_column},
+             {"pinned_concentration", "1"},
+             {"depinning", "°", with_error_column},
+             {"free_concentration", "1"},
+             {"share", "1", with_error_column}}};
         for (std::size_t l = 0; l < layers.size(); ++l)
             for (std::size_t d = 0; d < minimum.size(); ++d) {
                 const Averages& a = averages_[l][d];

@@ -223,8 +223,8 @@ figcaption span { float: right; font-variant-numeric: tabular-nums; }
 <h1>Swirled discs: the movies</h1>
 <p>The numerical videos of Lee, Ryan, Lahini, Holmes-Cerfon and Rubinstein, “Geometric frustration
 induces the transition between rotation and counterrotation in swirled granular media”, reproduced.
-The container is swirled counter-clockwise and does not turn: its marks are at rest in the lab frame.
-The M-frame turns with the swirl, so the point M stays at the bottom and the wall turns clockwise.
+The container is swirled counter-clockwise and does not rotate: its marks are at rest in the lab frame.
+The M-frame rotates with the swirl, so the point M stays at the bottom and the wall moves clockwise.
 ϖ is the cluster’s rotation frequency in the lab frame, measured over the periods shown; Ω is that of
 the swirl.</p>
 )";

@@ -1,6 +1,6 @@
-// What published experiments with swirled spheres report: kinetic energy, rings, paths of single
-// particles, the position of the dense region, and the rotation of core and wall layer. Averages
-// over the samples of one run after its warm-up.
+// The quantities that published experiments with swirled spheres report: kinetic energy, rings,
+// paths of single particles, the position of the dense region, and the rotation of core and wall
+// layer. All are averages over the samples of one run after its warm-up.
 #pragma once
 
 #include <complex>

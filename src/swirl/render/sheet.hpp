@@ -42,9 +42,9 @@ class Sheet {
     const SheetSpec& spec() const { return spec_; }
     const View& view(std::size_t panel) const { return views_[panel]; }
 
-    /// Draws what is the same in every frame.
+    /// Draws the parts that are the same in every frame.
     void draw_static(const Canvas& canvas) const;
-    /// Draws what changes. `contents` has one entry per panel, `curves` belong to the plot, and
+    /// Draws the parts that change. `contents` has one entry per panel, `curves` belong to the plot, and
     /// `periods` is the time shown.
     void draw_frame(const Canvas& canvas, std::span<const SceneContent> contents,
                     std::span<const Curve> curves, double periods) const;

@@ -544,7 +544,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "M",
      .form = "M",
      .description = "Number of straight segments of the path",
-     .details = "A Lissajous figure has 30 times its larger number of cycles by default.",
+     .details =
+         "The default for a Lissajous figure is 30 times the larger of its two numbers of cycles.",
      .group = parameter_group::container,
      .member = &RunConfig::sides,
      .range = {3, max_sides},

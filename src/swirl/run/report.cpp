@@ -124,8 +124,8 @@ std::string steady_text(const RunResult& r) {
     const MeanChange &rotation = r.steady.change, &spin = r.steady_spin.change;
     if (!std::isfinite(rotation.size) || !std::isfinite(spin.size)) return text;
     return fmt::format(
-        "{}; largest change {:.1f} standard errors (limit {:.1f}), of the spins {:.1f} (limit "
-        "{:.1f}); {:.2g} % of steady runs exceed a limit",
+        "{}; largest change of the rotation {:.1f} standard errors (limit {:.1f}), of the spins "
+        "{:.1f} (limit {:.1f}); {:.2g} % of steady runs exceed a limit",
         text, std::fabs(rotation.size), rotation.max_size, std::fabs(spin.size), spin.max_size,
         100.0 * (false_alarm_rate(rotation) + false_alarm_rate(spin)));
 }
@@ -282,7 +282,8 @@ std::string report(const RunResult& r, bool verbose) {
     };
     if (r.config.discs > 1 && r.has_whole_period()) {
         if (!has_m_frame(r.config))
-            line("Ω", "2π/T, a unit: this path has no M-frame; counter-clockwise is positive");
+            line("Ω",
+                 "2π/T, only a unit, because this path has no M-frame; ϖ > 0 is counter-clockwise");
         line("rigid", fmt::format("{} by event, {} by time", with_error(r.rotation.rigid_by_event),
                                   with_error(r.rotation.rigid_by_time)));
         if (verbose)

@@ -22,7 +22,7 @@ std::string supported_widths();
 /// an unknown name, and for a width that this processor does not support.
 Width selected_width();
 
-/// Settings of a simulation with the selected width that ends early when `stop` is set.
+/// Settings of a simulation: the selected width, and `stop`, which ends it early when it is set.
 Tuning selected_tuning(const std::atomic<bool>* stop);
 
 }  // namespace swirl

@@ -279,8 +279,8 @@ FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double
         repaired_text(tracks) + smoothing_text(fitted.smoothing) + fit_text(fitted.fit);
     if (!fitted.series.same_discs())
         fitted.remarks += fmt::format(
-            "Discs appear or disappear at {} of {} frames; pinned discs are followed from scratch "
-            "after each of them.\n",
+            "Discs appear or disappear at {} of {} frames. After each of them, the search for "
+            "pinned discs starts again.\n",
             fitted.series.breaks.size(), fitted.series.frames);
     return fitted;
 }

@@ -179,16 +179,18 @@ std::string map_summary(const SweepPlan& plan, const MapState& state) {
         runs += s.runs;
         failed += s.failed;
     }
-    std::string counts;
+    std::vector<std::string> counts;
     for (const auto& [verdict, count] : verdicts)
-        counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, verdict);
+        counts.push_back(fmt::format("{} {}", count, verdict));
+    const std::string level =
+        plan.map->is_of_crossing() ? "" : fmt::format("level {}: ", plan.map->level);
     const std::size_t decided = decided_sites(state);
     const bool complete = decided == state.sites.size();
     return fmt::format("{} of {} points needed{}{}; {} runs{}", state.sites.size(),
                        x->values.size() * (y ? y->values.size() : 1),
                        complete ? "" : fmt::format(" so far, {} decided", decided),
-                       counts.empty() ? "" : " (" + counts + ")", runs,
-                       failed > 0 ? fmt::format(", {} failed", failed) : "");
+                       counts.empty() ? "" : fmt::format(" ({}{})", level, fmt::join(counts, ", ")),
+                       runs, failed > 0 ? fmt::format(", {} failed", failed) : "");
 }
 
 }  // namespace swirl

@@ -36,7 +36,7 @@ struct MapOutcome {
 /// the folder does not hold a map.
 MapState read_map(const std::filesystem::path& folder, const SweepPlan& plan);
 
-/// Makes runs until the map is complete. Runs that failed before are tried once more. Waits for
+/// Makes runs until the map is complete. Runs that failed before are tried again. Waits for
 /// runs that other processes work on.
 MapOutcome run_map(const std::filesystem::path& folder, const SweepPlan& plan,
                    const SweepShare& share, const MapControl& control);
@@ -48,7 +48,7 @@ std::string first_failure(const std::filesystem::path& folder, const SweepPlan& 
 /// interval), the verdict, the periods of all runs, and their number.
 Table map_table(const SweepPlan& plan, const MapState& state);
 
-/// "87 of 256 points needed (43 above, 39 below, 5 undetermined); 332 runs"
+/// "87 of 256 points needed (level 0: 43 above, 39 below, 5 undetermined); 332 runs"
 std::string map_summary(const SweepPlan& plan, const MapState& state);
 
 }  // namespace swirl

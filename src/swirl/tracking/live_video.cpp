@@ -259,8 +259,8 @@ void LiveVideo::throw_no_frames() const {
             camera_ ? "check that no other program uses the camera, and that it has the rate --fps"
                     : "check that the images or the video can be shown by ffplay"));
     throw Failure(fmt::format(
-        "no image arrived in '{}' within {:g} s\nhint: files must be named by ascending numbers, "
-        "such as 00001.png, and be {}; --timeout waits longer",
+        "no image arrived in '{}' within {:g} s\nhint: names of files must be ascending numbers, "
+        "such as 00001.png, and the format must be {}; --timeout waits longer",
         source_.name, source_.timeout, format_list()));
 }
 

@@ -36,7 +36,7 @@ class LiveVideo {
     LiveVideo(const LiveVideo&) = delete;
     LiveVideo& operator=(const LiveVideo&) = delete;
 
-    /// Waits for the next frame (8 bits a pixel). False at the end. Throws Failure without a frame.
+    /// Waits for the next frame (8 bits a pixel). False at the end. Throws Failure if none arrives.
     bool next(cv::Mat& grey);
     std::int64_t count() const { return count_; }
     /// Frames per second by the clock of this machine, for a camera; 0 for other sources.

@@ -144,7 +144,7 @@ std::vector<Maximum> high_ones(std::vector<Maximum> maxima) {
     return maxima;
 }
 
-/// What one radius gives in all frames.
+/// The result of the detection with one radius in all frames.
 struct Trial {
     double radius = 0.0, score = 0.0, mean = 0.0, spread = 0.0;
     std::size_t number = 0;  // of balls, at most: the template rejects other maxima

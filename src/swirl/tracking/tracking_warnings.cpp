@@ -129,9 +129,10 @@ void warn_about_wall(TrackedVideo& tracked) {
              -inside, tracked.rim_radius);
     if (length(tracked.rim_shift) > 0.0)
         warn(tracked,
-             "discs are stopped at a circle that is {:.2f} pixels off the rim: seen at an angle, "
-             "an edge at another height than the discs is shifted; that circle and its path are "
-             "used",
+             "the circle at which discs are stopped is {:.2f} pixels away from the visible rim, as "
+             "if "
+             "the camera saw the rim at an angle and at another height; this circle and its path "
+             "are used",
              length(tracked.rim_shift));
     if (tracked.tilt.oval)
         warn(tracked,

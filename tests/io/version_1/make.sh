@@ -1,7 +1,7 @@
 #!/bin/sh
 # make.sh SWIRL FOLDER: the files of tests/io/version_1/files.tar.xz, with the program SWIRL.
 # They were made once, by swirl 0.1.0 (1ee2817), and must not be made again: tests/cli/versions_test.py
-# holds every later program to them. A new format gets a folder of its own.
+# checks that every later program reads them. A new format gets its own folder.
 set -eu
 swirl=$1
 mkdir -p "$2"
