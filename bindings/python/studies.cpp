@@ -174,11 +174,17 @@ void write_map_plan(const std::string& folder, const py::dict& x, const py::dict
     write_plan(folder, plan);
 }
 
-/// Without axes or with 0 seeds, these do not change.
+/// Without axes, with 0 seeds or without numbers of discs, these do not change.
 void grow_map(const std::string& folder, const py::dict& x, const py::dict& y, std::int64_t steps,
-              std::int64_t seeds) {
+              std::int64_t seeds, std::optional<std::int64_t> minimum,
+              std::optional<std::int64_t> maximum) {
     const SweepPlan before = read_plan(folder);
-    write_plan(folder, grown_map(before, {axis_of(x), axis_of(y)}, steps, seeds), &before);
+    const MapGrowth growth{.axes = {axis_of(x), axis_of(y)},
+                           .steps = steps,
+                           .max_runs = seeds,
+                           .from = minimum,
+                           .to = maximum};
+    write_plan(folder, grown_map(before, growth), &before);
 }
 
 /// The table as CSV, and the report.

@@ -188,11 +188,39 @@ class Map(InFolder):
         self.assertEqual(self.table(self.path("whole")), before)
         for wrong, says in ((["--mu", 1], "--mu"), (["--of", "spin"], "--of"), ([], "no --x"),
                             (["--x", "period=1:2"], "not an axis"), (["--seeds", 2], "can only grow"),
+                            (["--to", 60], "--from and --to belong to maps of N_c"),
                             (["--steps", 5, "--seeds", 9], "no axis")):
             done = swirl("map", "--out", self.path("whole"), "--grow", *wrong)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertRegex(done.stderr, ONE_ERROR)
             self.assertIn(says, done.stderr)
+
+    def test_the_range_of_the_searches_for_a_crossing_can_grow(self):
+        call = ["map", "--x", "mu=1,2", "--of", "N_c", "--periods", 40, "--tolerance", 5]
+        more = ["--no-figure", "--quiet", "--out", self.path("N_c")]
+        self.good(*call, "--from", 24, "--to", 30, *more)
+        self.assertEqual([row["verdict"] for row in self.rows(self.path("N_c/map.csv"))], ["always rotates"] * 2)
+        folder = self.path("N_c/results")
+        made = {name: os.stat(os.path.join(folder, name)).st_mtime_ns for name in os.listdir(folder)}
+        for wrong in (["--to", 29], ["--from", 25]):
+            done = swirl("map", "--grow", *wrong, "--out", self.path("N_c"))
+            self.assertEqual(done.returncode, 2)
+            self.assertRegex(done.stderr, ONE_ERROR)
+            self.assertIn("cover 24 to 30 discs", done.stderr)
+        self.good("map", "--grow", "--to", 46, *more)
+        for name, time_of in made.items():
+            self.assertEqual(os.stat(os.path.join(folder, name)).st_mtime_ns, time_of)
+        rows = self.rows(self.path("N_c/map.csv"))
+        self.assertEqual([row["verdict"] for row in rows], ["crosses"] * 2)
+        self.assertEqual(sum(int(row["seeds"]) for row in rows), len(os.listdir(folder)))
+        self.assertTrue(all(30 < float(row["N_c"]) < 46 for row in rows))
+        # The map continues with its folder alone, and its folder is that of a sweep.
+        before = self.table(self.path("N_c"))
+        self.good("map", *more)
+        self.assertEqual(self.table(self.path("N_c")), before)
+        self.good("collect", self.path("N_c"), "--csv", self.path("t.csv"), "--crossings", self.path("c.csv"))
+        for ours, other in zip(rows, self.rows(self.path("c.csv")), strict=True):
+            self.assertEqual((ours["N_c"], ours["N_c_error"]), (other["N_c"], other["N_c_error"]))
 
     def test_invalid_calls_are_rejected_before_anything_is_written(self):
         for wrong, says in ((["--x", "mu"], "NAME=VALUES"), (["--x", "colour=1:2"], "colour"),

@@ -174,6 +174,18 @@ def test_parameter_map_equals_that_of_the_command_line(tmp_path):
         swirl.parameter_map(tmp_path / "ours", grow=True, x="mu=0:2", mu_wall=1)
     with pytest.raises(ValueError, match="not an axis"):
         swirl.parameter_map(tmp_path / "ours", grow=True, x="period=1:2")
+    with pytest.raises(ValueError, match="maps of N_c"):
+        swirl.parameter_map(tmp_path / "ours", grow=True, max_discs=60)
+
+
+def test_the_range_of_a_map_of_crossings_grows(tmp_path):
+    call = dict(of="N_c", periods=40, tolerance=5)
+    table = swirl.parameter_map(tmp_path / "map", x=("mu", [1]), min_discs=24, max_discs=30, **call)
+    assert table["verdict"].tolist() == ["always rotates"]
+    with pytest.raises(ValueError, match="24 to 30"):
+        swirl.parameter_map(tmp_path / "map", grow=True, max_discs=29)
+    table = swirl.parameter_map(tmp_path / "map", grow=True, max_discs=46)
+    assert table["verdict"].tolist() == ["crosses"] and 30 < table["N_c"][0] < 46
 
 
 def test_failed_runs_of_a_map_are_reported():

@@ -27,9 +27,7 @@ class KnownMap {
 
     const SweepPlan& plan() const { return plan_; }
     /// The runs so far keep their numbers.
-    void grow(const std::vector<MapAxisText>& axes, std::int64_t steps, std::int64_t max_runs) {
-        plan_ = grown_map(plan_, axes, steps, max_runs);
-    }
+    void grow(const MapGrowth& growth) { plan_ = grown_map(plan_, growth); }
     void fail_if(std::function<bool(double x, double y)> fails) { fails_ = std::move(fails); }
 
     /// Makes all missing runs of each step, or, with `random`, a random part of them.
@@ -267,7 +265,7 @@ TEST(MapGrowth, UsesEveryRunOfTheSmallerMap) {
     MapState state = map.complete();
     const std::set<std::size_t> before = map.points();
     const std::size_t sites = state.sites.size();
-    map.grow({{"mu", "0:1"}, {"restitution", "0:1"}}, 31, 32);
+    map.grow({.axes = {{"mu", "0:1"}, {"restitution", "0:1"}}, .steps = 31, .max_runs = 32});
     state = map.complete();
     EXPECT_EQ(runs_in(state), map.points().size());
     EXPECT_TRUE(
@@ -304,9 +302,9 @@ TEST(MapGrowth, AddsCellsBeyondTheOldRange) {
     settings.y = {"restitution", "0.3:0.8"};
     KnownMap map(settings, large, 1e-6);
     map.complete();
-    map.grow({{"amplitude", "0:2"}}, 21, 0);
+    map.grow({.axes = {{"amplitude", "0:2"}}, .steps = 21});
     map.complete();
-    map.grow({{"restitution", "0:1"}}, 21, 0);
+    map.grow({.axes = {{"restitution", "0:1"}}, .steps = 21});
     const MapState state = map.complete();
     EXPECT_EQ(runs_in(state), map.points().size());
     const std::size_t columns = map.plan().axis("amplitude")->values.size(),
@@ -337,7 +335,8 @@ TEST(MapGrowth, FindsCrossingsAndDoesNotDependOnTheOrderOfTheRuns) {
     const auto rotation = [](double x, double, double n) { return 0.01 * (20.3 + 15.0 * x - n); };
     KnownMap in_order(settings, rotation, 1e-4);
     in_order.complete();
-    in_order.grow({{"mu", "0:1.6"}}, 21, 32);
+    const MapGrowth growth{.axes = {{"mu", "0:1.6"}}, .steps = 21, .max_runs = 32};
+    in_order.grow(growth);
     const MapState expected = in_order.complete();
     EXPECT_EQ(runs_in(expected), in_order.points().size());
     for (const MapSite& s : expected.sites)
@@ -345,19 +344,95 @@ TEST(MapGrowth, FindsCrossingsAndDoesNotDependOnTheOrderOfTheRuns) {
     std::mt19937 random(4);
     KnownMap map(settings, rotation, 1e-4);
     map.complete(&random);
-    map.grow({{"mu", "0:1.6"}}, 21, 32);
+    map.grow(growth);
     EXPECT_EQ(map.complete(&random).sites.size(), expected.sites.size());
     EXPECT_EQ(map.points(), in_order.points());
 }
 
+// N_c rises along x from below the first range to above it. The range then grows at both ends, in two
+// steps.
+TEST(MapGrowth, SearchesInALargerRangeWhereThereIsNoCrossing) {
+    MapSettings settings;
+    settings.x = {"mu", "0:1"};
+    settings.steps = 11;
+    settings.of = "N_c";
+    settings.from = 20;
+    settings.to = 30;
+    const auto zero = [](double x) { return 12.3 + 35.0 * x; };
+    const auto rotation = [&](double x, double, double n) { return 0.01 * (zero(x) - n); };
+    KnownMap map(settings, rotation, 1e-4);
+    // Of a complete map: every site has its verdict, and every run belongs to a site.
+    const auto check = [&](KnownMap& searched, double from, double to) {
+        const MapState state = searched.complete();
+        for (const MapSite& s : state.sites) {
+            const double x = searched.value("mu", s.x);
+            if (zero(x) < from || zero(x) > to) {
+                EXPECT_EQ(s.verdict, zero(x) > to ? "always rotates" : "always counterrotates");
+            } else {
+                EXPECT_EQ(s.verdict, "crosses") << x;
+                EXPECT_NEAR(s.value.mean, zero(x), 1e-9) << x;
+            }
+        }
+        EXPECT_EQ(runs_in(state), searched.points().size());
+    };
+    check(map, 20.0, 30.0);
+    const std::set<std::size_t> before = map.points();
+    map.grow({.to = 40});
+    check(map, 20.0, 40.0);
+    map.grow({.from = 5, .to = 55});
+    check(map, 5.0, 55.0);
+    EXPECT_TRUE(
+        std::includes(map.points().begin(), map.points().end(), before.begin(), before.end()));
+    EXPECT_EQ(map.plan().axis("discs")->values.size(), 51u);
+    // The runs do not depend on their order, nor the values on the way the range was reached.
+    std::mt19937 random(5);
+    KnownMap again(settings, rotation, 1e-4);
+    again.complete(&random);
+    again.grow({.to = 40});
+    again.complete(&random);
+    again.grow({.from = 5, .to = 55});
+    EXPECT_EQ(again.complete(&random).sites.size(), map.explore().sites.size());
+    EXPECT_EQ(again.points(), map.points());
+    settings.from = 5;
+    settings.to = 55;
+    KnownMap large(settings, rotation, 1e-4);
+    check(large, 5.0, 55.0);
+}
+
+TEST(MapGrowth, ASmallerRangeIsSearchedAsBeforeIfAxesAndRangeGrowTogether) {
+    MapSettings settings;
+    settings.x = {"mu", "0:1"};
+    settings.steps = 6;
+    settings.of = "N_c";
+    settings.to = 30;
+    settings.change = 1.0;
+    const auto zero = [](double x) { return 20.3 + 15.0 * x; };
+    KnownMap map(
+        settings, [&](double x, double, double n) { return 0.01 * (zero(x) - n); }, 1e-4);
+    map.complete();
+    map.grow({.axes = {{"mu", "0:1.6"}}, .steps = 21, .max_runs = 32, .from = 2, .to = 50});
+    const MapState state = map.complete();
+    EXPECT_EQ(runs_in(state), map.points().size());
+    for (const MapSite& s : state.sites)
+        EXPECT_NEAR(s.value.mean, zero(map.value("mu", s.x)), 1e-9);
+}
+
 TEST(MapGrowth, RejectsOtherMaps) {
     const SweepPlan plan = make_map_plan(square_map());
-    EXPECT_THROW(grown_map(plan, {{"period", "1:2"}}, 16, 0), UsageError);
-    EXPECT_THROW(grown_map(plan, {}, 16, 8), UsageError);  // has 16 runs
-    EXPECT_THROW(grown_map(plan, {{"mu", "0:1"}}, 1, 0), UsageError);
-    EXPECT_THROW(grown_map(make_plan({{"mu", "0,1"}}, 2), {{"mu", "0:2"}}, 16, 0), UsageError);
+    EXPECT_THROW(grown_map(plan, {.axes = {{"period", "1:2"}}}), UsageError);
+    EXPECT_THROW(grown_map(plan, {.max_runs = 8}), UsageError);  // has 16 runs
+    EXPECT_THROW(grown_map(plan, {.axes = {{"mu", "0:1"}}, .steps = 1}), UsageError);
+    EXPECT_THROW(grown_map(plan, {.to = 60}), UsageError);  // not of N_c
+    EXPECT_THROW(grown_map(make_plan({{"mu", "0,1"}}, 2), {.axes = {{"mu", "0:2"}}}), UsageError);
     EXPECT_THROW(grown(plan, {{"mu", "2"}}, 0, {}), UsageError);
-    EXPECT_EQ(grown_map(plan, {{"mu", "0:1"}}, 16, 0), plan);
+    EXPECT_EQ(grown_map(plan, {.axes = {{"mu", "0:1"}}}), plan);
+    MapSettings settings = square_map();
+    settings.of = "N_c";
+    const SweepPlan crossings = make_map_plan(settings);
+    EXPECT_THROW(grown_map(crossings, {.from = 6}), UsageError);  // has 5 to 48
+    EXPECT_THROW(grown_map(crossings, {.to = 47}), UsageError);
+    EXPECT_THROW(grown_map(crossings, {.from = 1}), UsageError);
+    EXPECT_EQ(grown_map(crossings, {.from = 5, .to = 48}), crossings);
 }
 
 TEST(MapPlan, HasTheValuesOfItsAxes) {

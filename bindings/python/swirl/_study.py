@@ -189,8 +189,9 @@ def _axis(name: str, axis: Optional[Axis]) -> dict[str, Values]:
 
 def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y: Optional[Axis] = None,
                   of: str = "by_time", steps: int = 16, level: float = 0.0,
-                  change: Optional[float] = None, seeds: int = 16, grow: bool = False, tolerance: float = 0.5,
-                  rate: str = "by_time", min_discs: int = 5, max_discs: int = 48, threads: int = 0,
+                  change: Optional[float] = None, seeds: Optional[int] = None, grow: bool = False,
+                  tolerance: float = 0.5, rate: str = "by_time", min_discs: Optional[int] = None,
+                  max_discs: Optional[int] = None, threads: int = 0,
                   progress: Optional[Callable[[int, int, int], object]] = None,
                   **parameters: Any) -> Any:
     import pandas
@@ -205,19 +206,21 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
     _count("threads", threads, 0)
     given = {name: value for name, value in parameters.items() if value is not None}
     if grow:
-        if given or (of, level, change, tolerance, rate, min_discs, max_discs) != (
-                "by_time", 0.0, None, 0.5, "by_time", 5, 48):
-            raise ValueError("grow adds values of x and y and seeds; all else stays as it is.\n"
+        if given or (of, level, change, tolerance, rate) != ("by_time", 0.0, None, 0.5, "by_time"):
+            raise ValueError("grow adds values of x and y, seeds and numbers of discs; all else stays as it is.\n"
                              "hint: use another folder for another map.")
         _engine.grow_map(folder, _axis("x", x), _axis("y", y), _count("steps", steps, 2),
-                         0 if seeds == 16 else _count("seeds", seeds, 1))
+                         0 if seeds is None else _count("seeds", seeds, 1),
+                         None if min_discs is None else _count("min_discs", min_discs, 1),
+                         None if max_discs is None else _count("max_discs", max_discs, 1))
     elif x is not None or y is not None or given:
         _engine.write_map_plan(folder, _axis("x", x), _axis("y", y), of, rate, float(level), change,
-                               float(tolerance), _count("steps", steps, 2), _count("seeds", seeds, 1),
-                               _count("min_discs", min_discs, 1), _count("max_discs", max_discs, 1),
-                               given)
+                               float(tolerance), _count("steps", steps, 2),
+                               _count("seeds", 16 if seeds is None else seeds, 1),
+                               _count("min_discs", 5 if min_discs is None else min_discs, 1),
+                               _count("max_discs", 48 if max_discs is None else max_discs, 1), given)
     elif (of, steps, level, change, seeds, tolerance, rate, min_discs, max_discs) != (
-            "by_time", 16, 0.0, None, 16, 0.5, "by_time", 5, 48):
+            "by_time", 16, 0.0, None, None, 0.5, "by_time", None, None):
         raise ValueError("options of the map are given, but x is not.\nhint: give all options of the map, "
                          "or only out to continue it.")
     elif not os.path.exists(os.path.join(folder, "plan.json")):
@@ -312,8 +315,9 @@ the verdict, the periods and the numbers of runs. `table.attrs["summary"]` is th
 out: folder of the map, in the format of the command line. A repeated call completes it, and without
     further arguments continues it. x, y: axes; a range "0:1" has `steps` values. of: N_c, a rotation rate,
     or a number of a measurement, such as "slip.cluster". level: the map is fine where the quantity crosses
-    it. change: and where neighbours differ by more [never; N_c 2]. seeds: maximum number of runs at a point.
-grow: add the values of x and y, and raise the maximum of runs to seeds, in an existing map.
+    it. change: and where neighbours differ by more [never; N_c 2]. seeds: maximum number of runs at a point [16].
+grow: add the values of x and y to an existing map, raise the maximum of runs to seeds, and enlarge the range
+    of numbers of discs to min_discs and max_discs.
 tolerance, rate, min_discs, max_discs: for N_c, as in swirl.crossing(). threads: simultaneous runs [one per
     core]. progress: a function of (decided points, known points, events). periods [120]: length of each run.
 """)

@@ -33,7 +33,7 @@ struct MapCall {
     MapSettings settings;
     std::string config_file, x, y, out, table;
     ShareOptions sharing;
-    bool grow = false, seeds_given = false;
+    bool grow = false, seeds_given = false, from_given = false, to_given = false;
     bool status = false, dry_run = false, no_figure = false, quiet = false;
 
     fs::path table_file() const {
@@ -69,16 +69,16 @@ std::string first_given(const Subcommand& subcommand, std::initializer_list<cons
 void reject_options_of_other_maps(const Subcommand& subcommand, const MapCall& call) {
     const bool has_axes = !call.x.empty() || !call.y.empty();
     if (call.grow) {
-        std::string name = first_given(
-            subcommand, {"--of", "--level", "--change", "--from", "--to", "--rate", "--tolerance"});
+        std::string name =
+            first_given(subcommand, {"--of", "--level", "--change", "--rate", "--tolerance"});
         if (!call.parameters->empty()) name = option_name(call.parameters->begin()->first);
         if (!name.empty())
             throw UsageError(
                 fmt::format("{} is given, but --grow keeps it as it is.\nhint: give --x, --y, "
-                            "--steps and --seeds, or use another folder.",
+                            "--steps, --seeds, --from and --to, or use another folder.",
                             name));
-        if (!has_axes && !call.seeds_given)
-            throw UsageError("--grow is given, but no --x, --y or --seeds.");
+        if (!has_axes && !call.seeds_given && !call.from_given && !call.to_given)
+            throw UsageError("--grow is given, but no --x, --y, --seeds, --from or --to.");
         if (!has_axes && !first_given(subcommand, {"--steps"}).empty())
             throw UsageError("--steps is given, but no axis.\nhint: give --x, --y or both.");
         return;
@@ -103,11 +103,13 @@ struct MapPlanOfCall {
 MapPlanOfCall map_plan_of(MapCall& call) {
     if (call.grow) {
         SweepPlan before = read_plan(call.out);
-        std::vector<MapAxisText> axes;
-        if (!call.x.empty()) axes.push_back(read_map_axis("--x", call.x));
-        if (!call.y.empty()) axes.push_back(read_map_axis("--y", call.y));
-        SweepPlan larger = grown_map(before, axes, call.settings.steps,
-                                     call.seeds_given ? call.settings.max_runs : 0);
+        MapGrowth growth{.steps = call.settings.steps};
+        if (!call.x.empty()) growth.axes.push_back(read_map_axis("--x", call.x));
+        if (!call.y.empty()) growth.axes.push_back(read_map_axis("--y", call.y));
+        if (call.seeds_given) growth.max_runs = call.settings.max_runs;
+        if (call.from_given) growth.from = call.settings.from;
+        if (call.to_given) growth.to = call.settings.to;
+        SweepPlan larger = grown_map(before, growth);
         return {std::move(larger), std::move(before)};
     }
     if (call.x.empty() && call.y.empty() && call.parameters->empty())
@@ -288,8 +290,8 @@ void add_map_command(Subcommand& subcommand) {
         "undetermined. A point gets two runs, and more near the level: their number doubles "
         "until its sign is certain. The figure shows the level with its 95 % band. With --of "
         "N_c, each point is a search for the number of discs at which the rotation changes its "
-        "sign. With --grow, the values of --x and --y are added to the map in DIR, and --seeds is "
-        "its new maximum.\n");
+        "sign. With --grow, the values of --x and --y are added to the map in DIR, --seeds is its "
+        "new maximum, and --from and --to enlarge the range of numbers of discs.\n");
     subcommand.set_main_options({"--discs", "--mu", "--periods", "--x", "--y", "--of", "--out",
                                  "--steps", "--seeds", "--threads", "--grow", "--status"});
     subcommand.set_examples({"swirl map --x mu=0:1 --y amplitude=0.5:4 --out map",
@@ -302,7 +304,12 @@ void add_map_command(Subcommand& subcommand) {
         if (!call->config_file.empty())
             take_config_file(subcommand, call->config_file, *call->parameters, Lists::rejected,
                              "map");
-        call->seeds_given = !first_given(subcommand, {"--seeds"}).empty();
+        const auto is_given = [&](const char* name) {
+            return !first_given(subcommand, {name}).empty();
+        };
+        call->seeds_given = is_given("--seeds");
+        call->from_given = is_given("--from");
+        call->to_given = is_given("--to");
         reject_options_of_other_maps(subcommand, *call);
         make_map(*call);
     });

@@ -128,6 +128,54 @@ void validate_settings(const MapSettings& s) {
     validate_range({.config = {}, .from = s.from, .to = s.to});
 }
 
+/// The values that an axis of the map does not have yet.
+SweepAxis added_values(const SweepPlan& plan, const MapAxisText& given, std::int64_t steps) {
+    constexpr double same = 1e-9;  // relative to the range: a rounding error of its steps
+    if (given.name != plan.map->x && given.name != plan.map->y)
+        throw UsageError(
+            fmt::format("{} is not an axis of this map, which has {}{}.\nhint: use another folder.",
+                        given.name, plan.map->x, plan.map->y.empty() ? "" : " and " + plan.map->y));
+    std::vector<double> known;
+    for (const std::string& value : plan.axis(given.name)->values)
+        known.push_back(read_number(value).value_or(not_available));
+    const auto [least, most] = std::minmax_element(known.begin(), known.end());
+    const double range = *most - *least;
+    SweepAxis added{given.name, {}};
+    for (const std::string& value : values_of(given, steps))
+        if (std::none_of(known.begin(), known.end(), [&](double k) {
+                return std::abs(k - *read_number(value)) <= same * range;
+            }))
+            added.values.push_back(value);
+    return added;
+}
+
+/// The numbers of discs in the larger range. The searches assume that a range has no gaps.
+SweepAxis added_numbers(const SweepPlan& plan, const MapGrowth& growth) {
+    if (!plan.map->is_of_crossing())
+        throw UsageError(
+            fmt::format("{} is given, but this map is of {}.\nhint: --from and --to "
+                        "belong to maps of N_c.",
+                        growth.from ? "--from" : "--to", plan.map->of));
+    const SweepAxis& known = *plan.axis("discs");
+    const std::vector<std::size_t> order = ascending_order(known);
+    const auto number_at = [&](std::size_t index) {
+        return read_whole_number(known.values[index]).value_or(0);
+    };
+    const std::int64_t least = number_at(order.front()), most = number_at(order.back()),
+                       from = growth.from.value_or(least), to = growth.to.value_or(most);
+    if (from > least || to < most)
+        throw UsageError(
+            fmt::format("the range is --from {} --to {}, but the searches of this map cover {} to "
+                        "{} discs, and "
+                        "the range can only grow.\nhint: use another folder for a smaller range.",
+                        from, to, least, most));
+    validate_range({.config = {}, .from = from, .to = to});
+    SweepAxis added{"discs", {}};
+    for (std::int64_t n = from; n <= to; ++n)
+        if (n < least || n > most) added.values.push_back(std::to_string(n));
+    return added;
+}
+
 }  // namespace
 
 MapAxisText read_map_axis(const char* option, const std::string& text) {
@@ -140,33 +188,15 @@ MapAxisText read_map_axis(const char* option, const std::string& text) {
     return {name, text.substr(equals + 1)};
 }
 
-SweepPlan grown_map(const SweepPlan& plan, const std::vector<MapAxisText>& axes, std::int64_t steps,
-                    std::int64_t max_runs) {
-    constexpr double same = 1e-9;  // relative to the range: a rounding error of its steps
+SweepPlan grown_map(const SweepPlan& plan, const MapGrowth& growth) {
     if (!plan.map)
         throw UsageError("the folder holds a sweep, not a map.\nhint: use swirl sweep --grow.");
-    validate_steps(steps);
+    validate_steps(growth.steps);
     std::vector<SweepAxis> more;
-    for (const MapAxisText& given : axes) {
-        if (given.name.empty()) continue;
-        if (given.name != plan.map->x && given.name != plan.map->y)
-            throw UsageError(fmt::format(
-                "{} is not an axis of this map, which has {}{}.\nhint: use another folder.",
-                given.name, plan.map->x, plan.map->y.empty() ? "" : " and " + plan.map->y));
-        std::vector<double> known;
-        for (const std::string& value : plan.axis(given.name)->values)
-            known.push_back(read_number(value).value_or(not_available));
-        const auto [least, most] = std::minmax_element(known.begin(), known.end());
-        const double range = *most - *least;
-        SweepAxis added{given.name, {}};
-        for (const std::string& value : values_of(given, steps))
-            if (std::none_of(known.begin(), known.end(), [&](double k) {
-                    return std::abs(k - *read_number(value)) <= same * range;
-                }))
-                added.values.push_back(value);
-        more.push_back(std::move(added));
-    }
-    return with_values(plan, more, max_runs, {});
+    for (const MapAxisText& given : growth.axes)
+        if (!given.name.empty()) more.push_back(added_values(plan, given, growth.steps));
+    if (growth.from || growth.to) more.push_back(added_numbers(plan, growth));
+    return with_values(plan, more, growth.max_runs, {});
 }
 
 SweepPlan make_map_plan(const MapSettings& s) {

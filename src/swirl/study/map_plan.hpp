@@ -36,10 +36,17 @@ struct MapSettings {
 /// "mu=0:1". Throws UsageError.
 MapAxisText read_map_axis(const char* option, const std::string& text);
 
-/// The plan with further values of its axes and more runs at a point; an axis without a name and 0
-/// runs leave them unchanged. Throws UsageError for another axis.
-SweepPlan grown_map(const SweepPlan& plan, const std::vector<MapAxisText>& axes, std::int64_t steps,
-                    std::int64_t max_runs);
+/// What a map gets in addition. Members with their default leave the map unchanged.
+struct MapGrowth {
+    std::vector<MapAxisText> axes = {};  // further values; an axis without a name adds none
+    std::int64_t steps = 16;             // values of a range FROM:TO
+    std::int64_t max_runs = 0;           // new maximum at one point
+    std::optional<std::int64_t> from = {}, to = {};  // larger range of the searches for N_c
+};
+
+/// The plan with this growth. Throws UsageError for another axis, a smaller maximum of runs, a
+/// smaller range, and a range without N_c.
+SweepPlan grown_map(const SweepPlan& plan, const MapGrowth& growth);
 
 /// Throws UsageError for an invalid range, a value that cannot be run, or an unknown quantity.
 SweepPlan make_map_plan(const MapSettings& settings);

@@ -17,6 +17,7 @@ constexpr std::size_t first_runs = 2, coarse_step = 5, min_coarse_cells = 3, coa
 /// Ranks of two values of an axis.
 struct Interval {
     std::size_t a = 0, b = 0;
+    bool operator==(const Interval&) const = default;
 };
 
 struct Cell {
@@ -45,6 +46,12 @@ class MapAxis {
     std::size_t size() const { return index_.size(); }
     /// What a rank adds to the index in the product of the axes.
     std::size_t offset(std::size_t rank) const { return index_[rank] * stride_; }
+    /// The index of the smallest value in the plan.
+    std::size_t smallest() const { return index_.front(); }
+    /// From the first to the last rank of a stage.
+    Interval range(std::size_t stage) const {
+        return {ranks_[stage].front(), ranks_[stage].back()};
+    }
 
     /// The coarse intervals of a stage: all of the first one, later those beyond its values.
     std::vector<Interval> coarse_intervals(std::size_t stage) const {
@@ -128,15 +135,16 @@ class MapSearch {
           find_run_(find_run),
           x_(plan, target_.x),
           y_(plan, target_.y),
+          discs_(plan, target_.is_of_crossing() ? "discs" : ""),
           point_at_(points_by_index(plan)),
           sites_(x_.size() * y_.size()),
-          begin_(sites_.size()) {
+          counts_(sites_.size()) {
         for (const SweepStage& stage : plan.before)
             max_runs_of_.push_back(static_cast<std::size_t>(stage.replicas));
         max_runs_of_.push_back(static_cast<std::size_t>(plan.replicas));
         if (!target_.is_of_crossing()) return;
-        discs_ = MapAxis(plan, "discs");
-        first_number_ = static_cast<double>(*read_whole_number(plan.axis("discs")->values.front()));
+        first_number_ =
+            static_cast<double>(*read_whole_number(plan.axis("discs")->values[discs_.smallest()]));
     }
 
     /// A map that has grown repeats its search stage by stage, so all its runs are used.
@@ -144,6 +152,7 @@ class MapSearch {
         std::vector<Cell> cells;
         for (stage_ = 0; stage_ < max_runs_of_.size() && missing_.empty(); ++stage_) {
             max_runs_ = max_runs_of_[stage_];
+            numbers_ = discs_.range(stage_);
             decide_again();
             add_coarse_cells(cells);
             for (bool changed = true; changed;) {
@@ -192,14 +201,16 @@ class MapSearch {
         coarse_y_.insert(coarse_y_.end(), new_y.begin(), new_y.end());
     }
 
-    /// Sites that were open with the runs allowed before.
+    /// Sites that were open with the runs and numbers of discs allowed before.
     void decide_again() {
-        if (stage_ == 0 || max_runs_ == max_runs_of_[stage_ - 1]) return;
+        if (stage_ == 0 ||
+            (max_runs_ == max_runs_of_[stage_ - 1] && numbers_ == discs_.range(stage_ - 1)))
+            return;
         for (std::size_t k = 0; k < sites_.size(); ++k)
             if (sites_[k] && (sites_[k]->verdict == "undetermined" ||
                               sites_[k]->verdict == "undecided" || target_.is_of_crossing())) {
                 MapSite s{.x = sites_[k]->x, .y = sites_[k]->y};
-                decide(s, begin_[k]);
+                decide(s, counts_[k]);
                 sites_[k] = std::move(s);
             }
     }
@@ -213,15 +224,15 @@ class MapSearch {
         std::optional<MapSite>& known = at(i, j);
         if (known) return;
         MapSite s{.x = i, .y = j};
-        Counts& begin = begin_[j * x_.size() + i];
-        if (target_.is_of_crossing()) begin = first_numbers(neighbours);
-        decide(s, begin);
+        Counts& counts = counts_[j * x_.size() + i];
+        if (target_.is_of_crossing()) counts = first_numbers(neighbours);
+        decide(s, counts);
         known = std::move(s);
     }
 
-    void decide(MapSite& s, const Counts& begin) {
+    void decide(MapSite& s, Counts& counts) {
         if (target_.is_of_crossing())
-            find_crossing_at(s, begin);
+            find_crossing_at(s, counts);
         else
             find_value_at(s);
     }
@@ -319,9 +330,9 @@ class MapSearch {
     }
 
     void add_coarse_numbers(Counts& counts) const {
-        const std::size_t last = discs_.size() - 1;
+        const std::size_t length = numbers_.b - numbers_.a;
         for (std::size_t k = 0; k < coarse_numbers; ++k)
-            counts.try_emplace(last * k / (coarse_numbers - 1), first());
+            counts.try_emplace(numbers_.a + length * k / (coarse_numbers - 1), first());
     }
 
     /// Next to the N_c of the neighbours, if all have one.
@@ -346,12 +357,14 @@ class MapSearch {
     std::size_t first() const { return std::min(first_runs, max_runs_); }
     double number(std::size_t index) const { return first_number_ + static_cast<double>(index); }
     std::size_t index_of(double discs) const {
-        const double index = std::clamp(std::round(discs - first_number_), 0.0,
-                                        static_cast<double>(discs_.size() - 1));
+        const double index =
+            std::clamp(std::round(discs - first_number_), static_cast<double>(numbers_.a),
+                       static_cast<double>(numbers_.b));
         return static_cast<std::size_t>(index);
     }
 
-    void find_crossing_at(MapSite& s, Counts counts) {
+    /// Extends the counts, so that the next stage begins with all runs of this one.
+    void find_crossing_at(MapSite& s, Counts& counts) {
         do {
             s.runs = s.failed = 0;
             s.periods = 0.0;
@@ -428,29 +441,31 @@ class MapSearch {
     /// If the search began next to the N_c of the neighbours and did not find that of this site:
     /// adds numbers farther out, and finally those of a site without neighbours.
     bool add_beyond(Counts& counts, const std::vector<RotationPoint>& points) const {
-        const std::size_t before = counts.size(), last = discs_.size() - 1;
+        const std::size_t before = counts.size();
         const std::size_t low = counts.begin()->first, high = counts.rbegin()->first;
         const std::size_t step = std::max<std::size_t>(2, (high - low) / 2);
         const auto certain = [](const RotationPoint& p, double sign) {
             return sign * p.mean > certain_sign * p.error;
         };
-        if (!certain(points.front(), 1.0)) counts.try_emplace(low > step ? low - step : 0, first());
-        if (!certain(points.back(), -1.0)) counts.try_emplace(std::min(high + step, last), first());
+        const auto [least, most] = numbers_;
+        if (!certain(points.front(), 1.0))
+            counts.try_emplace(low > least + step ? low - step : least, first());
+        if (!certain(points.back(), -1.0)) counts.try_emplace(std::min(high + step, most), first());
         if (counts.size() == before) add_coarse_numbers(counts);
         return counts.size() > before;
     }
 
     const MapTarget target_;
     const FindRun& find_run_;
-    const MapAxis x_, y_;
-    MapAxis discs_;
+    const MapAxis x_, y_, discs_;              // discs_: one value, if the map is not of N_c
     const std::vector<std::size_t> point_at_;  // empty if the plan has not grown
     std::vector<std::size_t> max_runs_of_;     // by stage
     std::size_t stage_ = 0, max_runs_ = 0;
+    Interval numbers_;  // ranks of the numbers of discs in this stage
     double first_number_ = 0.0;
     std::vector<Interval> coarse_x_, coarse_y_;
     std::vector<std::optional<MapSite>> sites_;
-    std::vector<Counts> begin_;  // of the sites, for N_c
+    std::vector<Counts> counts_;  // of the sites, for N_c
     std::vector<std::size_t> missing_;
 };
 

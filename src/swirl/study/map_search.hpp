@@ -19,10 +19,12 @@
 // numbers outside it, until their sign is certain. A cell is halved if the verdicts differ, one is
 // undecided, or N_c differs by more than `change`.
 //
-// Growth. A plan may get further values of its axes and more replicas (sweep_plan.hpp). The search
-// then repeats that of the smaller plan, and continues with the larger one: cells beyond the old
-// range are added, sites that were undetermined get more runs, and a cell is halved at a value of
-// the old plan where one lies between. So every run of the smaller map is used.
+// Growth. A plan may get further values of its axes, more replicas (sweep_plan.hpp) and, for N_c,
+// further numbers of discs. The search then repeats that of the smaller plan, and continues with
+// the larger one: cells beyond the old range are added, sites that were undetermined get more runs,
+// and a cell is halved at a value of the old plan where one lies between. A site without N_c is
+// searched in the added numbers, too; one with an N_c keeps it. So every run of the smaller map is
+// used.
 //
 // Failed runs count as done and are excluded. A site whose runs all failed has no value.
 #pragma once
