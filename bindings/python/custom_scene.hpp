@@ -16,9 +16,9 @@ struct GivenDiscs {
     std::optional<Numbers> velocity, angle, spin, radius, mass, inertia;
 };
 
-/// Throws UsageError for arrays of wrong shapes and for values out of range. Values that are not given are
-/// those of `config`; discs without velocities move with the container, and given radii without
-/// masses are those of one material.
+/// Throws UsageError for arrays of wrong shapes and for values out of range. Values that are not
+/// given are those of `config`; discs without velocities move with the container, and given radii
+/// without masses are those of one material.
 std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
                            const Segment& first_segment);
 

@@ -349,8 +349,8 @@ TEST(MapGrowth, FindsCrossingsAndDoesNotDependOnTheOrderOfTheRuns) {
     EXPECT_EQ(map.points(), in_order.points());
 }
 
-// N_c rises along x from below the first range to above it. The range then grows at both ends, in two
-// steps.
+// N_c rises along x from below the first range to above it. The range then grows at both ends, in
+// two steps.
 TEST(MapGrowth, SearchesInALargerRangeWhereThereIsNoCrossing) {
     MapSettings settings;
     settings.x = {"mu", "0:1"};

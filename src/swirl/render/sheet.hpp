@@ -44,8 +44,8 @@ class Sheet {
 
     /// Draws the parts that are the same in every frame.
     void draw_static(const Canvas& canvas) const;
-    /// Draws the parts that change. `contents` has one entry per panel, `curves` belong to the plot, and
-    /// `periods` is the time shown.
+    /// Draws the parts that change. `contents` has one entry per panel, `curves` belong to the
+    /// plot, and `periods` is the time shown.
     void draw_frame(const Canvas& canvas, std::span<const SceneContent> contents,
                     std::span<const Curve> curves, double periods) const;
 
