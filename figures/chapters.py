@@ -82,9 +82,7 @@ def dishes(name, parameter, words, label, logarithmic):
         left.minorticks_off()
         left.set_xlabel(PACKING)
         left.set_ylabel(r"rotation $\varpi/\Omega$, rigid body, by time")
-        if radius is not None:
-            left.set_title(f"$R/r = {radius:g}$", loc="left")
-        left.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4, columnspacing=1.0)
+        style.legend(left, ncol=4, title=None if radius is None else f"$R/r = {radius:g}$")
         sign_map(right, here, marks, parameter, logarithmic)
         right.set_xlabel(words)
         right.set_ylabel(PACKING)

@@ -53,7 +53,8 @@ def main():
     panel(drawing, axes[0][0], rows, "packing", r"(a) packing and flow", "Blues", False)
     flow = about_the_mean(dense)
     step = sorted({row["x"] for row in rows})
-    style.arrows(axes[0][0], flow, step[1] - step[0], max(map(style.speed, flow), default=1.0) or 1.0, style.RED)
+    style.arrows(axes[0][0], flow, step[1] - step[0], max(map(style.speed, flow), default=1.0) or 1.0, style.RED,
+                 key=(0.5, -0.07))
     panel(drawing, axes[0][1], dense, "spin", r"(b) spin $\omega$", "PuOr_r", True)
     half = [row | {"half": 0.5 * row["vorticity"]} for row in dense]
     panel(drawing, axes[0][2], half, "half", r"(c) half of the vorticity, $\frac{1}{2}$ curl $u$", "PuOr_r", True)
@@ -72,10 +73,11 @@ def main():
         ends = np.array([min(style.column(known, "relation")), max(style.column(known, "relation"))])
         last.plot(ends, ends, color=style.BLACK, linewidth=0.8, label="micropolar fluid")
         drawing.colorbar(shown, ax=last, label=r"$\varphi$", pad=0.02)
-        last.legend(loc="best")
+        style.legend(last, ncol=1)
     last.set_xlabel(r"$\Gamma\sqrt{mT}\,(\mathrm{curl}\,u - 2\omega)$, $m v^2/r^2$")
     last.set_ylabel(r"torque of the stress, $m v^2/r^2$")
-    last.set_title("(f) point by point")
+    last.locator_params(axis="x", nbins=3)
+    last.set_title("(f) point by point", pad=18)
     style.save(drawing, table)
 
 

@@ -11,9 +11,9 @@ def main():
     rows = style.read(table)
     names = list(dict.fromkeys(row["curve"] for row in rows))
     curves = [(style.select(rows, curve=name),
-               {"label": name, "color": style.CYCLE[k], "marker": style.MARKERS[k]})
+               {"label": name.replace("μ_f", r"$\mu_f$"), "color": style.CYCLE[k], "marker": style.MARKERS[k]})
               for k, name in enumerate(names)]
-    style.rotation_figure(table, curves, of="spheres", height=3.2, fine=0.1, ncol=2)
+    style.rotation_figure(table, curves, of="spheres", width=1.4 * style.COLUMN, height=3.2, fine=0.1, ncol=3)
 
 
 if __name__ == "__main__":

@@ -340,16 +340,16 @@ def speed(row):
     return math.hypot(row["u_x"], row["u_y"])
 
 
-def arrows(axes, rows, spacing, fastest, color):
+def arrows(axes, rows, spacing, fastest, color, key=(0.9, 0.03)):
     """Velocities in units of the container's speed, each in the middle of its cell. The fastest arrow is as long as
-    the distance of the cells, so arrows do not overlap."""
+    the distance of the cells, so arrows do not overlap. `key`: position of the scale in the axes."""
     drawn = axes.quiver(column(rows, "x"), column(rows, "y"), column(rows, "u_x"),
                         column(rows, "u_y"), color=color, angles="xy", scale_units="xy",
                         scale=fastest / spacing, pivot="mid", units="xy", width=0.095 * spacing,
                         headwidth=3.6, headlength=4, headaxislength=3.6, minlength=0.5)
     # The scale, outside the container.
     known = max([k for k in (0.1, 0.2, 0.5, 1, 2, 5) if k <= fastest], default=fastest)
-    axes.quiverkey(drawn, 0.9, 0.03, known, f"speed {known:g}", labelpos="N", coordinates="axes",
+    axes.quiverkey(drawn, *key, known, f"speed {known:g}", labelpos="N", coordinates="axes",
                    color=BLACK if color == "white" else color,
                    fontproperties={"size": SMALLEST}, labelsep=0.03)
 
@@ -357,6 +357,7 @@ def arrows(axes, rows, spacing, fastest, color):
 def save(drawing, table):
     """Writes PNG and PDF next to the table, atomically. They contain no date: the same table gives the same bytes."""
     stem = os.path.splitext(table)[0]
+    drawing.canvas.draw()  # the layout of the first drawing has the sizes of labels that change in it
     for kind, about in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
         drawn = io.BytesIO()
         drawing.savefig(drawn, format=kind, metadata=about)
