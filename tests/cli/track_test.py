@@ -331,9 +331,10 @@ class TrackTest(InFolder):
         return [sum(s[k] for s in shifts) / len(shifts) for k in (0, 1)]
 
     def test_light_from_one_side_does_not_shift_discs(self):
-        # In fewer periods the shift is within its error.
+        # The shift is 7 standard errors. In 4 periods it is about 4, which is the limit, so whether it
+        # is found depended on the processor: video decoders are not bitwise reproducible.
         video = self.video("--light-from", 135, "--light-elevation", 45, "--light-share", 0.8,
-                           "--gloss", 60, of=LARGER, length=4)
+                           "--gloss", 60, of=LARGER, length=10)
         tracks, said = self.track(video)
         self.assertIn("from one side; shifts discs by", said)
         result = Comparison(video, tracks)
