@@ -9,6 +9,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/statistics/block_average.hpp"
 #include "swirl/tracking/circles.hpp"
 #include "swirl/tracking/container_path_fit.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
@@ -252,12 +253,16 @@ void require_every_phase(const std::vector<double>& times, const std::vector<dou
     }
 }
 
-/// The error of Ω: the residuals against the motion along the path.
+/// The error of Ω: the residuals against the motion along the path. Residuals of successive frames
+/// may be correlated, for example where the rim is found with the same error in all of them. The
+/// integrated autocorrelation time τ of the residuals along the path makes the error √τ times as
+/// large.
 double rate_error(const RecordedMotion& motion, const std::vector<double>& times,
-                  const std::vector<double>& weights) {
+                  const MotionFit& fit) {
     double sum = 0.0, first = 0.0, second = 0.0;
+    std::vector<double> along;
     for (std::size_t k = 0; k < times.size(); ++k) {
-        if (weights[k] == 0.0) continue;
+        if (fit.weights()[k] == 0.0) continue;
         const double t = times[k] - motion.start, share = t / motion.period();
         Vec2 slope{0.0, 0.0};  // dC/d(Ωt)
         for (std::size_t n = 0; n < motion.cosine.size(); ++n) {
@@ -267,8 +272,10 @@ double rate_error(const RecordedMotion& motion, const std::vector<double>& times
         }
         const double w = dot(slope, slope);
         sum += w, first += w * t, second += w * t * t;
+        along.push_back(dot(slope, fit.residuals()[k]));
     }
-    return motion.residual / std::sqrt(second - first * first / sum);
+    const double tau = estimate_of_series(along).autocorrelation_time;
+    return motion.residual * std::sqrt(tau / (second - first * first / sum));
 }
 
 /// The highest harmonic above its error, from a fit of all of them.
@@ -291,7 +298,6 @@ RecordedMotion average_motion(const std::vector<Vec2>& centres, const std::vecto
     constexpr std::size_t min_frames = 24;
     constexpr double min_share = 0.5;     // of the frames
     constexpr double min_periods = 1.95;  // two, with the rounding of a frame
-    constexpr double tiny = 1e-12;        // pixels: exact centres have no residuals
     constexpr int max_harmonics = 12, passes = 8, frames_per_harmonic = 4;
     if (centres.size() < min_frames || double(centres.size()) < min_share * double(frames))
         throw Failure(fmt::format(
@@ -342,12 +348,11 @@ RecordedMotion average_motion(const std::vector<Vec2>& centres, const std::vecto
     require_every_phase(times, fit.weights(), motion);
     const double noise = motion.residual * std::sqrt(double(2 * harmonics + 1) /
                                                      (motion.used * double(centres.size())));
+    motion.omega_error = rate_error(motion, times, fit);  // of the residuals of all frames
     std::size_t whole = 0;
     motion.scatter = scatter_of_periods(fit, times, harmonics, motion, whole);
     motion.point_error =
         std::max(noise, whole < 2 ? 0.0 : motion.scatter / std::sqrt(double(whole)));
-    motion.omega_error =
-        rate_error(motion, times, fit.weights()) * motion.point_error / std::max(noise, tiny);
     return motion;
 }
 
