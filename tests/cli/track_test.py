@@ -387,6 +387,25 @@ class TrackTest(InFolder):
         # Fewer contacts than in a longer video, and outlines that err by the shading: within 8 %.
         self.assertLess(abs(found["species"][0]["radius"] / 15.0 - 1.0), 0.08)
 
+    def test_pattern_of_the_floor_is_removed(self):
+        # As a student's video: 15 frames per period; two periods show all of the floor.
+        video = self.video("--floor-pattern", 60, "--disc-variation", 0.25, length=2,
+                           of=["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23])
+        tracks, printed = self.track(video)
+        self.assertIn("the floor of the container has a pattern", printed)
+        result = Comparison(video, tracks)
+        self.assertEqual((result.found["discs"], result.swaps), (28, 0))
+        self.assertGreater(result.complete, 0.9)
+        self.assertLess(result.rms, 1.0)  # pixels, a twentieth of a radius; 0.66 measured
+        self.assertLess(abs(result.radius), 0.03)
+        self.assertLess(abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.02)
+        # A number that the frames contradict is rejected.
+        rejected = swirl("track", video, "--discs", 40, "--out", self.path("none.csv"))
+        self.assertEqual(rejected.returncode, 1, rejected.stderr)
+        self.assertIn("40 discs", rejected.stderr)
+        self.assertIn("plain floor", rejected.stderr)
+        self.assertFalse(os.path.exists(self.path("none.csv")))
+
     @slow("six videos of two periods; the wall of most other tests is reached in every frame")
     def test_container_radius_with_few_discs(self):
         # Four discs bounce off the wall about three times per period. With fewer contacts, the

@@ -54,6 +54,7 @@ FrameDetections detect_frame(const TrackingSettings& settings, const VideoSurvey
         if (!found.pose) return found;
         stabilise(image, *found.pose);
     }
+    if (survey.floor) survey.floor->remove(image);
     const PreparedFrame frame(image, survey.reduction(), survey.appearance.blur);
     found.rim = find_container_rim(frame, survey.rim);
     if (found.rim.good && !settings.motion_only)

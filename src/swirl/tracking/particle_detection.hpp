@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "swirl/run/failure.hpp"
 #include "swirl/tracking/circles.hpp"
 #include "swirl/tracking/container_rim.hpp"
 #include "swirl/tracking/lens.hpp"
@@ -64,6 +65,12 @@ struct Particle {
     double support = 0.0, error = 0.0;
     bool sure = false;
     double disagreement = 0.0;  // distance of the two fits to its edge, pixels; 0: there is one fit
+};
+
+/// Circles are found, but the frames contradict that they are discs.
+class UncertainDiscs : public Failure {
+  public:
+    using Failure::Failure;
 };
 
 /// Properties of the discs that the user gave.

@@ -190,7 +190,7 @@ CommonCircle find_common_circle(const ParticleSurvey& survey, const KnownDiscs& 
     }
     if (at_end) return *at_end;
     if (reason.empty()) return best;
-    throw Failure(fmt::format(
+    throw UncertainDiscs(fmt::format(
         "the container was found, but no discs: circles with a radius of {:.1f} pixels fit the "
         "edges best, but {}.\n"
         "hint: give --discs, or --disc-diameter and --container-diameter. A higher contrast and "

@@ -143,6 +143,7 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
         }
         if (here.empty() || !all[k].used) continue;
         tracked.stabilise(k, grey);
+        if (survey.floor) survey.floor->remove(grey);
         const PreparedFrame frame(grey, survey.reduction(), survey.appearance.blur);
         CircleFit rim = all[k].rim;
         rim.centre = tracked.lens.seen(rim.good ? rim.centre : container);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <functional>
 #include <map>
 #include <optional>
@@ -95,13 +96,25 @@ void set_species(const TrackingSettings& settings, const ParticleAppearance& app
              count_discs(all, [k](std::size_t species) { return species == k; })});
     if (tracked.species.size() == 2) {
         // A disc whose size is ambiguous is of either species in some frames: it counts once.
-        const std::size_t total = count_discs(all, [](std::size_t) { return true; });
-        if (tracked.species[0].number + tracked.species[1].number > total)
-            if (const auto numbers = common_composition(all, total)) {
+        const std::size_t counted = count_discs(all, [](std::size_t) { return true; }),
+                          sum = tracked.species[0].number + tracked.species[1].number,
+                          total = settings.discs ? static_cast<std::size_t>(*settings.discs)
+                                                 : std::min(counted, sum);
+        if (sum != total) {
+            const auto numbers = common_composition(all, total);
+            if (!numbers && settings.discs)
+                throw UncertainDiscs(fmt::format(
+                    "--discs is {}, but no frame shows this number: discs of two sizes are found, "
+                    "{} in most frames. Some of these circles may be texture or noise.\n"
+                    "hint: use a plain floor, or give --disc-diameter and --container-diameter",
+                    total, counted));
+            if (numbers) {
                 tracked.species[0].number = (*numbers)[0];
                 tracked.species[1].number = (*numbers)[1];
             }
+        }
     }
+    tracked.number_given = settings.discs.has_value();
     if (settings.discs && tracked.species.size() == 1)
         tracked.species[0].number = static_cast<std::size_t>(*settings.discs);
     // The first one of the most frequent.
@@ -142,8 +155,12 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
 
     if (tracked.lens.tilted()) move_path_to_wall(tracked);
     measure_quality(all, tracked);
-    if (!settings.discs) reject_contradicted_discs(tracked);
+    reject_contradicted_discs(tracked);
     set_radii(tracked);
+    if (survey.floor)
+        tracked.warnings.emplace_back(
+            "the floor of the container has a pattern, which was learned from the video and "
+            "removed; a plain floor gives more accurate positions");
     add_warnings(tracked);
 }
 
@@ -201,8 +218,9 @@ TrackedVideo track_container(const TrackingSettings& given) {
     return tracked;
 }
 
-TrackedVideo track_video(const TrackingSettings& given) {
-    TrackingSettings settings = given;
+namespace {
+
+TrackedVideo detect_and_link(TrackingSettings settings) {
     TrackedVideo tracked;
     auto [times, survey, all] = detect_video(settings, tracked);
     try {
@@ -216,6 +234,24 @@ TrackedVideo track_video(const TrackingSettings& given) {
         throw Failure(text);
     }
     return tracked;
+}
+
+}  // namespace
+
+TrackedVideo track_video(const TrackingSettings& settings) {
+    std::exception_ptr uncertain;
+    try {
+        return detect_and_link(settings);
+    } catch (const UncertainDiscs&) {
+        uncertain = std::current_exception();
+    }
+    TrackingSettings again = settings;
+    again.patterned_floor = true;
+    try {
+        return detect_and_link(again);
+    } catch (const Failure&) {
+        std::rethrow_exception(uncertain);
+    }
 }
 
 }  // namespace swirl

@@ -50,6 +50,8 @@ struct TrackingSettings {
     bool spins = false;  // measure_spins() follows
     /// Set by track_container() itself: no discs in the frames; the container may move on any path.
     bool motion_only = false;
+    /// Set by track_video() itself: the pattern of the floor is removed from all frames.
+    bool patterned_floor = false;
     /// Called before the first progress: how many frames there will probably be.
     std::function<void(std::int64_t frames, bool spins)> planned;
 
@@ -107,6 +109,7 @@ struct TrackedVideo {
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
     std::vector<std::vector<std::uint8_t>> seen;  // 0: interpolated
     std::size_t number = 0;                       // of discs
+    bool number_given = false;                    // by the user
     double spacing = 1.0;  // contact distance / sum of visible radii, if these are parts of discs
     double contact_ratio = 0.0;   // distance of discs in contact / sum of radii
     bool contact_fitted = false;  // from the distribution of all distances

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "swirl/tracking/container_rim.hpp"
+#include "swirl/tracking/floor_pattern.hpp"
 #include "swirl/tracking/link.hpp"
 #include "swirl/tracking/particle_detection.hpp"
 #include "swirl/tracking/tilt.hpp"
@@ -30,6 +31,7 @@ struct VideoSurvey {
     ParticleAppearance appearance;
     Tilt tilt;
     std::shared_ptr<const StaticBackground> background;  // set if the camera moves
+    std::shared_ptr<const FloorPattern> floor;           // set if it is removed from all frames
     cv::Size size;                                       // of the frames
     Vec2 brighter{0.0, 0.0};  // mean gradient of the brightness of a disc, levels per radius
 
@@ -89,7 +91,7 @@ bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked);
 /// Sets the species and their numbers of discs.
 void set_species(const TrackingSettings& settings, const ParticleAppearance& appearance,
                  const Detections& all, TrackedVideo& tracked);
-/// All steps after the detection. Throws Failure.
+/// All steps after the detection. Throws Failure, and UncertainDiscs.
 void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey,
                      const VideoTimes& times, Detections& all, TrackedVideo& tracked);
 
@@ -154,7 +156,7 @@ void move_path_to_wall(TrackedVideo& tracked);
 void measure_quality(const Detections& all, TrackedVideo& tracked);
 /// Sets the container's radius from the rim and the discs; corrects the radii of discs in contact.
 void set_radii(TrackedVideo& tracked);
-/// Throws Failure if most frames contradict the discs that were found.
+/// Throws UncertainDiscs if most frames contradict the discs that were found.
 void reject_contradicted_discs(const TrackedVideo& tracked);
 /// Adds warnings about what looks wrong, with the likely cause.
 void add_warnings(TrackedVideo& tracked);

@@ -167,13 +167,15 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
              "all {} discs are detected in only {:.1f} % of the frames: more even light, less "
              "glare, a sharper image or a shorter exposure would help{}",
              tracked.number, 100.0 * tracked.complete_share,
-             tracked.species.size() == 1 ? "; --discs sets their number" : "");
+             tracked.species.size() == 1 && !tracked.number_given ? "; --discs sets their number"
+                                                                  : "");
     if (double(tracked.crowded) > max_crowded * double(tracked.frame_count))
-        warn(tracked,
-             "in {:.0f} % of the frames there are more discs than the {} that were counted, on "
-             "average {:.1f} more; --discs sets their number",
-             100.0 * double(tracked.crowded) / double(tracked.frame_count), tracked.number,
-             double(tracked.rejected) / double(tracked.crowded));
+        warn(
+            tracked,
+            "in {:.0f} % of the frames there are more discs than the {} {}, on average {:.1f} more",
+            100.0 * double(tracked.crowded) / double(tracked.frame_count), tracked.number,
+            tracked.number_given ? "of --discs" : "that were counted (--discs sets their number)",
+            double(tracked.rejected) / double(tracked.crowded));
 }
 
 }  // namespace
@@ -186,13 +188,15 @@ void reject_contradicted_discs(const TrackedVideo& tracked) {
     if (crowded < most * frames || 1.0 - tracked.complete_share < max_incomplete) return;
     const double excess = double(tracked.rejected) / crowded;
     if (excess < max_excess * double(tracked.number)) return;
-    throw Failure(fmt::format(
-        "{} discs with a radius of {:.1f} pixels were counted, but most frames contradict that: "
+    throw UncertainDiscs(fmt::format(
+        "{} discs with a radius of {:.1f} pixels were {}, but most frames contradict that: "
         "{:.0f} % have more, on average {:.0f} more, and all {} are found in only {:.0f} %. These "
-        "circles may be texture or noise.\nhint: give --discs, or --disc-diameter and "
-        "--container-diameter. A higher contrast and less compression also help.",
-        tracked.number, tracked.radius, std::min(100.0, 100.0 * crowded / frames), excess,
-        tracked.number, 100.0 * tracked.complete_share));
+        "circles may be texture or noise.\nhint: give {}--disc-diameter and --container-diameter. "
+        "A "
+        "plain floor, a higher contrast and less compression also help.",
+        tracked.number, tracked.radius, tracked.number_given ? "expected" : "counted",
+        std::min(100.0, 100.0 * crowded / frames), excess, tracked.number,
+        100.0 * tracked.complete_share, tracked.number_given ? "" : "--discs, or "));
 }
 
 void add_warnings(TrackedVideo& tracked) {

@@ -7,6 +7,7 @@
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/tracking/appearance_template.hpp"
 #include "swirl/tracking/contact_distance.hpp"
+#include "swirl/tracking/floor_pattern.hpp"
 #include "swirl/tracking/shading_detection.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
@@ -167,7 +168,7 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
         survey.appearance.appearance_template =
             std::make_shared<const AppearanceTemplate>(std::move(*learned));
     else if (survey.appearance.shading)
-        throw Failure(
+        throw UncertainDiscs(
             "the container was found, but no discs: balls were found by their shading, but they "
             "have no common appearance.\n"
             "hint: a higher contrast and less compression help.");
@@ -214,6 +215,32 @@ void remove_camera_motion(const TrackingSettings& settings, double reduction,
     frames = std::move(again);
 }
 
+/// Throws Failure if the floor has no pattern.
+void remove_floor_pattern(const TrackingSettings& settings, double reduction,
+                          std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
+                          VideoSurvey& survey) {
+    // The edge of a patterned floor is no circle. Without the pattern the rim is found exactly, and
+    // then the pattern can be learned up to the wall.
+    constexpr int rounds = 2;
+    const std::vector<cv::Mat> seen = images;
+    for (int round = 0; round < rounds; ++round) {
+        std::optional<FloorPattern> floor =
+            FloorPattern::learned(seen, survey.rim, reduction, thread_count(settings));
+        if (!floor) throw Failure("the floor of the container has no pattern");
+        survey.floor = std::make_shared<const FloorPattern>(std::move(*floor));
+        parallel_for(
+            images.size(),
+            [&](std::size_t k) {
+                settings.throw_if_stopped();
+                images[k] = seen[k].clone();
+                survey.floor->remove(images[k]);
+            },
+            thread_count(settings));
+        frames = prepare_all(images, reduction, settings);
+        if (const auto rim = find_moving_rim(frames, true)) survey.rim = *rim;
+    }
+}
+
 }  // namespace
 
 VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_count) {
@@ -239,6 +266,7 @@ VideoSurvey survey_images(const TrackingSettings& settings, std::vector<cv::Mat>
                                         : survey_container_rim(frames);
     remove_camera_motion(settings, reduction, images, frames, survey);
     if (survey.rim.rough) survey.rim = survey_container_rim(frames);
+    if (settings.patterned_floor) remove_floor_pattern(settings, reduction, images, frames, survey);
     survey.appearance = survey_appearance(
         images, frames, std::min(1.0, particle_side * rim_side / side), survey.rim, settings);
     settings.throw_if_stopped();
