@@ -142,6 +142,7 @@ OMITTED = (
     ("swirl paper --seeds 4", "takes hours: every figure, chapters included"),
     *((f"swirl {name}", "the launcher script has tests of its own") for name in LAUNCHER),
     ("cmake ", "builds the program"),
+    ("./check", "builds the program and runs these tests"),
 )
 
 # Blocks that show an error, and their exit code.

@@ -142,13 +142,19 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
 }
 
 std::optional<Contact> contact_of_discs(const std::vector<double>& ratios) {
-    constexpr double range = 0.1, max_soft_off = 0.15;  // from 1: more is no contact
+    constexpr double range = 0.1, soft_range = 0.2;  // from 1
+    constexpr double max_soft_off = 0.15;            // more is no contact of soft edges
     if (const auto found = contact_of(ratios, 1.0 - range, 1.0 + range);
         found && std::abs(found->at - 1.0) < max_contact_off)
         return found;
-    const auto soft = contact_of(ratios, 1.0 - contact_range, 1.0 + contact_range);
-    if (!soft || std::abs(soft->at - 1.0) >= max_soft_off) return std::nullopt;
-    return soft;
+    const auto soft = contact_of(ratios, 1.0 - soft_range, 1.0 + soft_range);
+    if (soft && std::abs(soft->at - 1.0) < max_soft_off) return soft;
+    // The edge of a transparent ball is within the ball. Discs that never touch have no sharp onset.
+    constexpr double max_error = 0.04;
+    const auto inside = contact_of(ratios, 1.0 - soft_range, 1.0 + contact_range);
+    if (!inside || inside->at < 1.0 + max_contact_off || inside->error > max_error)
+        return std::nullopt;
+    return inside;
 }
 
 std::optional<Distortion> distortion_of(const std::vector<DiscPair>& pairs, const Vec2& middle,

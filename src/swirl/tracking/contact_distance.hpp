@@ -37,7 +37,7 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
 /// The contact of discs, from distances in sums of radii: near 1, or farther off if their edges are
 /// soft and their radii wrong. Uses distances within `contact_range` of 1.
 std::optional<Contact> contact_of_discs(const std::vector<double>& ratios);
-inline constexpr double contact_range = 0.2;
+inline constexpr double contact_range = 0.5;
 /// A contact that is farther from 1 implies another radius.
 inline constexpr double max_contact_off = 0.05;
 

@@ -124,8 +124,10 @@ bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& 
             }
     }
     const auto contact = contact_of_discs(ratios);
-    if (appearance.spacing > 1.0 || !contact || std::abs(contact->at - 1.0) < max_contact_off)
-        return false;
+    if (appearance.spacing > 1.0 || !contact) return false;
+    // A circle far inside a ball is the sharp edge of its bright part, and stays the best guide.
+    constexpr double inner_edge = 1.1;
+    if (std::abs(contact->at - 1.0) < max_contact_off || contact->at > inner_edge) return false;
     for (ParticleSpecies& species : appearance.species) species.radius *= 0.5 * (1.0 + contact->at);
     appearance.lens.ball_radius = appearance.radius();
     return true;
