@@ -1,7 +1,7 @@
 // Compares the speed of the WebAssembly engine with the program: node speed.mjs SWIRL, after `./swirl lab`
 // and a build of bench/run. The runs alternate. Prints events per second in Node.js: the bare event loop
-// with and without SIMD next to `bench/run --width baseline`, and with the page's averages next to
-// `SWIRL run`.
+// with and without SIMD next to `bench/run --width sse2`, and with the page's averages next to
+// `SWIRL run`, also with vectors of 128 bits.
 import {execFileSync} from "node:child_process";
 import {readFileSync} from "node:fs";
 import {dirname, join} from "node:path";
@@ -42,10 +42,12 @@ function pageRate(module, discs) {
     dish.begin();
     return rateOf(dish);
 }
-const answerOf = (command, ...options) => JSON.parse(execFileSync(command, [...options, "--json", "-", "--quiet"]));
+const scene = "container, mu = 1";
+const answerOf = (command, ...options) => JSON.parse(execFileSync(command, [...options, "--json", "-", "--quiet"],
+    {env: {...process.env, SWIRL_SIMD: "sse2"}}));
 const runRate = (discs) =>
     answerOf(program, "run", "--discs", discs, "--events", events).events_per_second / 1e6;
-const benchRates = () => answerOf(bench, "--width", "baseline", "--seconds", "0.3").rows;
+const benchRates = () => answerOf(bench, "--only", scene, "--width", "sse2", "--seconds", "0.3").rows;
 
 const [page, loop, scalar] = await Promise.all(["swirl", "event_loop", "event_loop_scalar"].map(compiled));
 const rows = new Map([48, 28, 5].map((discs) =>
@@ -53,7 +55,7 @@ const rows = new Map([48, 28, 5].map((discs) =>
 for (let turn = 0; turn < 5; ++turn) {
     const bench = benchRates();
     for (const [discs, row] of rows) {
-        row.native.push(bench.find((r) => r.scene.startsWith("container, mu = 1") && r.discs === discs).rate / 1e6);
+        row.native.push(bench.find((r) => r.scene.startsWith(scene) && r.discs === discs).rate / 1e6);
         row.loop.push(loopRate(loop, discs));
         row.scalar.push(loopRate(scalar, discs));
         row.run.push(runRate(discs));
