@@ -157,6 +157,12 @@ class Result(track_test.Score):
             total += len(discs)
             there += sum(any(math.dist(p, q) < radius for q in tracked) for p in discs.values())
         self.found = there / total
+        self.radius = self.container = math.nan  # relative errors of r and of R/r
+
+    def score_radii(self, camera, about):
+        radius = camera["species"][0]["radius"]
+        self.radius = radius / about["scale"] - 1.0
+        self.container = camera["container"]["radius"] / radius * about["scale"] / about["container_radius"] - 1.0
 
 
 def track(folder, video):
@@ -179,9 +185,10 @@ def track(folder, video):
     if options:
         said += "tracked with " + " ".join(map(str, options)) + "\n"
     with open(out[:-4] + ".camera.json", encoding="utf-8") as file:
-        claimed = json.load(file)["quality"]["position_error"]
-    found = track_test.positions(out)
-    return Result(video, found, measured("measure", out)), claimed, said
+        camera = json.load(file)
+    result = Result(video, track_test.positions(out), measured("measure", out))
+    result.score_radii(camera, video.about)
+    return result, camera["quality"]["position_error"], said
 
 
 def track_with_trackpy(folder, video):
@@ -271,7 +278,8 @@ def main():
         import trackpy
         print(f"trackpy {trackpy.__version__}")
     kinds = [kind for kind in KINDS if not call.kind or kind[0] in call.kind]
-    head = ["kind", "found", "swaps per 1000", "rms, pixels", "claimed/true", "ϖ/Ω, true", "ϖ/Ω, tracks"]
+    head = ["kind", "found", "swaps per 1000", "rms, pixels", "claimed/true", "error of r", "error of R/r",
+            "ϖ/Ω, true", "ϖ/Ω, tracks"]
     if call.trackpy:
         head += ["trackpy: found", "swaps per 1000", "rms, pixels", "ϖ/Ω"]
     print("| " + " | ".join(head) + " |\n|" + len(head) * "---|", flush=True)
@@ -280,7 +288,9 @@ def main():
             video = Video(folder, kind, call.periods)
             result, claimed, message = track(folder, video)
             cells = [video.name, *(["rejected", "", "", ""] if result is None else scores(result))]
-            cells[4:4] = ["" if result is None else f"{claimed / result.rms:.2f}", f"{video.varpi[0]:+.3f}"]
+            radii = ["", "", ""] if result is None else [
+                f"{claimed / result.rms:.2f}", f"{100 * result.radius:+.1f} %", f"{100 * result.container:+.1f} %"]
+            cells[4:4] = [*radii, f"{video.varpi[0]:+.3f}"]
             if call.trackpy:
                 cells += scores(track_with_trackpy(folder, video), with_error=False)
             print("| " + " | ".join(cells) + " |", flush=True)
