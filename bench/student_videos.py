@@ -288,9 +288,9 @@ def main():
             video = Video(folder, kind, call.periods)
             result, claimed, message = track(folder, video)
             cells = [video.name, *(["rejected", "", "", ""] if result is None else scores(result))]
-            radii = ["", "", ""] if result is None else [
+            accuracy = ["", "", ""] if result is None else [
                 f"{claimed / result.rms:.2f}", f"{100 * result.radius:+.1f} %", f"{100 * result.container:+.1f} %"]
-            cells[4:4] = [*radii, f"{video.varpi[0]:+.3f}"]
+            cells[4:4] = [*accuracy, f"{video.varpi[0]:+.3f}"]
             if call.trackpy:
                 cells += scores(track_with_trackpy(folder, video), with_error=False)
             print("| " + " | ".join(cells) + " |", flush=True)

@@ -22,9 +22,9 @@
 
 namespace swirl {
 
-/// A simulated container with its measurements. An event is found by executing it. At
-/// first the snapshot still holds the state before it, for frames in between. When the event is
-/// passed, the snapshot gets the state after it.
+/// A simulated container with its measurements. An event is found by executing it. At first
+/// the snapshot still holds the state before it, for frames in between. When the event is passed,
+/// the snapshot gets the state after it.
 class Container {
   public:
     Container(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)

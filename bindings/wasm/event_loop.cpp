@@ -1,5 +1,5 @@
 // The bare event loop without measurements: web/test/speed.mjs compares it with
-// `bench/run --width baseline`. It is not part of the browser page.
+// `bench/run --width sse2`. It is not part of the browser page.
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -86,7 +86,6 @@ TEST(FloorPattern, FloorGetsOneLevelAndDiscsAndWallStay) {
     const std::vector<Frame> all = video(40.0, 90.0, 2.0);
     const auto floor = FloorPattern::learned(images_of(all), outer_edge(), 1.0, 1);
     ASSERT_TRUE(floor);
-    // Pixels at the edge of the floor contain a part of it.
     double floor_pixels = 0.0, left = 0.0;
     for (const Frame& frame : all) {
         cv::Mat image = frame.image.clone();
@@ -96,6 +95,7 @@ TEST(FloorPattern, FloorGetsOneLevelAndDiscsAndWallStay) {
                 const auto before = frame.image.at<std::uint8_t>(row, column),
                            after = image.at<std::uint8_t>(row, column);
                 const double far = length(Vec2{double(column), double(row)} - frame.centre);
+                // Pixels within 2 of the floor's edge contain a part of it, by interpolation.
                 if (frame.discs.at<std::uint8_t>(row, column) || far > radius + 2.0) {
                     ASSERT_EQ(before, after) << "at " << column << ", " << row;
                 } else if (far < radius - 3.0) {

@@ -202,6 +202,10 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
             return parameter_map(folder, x=x, y=y, of=of, steps=steps, level=level, change=change,
                                  seeds=seeds, tolerance=tolerance, rate=rate, min_discs=min_discs,
                                  max_discs=max_discs, threads=threads, progress=progress, **parameters)
+
+    def counted(name: str, value: Optional[int]) -> Optional[int]:
+        return None if value is None else _count(name, value, 1)
+
     folder = os.fspath(out)
     _count("threads", threads, 0)
     given = {name: value for name, value in parameters.items() if value is not None}
@@ -210,15 +214,12 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
             raise ValueError("grow adds values of x and y, seeds and numbers of discs; all else stays as it is.\n"
                              "hint: use another folder for another map.")
         _engine.grow_map(folder, _axis("x", x), _axis("y", y), _count("steps", steps, 2),
-                         0 if seeds is None else _count("seeds", seeds, 1),
-                         None if min_discs is None else _count("min_discs", min_discs, 1),
-                         None if max_discs is None else _count("max_discs", max_discs, 1))
+                         counted("seeds", seeds) or 0, counted("min_discs", min_discs),
+                         counted("max_discs", max_discs))
     elif x is not None or y is not None or given:
         _engine.write_map_plan(folder, _axis("x", x), _axis("y", y), of, rate, float(level), change,
-                               float(tolerance), _count("steps", steps, 2),
-                               _count("seeds", 16 if seeds is None else seeds, 1),
-                               _count("min_discs", 5 if min_discs is None else min_discs, 1),
-                               _count("max_discs", 48 if max_discs is None else max_discs, 1), given)
+                               float(tolerance), _count("steps", steps, 2), counted("seeds", seeds) or 16,
+                               counted("min_discs", min_discs) or 5, counted("max_discs", max_discs) or 48, given)
     elif (of, steps, level, change, seeds, tolerance, rate, min_discs, max_discs) != (
             "by_time", 16, 0.0, None, None, 0.5, "by_time", None, None):
         raise ValueError("options of the map are given, but x is not.\nhint: give all options of the map, "

@@ -32,8 +32,9 @@ struct MapCall {
     std::shared_ptr<ParameterTexts> parameters;
     MapSettings settings;
     std::string config_file, x, y, out, table;
+    std::optional<std::int64_t> seeds, from, to;
     ShareOptions sharing;
-    bool grow = false, seeds_given = false, from_given = false, to_given = false;
+    bool grow = false;
     bool status = false, dry_run = false, no_figure = false, quiet = false;
 
     fs::path table_file() const {
@@ -77,7 +78,7 @@ void reject_options_of_other_maps(const Subcommand& subcommand, const MapCall& c
                 fmt::format("{} is given, but --grow keeps it as it is.\nhint: give --x, --y, "
                             "--steps, --seeds, --from and --to, or use another folder.",
                             name));
-        if (!has_axes && !call.seeds_given && !call.from_given && !call.to_given)
+        if (!has_axes && !call.seeds && !call.from && !call.to)
             throw UsageError("--grow is given, but no --x, --y, --seeds, --from or --to.");
         if (!has_axes && !first_given(subcommand, {"--steps"}).empty())
             throw UsageError("--steps is given, but no axis.\nhint: give --x, --y or both.");
@@ -103,12 +104,12 @@ struct MapPlanOfCall {
 MapPlanOfCall map_plan_of(MapCall& call) {
     if (call.grow) {
         SweepPlan before = read_plan(call.out);
-        MapGrowth growth{.steps = call.settings.steps};
+        MapGrowth growth{.steps = call.settings.steps,
+                         .max_runs = call.seeds.value_or(0),
+                         .from = call.from,
+                         .to = call.to};
         if (!call.x.empty()) growth.axes.push_back(read_map_axis("--x", call.x));
         if (!call.y.empty()) growth.axes.push_back(read_map_axis("--y", call.y));
-        if (call.seeds_given) growth.max_runs = call.settings.max_runs;
-        if (call.from_given) growth.from = call.settings.from;
-        if (call.to_given) growth.to = call.settings.to;
         SweepPlan larger = grown_map(before, growth);
         return {std::move(larger), std::move(before)};
     }
@@ -117,6 +118,9 @@ MapPlanOfCall map_plan_of(MapCall& call) {
     MapSettings& settings = call.settings;
     if (!call.x.empty()) settings.x = read_map_axis("--x", call.x);
     if (!call.y.empty()) settings.y = read_map_axis("--y", call.y);
+    settings.max_runs = call.seeds.value_or(settings.max_runs);
+    settings.from = call.from.value_or(settings.from);
+    settings.to = call.to.value_or(settings.to);
     settings.parameters = *call.parameters;
     return {make_map_plan(settings)};
 }
@@ -259,7 +263,7 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
                           "NUMBER", map);
     subcommand.add_option("--change", s.change,
                           "Refine where neighbours differ by more [never; N_c 2]", "NUMBER", map);
-    subcommand.add_option("--seeds", s.max_runs, "Maximum number of runs at a point [16]", "N",
+    subcommand.add_option("--seeds", call.seeds, "Maximum number of runs at a point [16]", "N",
                           map);
     add_threads_option(subcommand, call.sharing, map);
     subcommand.add_option("--csv", call.table, "File for the table, or - for stdout [DIR/map.csv]",
@@ -269,8 +273,8 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
     subcommand.add_flag("--status", call.status, "Print the numbers of points and runs", map);
     subcommand.add_flag("--dry-run", call.dry_run, "Print the plan and do not run", map);
     subcommand.add_flag("--quiet", call.quiet, "No progress and no report", map);
-    subcommand.add_option("--from", s.from, "Smallest number of discs [5]", "N", crossing);
-    subcommand.add_option("--to", s.to, "Largest number of discs [48]", "N", crossing);
+    subcommand.add_option("--from", call.from, "Smallest number of discs [5]", "N", crossing);
+    subcommand.add_option("--to", call.to, "Largest number of discs [48]", "N", crossing);
     subcommand.add_option("--rate", s.rate, "Rotation rate that changes its sign at N_c [by_time]",
                           "NAME", crossing);
     subcommand.add_option("--tolerance", s.tolerance, "Target standard error of N_c [0.5]",
@@ -304,12 +308,6 @@ void add_map_command(Subcommand& subcommand) {
         if (!call->config_file.empty())
             take_config_file(subcommand, call->config_file, *call->parameters, Lists::rejected,
                              "map");
-        const auto is_given = [&](const char* name) {
-            return !first_given(subcommand, {name}).empty();
-        };
-        call->seeds_given = is_given("--seeds");
-        call->from_given = is_given("--from");
-        call->to_given = is_given("--to");
         reject_options_of_other_maps(subcommand, *call);
         make_map(*call);
     });

@@ -153,8 +153,8 @@ SweepAxis added_values(const SweepPlan& plan, const MapAxisText& given, std::int
 SweepAxis added_numbers(const SweepPlan& plan, const MapGrowth& growth) {
     if (!plan.map->is_of_crossing())
         throw UsageError(
-            fmt::format("{} is given, but this map is of {}.\nhint: --from and --to "
-                        "belong to maps of N_c.",
+            fmt::format("{} is given, but this map is of {}.\nhint: --from and --to belong to maps "
+                        "of N_c.",
                         growth.from ? "--from" : "--to", plan.map->of));
     const SweepAxis& known = *plan.axis("discs");
     const std::vector<std::size_t> order = ascending_order(known);
@@ -164,11 +164,10 @@ SweepAxis added_numbers(const SweepPlan& plan, const MapGrowth& growth) {
     const std::int64_t least = number_at(order.front()), most = number_at(order.back()),
                        from = growth.from.value_or(least), to = growth.to.value_or(most);
     if (from > least || to < most)
-        throw UsageError(
-            fmt::format("the range is --from {} --to {}, but the searches of this map cover {} to "
-                        "{} discs, and "
-                        "the range can only grow.\nhint: use another folder for a smaller range.",
-                        from, to, least, most));
+        throw UsageError(fmt::format(
+            "the range is --from {} --to {}, but the searches of this map cover {} to "
+            "{} discs, and the range can only grow.\nhint: use another folder for a smaller range.",
+            from, to, least, most));
     validate_range({.config = {}, .from = from, .to = to});
     SweepAxis added{"discs", {}};
     for (std::int64_t n = from; n <= to; ++n)

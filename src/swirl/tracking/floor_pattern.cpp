@@ -27,13 +27,6 @@ cv::Mat container_patch(const cv::Mat& image, const Vec2& centre, cv::Size size)
     return patch;
 }
 
-/// Derivatives per pixel.
-void floor_slopes(const cv::Mat& level, cv::Mat& x, cv::Mat& y) {
-    constexpr double scharr = 1.0 / 32.0;
-    cv::Scharr(level, x, CV_32F, 1, 0, scharr);
-    cv::Scharr(level, y, CV_32F, 0, 1, scharr);
-}
-
 /// The middle and the width of the shortest interval with a third of the sorted values.
 struct Interval {
     double middle = 0.0, width = 0.0;
@@ -95,14 +88,13 @@ void FloorPattern::learn(const std::vector<cv::Mat>& patches, unsigned threads) 
     const cv::Size size = patches.front().size();
     level_ = cv::Mat::zeros(size, CV_32F);
     known_ = cv::Mat::zeros(size, CV_8U);
-    const double half = 0.5 * (size.width - 1);
     parallel_for(
         static_cast<std::size_t>(size.height),
         [&](std::size_t r) {
             const int row = int(r);
             std::vector<std::uint8_t> values(patches.size());
             for (int column = 0; column < size.width; ++column) {
-                if (std::hypot(column - half, row - half) > rim_.radius) continue;
+                if (distance(row, column) > rim_.radius) continue;
                 for (std::size_t k = 0; k < patches.size(); ++k)
                     values[k] = patches[k].at<std::uint8_t>(row, column);
                 std::sort(values.begin(), values.end());
@@ -112,17 +104,24 @@ void FloorPattern::learn(const std::vector<cv::Mat>& patches, unsigned threads) 
             }
         },
         threads);
+    constexpr double scharr = 1.0 / 32.0;  // makes the kernel a derivative per pixel
+    cv::Scharr(level_, slope_x_, CV_32F, 1, 0, scharr);
+    cv::Scharr(level_, slope_y_, CV_32F, 0, 1, scharr);
+    cv::magnitude(slope_x_, slope_y_, slope_);
     leave_out_wall();
+}
+
+double FloorPattern::distance(int row, int column) const {
+    const double half = 0.5 * (level_.cols - 1);
+    return std::hypot(column - half, row - half);
 }
 
 std::vector<double> FloorPattern::inner_levels() const {
     std::vector<double> levels;
-    const double half = 0.5 * (level_.cols - 1);
-    for (int row = 0; row < level_.rows; ++row)
-        for (int column = 0; column < level_.cols; ++column)
-            if (known_.at<std::uint8_t>(row, column) &&
-                std::hypot(column - half, row - half) < inside * rim_.radius)
-                levels.push_back(double(level_.at<float>(row, column)));
+    for_each_known([&](int row, int column) {
+        if (distance(row, column) < inside * rim_.radius)
+            levels.push_back(double(level_.at<float>(row, column)));
+    });
     return levels;
 }
 
@@ -142,19 +141,11 @@ void FloorPattern::leave_out_wall() {
         }
     };
     std::vector<std::array<Arc, arcs>> rings(static_cast<std::size_t>(half) + 2);
-    const auto for_each_known = [&](auto&& use) {
-        for (int row = 0; row < level_.rows; ++row)
-            for (int column = 0; column < level_.cols; ++column) {
-                const Vec2 from_centre{column - half, row - half};
-                const auto ring = static_cast<std::size_t>(length(from_centre));
-                if (known_.at<std::uint8_t>(row, column) && ring < rings.size())
-                    use(row, column, ring, from_centre);
-            }
-    };
-    for_each_known([&](int row, int column, std::size_t ring, const Vec2& from_centre) {
-        const double turns = turns_of(from_centre), level = level_.at<float>(row, column);
-        const double part = turns - std::floor(turns);
-        Arc& arc = rings[ring][std::min(arcs - 1, static_cast<std::size_t>(arcs * part))];
+    for_each_known([&](int row, int column) {
+        const double turns = turns_of({column - half, row - half}),
+                     level = level_.at<float>(row, column);
+        Arc& arc = rings[static_cast<std::size_t>(distance(row, column))]
+                        [static_cast<std::size_t>(arcs * turns)];
         arc.number += 1.0, arc.sum += level, arc.square += level * level;
     });
     std::vector<double> variation;  // of each ring: the second smallest of its arcs
@@ -170,8 +161,9 @@ void FloorPattern::leave_out_wall() {
         median(std::vector<double>(variation.begin() + certain / 2, variation.begin() + certain));
     auto wall = static_cast<std::size_t>(certain);
     while (wall < variation.size() && variation[wall] > less * typical) ++wall;
-    for_each_known([&](int row, int column, std::size_t ring, const Vec2&) {
-        if (ring >= wall) known_.at<std::uint8_t>(row, column) = 0;
+    for_each_known([&](int row, int column) {
+        if (static_cast<std::size_t>(distance(row, column)) >= wall)
+            known_.at<std::uint8_t>(row, column) = 0;
     });
 }
 
@@ -206,22 +198,18 @@ Vec2 FloorPattern::registered(const cv::Mat& image, const Vec2& centre) const {
     constexpr double gross = 60.0;    // grey levels: a disc
     constexpr double max_step = 2.0;  // pixels
     constexpr double enough = 0.01;   // pixels
-    cv::Mat slope_x, slope_y;
-    floor_slopes(level_, slope_x, slope_y);
     Vec2 at = centre;
     for (int round = 0; round < registration_rounds; ++round) {
         const cv::Mat patch = container_patch(image, at, level_.size());
         double xx = 0.0, xy = 0.0, yy = 0.0, bx = 0.0, by = 0.0;
-        for (int row = 0; row < level_.rows; ++row)
-            for (int column = 0; column < level_.cols; ++column) {
-                if (!known_.at<std::uint8_t>(row, column)) continue;
-                const double off =
-                    double(patch.at<std::uint8_t>(row, column)) - level_.at<float>(row, column);
-                const double weight = tukey_weight(off / gross);
-                const double x = slope_x.at<float>(row, column), y = slope_y.at<float>(row, column);
-                xx += weight * x * x, xy += weight * x * y, yy += weight * y * y;
-                bx -= weight * x * off, by -= weight * y * off;
-            }
+        for_each_known([&](int row, int column) {
+            const double off =
+                double(patch.at<std::uint8_t>(row, column)) - level_.at<float>(row, column);
+            const double weight = tukey_weight(off / gross);
+            const double x = slope_x_.at<float>(row, column), y = slope_y_.at<float>(row, column);
+            xx += weight * x * x, xy += weight * x * y, yy += weight * y * y;
+            bx -= weight * x * off, by -= weight * y * off;
+        });
         const double det = xx * yy - xy * xy;
         if (!(det > 0.0)) return centre;
         Vec2 step{(yy * bx - xy * by) / det, (xx * by - xy * bx) / det};
@@ -240,11 +228,9 @@ void FloorPattern::remove(cv::Mat& image) const {
     const Vec2 centre = registered(image, *rim);
     const double half = 0.5 * (level_.cols - 1);
     const cv::Matx23d to_image(1.0, 0.0, centre.x - half, 0.0, 1.0, centre.y - half);
-    cv::Mat slope_x, slope_y, slope, level, known, steep;
-    floor_slopes(level_, slope_x, slope_y);
-    cv::magnitude(slope_x, slope_y, slope);
+    cv::Mat level, known, steep;
     cv::warpAffine(level_, level, to_image, image.size(), cv::INTER_LINEAR);
-    cv::warpAffine(slope, steep, to_image, image.size(), cv::INTER_LINEAR);
+    cv::warpAffine(slope_, steep, to_image, image.size(), cv::INTER_LINEAR);
     cv::warpAffine(known_, known, to_image, image.size(), cv::INTER_NEAREST);
     cv::Mat floor = cv::Mat::zeros(image.size(), CV_8U);
     for (int row = 0; row < image.rows; ++row)

@@ -7,9 +7,10 @@
 // remain. The pattern also shows where the container is: frames are registered to it.
 //
 // Discs of equal brightness that cover a point most of the time would be taken for the floor.
-// Therefore the pattern is removed only if the discs of the original frames contradict each other.
+// Therefore the pattern is removed only if most frames contradict the discs that were found with it.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -30,6 +31,15 @@ class FloorPattern {
     void remove(cv::Mat& image) const;
 
   private:
+    /// Calls use(row, column) for every pixel where the floor is known.
+    template <typename Use>
+    void for_each_known(Use&& use) const {
+        for (int row = 0; row < known_.rows; ++row)
+            for (int column = 0; column < known_.cols; ++column)
+                if (known_.at<std::uint8_t>(row, column)) use(row, column);
+    }
+    /// Distance of a pixel from the container's centre.
+    double distance(int row, int column) const;
     /// The container's centre in an image, from a value near it.
     Vec2 registered(const cv::Mat& image, const Vec2& centre) const;
     std::optional<Vec2> rim_centre(const cv::Mat& image) const;
@@ -42,7 +52,8 @@ class FloorPattern {
     ContainerRim rim_;
     double reduction_ = 1.0;
     cv::Mat level_;  // 32-bit floats, in the container's frame of reference, centred
-    cv::Mat known_;  // 8 bits: 255 where the floor is known
+    cv::Mat slope_x_, slope_y_, slope_;  // of the level, per pixel, and their magnitude
+    cv::Mat known_;                      // 8 bits: 255 where the floor is known
     double plain_level_ = 0.0;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
 #include <functional>
 #include <map>
 #include <optional>
@@ -106,7 +105,7 @@ void set_species(const TrackingSettings& settings, const ParticleAppearance& app
                 throw UncertainDiscs(fmt::format(
                     "--discs is {}, but no frame shows this number: discs of two sizes are found, "
                     "{} in most frames. Some of these circles may be texture or noise.\n"
-                    "hint: use a plain floor, or give --disc-diameter and --container-diameter",
+                    "hint: use a plain floor, or give --disc-diameter and --container-diameter.",
                     total, counted));
             if (numbers) {
                 tracked.species[0].number = (*numbers)[0];
@@ -239,18 +238,16 @@ TrackedVideo detect_and_link(TrackingSettings settings) {
 }  // namespace
 
 TrackedVideo track_video(const TrackingSettings& settings) {
-    std::exception_ptr uncertain;
     try {
         return detect_and_link(settings);
     } catch (const UncertainDiscs&) {
-        uncertain = std::current_exception();
-    }
-    TrackingSettings again = settings;
-    again.patterned_floor = true;
-    try {
-        return detect_and_link(again);
-    } catch (const Failure&) {
-        std::rethrow_exception(uncertain);
+        TrackingSettings again = settings;
+        again.patterned_floor = true;
+        try {
+            return detect_and_link(again);
+        } catch (const Failure&) {
+        }
+        throw;  // the first attempt states the cause
     }
 }
 

@@ -130,9 +130,8 @@ void warn_about_wall(TrackedVideo& tracked) {
     if (length(tracked.rim_shift) > 0.0)
         warn(tracked,
              "the circle at which discs are stopped is {:.2f} pixels away from the visible rim, as "
-             "if "
-             "the camera saw the rim at an angle and at another height; this circle and its path "
-             "are used",
+             "if the camera saw the rim at an angle and at another height; this circle and its "
+             "path are used",
              length(tracked.rim_shift));
     if (tracked.tilt.oval)
         warn(tracked,
@@ -192,8 +191,7 @@ void reject_contradicted_discs(const TrackedVideo& tracked) {
         "{} discs with a radius of {:.1f} pixels were {}, but most frames contradict that: "
         "{:.0f} % have more, on average {:.0f} more, and all {} are found in only {:.0f} %. These "
         "circles may be texture or noise.\nhint: give {}--disc-diameter and --container-diameter. "
-        "A "
-        "plain floor, a higher contrast and less compression also help.",
+        "A plain floor, a higher contrast and less compression also help.",
         tracked.number, tracked.radius, tracked.number_given ? "expected" : "counted",
         std::min(100.0, 100.0 * crowded / frames), excess, tracked.number,
         100.0 * tracked.complete_share, tracked.number_given ? "" : "--discs, or "));
