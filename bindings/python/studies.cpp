@@ -174,9 +174,9 @@ void write_map_plan(const std::string& folder, const py::dict& x, const py::dict
     write_plan(folder, plan);
 }
 
-/// Without axes, with 0 seeds or without numbers of discs, these do not change.
+/// What is not given does not change.
 void grow_map(const std::string& folder, const py::dict& x, const py::dict& y, std::int64_t steps,
-              std::int64_t seeds, std::optional<std::int64_t> minimum,
+              std::optional<std::int64_t> seeds, std::optional<std::int64_t> minimum,
               std::optional<std::int64_t> maximum) {
     const SweepPlan before = read_plan(folder);
     const MapGrowth growth{.axes = {axis_of(x), axis_of(y)},

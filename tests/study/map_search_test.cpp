@@ -421,6 +421,8 @@ TEST(MapGrowth, RejectsOtherMaps) {
     const SweepPlan plan = make_map_plan(square_map());
     EXPECT_THROW(grown_map(plan, {.axes = {{"period", "1:2"}}}), UsageError);
     EXPECT_THROW(grown_map(plan, {.max_runs = 8}), UsageError);  // has 16 runs
+    for (const std::int64_t runs : {-5, 0, 10'001})
+        EXPECT_THROW(grown_map(plan, {.max_runs = runs}), UsageError) << runs;
     EXPECT_THROW(grown_map(plan, {.axes = {{"mu", "0:1"}}, .steps = 1}), UsageError);
     EXPECT_THROW(grown_map(plan, {.to = 60}), UsageError);  // not of N_c
     EXPECT_THROW(grown_map(make_plan({{"mu", "0,1"}}, 2), {.axes = {{"mu", "0:2"}}}), UsageError);

@@ -214,8 +214,7 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
             raise ValueError("grow adds values of x and y, seeds and numbers of discs; all else stays as it is.\n"
                              "hint: use another folder for another map.")
         _engine.grow_map(folder, _axis("x", x), _axis("y", y), _count("steps", steps, 2),
-                         counted("seeds", seeds) or 0, counted("min_discs", min_discs),
-                         counted("max_discs", max_discs))
+                         counted("seeds", seeds), counted("min_discs", min_discs), counted("max_discs", max_discs))
     elif x is not None or y is not None or given:
         _engine.write_map_plan(folder, _axis("x", x), _axis("y", y), of, rate, float(level), change,
                                float(tolerance), _count("steps", steps, 2), counted("seeds", seeds) or 16,

@@ -104,10 +104,8 @@ struct MapPlanOfCall {
 MapPlanOfCall map_plan_of(MapCall& call) {
     if (call.grow) {
         SweepPlan before = read_plan(call.out);
-        MapGrowth growth{.steps = call.settings.steps,
-                         .max_runs = call.seeds.value_or(0),
-                         .from = call.from,
-                         .to = call.to};
+        MapGrowth growth{
+            .steps = call.settings.steps, .max_runs = call.seeds, .from = call.from, .to = call.to};
         if (!call.x.empty()) growth.axes.push_back(read_map_axis("--x", call.x));
         if (!call.y.empty()) growth.axes.push_back(read_map_axis("--y", call.y));
         SweepPlan larger = grown_map(before, growth);

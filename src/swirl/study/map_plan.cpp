@@ -92,10 +92,17 @@ std::string measurement_of(const std::string& quantity) {
                      : name + " has " + rows + "."));
 }
 
-void validate_steps(std::int64_t steps) {
-    if (steps < 2 || steps > max_steps)
-        throw UsageError(fmt::format("--steps is {}, but it must be a whole number from 2 to {}.",
-                                     steps, max_steps));
+void validate_whole_number(const char* option, std::int64_t value, std::int64_t least,
+                           std::int64_t most) {
+    if (value < least || value > most)
+        throw UsageError(fmt::format("{} is {}, but it must be a whole number from {} to {}.",
+                                     option, value, least, most));
+}
+
+void validate_steps(std::int64_t steps) { validate_whole_number("--steps", steps, 2, max_steps); }
+
+void validate_runs(std::int64_t runs) {
+    validate_whole_number("--seeds", runs, 1, max_runs_at_a_point);
 }
 
 void validate_settings(const MapSettings& s) {
@@ -105,9 +112,7 @@ void validate_settings(const MapSettings& s) {
     if (s.x.name.empty()) throw UsageError("missing required option --x NAME=VALUES.");
     if (s.x.name == s.y.name) throw UsageError(fmt::format("--x and --y are both {}.", s.x.name));
     validate_steps(s.steps);
-    if (s.max_runs < 1 || s.max_runs > max_runs_at_a_point)
-        reject("--seeds", s.max_runs,
-               fmt::format("a whole number from 1 to {}", max_runs_at_a_point));
+    validate_runs(s.max_runs);
     if (!std::isfinite(s.level)) reject("--level", s.level, "a finite number");
     if (s.change && !(*s.change >= 0.0)) reject("--change", *s.change, "0 or above");
     if (!(s.tolerance > 0.0)) reject("--tolerance", s.tolerance, "above 0");
@@ -191,11 +196,12 @@ SweepPlan grown_map(const SweepPlan& plan, const MapGrowth& growth) {
     if (!plan.map)
         throw UsageError("the folder holds a sweep, not a map.\nhint: use swirl sweep --grow.");
     validate_steps(growth.steps);
+    if (growth.max_runs) validate_runs(*growth.max_runs);
     std::vector<SweepAxis> more;
     for (const MapAxisText& given : growth.axes)
         if (!given.name.empty()) more.push_back(added_values(plan, given, growth.steps));
     if (growth.from || growth.to) more.push_back(added_numbers(plan, growth));
-    return with_values(plan, more, growth.max_runs, {});
+    return with_values(plan, more, growth.max_runs.value_or(plan.replicas), {});
 }
 
 SweepPlan make_map_plan(const MapSettings& s) {

@@ -38,14 +38,14 @@ MapAxisText read_map_axis(const char* option, const std::string& text);
 
 /// What a map gets in addition. Members with their default leave the map unchanged.
 struct MapGrowth {
-    std::vector<MapAxisText> axes = {};  // further values; an axis without a name adds none
-    std::int64_t steps = 16;             // values of a range FROM:TO
-    std::int64_t max_runs = 0;           // new maximum at one point
+    std::vector<MapAxisText> axes = {};         // further values; an axis without a name adds none
+    std::int64_t steps = 16;                    // values of a range FROM:TO
+    std::optional<std::int64_t> max_runs = {};  // new maximum at one point
     std::optional<std::int64_t> from = {}, to = {};  // larger range of the searches for N_c
 };
 
-/// The plan with this growth. Throws UsageError for another axis, a smaller maximum of runs, a
-/// smaller range, and a range without N_c.
+/// The plan with this growth. Throws UsageError for another axis, a smaller or invalid maximum of
+/// runs, a smaller range, and a range without N_c.
 SweepPlan grown_map(const SweepPlan& plan, const MapGrowth& growth);
 
 /// Throws UsageError for an invalid range, a value that cannot be run, or an unknown quantity.
