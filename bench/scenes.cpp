@@ -13,6 +13,8 @@ constexpr double paper_packing = 48.0 / (paper_container_radius * paper_containe
 // The packing fraction of the paper's experiment at N = 48.
 constexpr double spheres_packing =
     48.0 / (experiment_container_radius * experiment_container_radius);
+// The spheres' scenes have A = 5.75 mm (--preset experiment-half), so that their hashes last.
+constexpr double spheres_amplitude = 5.75 / 3.0;
 
 // Targets: twice the rate of the baseline everywhere; in a container at least a third of the rate
 // at N = 48, and 0.8 of it where many discs have settled; on the exact circle at most 1.3 times the
@@ -152,13 +154,12 @@ InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
     else if (!rolls)
         initial.path = polygon_path(paper_amplitude, paper_period, scene.sides);
     else
-        initial.path = polygon_path(experiment_amplitude, experiment_period, paper_sides);
+        initial.path = polygon_path(spheres_amplitude, 2.0 * pi * spheres_amplitude, paper_sides);
     if (rolls) {
         for (Surface* surface : {&initial.disc_surface, &initial.wall_surface})
-            *surface = {experiment_friction, experiment_restitution, 0.0,
-                        RunConfig{}.contact_duration};
+            *surface = {0.2, experiment_restitution, 0.0, RunConfig{}.contact_duration};
         initial.shape = Shape::sphere;
-        initial.floor.deceleration = experiment_floor_friction * experiment_gravity;
+        initial.floor.deceleration = 0.3 * experiment_gravity(5.75);
     }
     std::vector<double> radii(static_cast<std::size_t>(scene.discs), 1.0);
     double squares = 0.0;

@@ -49,13 +49,11 @@ QUESTIONS = {
                "with a moment of inertia that no disc has. Do spheres with their own moment of inertia "
                "counterrotate, and at which N?",
     "spheres_ingredients": "Friction of the floor, vertical friction of the contacts, damping, the inertia of a "
-                           "solid sphere: each is switched off in turn, at μ = 0.2. Which of them causes "
+                           "solid sphere: each is switched off in turn, for smooth spheres. Which of them causes "
                            "counterrotation?",
-    "spheres_ingredients_rough": "Does the answer depend on the friction coefficient? This figure has μ = 0.3.",
-    "spheres_pinned": "Quantities that the paper measured for the spheres at the wall, and one that it could not "
-                      "measure: rolling. The correlation is 1 if neighbours roll on the floor in the same direction "
-                      "and "
-                      "slip with the sum of their speeds. It is −1 if they roll on each other.",
+    "spheres_ingredients_rough": "Does the answer depend on the friction coefficient? This figure has roughened spheres.",
+    "spheres_friction": "Which friction coefficients have the N_c of the experiment, and how do they depend on what the "
+                        "paper does not state?",
     "spheres_flat_discs": "The paper's simulation has discs and shows counterrotation with a moment of inertia that "
                           "no disc has. Do solid discs (I = 1/2) that lie flat and slide on a floor counterrotate?",
     "averages": "The paper averages over events, but an observer averages over time. Does the result differ?",
@@ -88,12 +86,10 @@ QUESTIONS = {
     "material_inertia": "Where does the direction change for other moments of inertia and inelastic discs?",
     "material_friction": "Which of the two friction coefficients shifts the change of direction?",
     "material_tangential": "Where does the direction change if a sticking contact reverses a part of its slip?",
-    "spheres_packing": "ϖ(N) of spheres has a maximum near N = 28 to 30, which discs do not have. Does the packing "
+    "spheres_packing": "At half the amplitude, ϖ(N) of spheres has a maximum near N = 28 to 30, which discs do not have. Does the packing "
                        "of the "
                        "cluster explain it?",
     "spheres_size": "Where does the direction of rolling spheres change in containers of other sizes?",
-    "spheres_bounds": "The experiment does not state the friction of the floor, the restitution and the rolling "
-                      "resistance. By how much does the change of direction move between the limits of their values?",
     "fields": "The paper suggests continuum equations that couple the spins to the vorticity of the flow. Does the difference "
               "between both predict the torque that drives the spins?",
     "closure": "Described as a micropolar fluid, which coefficients does the cluster have, and how much of the stresses do they explain?",
@@ -108,10 +104,12 @@ QUESTIONS = {
 
 # The description of each figure.
 CAPTIONS = {
-    "1b": "Rotation frequency ϖ of the cluster about its centre of mass, in units of the swirl's Ω, against the "
-          "number of discs. Above zero the cluster rotates with the swirl, below zero it counterrotates. Dashed: a "
-          "rigid pancake with the cluster's perimeter that rolls along the wall without slipping, "
-          "1 − P_container/P_cluster. Averages over time.",
+    "1b": "Above: rotation frequency ϖ of the cluster about its centre of mass, in units of the swirl's Ω, against the "
+          "number of particles; below zero it counterrotates. Dashed: a rigid pancake with the perimeter of the cluster "
+          "of smooth spheres that rolls along the wall without slipping. Below: slip parameter of the spheres that are "
+          "pinned by the SI's criterion. Stars: the numbers that the paper states, N_c = 28 and 36, and s ≈ 0.5 at N = "
+          "25. The two friction coefficients, 0.33 and 0.69, follow from these N_c; nothing else is fitted. Averages "
+          "over time.",
     "1c": "Left: the centre C of the container moves round the centre S of the swirl, and the container does not "
           "rotate. M is the point of the wall farthest from S. Middle: in the M-frame, which rotates with the swirl, "
           "S, C and M are at rest and the wall rotates clockwise with −Ω. Right: the inertial forces in the M-frame, "
@@ -126,7 +124,7 @@ CAPTIONS = {
     "2b": "Averages in the M-frame for few discs: number density of their centres (colour), and their mean velocity "
           "relative to the container (arrows), in units of the container's speed. S is the centre of the swirl, M "
           "the point of the wall farthest from it. Where an arrow is short, discs move with the wall.",
-    "2c": "The same as Figure 2b for many discs. Each map has its own colour scale.",
+    "2c": "The same as Figure 2b for many particles. Each map has its own colour scale.",
     "3a": "Mean angular velocity of the discs about the centre of mass of the cluster, in the M-frame, against the "
           "angle θ; one curve for each number of discs. Dashed: −Ω, that of the wall. Discs move clockwise, to "
           "smaller θ. Slices are 5° wide. The paper's slice slides around the container and its width is not given "
@@ -142,19 +140,14 @@ CAPTIONS = {
                "wall layer, with its rim within half a radius of the wall, for at least 40/511 of a period. "
                "Triangles: mean directions. The resultant is the length of the mean unit vector: 1 if all angles are "
                "equal, 0 if they have no mean direction. Claims on the pinned region use the residences.",
-    "4a": "Slip parameter s at the wall: 1 is rolling without slip, 0 free slip. For the discs that reside in the "
-          "wall layer (full), for all that are pinned by the SI's criterion (dashed), and for the whole cluster "
-          "(dotted); for a rough wall and rough discs (μ = 1) and for smooth ones (μ = 0.1).",
-    "4b": "How discs at the wall are prevented from spinning. Full red symbols: discs that reside in the wall layer; "
-          "open red symbols: pinned by the SI's criterion. Left: mean magnitude of the spin, in Ω; 0 is a disc that "
-          "sticks to the wall. Middle: correlation of the spins of neighbours, one or both of which reside at the "
-          "wall, and of colliding discs, weighted by impulse. It is −1 for discs that roll on each other like gears. "
-          "Right: share of the contacts that "
-          "close a triangle, which cannot all roll; share of the collisions in which friction stops the slip "
-          "completely; and the hexatic order ψ6 of the packing.",
-    "4c": "Rotation of the cluster against the number of discs for smooth (μ = 0.1) and rough (μ = 1) discs and "
-          "walls. These two coefficients are a choice, because those of the experiment's smooth and roughened spheres "
-          "are unknown. Averages over time.",
+    "4a": "Slip parameter s: 1 is rolling without slip, 0 free slip. For the particles that are pinned by the SI's "
+          "criterion, for those that reside in the wall layer, and for the whole cluster.",
+    "4b": "How particles at the wall are prevented from spinning. Left: mean magnitude of the spin of those that reside "
+          "in the wall layer, in Ω; 0 is a particle that sticks to the wall. Middle: correlation of the spins of "
+          "touching particles, −1 for gears: for contacts that belong to no triangle (lines) and for those in triangles "
+          "(dots), which cannot all roll. Right: share of the contacts in triangles.",
+    "4c": "Rotation of the cluster against the number of particles. The friction coefficients of the spheres follow from "
+          "N_c of the experiment; those of the discs are a choice. Averages over time.",
     "5a": "A snapshot of the simulation in the lab frame; the line on each disc rotates with it. The circle is the "
           "path of the container's centre C round S.",
     "5b": "Rotation of the cluster against the number of discs for five pairs of friction coefficients, between "
@@ -178,9 +171,8 @@ CAPTIONS = {
     "times": "The shortest time between two collisions of a run, which the precision of the event times must "
              "resolve.",
     "spheres": "Rotation of spheres that roll on the floor of a container of the experiment's size against their "
-               "number, for several "
-               "friction coefficients μ of the spheres and the wall. Averages over time. The scale is coarser above "
-               "the dotted line. 56 and 57 spheres also fit into the container, but are omitted. Their rotation "
+               "number: smooth and roughened spheres at the amplitude that the paper states, 1.15 cm, and smooth ones "
+               "at half of it. Averages over time. The scale is coarser above the dotted line. 56 and 57 spheres also fit into the container, but are omitted. Their rotation "
                "depends "
                "on the initial packing and not on friction.",
     "spheres_ingredients": "Rotation against the number of spheres with all ingredients of the model (black), and "
@@ -188,16 +180,11 @@ CAPTIONS = {
                            "acts on the vertical slip of rolling spheres.",
     "spheres_ingredients_rough": "Rotation with all ingredients (black), and with one of them removed, at the N near "
                                  "which the direction of rotation changes.",
-    "spheres_pinned": "Spheres that reside in the wall layer (full) and spheres pinned by the SI's criterion (open): "
-                      "slip parameter s and the spin about the vertical. Below, for all spheres: the share that rolls "
-                      "on the floor without slip, and the correlation of the rolling of neighbours along the line of "
-                      "their centres.",
     "spheres_flat_discs": "Rotation against the number of solid discs that lie flat on the floor, with three "
                           "coefficients of friction against the floor, and without it.",
-    "spheres_direction": "Every number of spheres at which the direction of rotation changes, against the friction "
-                         "coefficient of spheres and wall. Bars without a point: the change lies between two numbers "
-                         "that were run. Crosses: the sign is undetermined there. Dashed: the changes in the paper's "
-                         "experiment.",
+    "spheres_friction": "N_c of spheres against the friction coefficient of all contacts. Black: A = 11.5 mm, e = 0.9, "
+                        "floor as the contacts. Colours: one of these changed. Dashed: N_c of the experiment, 36 for "
+                        "smooth and 28 for roughened spheres.",
     "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their contacts.",
     "spheres_few": "A few spheres after a long warm-up: ϖ (in units of Ω), and the share of them that resides at the "
                    "wall. Both are 1 for a row that rolls along the wall with the swirl.",
@@ -232,7 +219,6 @@ CAPTIONS = {
                        "tenth of "
                        "the radius) against the number of spheres, μ = 0.2. Grey: N = 28 to 30.",
     "spheres_size": "The same as figure “size” for spheres, at A/R = 0.22 and μ = 0.2.",
-    "spheres_bounds": "Rotation against the number of spheres, μ = 0.2, with one parameter at a limit of its range.",
     "fields": "Fields in the M-frame (M is at the bottom), kernel of four radii, means over the seeds. (a) Packing fraction and "
               "velocity relative to the centre of mass. (b) Spin of the discs and (c) half of the vorticity: equal if the discs "
               "rotate with the flow. (d) Torque of the stress per area and (e) that of a micropolar fluid, where no contact with "

@@ -1,33 +1,24 @@
-"""Figure 4a: the slip parameter of the discs at the wall, for a low and a high friction coefficient.
+"""Figure 4a: the slip parameter of pinned particles, smooth and rough.
 
     /usr/bin/python3 figures/figure_4a.py out/figure_4a.csv
 """
 
 import style
 
-GROUPS = (("slip_resident", "resident at the wall", {}),
-      ("pinned_region", "pinned (SI)", {"marker": ".", "linewidth": 0.6, "linestyle": "--"}),
-      ("cluster", "all discs", {"fillstyle": "none", "linestyle": ":"}))
+PANELS = (("pinned_region", "pinned (SI)"), ("slip_resident", "resident at the wall"), ("cluster", "all"))
 
 
 def main():
     table = style.table_from_arguments("figure_4a")
     rows = style.read(table)
-    drawing, axes = style.figure(height=2.6)
-    handles = []
-    for setting, label, color, marker in (("high", r"$\mu = 1$", style.RED, "o"),
-                                          ("low", r"$\mu = 0.1$", style.SKY, "D")):
-        curve = style.select(rows, setting=setting)
-        for name, _, look in GROUPS:
-            style.curve(axes, curve, "discs", name, color=color, **({"marker": marker} | look))
-        handles.append(axes.plot([], [], color=color, marker=marker, label=label)[0])
-    handles += [axes.plot([], [], color=style.GREY, label=words, **({"marker": "o"} | look))[0]
-              for _, words, look in GROUPS]
-    axes.axhline(1, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
-    axes.set_xlabel(r"number of discs $N$")
-    axes.set_ylabel("slip parameter $s$")
-    # The legend fills column by column: friction coefficients first, then the groups of discs.
-    style.legend(axes, ncol=3, handles=[handles[0], handles[2], handles[1], handles[3], handles[4]])
+    drawing, panels = style.figure(width=style.PAGE, height=2.6, ncols=len(PANELS), sharey=True)
+    for axes, (quantity, title) in zip(panels, PANELS):
+        style.curves_by_setting(axes, rows, quantity)
+        axes.axhline(1, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
+        axes.set_title(title)
+        axes.set_xlabel(r"number of particles $N$")
+    panels[0].set_ylabel("slip parameter $s$")
+    style.legend_of_all(drawing, *panels[0].get_legend_handles_labels(), ncol=5)
     style.save(drawing, table)
 
 

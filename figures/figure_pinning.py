@@ -15,6 +15,7 @@ EVENTS = ("pinning", "depinning")
 def main():
     table = style.table_from_arguments("figure_pinning")
     rows = style.read(table)
+    rows = style.select(rows, setting="smooth") or rows
     known = sorted({row["discs"] for row in rows})
     # The N of the paper's maps, or the nearest ones.
     numbers = sorted({min(known, key=lambda n: abs(n - target)) for target in (ROTATING_N, COUNTERROTATING_N)})

@@ -1,5 +1,5 @@
-"""Spheres that roll: rotation against the number of spheres in a container of the experiment's size, for friction
-coefficients from smooth to rough.
+"""Spheres that roll: rotation against their number in the experiment's container, smooth and roughened, and for both
+readings of the amplitude.
 
     /usr/bin/python3 figures/figure_spheres.py out/figure_spheres.csv
 """
@@ -12,11 +12,9 @@ FINE = 0.16  # in Ω: coarser scale above, where only small N rotate
 def main():
     table = style.table_from_arguments("figure_spheres")
     rows = style.read(table)
-    curves = [(style.select(rows, mu=mu),
-               {"label": rf"$\mu = {mu:g}$", "color": style.CYCLE[k], "marker": style.MARKERS[k]})
-              for k, mu in enumerate(sorted({row["mu"] for row in rows}))]
-    style.rotation_figure(table, curves, of="spheres", width=style.PAGE, height=3.4,
-                          fine=FINE, ncol=6)
+    curves = [(style.select(rows, setting=name), {"label": label} | look)
+              for name, (label, look) in style.LOOKS.items() if style.select(rows, setting=name)]
+    style.rotation_figure(table, curves, of="spheres", width=style.PAGE, height=3.4, fine=FINE, ncol=3)
 
 
 if __name__ == "__main__":

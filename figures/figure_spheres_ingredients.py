@@ -6,7 +6,7 @@
 import style
 
 CURVES = [
-    (None, "all ingredients", style.BLACK, "o"),
+    ("all", "all ingredients", style.BLACK, "o"),
     ("no-damping", r"no damping ($e = 1$)", style.SKY, "D"),
     ("shell", r"hollow ($I = \frac{2}{3}$)", style.BLUE, "s"),
     ("no-floor", "no floor", style.GREEN, "X"),
@@ -16,13 +16,11 @@ CURVES = [
 ]
 
 
-def main(figure="figure_spheres_ingredients", full="0.2", ending=""):
-    """`full` names the curve with all ingredients; `ending` ends the names of the others."""
+def main(figure="figure_spheres_ingredients", ending=""):
+    """`ending` ends the names of the curves."""
     table = style.table_from_arguments(figure)
     rows = style.read(table)
-    # A table reader returns a numeric curve name as a number.
-    curves = [([row for row in rows if str(row["curve"]) == (name + ending if name else full)],
-               {"label": label, "color": color, "marker": marker})
+    curves = [(style.select(rows, curve=name + ending), {"label": label, "color": color, "marker": marker})
               for name, label, color, marker in CURVES]
     style.rotation_figure(table, curves, of="spheres", height=3.2)
 

@@ -1,4 +1,4 @@
-"""Spheres that roll: rotation without each ingredient of the model, at a higher friction coefficient.
+"""Spheres that roll: rotation without each ingredient of the model, for roughened spheres.
 
     /usr/bin/python3 figures/figure_spheres_ingredients_rough.py out/figure_spheres_ingredients_rough.csv
 """
@@ -7,7 +7,7 @@ import figure_spheres_ingredients
 
 
 def main():
-    figure_spheres_ingredients.main("figure_spheres_ingredients_rough", "0.3", "-rough")
+    figure_spheres_ingredients.main("figure_spheres_ingredients_rough", "-rough")
 
 
 if __name__ == "__main__":

@@ -39,6 +39,15 @@ GREY = "#7f7f7f"
 CYCLE = [BLUE, RED, GREEN, PINK, ORANGE, SKY, BLACK, GREY]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<"]
 
+# Settings of the figures with spheres and discs: label, colour, marker. Discs have open symbols.
+LOOKS = {
+    "smooth": ("smooth spheres", {"color": BLUE, "marker": "o"}),
+    "rough": ("roughened spheres", {"color": RED, "marker": "s"}),
+    "half": ("smooth, half the amplitude", {"color": GREY, "marker": "v", "linestyle": "--"}),
+    "high": (r"discs, $\mu = 1$", {"color": ORANGE, "marker": "D", "fillstyle": "none", "linestyle": ":"}),
+    "low": (r"discs, $\mu = 0.1$", {"color": SKY, "marker": "^", "fillstyle": "none", "linestyle": ":"}),
+}
+
 SETTINGS = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
@@ -219,36 +228,48 @@ def profiles(name, quantity, level, label):
     table = table_from_arguments(name)
     rows = read(table)
     numbers = sorted({row["discs"] for row in rows})
-    drawing, axes = figure(height=2.6)
+    settings = [name for name in LOOKS if select(rows, setting=name)]
+    drawing, panels = figure(width=PAGE, height=2.7, ncols=len(settings), sharex=True, sharey=True, squeeze=False)
     colors = plt.get_cmap("viridis")
     span = max(numbers[-1] - numbers[0], 1)
-    for discs in numbers:
-        color = colors(0.95 * (discs - numbers[0]) / span)
-        here = select(rows, discs=discs)
-        shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > LEAST_VISITS]
-        axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
-                  linestyle=":" if not_steady(shown) else "-")
-        for angle, marker in (("residence_begin", "v"), ("residence_end", "o")):
-            here = [row for row in shown if not math.isnan(row[angle])]
-            if not here:
-                continue
-            nearest = min(here, key=lambda row: abs((row["theta"] - row[angle] + 180) % 360 - 180))
-            axes.plot(nearest[angle], nearest[quantity], marker, color=color, markersize=3.2,
-                      markeredgecolor=BLACK, markeredgewidth=0.4, zorder=3)
-    axes.plot([], [], "v", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
-              label="residences at the wall begin")
-    axes.plot([], [], "o", color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
-              label="residences end")
-    axes.axhline(level, color=GREY, linewidth=0.6, linestyle="--", zorder=0)
-    axes.set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
-    axes.set_ylabel(label)
-    axes.set_xlim(0, 360)
-    axes.set_xticks(range(0, 361, 90))
-    legend(axes)
-    bar = drawing.colorbar(scale(numbers, colors), ax=axes)
-    bar.set_label(r"number of discs $N$")
+    for axes, setting in zip(panels[0], settings):
+        axes.set_title(LOOKS[setting][0])
+        for discs in sorted({row["discs"] for row in select(rows, setting=setting)}):
+            color = colors(0.95 * (discs - numbers[0]) / span)
+            here = select(rows, setting=setting, discs=discs)
+            shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > LEAST_VISITS]
+            axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
+                      linestyle=":" if not_steady(shown) else "-")
+            for angle, marker in (("residence_begin", "v"), ("residence_end", "o")):
+                here = [row for row in shown if not math.isnan(row[angle])]
+                if not here:
+                    continue
+                nearest = min(here, key=lambda row: abs((row["theta"] - row[angle] + 180) % 360 - 180))
+                axes.plot(nearest[angle], nearest[quantity], marker, color=color, markersize=3.2,
+                          markeredgecolor=BLACK, markeredgewidth=0.4, zorder=3)
+        axes.axhline(level, color=GREY, linewidth=0.6, linestyle="--", zorder=0)
+        axes.set_xlim(0, 360)
+        axes.set_xticks(range(0, 361, 90))
+    first = panels[0][0]
+    handles = [first.plot([], [], marker, color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
+                          label=words)[0] for marker, words in (("v", "residences at the wall begin"),
+                                                                ("o", "residences end"))]
+    panels[0][len(settings) // 2].set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
+    first.set_ylabel(label)
+    legend_of_all(drawing, handles, [mark.get_label() for mark in handles], ncol=2)
+    bar = drawing.colorbar(scale(numbers, colors), ax=panels)
+    bar.set_label(r"number of particles $N$")
     note_not_steady(drawing, rows)
     save(drawing, table)
+
+
+def curves_by_setting(axes, rows, quantity, settings=tuple(LOOKS), **more):
+    """A curve against N for each setting of the table."""
+    for name in settings:
+        here = [row for row in select(rows, setting=name) if row[quantity] == row[quantity]]
+        if here:
+            label, look = LOOKS[name]
+            curve(axes, here, "discs", quantity, **({"label": label} | look | more))
 
 
 def zero_line(axes):

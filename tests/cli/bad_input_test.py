@@ -42,7 +42,7 @@ CALLS = [
     ("--preset experiment --gravity -9.81", 2, ["--gravity is -9.81", "from 1e-06"]),
     ("--preset experiment --vertical-disc 1.5", 2, ["--vertical-disc is 1.5", "from 0 to 1"]),
     ("--preset experiment --vertical-wall -1", 2, ["--vertical-wall is -1", "from 0 to 1"]),
-    ("--preset experiment --rolling-resistance 0.5", 2, ["--rolling-resistance is 0.5", "--floor-friction, 0.3"]),
+    ("--preset experiment --rolling-resistance 0.5", 2, ["--rolling-resistance is 0.5", "--floor-friction, 0.33"]),
     ("--preset experiment --rolling-resistance -1", 2, ["--rolling-resistance is -1", "from 0 to"]),
     ("--body sphere --rolling-resistance 0.01", 2, ["--rolling-resistance is 0.01", "--floor sliding"]),
     ("--rolling-resistance 0.01 --floor sliding", 2, ["--rolling-resistance is 0.01", "--body sphere"]),

@@ -54,33 +54,35 @@ def cells(side, **more):
 
 
 def profile():
-    for discs, theta in itertools.product((24, 36, 48), range(5, 360, 10)):
-        yield with_errors({"discs": discs, "theta": theta, "visits": 1000, "residence_begin": 200.0,
+    for setting, discs, theta in itertools.product(("high", "smooth", "half"), (24, 36, 48), range(5, 360, 10)):
+        yield with_errors({"setting": setting, "discs": discs, "theta": theta, "visits": 1000, "residence_begin": 200.0,
                            "residence_end": 90.0, "steady_state": "drifting", "wall": -1.0},
                           varpi_m=-1 + 0.1 * math.sin(theta / 57), normalised=1.2)
 
 
 FRICTIONS = ("no-wall", "no-disc", "low", "medium", "high")
 STEPS = (0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1)
-SPHERES = (0.1, 0.15, 0.17, 0.2, 0.23, 0.25, 0.3, 0.5)
+SPHERES = ("smooth", "rough", "half")
+
+INGREDIENTS = ("all", "no-damping", "shell", "no-vertical-wall", "no-vertical-disc", "no-vertical", "no-floor")
 
 TABLES = {
-    "1b": [with_errors(row, pancake=-0.1) for row in rotation(range(24, 49))],
-    "2b": [*cells(100, map="density", discs=48, steady_state="drifting"),
-           *cells(20, map="flow", discs=48, steady_state="drifting")],
+    "1b": [with_errors(row, pancake=-0.1, pinned_region=0.9)
+           for row in curves("setting", ("high", *SPHERES), range(24, 49))],
+    "2b": [cell for setting in ("high", "smooth")
+           for cell in (*cells(100, setting=setting, map="density", discs=48, steady_state="drifting"),
+                        *cells(20, setting=setting, map="flow", discs=48, steady_state="drifting"))],
     "3a": list(profile()),
     "3b": list(profile()),
     "4a": [with_errors(row, slip_resident=0.9, pinned_region=0.95, cluster=0.5)
-           for row in curves("setting", ("high", "low"), range(24, 49))],
-    "pinning": [{"discs": n, "theta": 10 * k + 5, "steady_state": "drifting"} |
+           for row in curves("setting", ("low", "high", *SPHERES), range(24, 49))],
+    "pinning": [{"setting": "smooth", "discs": n, "theta": 10 * k + 5, "steady_state": "drifting"} |
                 {name + end: value for name in ("si_pinning", "si_depinning", "residence_begin", "residence_end")
                  for end, value in (("", k / 630), ("_mean", 359.0), ("_resultant", 0.9))}
                 for n in (28, 48) for k in range(36)],
-    "4b": [with_errors(row, pinned_wall_spin=0.4, resident_spin=0.4, wall_spin=0.4, spin_correlation=0.0,
-                       triangles=0.3, disc_sticking=0.9, wall_sticking=0.9, pinned_correlation=-0.1,
-                       resident_correlation=-0.2, along_wall=0.1, correlation_by_impulse=-0.3, psi6_resident=0.7, psi6_pinned=0.6)
-           for row in rotation(range(24, 49))],
-    "4c": curves("setting", ("high", "low"), range(24, 49)),
+    "4b": [with_errors(row, resident_spin=0.4, triangles=0.3, triangle_correlation=-0.1, chain_correlation=-0.3)
+           for row in curves("setting", ("high", *SPHERES), range(24, 49))],
+    "4c": curves("setting", ("low", "high", *SPHERES), range(24, 49)),
     "5b": curves("setting", FRICTIONS) + list(rotation(range(40, 56), low=-0.4, setting="high")),
     "5c": [row for n in (28, 48) for row in cells(100, discs=n, steady_state="drifting")],
     "5d": [row for n in (28, 48) for row in cells(20, discs=n, steady_state="drifting")],
@@ -99,22 +101,18 @@ TABLES = {
             for row in rotation([48], high=b - a, mu_disc=a, mu_wall=b)],
     "polygon": [row for m in (6, 10, 30, 300, 0) for row in rotation((28, 48), sides=m)],
     "restitution": curves("restitution", (1, 0.99, 0.9)),
-    "spheres": curves("mu", SPHERES, range(8, 56, 4)),
+    "spheres": curves("setting", SPHERES, range(8, 56, 4)),
     "spheres_flat_discs": curves("curve", ("flat-discs_f0", "flat-discs_f0.01", "flat-discs_f0.02", "flat-discs_f0.03")),
-    "spheres_ingredients": curves("curve", ("0.2", "no-damping", "shell", "no-vertical-wall",
-                                            "no-vertical-disc", "no-vertical", "no-floor")),
-    "spheres_ingredients_rough": curves("curve", ("0.3", *(f"{name}-rough" for name in (
-        "no-damping", "shell", "no-vertical-wall", "no-vertical-disc", "no-vertical", "no-floor")))),
+    "spheres_ingredients": curves("curve", INGREDIENTS),
+    "spheres_ingredients_rough": curves("curve", [f"{name}-rough" for name in INGREDIENTS]),
     "spheres_map": [row for a in STEPS[1:8] for b in STEPS[1:6]
                     for row in rotation([36], high=a - b, mu=a, floor_friction=b)],
-    "spheres_pinned": [with_errors(row, slip_resident=0.9, pinned_region=0.9, resident_spin=0.3,
-                                   pinned_wall_spin=0.3, rolling_share=0.7, contact_correlation=0.9)
-                       for row in curves("mu", (0.15, 0.5))],
     "spheres_restitution": curves("curve", (1, 0.95, 0.9, 0.8, 0.7, 0.5)),
-    "spheres_direction": [{"mu": mu, "crossing": crossing, "lower": 19 + 20 * mu, "upper": 21 + 20 * mu,
-                       "before": 19 + 20 * mu, "after": 21 + 20 * mu, "direction": direction}
-                      for mu in SPHERES for crossing, direction in ((20 + 20 * mu, "counterrotation"),
-                                                                ("", "rotation"), ("", "undetermined"))],
+    "spheres_friction": [{"curve": name, "amplitude_mm": 5.75, "restitution": 0.8, "floor_friction": 0.15,
+                          "rolling_resistance": 0.01, "mu": mu, "crosses": 1.0, "crossing": 44 - 20 * mu,
+                          "crossing_error": 0.3}
+                         for name in ("experiment", "A5.75", "A7.5", "A9.5", "A10.5", "e0.7", "e0.8", "e1", "f0.15",
+                                      "f0.3", "f0.6", "r0.01", "r0.03") for mu in (0.2, 0.4, 0.7, 1.0)],
     "states": [with_errors(row, coriolis=5.0, granular=0.5)
                for row in curves("setting", ("high", "no-wall", "no-disc"), (28, 48))],
     "tangential": curves("tangential_restitution", (0, 0.5, 1)),
@@ -126,7 +124,7 @@ TABLES = {
 # The chapters are drawn from the tables of quick runs, four of them by figures_test.py.
 CHAPTERS = {"amplitude", "closure", "contacts", "cooling", "critical", "fields", "gears", "hysteresis", "instability",
             "lifetimes", "material_friction", "material_inertia", "material_tangential", "scherer", "size",
-            "spheres_bounds", "spheres_packing", "spheres_size", "torque"}
+            "spheres_packing", "spheres_size", "torque"}
 
 
 class Drawings(unittest.TestCase):
@@ -209,7 +207,7 @@ class Drawings(unittest.TestCase):
             drawing = self.drawn(name, TABLES[name])
             quivers = [(axes, q) for axes in drawing.axes for q in axes.collections
                        if isinstance(q, Quiver)]
-            self.assertEqual(len(quivers), 1 if name == "2b" else 2)
+            self.assertEqual(len(quivers), 2)
             for _, quiver in quivers:
                 longest = max(math.hypot(u, v) for u, v in zip(quiver.U, quiver.V)) / quiver.scale
                 self.assertLessEqual(longest, 2 * R / side * 1.001)
@@ -273,7 +271,7 @@ class Drawings(unittest.TestCase):
         self.assertLess(max(wide) - min(wide), 0.95 * (max(plain) - min(plain)))
 
     def test_spheres_near_zero_have_a_linear_scale(self):
-        near = curves("mu", (0.5,), range(8, 56, 4))
+        near = curves("setting", SPHERES, range(8, 56, 4))
         near = [row | {"by_time": -0.05} for row in near]
         self.assertEqual(self.drawn("spheres", near).axes[0].get_yscale(), "linear")
         self.assertEqual(self.drawn("spheres", TABLES["spheres"]).axes[0].get_yscale(), "function")

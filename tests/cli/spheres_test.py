@@ -165,7 +165,7 @@ class Spheres(InFolder):
         log = self.path("events.h5")
         if resistance:
             more += ("--rolling-resistance", resistance)
-        done = swirl("run", "--preset", "experiment", "--events", events, "--warmup", 0, "--mu", friction,
+        done = swirl("run", "--preset", "experiment-half", "--events", events, "--warmup", 0, "--mu", friction,
                      "--floor-friction", floor_friction, *more, "--log-events", log, "--quiet",
                      "--overwrite")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -213,7 +213,7 @@ class Spheres(InFolder):
 
     def test_vertical_impulses_of_a_log(self):
         log = self.path("events.h5")
-        done = swirl("run", "--preset", "experiment", "--discs", 20, "--events", 20000, "--warmup", 0, "--log-events",
+        done = swirl("run", "--preset", "experiment-half", "--discs", 20, "--events", 20000, "--warmup", 0, "--log-events",
                      log, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         output = subprocess.run([sys.executable, EXAMPLE, log], capture_output=True, text=True, check=True).stdout

@@ -51,6 +51,22 @@ TEST(SpinFrustration, IsOneForARigidlyRotatingTriangularBody) {
     EXPECT_NEAR(row_of(frustration, "coordination").mean, 24.0 / 7.0, 1e-15);
 }
 
+// A chain of gears can roll; a triangle of equal spins cannot. Both in one sample stay apart.
+TEST(SpinFrustration, SeparatesPairsInTrianglesFromOthers) {
+    Snapshot s = empty_container(0.4);
+    for (int k = 0; k < 3; ++k)
+        add_disc(s, s.container_centre + Vec2{2.0 * k, 0.0}, {0.0, 0.0}, k % 2 ? -0.5 : 0.5);
+    const Vec2 corner = s.container_centre + Vec2{-4.0, -4.0};
+    for (int k = 0; k < 3; ++k)
+        add_disc(s, corner + (2.0 / std::sqrt(3.0)) * unit_circle(k / 3.0), {0.0, 0.0}, 0.3);
+    SpinFrustration frustration(0.1, 1);
+    frustration.sample(s);
+    frustration.close_block();
+    EXPECT_EQ(row_of(frustration, "chain_correlation").mean, -1.0);
+    EXPECT_EQ(row_of(frustration, "triangle_correlation").mean, 1.0);
+    EXPECT_EQ(row_of(frustration, "triangles").mean, 0.6);
+}
+
 TEST(SpinFrustration, IsZeroForIndependentSpins) {
     SpinFrustration frustration(0.1, 1);
     Noise noise(4);

@@ -172,16 +172,34 @@ TEST(RunParameters, ThePresetIsTheExperimentAndOtherParametersOverrideIt) {
     EXPECT_EQ(experiment.body, Shape::sphere);
     EXPECT_TRUE(experiment.floor);
     EXPECT_DOUBLE_EQ(experiment.container_radius, 8.5);
-    EXPECT_NEAR(experiment.amplitude / experiment.container_radius, 0.2255, 1e-4);
-    // 9.81 m/s² in units of 3 mm and 67.9 mm/s.
-    EXPECT_NEAR(experiment.gravity, 9.81 * 3e-3 / (67.9075e-3 * 67.9075e-3), 1e-3);
+    // 11.5 mm and 25.5 mm, the numbers of the main text.
+    EXPECT_NEAR(experiment.amplitude / experiment.container_radius, 0.45098, 1e-5);
+    // 9.81 m/s² in units of 3 mm and 11.5 mm × 11.81 /s.
+    EXPECT_NEAR(experiment.gravity, 9.81 * 3e-3 / (135.815e-3 * 135.815e-3), 3e-4);
     EXPECT_EQ(experiment.inertia, 0.4);
+    EXPECT_EQ(experiment.mu_disc, experiment.floor_friction);
     const RunConfig other = resolve({{"preset", "experiment"}, {"mu", "0.15"}, {"floor", "none"}});
     EXPECT_EQ(other.mu_wall, 0.15);
     EXPECT_FALSE(other.floor);
     EXPECT_EQ(resolve(texts_of(experiment)).gravity, experiment.gravity);
     EXPECT_EQ(config_json(resolve(overridden(texts_of({}), {{"preset", "experiment"}}))),
               config_json(resolve({{"preset", "experiment"}, {"events", "1e6"}})));
+}
+// In every preset the container has the speed 1, so that A Ω = 1; half the amplitude has four times
+// the gravity in units of (A Ω)²/r.
+TEST(RunParameters, PresetsDifferInAmplitudeOrFrictionOnly) {
+    const RunConfig smooth = resolve({{"preset", "experiment"}}),
+                    rough = resolve({{"preset", "experiment-rough"}}),
+                    half = resolve({{"preset", "experiment-half"}});
+    for (const RunConfig* config : {&smooth, &rough, &half})
+        EXPECT_DOUBLE_EQ(config->amplitude * config->omega(), 1.0);
+    EXPECT_EQ(rough.amplitude, smooth.amplitude);
+    EXPECT_GT(rough.mu_wall, smooth.mu_wall);
+    EXPECT_EQ(half.mu_wall, smooth.mu_wall);
+    EXPECT_DOUBLE_EQ(2.0 * half.amplitude, smooth.amplitude);
+    EXPECT_DOUBLE_EQ(half.gravity, 4.0 * smooth.gravity);
+    EXPECT_THAT(error_of({{"preset", "experiment-ruogh"}}),
+                testing::HasSubstr("did you mean 'experiment-rough'"));
 }
 TEST(RunParameters, ImpossibleFloorsAndPathsAreRejected) {
     EXPECT_THAT(error_of({{"floor", "sliding"}, {"path", "circle"}}),
@@ -213,11 +231,11 @@ TEST(RunParameters, RollingResistanceNeedsSpheresOnAFloorAndIsBounded) {
                 testing::HasSubstr("there is no floor"));
     EXPECT_THAT(error_of({{"floor", "sliding"}, {"rolling_resistance", "0.01"}}),
                 testing::HasSubstr("discs do not roll"));
-    EXPECT_THAT(error_of({{"preset", "experiment"}, {"rolling_resistance", "0.31"}}),
-                testing::HasSubstr("--floor-friction, 0.3"));
+    EXPECT_THAT(error_of({{"preset", "experiment"}, {"rolling_resistance", "0.34"}}),
+                testing::HasSubstr("--floor-friction, 0.33"));
     EXPECT_THAT(error_of({{"preset", "experiment"}, {"rolling_resistance", "-0.1"}}),
                 testing::HasSubstr("from 0 to"));
-    EXPECT_EQ(error_of({{"preset", "experiment"}, {"rolling_resistance", "0.3"}}), "");
+    EXPECT_EQ(error_of({{"preset", "experiment"}, {"rolling_resistance", "0.33"}}), "");
 }
 TEST(RunParameters, FloorParametersAreRejectedWithoutAFloor) {
     EXPECT_THAT(error_of({{"floor_friction", "0.5"}}), testing::HasSubstr("there is no floor"));

@@ -43,6 +43,7 @@ void SpinFrustration::sample(const MFrameView& view, PinnedFlags pinned) {
             neighbours_[pair.i].begin(), neighbours_[pair.i].end(),
             [&](auto k) { return std::find(others.begin(), others.end(), k) != others.end(); });
         triangles_.add(triangle ? 1.0 : 0.0);
+        add_pair(triangle ? in_triangle_ : in_chain_, a, b);
     }
 }
 

@@ -9,8 +9,10 @@
 //   spin correlation  Σ ω_i ω_j / Σ ½ (ω_i² + ω_j²) over touching pairs: −1 for gears, 0 for
 //                     independent spins, 1 for a body that turns as a whole. Over all pairs; over
 //                     pairs of pinned discs; over pairs with at least one resident disc; over pairs
-//                     of two resident discs, neighbours along the wall; and over all disc–disc
-//                     collisions, each weighted with its normal impulse: strong contacts
+//                     of two resident discs, neighbours along the wall; over the pairs in a
+//                     triangle (below) and over those in none, which frustration does not hinder;
+//                     and over all disc–disc collisions, each weighted with its normal impulse:
+//                     strong contacts
 //   triangles         share of the touching pairs that have a common neighbour touching both: the
 //                     contacts that are geometrically frustrated. 0 in a chain, 1 in a close
 //                     packing
@@ -59,6 +61,10 @@ class SpinFrustration : public ReportedAverages<SpinFrustration> {
                        "the same for a resident disc and any that it touches",
                        s.resident_correlation_},
             AverageRow{"along_wall", "1", "the same for two resident discs", s.along_wall_},
+            AverageRow{"triangle_correlation", "1", "the same for pairs with a common neighbour",
+                       s.in_triangle_},
+            AverageRow{"chain_correlation", "1", "the same for pairs without a common neighbour",
+                       s.in_chain_},
             AverageRow{"correlation_by_impulse", "1",
                        "the same over collisions, each weighted with its normal impulse",
                        s.by_impulse_},
@@ -116,8 +122,8 @@ class SpinFrustration : public ReportedAverages<SpinFrustration> {
     int every_;
     std::int64_t samples_ = 0;
     BlockMean wall_spin_, pinned_wall_spin_, resident_spin_, correlation_, pinned_correlation_,
-        resident_correlation_, along_wall_, by_impulse_, triangles_, coordination_, disc_sticking_,
-        wall_sticking_;
+        resident_correlation_, along_wall_, in_triangle_, in_chain_, by_impulse_, triangles_,
+        coordination_, disc_sticking_, wall_sticking_;
     TouchingPairs touching_;
     std::vector<std::vector<std::uint32_t>> neighbours_;
     // Samples of discs in the wall layer, until it is known which of them were resident then.

@@ -37,8 +37,9 @@ RunConfig dish_config(const PaperSettings& settings, const Dish& dish, std::int6
                          {"amplitude", fmt::format("{}", dish.amplitude * dish.radius)},
                          {"speed", "1"}};
     if (dish.spheres) {
-        texts["preset"] = "experiment";
+        texts["preset"] = "experiment-half";
         texts["mu"] = "0.2";
+        texts["floor-friction"] = "0.3";
     }
     RunConfig config = resolve(texts);
     config.seed = settings.seed;

@@ -3,8 +3,7 @@
 //
 // Figure "spheres_packing": the maximum of ϖ near N = 28 to 30, and the packing of the cluster.
 // Figure "spheres_size": spheres in dishes of different sizes.
-// Figure "spheres_bounds": the change of direction for bounds of three unknown parameters: friction
-// of the floor, restitution, rolling resistance.
+// Both have the experiment at half the amplitude, μ = 0.2 and floor friction 0.3.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -25,7 +24,8 @@ namespace swirl {
 namespace {
 
 RunConfig experiment_of(const PaperSettings& settings, std::int64_t spheres) {
-    RunConfig config = resolve({{"preset", "experiment"}, {"mu", "0.2"}});
+    RunConfig config =
+        resolve({{"preset", "experiment-half"}, {"mu", "0.2"}, {"floor-friction", "0.3"}});
     config.discs = spheres;
     config.seed = settings.seed;
     config.warmup = settings.periods(settings.quick ? 20 : 50, 2);
@@ -154,69 +154,11 @@ static FigurePlan plan_figure_spheres_size(const PaperSettings& settings) {
     return plan_dishes(settings, "spheres_size", points);
 }
 
-// --- Bounds ---------------------------------------------------------------------------------
-
-namespace {
-
-/// A parameter of the spheres that the experiment does not state, at a bound.
-struct Bound {
-    const char *name, *parameter, *value, *words;
-};
-constexpr Bound bounds[] = {
-    {"default", "floor-friction", "0.3", "μ_f = 0.3, e = 0.9, no rolling resistance"},
-    {"slippery", "floor-friction", "0.15", "μ_f = 0.15"},
-    {"grippy", "floor-friction", "0.6", "μ_f = 0.6"},
-    {"elastic", "restitution", "1", "e = 1"},
-    {"damped", "restitution", "0.6", "e = 0.6"},
-    {"resistance", "rolling-resistance", "0.01", "rolling resistance 0.01"},
-    {"strong-resistance", "rolling-resistance", "0.03", "rolling resistance 0.03"}};
-
-RunConfig bound_config(const PaperSettings& settings, const Bound& bound, std::int64_t spheres) {
-    RunConfig config = experiment_of(settings, spheres);
-    const RunConfig changed =
-        resolve({{"preset", "experiment"}, {"mu", "0.2"}, {bound.parameter, bound.value}});
-    config.floor_friction = changed.floor_friction;
-    config.restitution = changed.restitution;
-    config.rolling_resistance = changed.rolling_resistance;
-    return config;
-}
-
-}  // namespace
-
-static FigurePlan plan_figure_spheres_bounds(const PaperSettings& settings) {
-    FigurePlan plan;
-    plan.script = "figure_spheres_bounds.py";
-    CurveFigure figure{"spheres_bounds", {"curve"}, {}};
-    for (const Bound& bound : bounds)
-        figure.curves.push_back({bound.words, {std::string(bound.words)}, bound.words});
-    std::vector<std::int64_t> numbers{24, 36};
-    if (!settings.quick) numbers = {16, 20, 24, 28, 30, 32, 34, 36, 38, 40, 42, 44, 48};
-    figure.add_points(numbers);
-    for (const CurveFigure::Point& p : figure.points) {
-        const Bound& bound = bounds[p.curve];
-        const RunConfig config = bound_config(settings, bound, p.discs);
-        plan.points.push_back(varied_point(
-            settings, fmt::format("spheres-{}_N{}_{}", bound.name, p.discs, length_of(config)),
-            config, chapter_seeds(settings)));
-    }
-    plan.finish = [figure](const std::vector<Json>& results, const fs::path& out) {
-        FigureOutcome outcome;
-        figure.write_points(results, out, outcome);
-        for (const NamedCurve& curve : figure.named_curves(results))
-            outcome.findings.push_back(fmt::format("{}: {}", curve.name, crossing_sentence(curve)));
-        figure.write_crossings(results, out, outcome);
-        return outcome;
-    };
-    return plan;
-}
-
 std::vector<PaperFigure> chapter_spheres() {
     return {{"spheres_packing", "chapter: rotation and packing of spheres",
              plan_figure_spheres_packing},
             {"spheres_size", "chapter: spheres in containers of different sizes",
-             plan_figure_spheres_size},
-            {"spheres_bounds", "chapter: spheres for bounds of friction, damping and rolling",
-             plan_figure_spheres_bounds}};
+             plan_figure_spheres_size}};
 }
 
 }  // namespace swirl

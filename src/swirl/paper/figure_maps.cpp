@@ -1,5 +1,6 @@
-// Figures 2b, 2c, 5c and 5d: number density and flow of the discs in the M-frame, for a rotating
-// (N = 28) and a counterrotating cluster (N = 48), both friction coefficients 1.
+// Figures 2b, 2c, 5c and 5d: number density and flow in the M-frame, for a rotating (N = 28) and a
+// counterrotating cluster (N = 48). Figure 2 is about the experiment and has its smooth spheres next
+// to discs; Figure 5 is about discs. Both friction coefficients of discs are 1.
 #include "swirl/paper/figures.hpp"
 #include "swirl/paper/points.hpp"
 #include "swirl/paper/results.hpp"
@@ -8,28 +9,36 @@
 namespace swirl {
 namespace {
 
+const std::vector<Friction> settings_of_2{high_friction, smooth_spheres};
+
 /// Density and flow in one table: rows of one have no values of the other.
 FigurePlan plan_both(const PaperSettings& settings, const std::string& name, std::int64_t discs) {
     FigurePlan plan;
     plan.script = "figure_2b.py";
-    plan.points = {measured_point(settings, high_friction, discs)};
+    for (const Friction& friction : settings_of_2)
+        plan.points.push_back(measured_point(settings, friction, discs));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        const Json& result = results.front();
-        if (failed(result)) throw Failure("its only run failed.");
-        Table table({"map", "discs", "steady_state", "x", "y", "density", "density_error", "u_x",
-                     "u_x_error", "u_y", "u_y_error", "visits"});
-        const Json& density = result["measured"]["density"];
-        for (std::size_t r = 0; r < density["x"].size(); ++r)
-            table.add({std::string("density"), discs, steadiness(result), number(density["x"][r]),
-                       number(density["y"][r]), number(density["by_time"][r]),
-                       number(density["by_time_error"][r]), not_available, not_available,
-                       not_available, not_available, not_available});
-        const Json& flow = result["measured"]["flow"];
-        for (std::size_t r = 0; r < flow["x"].size(); ++r)
-            table.add({std::string("flow"), discs, steadiness(result), number(flow["x"][r]),
-                       number(flow["y"][r]), not_available, not_available, number(flow["u_x"][r]),
-                       number(flow["u_x_error"][r]), number(flow["u_y"][r]),
-                       number(flow["u_y_error"][r]), number(flow["visits"][r])});
+        Table table({"setting", "map", "discs", "steady_state", "x", "y", "density",
+                     "density_error", "u_x", "u_x_error", "u_y", "u_y_error", "visits"});
+        for (std::size_t s = 0; s < results.size(); ++s) {
+            const Json& result = results[s];
+            if (failed(result)) throw Failure("one of its runs failed.");
+            const std::string setting = settings_of_2[s].name;
+            const Json& density = result["measured"]["density"];
+            for (std::size_t r = 0; r < density["x"].size(); ++r)
+                table.add({setting, std::string("density"), discs, steadiness(result),
+                           number(density["x"][r]), number(density["y"][r]),
+                           number(density["by_time"][r]), number(density["by_time_error"][r]),
+                           not_available, not_available, not_available, not_available,
+                           not_available});
+            const Json& flow = result["measured"]["flow"];
+            for (std::size_t r = 0; r < flow["x"].size(); ++r)
+                table.add({setting, std::string("flow"), discs, steadiness(result),
+                           number(flow["x"][r]), number(flow["y"][r]), not_available, not_available,
+                           number(flow["u_x"][r]), number(flow["u_x_error"][r]),
+                           number(flow["u_y"][r]), number(flow["u_y_error"][r]),
+                           number(flow["visits"][r])});
+        }
         FigureOutcome outcome;
         outcome.write(table, name, out);
         return outcome;

@@ -9,7 +9,6 @@
 #include "swirl/paper/figures.hpp"
 #include "swirl/paper/points.hpp"
 #include "swirl/run/report.hpp"
-#include "swirl/study/crossing_search.hpp"
 
 namespace swirl {
 namespace {
@@ -128,70 +127,30 @@ static FigurePlan plan_figure_averages(const PaperSettings& settings) {
 
 // --- The crossing against the friction coefficient --------------------------------------------
 
-static Json crossing_result(const CrossingSettings& search, const RunControl& control) {
-    CrossingControl inner;
-    inner.stop = control.stop;
-    inner.threads = 1;
-    const CrossingSearch found = search_crossing(search, inner);
-    Json numbers = Json::array();
-    for (const Crossing& c : found.crossings)
-        for (const double value : {c.discs, c.error, c.lower, c.upper}) numbers.push_back(value);
-    const Crossing& c = found.crossing();
-    return Json{{"crosses", c.verdict == Crossing::Verdict::crosses},
-                {"not_steady", found.not_steady},
-                {"discs", c.discs},
-                {"error", c.error},
-                {"lower", c.lower},
-                {"upper", c.upper},
-                {"by_rate", numbers},
-                {"events", found.events},
-                {"runs", found.runs},
-                {"report", crossing_report(search, found)}};
-}
-
 static FigurePlan plan_figure_friction(const PaperSettings& settings) {
-    constexpr double expected_runs = 40.0;  // of a search, for its cost
     FigurePlan plan;
     plan.script = "figure_friction.py";
     std::vector<double> coefficients{0.1, 0.5, 1.0};
     if (!settings.quick) coefficients = {0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 2.0};
     for (const double mu : coefficients) {
-        CrossingSettings search;
+        CrossingSettings search = search_for_crossing(settings);
         search.config = paper_config(settings, {"", "", mu, mu}, last_n);
         search.config.events = settings.events.value_or(settings.quick ? 100'000 : 300'000);
-        search.min_periods = 100;
-        search.from = 20;
         search.to = numbers_beyond(settings).back();  // μ = 0.2 crosses beyond the paper's last N
-        search.tolerance = settings.quick ? 0.5 : 0.2;
-        if (settings.quick) search.rounds = 1;
-        plan.points.push_back(PaperTask{
+        plan.points.push_back(crossing_task(
             fmt::format("N_c_mu{}_{}events_seed{}", mu, search.config.events, settings.seed),
-            expected_runs * static_cast<double>(search.config.events),
-            [search](const RunControl& control) { return crossing_result(search, control); }});
+            search));
     }
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        Table table(joined({"mu", "crosses", "crossing", "crossing_error", "lower", "upper", "runs",
-                            "events", "runs_not_steady", "steady_state"},
-                           rates_columns()));
+        Table table(joined({"mu"}, search_columns()));
         FigureOutcome outcome;
         for (std::size_t k = 0; k < coefficients.size(); ++k) {
-            const Json& r = results[k];
-            if (failed(r)) continue;
-            std::vector<Table::Cell> row{
-                coefficients[k],
-                std::int64_t{r["crosses"].get<bool>()},
-                number(r["discs"]),
-                number(r["error"]),
-                number(r["lower"]),
-                number(r["upper"]),
-                whole(r["runs"]),
-                whole(r["events"]),
-                whole(r["not_steady"]),
-                std::string(r["not_steady"] == 0 ? "steady" : "not steady")};
-            for (const Json& value : r["by_rate"]) row.emplace_back(number(value));
+            if (failed(results[k])) continue;
+            std::vector<Table::Cell> row{coefficients[k]};
+            add_search(row, results[k]);
             table.add(std::move(row));
-            outcome.findings.push_back(
-                fmt::format("μ = {}: {}", coefficients[k], r["report"].get<std::string>()));
+            outcome.findings.push_back(fmt::format("μ = {}: {}", coefficients[k],
+                                                   results[k]["report"].get<std::string>()));
         }
         outcome.write(table, "friction", out);
         return outcome;

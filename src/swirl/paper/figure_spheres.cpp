@@ -1,13 +1,15 @@
-// Spheres that roll: the paper's experiment, which its simulation does not describe
-// (docs/explanation/spheres.md). Solid spheres on a floor in the experiment's dish: ϖ(N) for
-// friction coefficients between those of smooth and rough plastic, where its sign changes, the
-// effect of each ingredient of the model, and measurements of the pinned spheres and of the
-// rolling.
+// Spheres that roll on a floor: the paper's experiment (docs/explanation/spheres.md). Rotation
+// against N for smooth and roughened spheres and for both readings of the amplitude; N_c against the
+// friction coefficient, which calibrates it; the effect of each ingredient of the model. Figures 1
+// to 4 have their slip, spin and angles (figure_cluster.cpp).
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "swirl/paper/curves.hpp"
 #include "swirl/paper/figures.hpp"
@@ -19,30 +21,14 @@
 namespace swirl {
 namespace {
 
-/// Up to 57 spheres fit. With 56 and 57 the initial packing decides, not friction; some runs
-/// collapse, and each takes as long as a hundred others. They are left out.
-std::vector<std::int64_t> numbers_of_spheres(const PaperSettings& settings) {
-    if (settings.quick) return {8, 16, 24, 28, 30, 32, 34, 36, 40, 44, 48, 52};
-    return {8,  12, 16, 20, 22, 24, 26, 28, 30, 32, 34, 35, 36,
-            37, 38, 40, 42, 44, 46, 48, 50, 52, 53, 54, 55};
-}
-
 /// Enough steps to distinguish the ingredients.
 std::vector<std::int64_t> fewer_numbers(const PaperSettings& settings) {
     if (settings.quick) return {16, 30, 36, 44, 48, 52};
     return {16, 24, 28, 30, 32, 34, 36, 40, 44, 48, 52, 54};
 }
 
-/// Few spheres lose the memory of their initial state in about 50 periods. The length gives ϖ/Ω an
-/// error of a few thousandths. Many spheres lose it sooner, and have many more events in a period.
 RunConfig experiment(const PaperSettings& settings, std::int64_t spheres) {
-    RunConfig config = resolve({{"preset", "experiment"}});
-    config.discs = spheres;
-    config.seed = settings.seed;
-    const bool dense = spheres >= 48;
-    config.warmup = settings.periods(settings.quick || dense ? 25 : 50, 1);
-    config.periods = *config.warmup + settings.periods(settings.quick || dense ? 50 : 150, 3);
-    return config;
+    return paper_config(settings, smooth_spheres, spheres);
 }
 
 /// A curve, and how it differs from the experiment.
@@ -52,18 +38,6 @@ struct Variant {
     std::function<void(RunConfig&)> change;
     std::string point = name;  // unique, in the names of its points
 };
-
-Variant with_friction(double mu) {
-    return {fmt::format("{}", mu), fmt::format("μ = {}", mu), mu,
-            [mu](RunConfig& c) { c.mu_disc = c.mu_wall = mu; }};
-}
-
-/// Close to each other near those at which the direction changes as in the experiment, at N = 36
-/// and 28.
-std::vector<double> friction_of_spheres(const PaperSettings& settings) {
-    if (settings.quick) return {0.15, 0.2, 0.5};
-    return {0.1, 0.15, 0.17, 0.2, 0.23, 0.25, 0.3, 0.5};
-}
 
 CurveFigure curves_of(const std::string& name, const std::vector<Variant>& variants,
                       const std::vector<std::int64_t>& numbers) {
@@ -157,54 +131,150 @@ FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
 
 }  // namespace
 
+/// Smooth and roughened spheres, and smooth ones at half the amplitude; from N = 24 on the runs are
+/// those of Figures 1 to 4.
 static FigurePlan plan_figure_spheres(const PaperSettings& settings) {
-    std::vector<Variant> variants;
-    for (const double mu : friction_of_spheres(settings)) variants.push_back(with_friction(mu));
-    return plan_variants(settings, "spheres", variants, numbers_of_spheres(settings),
-                         settings.seeds());
+    const std::vector<Friction> frictions{smooth_spheres, rough_spheres, half_amplitude};
+    std::vector<std::int64_t> numbers{8, 16};
+    if (!settings.quick) numbers = {8, 12, 16, 20, 22};
+    for (const std::int64_t n : numbers_of_spheres(settings)) numbers.push_back(n);
+    FigurePlan plan;
+    plan.script = "figure_spheres.py";
+    CurveFigure figure{"spheres", columns_of_friction, {}};
+    for (const Friction& friction : frictions) figure.curves.push_back(curve_of(friction));
+    figure.add_points(numbers);
+    for (const CurveFigure::Point& p : figure.points)
+        plan.points.push_back(point(settings, frictions[p.curve], p.discs));
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        FigureOutcome outcome;
+        figure.write_points(results, out, outcome);
+        for (const NamedCurve& curve : figure.named_curves(results))
+            outcome.findings.push_back(
+                fmt::format("{}: {}", curve.name, sign_changes_sentence(curve)));
+        figure.write_crossings(results, out, outcome);
+        return outcome;
+    };
+    return plan;
 }
 
-// --- The change of direction ----------------------------------------------------------------
+// --- N_c against the friction coefficient --------------------------------------------------------
 
-/// figure_spheres_direction_friction.csv: between which friction coefficients the direction changes
-/// at the experiment's N. The reverse, N against the coefficient, has jumps. The coefficients are
-/// too far apart for an interpolation. `results` are in the order of plan_variants().
-static void write_friction_of_changes(const PaperSettings& settings,
-                                      const std::vector<Json>& results, const fs::path& out,
-                                      FigureOutcome& outcome) {
-    const std::vector<std::int64_t> numbers = numbers_of_spheres(settings);
-    const std::vector<double> coefficients = friction_of_spheres(settings);
-    Table table({"discs", "before", "after", "direction"});
-    for (const std::int64_t n : {smooth_change_n, rough_change_n}) {
-        const auto k = static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), n) -
-                                                numbers.begin());
-        std::vector<RotationPoint> curve;
-        for (std::size_t v = 0; v < coefficients.size(); ++v)
-            curve.push_back(
-                rotation_point(coefficients[v], results[v * numbers.size() + k], "by_time"));
-        for (const SignChange& c : find_crossing(curve).changes) {
-            table.add({n, c.before, c.after, std::string(direction_of(c))});
-            outcome.findings.push_back(fmt::format("{} spheres change to {} between μ = {} and {}.",
-                                                   n, direction_of(c), c.before, c.after));
-        }
+namespace {
+
+/// One assumption that the paper does not settle, and its value. The friction coefficient is that
+/// of all contacts, unless the floor has its own.
+struct Assumption {
+    const char *name, *words;
+    double amplitude = 11.5;  // in mm
+    double restitution = experiment_restitution;
+    double floor_friction = 0.0;  // 0: as all contacts
+    double rolling_resistance = 0.0;
+};
+constexpr Assumption assumptions[] = {
+    {.name = "experiment", .words = "A = 11.5 mm, e = 0.9"},
+    {.name = "A5.75", .words = "A = 5.75 mm", .amplitude = 5.75},
+    {.name = "A7.5", .words = "A = 7.5 mm", .amplitude = 7.5},
+    {.name = "A9.5", .words = "A = 9.5 mm", .amplitude = 9.5},
+    {.name = "A10.5", .words = "A = 10.5 mm", .amplitude = 10.5},
+    {.name = "e0.7", .words = "e = 0.7", .restitution = 0.7},
+    {.name = "e0.8", .words = "e = 0.8", .restitution = 0.8},
+    {.name = "e1", .words = "e = 1", .restitution = 1.0},
+    {.name = "f0.15", .words = "floor 0.15", .floor_friction = 0.15},
+    {.name = "f0.3", .words = "floor 0.3", .floor_friction = 0.3},
+    {.name = "f0.6", .words = "floor 0.6", .floor_friction = 0.6},
+    {.name = "r0.01", .words = "rolling resistance 0.01", .rolling_resistance = 0.01},
+    {.name = "r0.03", .words = "rolling resistance 0.03", .rolling_resistance = 0.03}};
+
+RunConfig assumed(const PaperSettings& settings, const Assumption& assumption, double mu) {
+    RunConfig config = experiment(settings, smooth_change_n);
+    config.mu_disc = config.mu_wall = mu;
+    config.floor_friction = assumption.floor_friction > 0.0 ? assumption.floor_friction : mu;
+    config.restitution = assumption.restitution;
+    config.rolling_resistance = assumption.rolling_resistance;
+    config.amplitude = assumption.amplitude / sphere_radius_mm;
+    config.period = 2.0 * pi * config.amplitude;
+    config.gravity = experiment_gravity(assumption.amplitude);
+    return config;
+}
+
+struct FrictionCrossing {
+    double mu, crossing, error;
+};
+
+/// The friction coefficient with this N_c, between two neighbouring coefficients: on the straight
+/// line through both, as N_c falls smoothly. Its error follows from those of both N_c.
+std::optional<Estimate> friction_with(std::int64_t discs, std::span<const FrictionCrossing> found) {
+    for (std::size_t k = 0; k + 1 < found.size(); ++k) {
+        const FrictionCrossing &a = found[k], &b = found[k + 1];
+        const double f = (a.crossing - double(discs)) / (a.crossing - b.crossing);
+        if (!(f >= 0.0 && f <= 1.0)) continue;
+        return Estimate{.mean = a.mu + f * (b.mu - a.mu),
+                        .error = std::hypot((1.0 - f) * a.error, f * b.error) * (b.mu - a.mu) /
+                                 std::fabs(a.crossing - b.crossing)};
     }
-    outcome.write(table, "spheres_direction_friction", out);
+    return {};
 }
 
-/// The runs of figure `spheres`; its table is that of the sign changes.
-static FigurePlan plan_figure_spheres_direction(const PaperSettings& settings) {
-    FigurePlan plan = plan_figure_spheres(settings);
-    plan.script = "figure_spheres_direction.py";
-    plan.finish = [settings, finish_spheres = plan.finish](const std::vector<Json>& results,
-                                                           const fs::path& out) {
-        const fs::path sign_changes = finish_spheres(results, out).files.back();
-        FigureOutcome outcome{{}, {out / "figure_spheres_direction.csv"}};
-        std::error_code error;
-        fs::rename(sign_changes, outcome.files.back(), error);
-        if (error)
-            throw Failure(fmt::format("'{}' cannot be written: {}.", outcome.files.back().string(),
-                                      error.message()));
-        write_friction_of_changes(settings, results, out, outcome);
+}  // namespace
+
+/// N_c of the experiment's spheres against their friction coefficient, for the values of the paper
+/// and with one assumption changed at a time; and the coefficients that have the experiment's N_c.
+static FigurePlan plan_figure_spheres_friction(const PaperSettings& settings) {
+    FigurePlan plan;
+    plan.script = "figure_spheres_friction.py";
+    std::vector<double> coefficients{0.25, 0.33, 0.5, 0.69};
+    if (!settings.quick) coefficients = {0.2, 0.25, 0.3, 0.35, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0};
+    std::vector<Assumption> shown(std::begin(assumptions), std::end(assumptions));
+    if (settings.quick) shown.resize(2);
+    for (const Assumption& assumption : shown)
+        for (const double mu : coefficients) {
+            CrossingSettings search = search_for_crossing(settings);
+            search.config = assumed(settings, assumption, mu);
+            search.config.events = settings.events.value_or(100'000);
+            search.config.warmup.reset();
+            search.config.periods.reset();
+            search.to = 50;
+            plan.points.push_back(
+                crossing_task(fmt::format("N_c_spheres_{}_mu{}_{}events_seed{}", assumption.name,
+                                          mu, search.config.events, settings.seed),
+                              search));
+        }
+    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
+        Table table(joined(
+            {"curve", "amplitude_mm", "restitution", "floor_friction", "rolling_resistance", "mu"},
+            search_columns()));
+        Table calibration({"curve", "discs", "mu", "mu_error"});
+        FigureOutcome outcome;
+        for (std::size_t c = 0; c < shown.size(); ++c) {
+            const Assumption& a = shown[c];
+            std::vector<FrictionCrossing> found;
+            for (std::size_t k = 0; k < coefficients.size(); ++k) {
+                const Json& r = results[c * coefficients.size() + k];
+                if (failed(r)) continue;
+                const double mu = coefficients[k];
+                std::vector<Table::Cell> row{
+                    std::string(a.name),  a.amplitude,
+                    a.restitution,        a.floor_friction > 0.0 ? a.floor_friction : mu,
+                    a.rolling_resistance, mu};
+                add_search(row, r);
+                table.add(std::move(row));
+                if (r["crosses"].get<bool>())
+                    found.push_back({mu, number(r["discs"]), number(r["error"])});
+            }
+            std::vector<std::string> words;
+            for (const std::int64_t n : {smooth_change_n, rough_change_n})
+                if (const auto mu = friction_with(n, found)) {
+                    calibration.add({std::string(a.name), n, mu->mean, mu->error});
+                    words.push_back(
+                        fmt::format("N_c = {} for μ = {}", n, with_error(mu->mean, mu->error)));
+                }
+            outcome.findings.push_back(
+                fmt::format("{}: {}.", a.words,
+                            words.empty() ? "neither 36 nor 28 is reached"
+                                          : fmt::format("{}", fmt::join(words, ", "))));
+        }
+        outcome.write(table, "spheres_friction", out);
+        outcome.write(calibration, "spheres_friction_calibration", out);
         return outcome;
     };
     return plan;
@@ -215,13 +285,14 @@ static FigurePlan plan_figure_spheres_direction(const PaperSettings& settings) {
 /// All ingredients, and each one switched off alone; `ending` ends the names of the latter.
 static std::vector<Variant> ingredients(double mu, const std::string& ending) {
     std::vector<Variant> variants{
+        {"all", "all ingredients", mu, [](RunConfig&) {}},
         {"no-vertical", "no vertical friction", mu,
          [](RunConfig& c) { c.vertical_disc = c.vertical_wall = 0.0; }},
         {"no-vertical-disc", "no vertical friction between spheres", mu,
          [](RunConfig& c) { c.vertical_disc = 0.0; }},
         {"no-vertical-wall", "no vertical friction at the wall", mu,
          [](RunConfig& c) { c.vertical_wall = 0.0; }},
-        {"no-floor", "no floor", mu, [](RunConfig& c) { c.floor = false; }},
+        {"no-floor", "no floor", mu, [](RunConfig& c) { c.remove_floor(); }},
         {"no-damping", "no damping (e = 1)", mu, [](RunConfig& c) { c.restitution = 1.0; }},
         {"shell", "hollow spheres (I = 2/3)", mu,
          [](RunConfig& c) { c.inertia = shell_inertia(c.mass, c.radius); }},
@@ -230,22 +301,21 @@ static std::vector<Variant> ingredients(double mu, const std::string& ending) {
         variant.point = variant.name += ending;
         variant.words += fmt::format(", μ = {}", mu);
         variant.change = [mu, change = variant.change](RunConfig& c) {
-            c.mu_disc = c.mu_wall = mu;
+            c.mu_disc = c.mu_wall = c.floor_friction = mu;
             change(c);
         };
     }
-    variants.insert(variants.begin(), with_friction(mu));
     return variants;
 }
 
 static FigurePlan plan_figure_spheres_ingredients(const PaperSettings& settings) {
-    return plan_variants(settings, "spheres_ingredients", ingredients(experiment_friction, ""),
+    return plan_variants(settings, "spheres_ingredients", ingredients(smooth_friction, ""),
                          fewer_numbers(settings), settings.seeds());
 }
 
-/// At a higher friction coefficient, at the N where the direction is decided.
+/// For roughened spheres, at the N where the direction is decided.
 static FigurePlan plan_figure_spheres_ingredients_rough(const PaperSettings& settings) {
-    constexpr double mu = 0.3;
+    constexpr double mu = rough_friction;
     std::vector<std::int64_t> numbers{44, 48};
     if (!settings.quick) numbers = {30, 36, 44, 48};
     return plan_variants(settings, "spheres_ingredients_rough", ingredients(mu, "-rough"), numbers,
@@ -257,7 +327,7 @@ static FigurePlan plan_figure_spheres_restitution(const PaperSettings& settings)
     if (!settings.quick) restitutions = {1.0, 0.95, 0.9, 0.8, 0.7, 0.5};
     std::vector<Variant> variants;
     for (const double e : restitutions)
-        variants.push_back({fmt::format("{}", e), fmt::format("e = {}", e), experiment_friction,
+        variants.push_back({fmt::format("{}", e), fmt::format("e = {}", e), smooth_friction,
                             [e](RunConfig& c) { c.restitution = e; }, fmt::format("e{}", e)});
     std::vector<std::int64_t> numbers{30, 36, 48};
     if (!settings.quick) numbers = fewer_numbers(settings);
@@ -274,63 +344,19 @@ static FigurePlan plan_figure_spheres_flat_discs(const PaperSettings& settings) 
                             floor_friction == 0.0
                                 ? std::string("solid discs (I = 1/2) without a floor")
                                 : fmt::format("solid discs (I = 1/2), μ_f = {}", floor_friction),
-                            experiment_friction, [floor_friction](RunConfig& c) {
+                            smooth_friction, [floor_friction](RunConfig& c) {
                                 c.body = Shape::disc;
                                 c.inertia = solid_inertia(c.mass, c.radius);
-                                c.floor = floor_friction > 0.0;
-                                if (c.floor) c.floor_friction = floor_friction;
+                                if (floor_friction > 0.0)
+                                    c.floor_friction = floor_friction;
+                                else
+                                    c.remove_floor();
                             }});
     return plan_variants(settings, "spheres_flat_discs", variants, fewer_numbers(settings),
                          settings.seeds_beyond());
 }
 
-// --- Pinned spheres, few spheres, floor friction --------------------------------------------
-
-static FigurePlan plan_figure_spheres_pinned(const PaperSettings& settings) {
-    FigurePlan plan;
-    plan.script = "figure_spheres_pinned.py";
-    std::vector<std::int64_t> numbers{24, 30, 36, 44, 48, 54};
-    if (!settings.quick) {
-        numbers = fewer_numbers(settings);
-        std::erase_if(numbers, [](std::int64_t n) { return n < first_n_of_experiment; });
-    }
-    const std::vector<Variant> variants{with_friction(0.15), with_friction(0.5)};
-    CurveFigure figure = curves_of("spheres_pinned", variants, numbers);
-    figure.measured = {"slip.pinned_region",
-                       "slip.resident=slip_resident",
-                       "slip.cluster",
-                       "frustration.wall_spin",
-                       "frustration.pinned_wall_spin",
-                       "frustration.resident_spin",
-                       "frustration.spin_correlation",
-                       "frustration.triangles",
-                       "residence.pinning=residence_begin",
-                       "residence.depinning=residence_end",
-                       "residence.share=residence_share",
-                       "rolling.rolling_share",
-                       "rolling.wall_rolling_share",
-                       "rolling.floor_slip",
-                       "rolling.contact_correlation",
-                       "rolling.vertical_share",
-                       "rolling.vertical_power"};
-    for (const CurveFigure::Point& p : figure.points) {
-        const Variant& variant = variants[p.curve];
-        const RunConfig config = varied_experiment(settings, variant, p.discs);
-        plan.points.push_back(varied_point(
-            settings,
-            fmt::format("spheres_measured_{}_N{}_{}", variant.name, p.discs, length_of(config)),
-            config, settings.seeds(), {"slip", "frustration", "residence", "rolling"}));
-    }
-    plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
-        FigureOutcome outcome;
-        figure.write_points(results, out, outcome);
-        for (std::size_t v = 0; v < variants.size(); ++v)
-            outcome.findings.push_back(figure.at_both_ends(
-                v, "slip parameter of spheres resident at the wall", "slip.resident", results));
-        return outcome;
-    };
-    return plan;
-}
+// --- Friction of the floor, few spheres ------------------------------------------------------
 
 /// At the N where the direction of the experiment's smooth spheres changes.
 static FigurePlan plan_figure_spheres_map(const PaperSettings& settings) {
@@ -403,19 +429,17 @@ static FigurePlan plan_figure_spheres_few(const PaperSettings& settings) {
 
 std::vector<PaperFigure> figures_of_spheres() {
     return {
-        {"spheres", "spheres that roll: rotation against N, for several friction coefficients",
+        {"spheres", "spheres that roll: rotation against N, smooth, rough and half the amplitude",
          plan_figure_spheres},
-        {"spheres_direction", "spheres that roll: where the direction of rotation changes",
-         plan_figure_spheres_direction},
+        {"spheres_friction", "spheres that roll: N_c against the friction coefficient",
+         plan_figure_spheres_friction},
         {"spheres_few", "spheres that roll: a few of them, after a long warm-up (a table)",
          plan_figure_spheres_few},
         {"spheres_ingredients", "spheres that roll: each ingredient switched off alone",
          plan_figure_spheres_ingredients},
         {"spheres_ingredients_rough",
-         "spheres that roll: each ingredient switched off, with more friction, μ = 0.3",
+         "spheres that roll: each ingredient switched off, roughened spheres",
          plan_figure_spheres_ingredients_rough},
-        {"spheres_pinned", "spheres that roll: pinned spheres, and frustration of the rolling",
-         plan_figure_spheres_pinned},
         {"spheres_restitution", "spheres that roll: rotation against N, for several restitutions",
          plan_figure_spheres_restitution},
         {"spheres_flat_discs",

@@ -4,14 +4,21 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
+
+#include "swirl/run/parameters.hpp"
 
 namespace swirl {
 
-/// Friction coefficients between discs and at the wall.
+/// Friction coefficients between discs and at the wall. With a preset: the spheres of the
+/// experiment, whose floor has the same coefficient.
 struct Friction {
     const char* name;   // in tables and keys
     const char* words;  // in sentences
     double mu_disc, mu_wall;
+    std::string_view preset = {};
+
+    bool spheres() const { return !preset.empty(); }
 };
 
 // Figure 5b. Caption: "When one friction is completely turned off, the other is set to 1.0."
@@ -22,6 +29,15 @@ inline constexpr Friction no_wall_friction{"no-wall", "no wall friction", 1.0, 0
 inline constexpr Friction no_disc_friction{"no-disc", "no disc friction", 0.0, 1.0};
 inline constexpr Friction friction_of_5b[] = {high_friction, medium_friction, low_friction,
                                               no_wall_friction, no_disc_friction};
+
+// The experiment of Figures 1 to 4: smooth spheres; roughened ones (Figure 4c); and smooth ones
+// with 1.15 cm as the diameter of the container's path instead of its radius.
+inline constexpr Friction smooth_spheres{"smooth", "smooth spheres", smooth_friction,
+                                         smooth_friction, "experiment"};
+inline constexpr Friction rough_spheres{"rough", "roughened spheres", rough_friction,
+                                        rough_friction, "experiment-rough"};
+inline constexpr Friction half_amplitude{"half", "smooth spheres at half the amplitude",
+                                         smooth_friction, smooth_friction, "experiment-half"};
 
 // SI, "Simulation parameters": "for each N between 5 and 48".
 inline constexpr std::int64_t first_n = 5, last_n = 48;

@@ -4,17 +4,20 @@
 
 #include <algorithm>
 
+#include "swirl/paper/curves.hpp"
 #include "swirl/paper/results.hpp"
+#include "swirl/run/config.hpp"
 
 namespace swirl {
 namespace {
 
 /// All measurements that the figures, or readers of the tables, need. Maps are large.
-std::vector<std::string> measurements_of_the_paper(std::int64_t discs) {
+std::vector<std::string> measurements_of_the_paper(const Friction& friction, std::int64_t discs) {
     std::vector<std::string> names{"profile",     "pinned", "residence",  "centre",     "slip",
                                    "frustration", "order",  "collisions", "temperature"};
     if (discs == rotating_n || discs == counterrotating_n)
         names.insert(names.end(), {"density", "flow"});
+    if (friction.spheres()) names.emplace_back("rolling");
     return names;
 }
 
@@ -68,6 +71,21 @@ std::vector<std::int64_t> numbers_beyond(const PaperSettings& settings) {
     return all;
 }
 
+std::vector<std::int64_t> numbers_of_spheres(const PaperSettings& settings) {
+    if (settings.quick) return {24, 28, 32, 36, 40, 44, 48, 54};
+    return {24, 25, 26, 28, 30, 32, 34, 35, 36, 37, 38, 40, 42, 44, 46, 48, 50, 52, 54, 55};
+}
+
+std::vector<SettingPoint> points_of(const PaperSettings& settings,
+                                    const std::vector<Friction>& frictions) {
+    std::vector<SettingPoint> points;
+    for (std::size_t s = 0; s < frictions.size(); ++s)
+        for (const std::int64_t n : frictions[s].spheres() ? numbers_of_spheres(settings)
+                                                           : numbers_of_the_experiment(settings))
+            points.push_back({s, n});
+    return points;
+}
+
 std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& settings) {
     std::vector<std::int64_t> numbers = numbers_of_discs(settings);
     std::erase_if(numbers, [](std::int64_t n) { return n < first_n_of_experiment; });
@@ -77,12 +95,69 @@ std::vector<std::int64_t> numbers_of_the_experiment(const PaperSettings& setting
 RunConfig paper_config(const PaperSettings& settings, const Friction& friction,
                        std::int64_t discs) {
     RunConfig config;
+    if (friction.spheres()) {
+        config = resolve({{"preset", std::string(friction.preset)}});
+        const bool dense = discs >= 50;
+        config.warmup = settings.periods(dense ? 25 : 50, 1);
+        config.periods = *config.warmup + settings.periods(dense ? 50 : 150, 3);
+    } else {
+        config.mu_disc = friction.mu_disc;
+        config.mu_wall = friction.mu_wall;
+        config.events = settings.events_of_a_run();
+    }
     config.discs = discs;
-    config.mu_disc = friction.mu_disc;
-    config.mu_wall = friction.mu_wall;
-    config.events = settings.events_of_a_run();
     config.seed = settings.seed;
     return config;
+}
+
+CrossingSettings search_for_crossing(const PaperSettings& settings) {
+    CrossingSettings search;
+    search.min_periods = 100;
+    search.from = 20;
+    search.tolerance = settings.quick ? 0.5 : 0.2;
+    if (settings.quick) search.rounds = 1;
+    return search;
+}
+
+PaperTask crossing_task(const std::string& key, const CrossingSettings& search) {
+    constexpr double expected_runs = 40.0;
+    return {key, expected_runs * static_cast<double>(search.config.events),
+            [search](const RunControl& control) {
+                CrossingControl inner;
+                inner.stop = control.stop;
+                inner.threads = 1;
+                const CrossingSearch found = search_crossing(search, inner);
+                Json numbers = Json::array();
+                for (const Crossing& c : found.crossings)
+                    for (const double value : {c.discs, c.error, c.lower, c.upper})
+                        numbers.push_back(value);
+                const Crossing& c = found.crossing();
+                return Json{{"crosses", c.verdict == Crossing::Verdict::crosses},
+                            {"not_steady", found.not_steady},
+                            {"discs", c.discs},
+                            {"error", c.error},
+                            {"lower", c.lower},
+                            {"upper", c.upper},
+                            {"by_rate", numbers},
+                            {"events", found.events},
+                            {"runs", found.runs},
+                            {"report", crossing_report(search, found)}};
+            }};
+}
+
+std::vector<std::string> search_columns() {
+    return joined({"crosses", "crossing", "crossing_error", "lower", "upper", "runs", "events",
+                   "runs_not_steady", "steady_state"},
+                  rates_columns());
+}
+
+void add_search(std::vector<Table::Cell>& row, const Json& found) {
+    row.emplace_back(std::int64_t{found["crosses"].get<bool>()});
+    for (const char* name : {"discs", "error", "lower", "upper"})
+        row.emplace_back(number(found[name]));
+    for (const char* name : {"runs", "events", "not_steady"}) row.push_back(whole(found[name]));
+    row.emplace_back(std::string(found["not_steady"] == 0 ? "steady" : "not steady"));
+    for (const Json& value : found["by_rate"]) row.emplace_back(number(value));
 }
 
 void set_sides(RunConfig& config, int sides) {
@@ -122,7 +197,7 @@ PaperPoint measured_point(const PaperSettings& settings, const Friction& frictio
     const std::string name = name_of(friction, discs);
     return seeded_point(settings, name, "measured_" + name,
                         config_of_a_point(settings, friction, discs),
-                        measurements_of_the_paper(discs));
+                        measurements_of_the_paper(friction, discs));
 }
 
 void set_dense_length(RunConfig& config, const PaperSettings& settings) {
@@ -155,7 +230,7 @@ PaperPoint settled_point(const PaperSettings& settings, const Friction& friction
     const std::string name = "settled_" + name_of(friction, discs);
     return seeded_point(settings, name, "measured_" + name,
                         settled_config(settings, friction, discs),
-                        measurements_of_the_paper(discs));
+                        measurements_of_the_paper(friction, discs));
 }
 
 PaperPoint varied_point(const PaperSettings& settings, const std::string& name,

@@ -190,16 +190,29 @@ ParameterValue write_frictionless(const RunConfig& config) {
 }
 
 void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "experiment") reject_choice("preset", text, {"experiment"}, "experiment");
-    config.body = Shape::sphere;
-    config.floor = true;
-    config.mu_disc = config.mu_wall = experiment_friction;
-    config.restitution = experiment_restitution;
-    config.container_radius = experiment_container_radius;
-    config.amplitude = experiment_amplitude;
-    config.period = experiment_period;
-    config.floor_friction = experiment_floor_friction;
-    config.gravity = experiment_gravity;
+    std::vector<std::string> names;
+    for (const ExperimentPreset& preset : experiment_presets) {
+        names.emplace_back(preset.name);
+        if (text != preset.name) continue;
+        config.body = Shape::sphere;
+        config.floor = true;
+        config.mu_disc = config.mu_wall = config.floor_friction = preset.friction;
+        config.restitution = experiment_restitution;
+        config.container_radius = experiment_container_radius;
+        config.amplitude = preset.amplitude / sphere_radius_mm;
+        config.period = 2.0 * pi * config.amplitude;
+        config.gravity = experiment_gravity(preset.amplitude);
+        return;
+    }
+    reject_choice("preset", text, names, "experiment, experiment-rough or experiment-half");
+}
+
+void RunConfig::remove_floor() {
+    const RunConfig defaults;
+    floor = false;
+    floor_friction = defaults.floor_friction;
+    gravity = defaults.gravity;
+    rolling_resistance = defaults.rolling_resistance;
 }
 
 void read_body(std::string_view text, const ParameterTexts&, RunConfig& config) {
@@ -218,6 +231,7 @@ void read_floor(std::string_view text, const ParameterTexts&, RunConfig& config)
                     "none or sliding: on a perfectly rough floor spheres would collide without "
                     "end.\nhint: a large --floor-friction, 100 for example, has the same effect");
     config.floor = text == "sliding";
+    if (!config.floor) config.remove_floor();
 }
 ParameterValue write_floor(const RunConfig& config) {
     return config.floor ? ParameterValue("sliding") : ParameterValue();

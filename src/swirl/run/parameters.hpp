@@ -39,16 +39,30 @@ struct PathCurve {
     std::vector<PathPoint> points;            // before they are scaled to amplitude and period
 };
 
-/// The paper's experiment in the units of its simulation: spheres of r = 3 mm in a container of
-/// R = 25.5 mm, swirled at A = 5.75 mm with Ω = 11.81 /s. Lengths are in units of r, speeds in
-/// units of AΩ. The friction coefficients and the restitution are values for plastic; the paper
-/// does not give them.
-inline constexpr double experiment_container_radius = 25.5 / 3.0;
-inline constexpr double experiment_amplitude = 5.75 / 3.0;
-inline constexpr double experiment_period = 2.0 * pi * experiment_amplitude;
-inline constexpr double experiment_gravity = 6.382;  // 9.81 m/s², in (AΩ)²/r
-inline constexpr double experiment_floor_friction = 0.3;
-inline constexpr double experiment_friction = 0.2, experiment_restitution = 0.9;
+/// The paper's experiment: spheres of r = 3 mm in a container of R = 25.5 mm, with Ω = 11.81 /s.
+/// Lengths are in units of r, speeds in units of AΩ.
+///
+/// The main text states an "amplitude" of 1.15 cm. Read as the radius A of the circle, the spheres
+/// reproduce the experiment; read as its diameter, which the SI's A/R = 0.22 implies, they do not
+/// (docs/explanation/spheres.md). The paper states neither friction nor restitution. One friction
+/// coefficient for all contacts, floor included, is determined by the N_c of the experiment.
+struct ExperimentPreset {
+    std::string_view name;
+    double amplitude;  // in mm
+    double friction;   // of sphere, wall and floor
+};
+inline constexpr double smooth_friction = 0.33, rough_friction = 0.69;
+inline constexpr ExperimentPreset experiment_presets[] = {
+    {"experiment", 11.5, smooth_friction},       // smooth spheres: N_c = 36
+    {"experiment-rough", 11.5, rough_friction},  // roughened spheres: N_c = 28
+    {"experiment-half", 5.75, smooth_friction},  // 1.15 cm as the diameter of the circle
+};
+inline constexpr double sphere_radius_mm = 3.0, experiment_container_radius = 25.5 / 3.0;
+inline constexpr double experiment_restitution = 0.9;
+/// 9.81 m/s², in (AΩ)²/r.
+constexpr double experiment_gravity(double amplitude_mm) {
+    return 6.382 * (5.75 / amplitude_mm) * (5.75 / amplitude_mm);
+}
 
 /// A second species: `count` of the discs have this radius and mass. The seed determines their
 /// initial positions. Their moment of inertia is the same multiple of m r² as that of the others.
@@ -93,8 +107,8 @@ struct RunConfig {
     double inertia = paper_inertia;  // of one disc, not divided by m r²
     Shape body = Shape::disc;
     bool floor = false;  // spheres slide and roll on it, coins slide
-    double floor_friction = experiment_floor_friction, gravity = experiment_gravity;
-    double rolling_resistance = 0.0;                  // μ_r of spheres (floor.hpp)
+    double floor_friction = 0.3, gravity = experiment_gravity(5.75);  // at the SI's A/R
+    double rolling_resistance = 0.0;                                  // μ_r of spheres (floor.hpp)
     double vertical_disc = 1.0, vertical_wall = 1.0;  // κ of spheres (collision_law.hpp)
     double container_radius = paper_container_radius;
     double amplitude = paper_amplitude;  // 0: the container is at rest
@@ -136,6 +150,8 @@ struct RunConfig {
         return nullptr;
     }
     double omega() const { return 2.0 * pi / period; }
+    /// Parameters of the floor get their defaults, since they must not be set without a floor.
+    void remove_floor();
     /// Discs on a floor are coins.
     Shape shape() const { return body == Shape::disc && floor ? Shape::coin : body; }
     /// Nothing dissipates energy: no friction, elastic collisions, no floor.
@@ -244,10 +260,14 @@ inline constexpr const char *particles = "Particles", *container = "Container", 
 /// In the order of `swirl run --help`, of the JSON and of the axes of a sweep.
 inline constexpr auto run_parameters = std::to_array<Parameter>({
     {.name = "preset",
-     .form = "experiment",
-     .description = "Parameters of the paper's experiment as defaults",
-     .details = "Spheres of r = 3 mm on a floor, R = 25.5 mm, A = 5.75 mm, Ω = 11.81 /s, μ = 0.2, "
-                "μ_f = 0.3, e = 0.9. Other options override it.",
+     .form = "experiment[-rough|-half]",
+     .description = "The paper's experiment as defaults: smooth spheres",
+     .details =
+         "Spheres of r = 3 mm on a floor, R = 25.5 mm, Ω = 11.81 /s, e = 0.9. experiment: A = "
+         "11.5 mm, the amplitude that the paper states, and μ = 0.33 for all contacts, "
+         "from its N_c = 36. experiment-rough: roughened spheres, μ = 0.69, from N_c = 28. "
+         "experiment-half: A = 5.75 mm, which the SI's A/R = 0.22 implies. Other options "
+         "override it; --mu does not change the floor's friction.",
      .group = parameter_group::particles,
      .read = read_preset,
      .default_text = ""},
