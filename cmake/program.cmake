@@ -44,20 +44,19 @@ endif()
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/figures ${PROJECT_BINARY_DIR}/share/swirl/figures SYMBOLIC)
-# The layer `tracking` is built if OpenCV and libjpeg are found (section [camera] of `packages`). Otherwise `swirl
-# track` reports what is missing. Its report uses the layer `paper`.
-cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV and libjpeg are found" ON SWIRL_PAPER OFF)
+# The layer `tracking` is built if OpenCV is found (section [camera] of `packages`). Otherwise `swirl track`
+# reports what is missing. Its report uses the layer `paper`.
+cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON SWIRL_PAPER OFF)
 # Debian's package with the CMake files of OpenCV depends on all of OpenCV, so they are not used.
 find_path(opencv_include opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
 find_library(opencv_core_library opencv_core)
 find_library(opencv_imgproc_library opencv_imgproc)
-find_package(JPEG QUIET)
-if(NOT (opencv_include AND opencv_core_library AND opencv_imgproc_library AND JPEG_FOUND))
+if(NOT (opencv_include AND opencv_core_library AND opencv_imgproc_library))
   set(SWIRL_CAMERA OFF)
 endif()
 if(SWIRL_CAMERA)
   swirl_layer(tracking -O3 PUBLIC swirl_render Threads::Threads
-    PRIVATE ${opencv_imgproc_library} ${opencv_core_library} JPEG::JPEG)
+    PRIVATE ${opencv_imgproc_library} ${opencv_core_library})
   target_include_directories(swirl_tracking SYSTEM PUBLIC ${opencv_include})
 endif()
 

@@ -16,4 +16,4 @@ dnf install -y gcc-c++ cmake ninja-build pkgconf-pkg-config cli11-devel fmt-deve
 dnf install -y git-core python3-devel pybind11-devel python3-numpy python3-pandas \
     python3-matplotlib python3-pytest python3-hypothesis python3-h5py python3-pip gtest-devel \
     gmock-devel google-benchmark-devel rapidcheck-devel clang lld compiler-rt opencv-devel \
-    libjpeg-turbo-devel ffmpeg-free valgrind chromium
+    ffmpeg-free valgrind chromium

@@ -13,7 +13,7 @@ class Swirl(CMakePackage):
     version("1.0.0", sha256="0000000000000000000000000000000000000000000000000000000000000000")
 
     variant("program", default=True, description="Build the program in addition to the library")
-    variant("camera", default=False, when="+program", description="Build `swirl track` (OpenCV, libjpeg)")
+    variant("camera", default=False, when="+program", description="Build `swirl track` (OpenCV)")
 
     depends_on("cxx", type="build")
     depends_on("cmake@3.22:", type="build")
@@ -26,7 +26,6 @@ class Swirl(CMakePackage):
         depends_on("hdf5~mpi+hl")
         depends_on("cairo+png")
     depends_on("opencv+imgproc", when="+camera")
-    depends_on("jpeg", when="+camera")
 
     def cmake_args(self):
         return [

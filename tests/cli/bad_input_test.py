@@ -301,9 +301,9 @@ class UsageErrors(InFolder):
         self.assertIn("holds a sweep (see its plan.json).\nhint: choose another folder.\n", done.stderr)
 
     def test_every_error_ends_with_a_full_stop(self):
-        done = swirl("track", "--live", self.path("nowhere"), "--out", self.path("t.csv"))
+        done = swirl("track", self.path("nowhere.mp4"), "--out", self.path("t.csv"))
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertRegex(done.stderr, r"\Aerror: there is no camera or folder '[^\n]*'\.\nhint: ")
+        self.assertRegex(done.stderr, r"\Aerror: there is no video '[^\n]*'\.\n\Z")
 
     def test_tracks_truncated_within_a_number(self):
         for name, whole in (("a.csv", "frame,particle,x,y\n0,0,1,2.5\n1,0,1,2.75\n"),

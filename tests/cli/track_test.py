@@ -494,6 +494,18 @@ class TrackTest(InFolder):
         self.assert_rejected(1, "no frames named",
                              call=swirl("track", self.path("no%05d.png"), "--out", out))
 
+    def test_a_camera_or_a_stream_must_be_recorded_first(self):
+        os.mkfifo(self.path("pipe"))
+        for source in ("/dev/video0", "/dev/video77", "/dev/zero", "-", "/dev/stdin", "rtsp://camera/a%20b",
+                       "https://example.org/dish.mp4", self.path("pipe")):
+            with self.subTest(source):
+                self.assert_rejected(2, "must be a file", "hint: record it first",
+                                     call=swirl("track", source, "--out", self.path("tracks.csv")))
+        self.assert_rejected(2, "is a folder", "%05d.png",
+                             call=swirl("track", self.path("."), "--out", self.path("tracks.csv")))
+        self.assert_rejected(2, "there is no option --live", call=swirl(
+            "track", "--live", "/dev/video0", "--out", self.path("tracks.csv")))
+
     def test_errors_of_a_damaged_video_are_reported_with_quiet(self):
         video = self.video(length=0.8)
         with open(video, "rb") as file:

@@ -194,16 +194,6 @@ TEST(Linking, DiscsThatMoveIndependentlyAreNotTurnedInTheFirstStep) {
     }
 }
 
-TEST(Linking, FrameByFrameGivesTheSameLinks) {
-    for (const Scene& scene : {Scene(0.5, 40), independent_discs(7)}) {
-        const LinkSettings settings = scene.settings();
-        const Links links = link_discs(scene.frames, scene.times, scene.path, settings);
-        const DiscLinker link = disc_linker(scene.path, settings);
-        for (std::size_t k = 0; k < scene.frames.size(); ++k)
-            ASSERT_EQ(link(scene.frames[k], scene.times[k]), links.track[k]) << k;
-    }
-}
-
 TEST(Linking, FailsWithAWrongPath) {
     // Shows that the test above can fail: without the container's motion the lattice is linked to
     // its neighbour sites, unless all discs are known to be seen.

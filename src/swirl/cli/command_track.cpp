@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "swirl/cli/commands.hpp"
-#include "swirl/cli/live_camera.hpp"
 #include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
@@ -24,7 +23,6 @@
 #include "swirl/render/label.hpp"
 #include "swirl/render/movie.hpp"
 #include "swirl/render/movie_file.hpp"
-#include "swirl/tracking/live_tracking.hpp"
 #include "swirl/tracking/spin.hpp"
 #include "swirl/tracking/tracking.hpp"
 #endif
@@ -34,7 +32,6 @@ namespace {
 
 struct TrackCall {
     VideoSource source;
-    LiveOptions live;
     std::string out, path, json, overlay, report;
     std::optional<double> fps;
     std::optional<std::int64_t> discs, frames;
@@ -231,7 +228,7 @@ void reject_options_of_tracks(const TrackCall& call) {
     for (const auto& [name, given] :
          {std::pair("overlay", !call.overlay.empty()), std::pair("report", !call.report.empty()),
           std::pair("json", !call.json.empty()), std::pair("spin", call.spin),
-          std::pair("live", !call.live.source.empty()), std::pair("accept", !call.accept.empty())})
+          std::pair("accept", !call.accept.empty())})
         if (given)
             throw UsageError(
                 fmt::format("--{} is given, but --out is not.\nhint: give --out FILE.csv.", name));
@@ -266,8 +263,8 @@ void validate(const TrackCall& call) {
         reject_unwritable(call.overlay);
     }
     if (!call.json.empty() && call.json != "-") reject_unwritable(call.json);
-    std::vector<std::filesystem::path> all{call.live.source.empty() ? call.source.video : "",
-                                           call.out, call.path, call.overlay, call.json};
+    std::vector<std::filesystem::path> all{call.source.video, call.out, call.path, call.overlay,
+                                           call.json};
     if (!call.out.empty()) all.push_back(camera_file(call.out));
     if (!call.report.empty())
         for (const char* file : video_report_files)
@@ -301,46 +298,6 @@ void warn_of_contradictory_diameters(const VideoSource& source, TrackedVideo& vi
         given, found));
 }
 
-/// The source of the call. Throws UsageError for options that exclude each other.
-VideoSource checked_source(const TrackCall& call) {
-    VideoSource source = call.source;
-    check_live_options(call.live);
-    if (call.live.source.empty()) {
-        if (source.video.empty()) throw UsageError("missing required argument VIDEO.");
-        return source;
-    }
-    if (!source.video.empty())
-        throw UsageError(fmt::format("--live is '{}', so '{}' cannot be tracked as well.",
-                                     call.live.source, source.video));
-    for (const auto& [name, given] :
-         {std::pair("overlay", !call.overlay.empty()), std::pair("report", !call.report.empty()),
-          std::pair("spin", call.spin), std::pair("from", call.from.has_value()),
-          std::pair("to", call.to.has_value()), std::pair("skip", !call.skip.empty())})
-        if (given)
-            throw UsageError(fmt::format(
-                "--live and --{} exclude each other.\nhint: record the video, and track it without "
-                "--live.",
-                name));
-    source.video = call.live.source;
-    return source;
-}
-
-/// Adds what was found while the video was recorded to the results.
-std::string add_live_results(const LiveResult& live, nlohmann::ordered_json& json) {
-    const LiveRotation& r = live.rotation;
-    const auto number = [&](double value) {
-        return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
-    };
-    json["live"] = {{"surveyed_frames", live.surveyed_frames},
-                    {"periods", r.periods},
-                    {"rotation", number(r.mean.mean)},
-                    {"rotation_error", number(r.mean.error)}};
-    if (r.periods == 0) return "  live        too short for the rotation of a period\n";
-    return fmt::format("  live        ϖ/Ω = {} in {}; {} frames surveyed\n",
-                       with_error(r.mean.mean, r.mean.error),
-                       counted(std::int64_t(r.periods), "period"), live.surveyed_frames);
-}
-
 /// Follows the container alone, on any path.
 void record_path(const TrackCall& call, TrackingSettings& settings, ProgressLine& line) {
     const TrackedVideo video = track_container(settings);
@@ -353,7 +310,7 @@ void record_path(const TrackCall& call, TrackingSettings& settings, ProgressLine
 }
 
 void track(TrackCall call) {
-    call.source = checked_source(call);
+    if (call.source.video.empty()) throw UsageError("missing required argument VIDEO.");
     const KnownCamera camera = known_camera(call);
     ProgressLine line(call.source.video, call.quiet);
     TrackingSettings settings = tracking_settings(call.source.video, call.fps, call.frames, line);
@@ -365,9 +322,7 @@ void track(TrackCall call) {
     if (call.source.disc_diameter && call.source.container_diameter)
         settings.radius_share = *call.source.disc_diameter / *call.source.container_diameter;
     if (call.out.empty()) return record_path(call, settings, line);
-    std::optional<LiveResult> live;
-    if (!call.live.source.empty()) live = track_live_source(call.live, settings, call.quiet);
-    TrackedVideo video = live ? std::move(live->video) : track_video(settings);
+    TrackedVideo video = track_video(settings);
     std::optional<VideoSpins> spins;
     if (call.spin) spins = measure_spins(video, settings);
     line.clear();
@@ -382,7 +337,6 @@ void track(TrackCall call) {
     }
     nlohmann::ordered_json json =
         write_tracks(video, call.source, call.out, spins ? &*spins : nullptr);
-    const std::string live_text = live ? add_live_results(*live, json) : "";
     if (!call.overlay.empty()) make_overlay(video, call);
     std::filesystem::path report;
     if (!call.report.empty()) report = write_video_report(video, call.source, json, call.report);
@@ -390,7 +344,7 @@ void track(TrackCall call) {
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
     if (call.quiet) return;
-    print_all(summary(video, call) + live_text +
+    print_all(summary(video, call) +
               (motion ? motion_text(video, *motion, call.source, call.path) : ""));
     if (!report.empty()) print_all(fmt::format("wrote {}\n", report.string()));
 }
@@ -402,8 +356,7 @@ void add_track_command(Subcommand& subcommand) {
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
         return subcommand.add_option(name, into, description)->type_name(type);
     };
-    add("video", call->source.video, "VIDEO",
-        "Video file, numbered images (%05d.png) or camera device");
+    add("video", call->source.video, "VIDEO", "Video file, or numbered images (%05d.png)");
     add("--out", call->out, "FILE.csv|FILE.h5",
         "Tracks; calibration goes next to them (.camera.json)");
     add("--path", call->path, "FILE.csv",
@@ -425,17 +378,15 @@ void add_track_command(Subcommand& subcommand) {
     add("--overlay", call->overlay, "FILE", "Movie of the video with the discs drawn over it");
     add("--report", call->report, "DIR", "Folder for a report on the tracking, report.html");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
-    add_live_options(subcommand, call->live);
     subcommand.add_flag("--spin", call->spin,
                         "Measure spins from textures; adds columns to the tracks");
     subcommand.add_flag("--overwrite", call->overwrite, "Replace existing tracks");
     subcommand.add_flag("--quiet", call->quiet, "No progress line and no summary");
     subcommand.set_main_options({"--out", "--path", "--fps", "--container-diameter",
                                  "--disc-diameter", "--discs", "--tilt", "--overlay", "--report",
-                                 "--json", "--spin", "--live"});
+                                 "--json", "--spin"});
     subcommand.set_examples({"swirl track dish.mp4 --out tracks.csv",
                              "swirl track slow-motion.mp4 --fps 960 --out tracks.csv",
-                             "swirl track --live frames --view 8080 --out tracks.csv",
                              "swirl track shaker.mp4 --path shaker.csv",
                              "swirl measure tracks.csv --measure density,flow,slip",
                              "swirl movie tracks.csv --over dish.mp4 --out overlay.mp4"});

@@ -8,10 +8,9 @@ namespace swirl {
 
 [[noreturn]] inline void throw_no_camera_support() {
     throw Failure(
-        "this build has no camera support (OpenCV or libjpeg was not found, or SWIRL_CAMERA is "
-        "OFF).\n"
-        "hint: install libopencv-core-dev, libopencv-imgproc-dev and libjpeg-dev and rebuild; "
-        "./swirl track does both.");
+        "this build has no camera support (OpenCV was not found, or SWIRL_CAMERA is OFF).\n"
+        "hint: install libopencv-core-dev and libopencv-imgproc-dev and rebuild; ./swirl track "
+        "does both.");
 }
 
 /// `command` is the subcommand that was called.

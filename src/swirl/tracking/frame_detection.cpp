@@ -38,8 +38,7 @@ bool is_skipped(const TrackingSettings& settings, std::size_t index) {
     });
 }
 
-}  // namespace
-
+/// Frame number `index` of those that are tracked. `before` is the frame before it, or empty.
 FrameDetections detect_frame(const TrackingSettings& settings, const VideoSurvey& survey,
                              std::size_t index, const cv::Mat& before, cv::Mat image) {
     settings.throw_if_stopped();
@@ -61,6 +60,8 @@ FrameDetections detect_frame(const TrackingSettings& settings, const VideoSurvey
         found.particles = find_particles(frame, found.rim, survey.appearance);
     return found;
 }
+
+}  // namespace
 
 // A batch of frames is shared between the threads while the next one is read.
 Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& survey,

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 
 namespace swirl {
@@ -322,13 +321,6 @@ std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double tim
 }
 
 }  // namespace
-
-DiscLinker disc_linker(const TrackedPath& path, const LinkSettings& settings) {
-    const auto linker = std::make_shared<Linker>(path, settings);
-    return [linker](const std::vector<DetectedDisc>& discs, double time) {
-        return linker->step(discs, time);
-    };
-}
 
 std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
                                  const std::function<void()>& throw_if_stopped) {

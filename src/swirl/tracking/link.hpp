@@ -52,13 +52,6 @@ Links link_discs(const std::vector<std::vector<DetectedDisc>>& frames,
                  const std::vector<double>& times, const TrackedPath& path,
                  const LinkSettings& settings);
 
-/// The track of each disc of the next frame, or −1. Times must ascend from call to call.
-using DiscLinker =
-    std::function<std::vector<int>(const std::vector<DetectedDisc>& discs, double time)>;
-/// Links frame by frame, as link_discs() does. Path and settings must outlive the result. The path
-/// may be improved between two frames.
-DiscLinker disc_linker(const TrackedPath& path, const LinkSettings& settings);
-
 /// The column assigned to each row, or −1. Assigns as many pairs as possible and minimises the sum
 /// of their costs. A cost that is not finite, or beyond ±1e100, forbids its pair. Any shape;
 /// terminates for any costs. Calls `throw_if_stopped` for each row.

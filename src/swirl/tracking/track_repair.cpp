@@ -193,7 +193,7 @@ Links link_detections(const TrackingSettings& settings, const VideoSurvey& surve
     Links links = link_discs(discs, tracked.times, tracked.path, link);
     drop_overlapping(all, link.radii, tracked.spacing, links);
     drop_outliers(all, tracked, links);
-    if (settings.readable_again) find_missing_discs(settings, survey, tracked, all, links);
+    find_missing_discs(settings, survey, tracked, all, links);
     tracked.rejected = links.rejected;
     tracked.crowded = links.crowded;
     return links;

@@ -85,8 +85,7 @@ std::optional<std::array<std::size_t, 2>> common_composition(const Detections& a
     return std::array{total - best->first, best->first};
 }
 
-}  // namespace
-
+/// Sets the species and their numbers of discs.
 void set_species(const TrackingSettings& settings, const ParticleAppearance& appearance,
                  const Detections& all, TrackedVideo& tracked) {
     for (std::size_t k = 0; k < appearance.species.size(); ++k)
@@ -123,6 +122,7 @@ void set_species(const TrackingSettings& settings, const ParticleAppearance& app
             ->radius;
 }
 
+/// All steps after the detection. Throws Failure, and UncertainDiscs.
 void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey,
                      const VideoTimes& times, Detections& all, TrackedVideo& tracked) {
     constexpr std::size_t min_frames = 8;  // to fit a path
@@ -162,8 +162,6 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
             "removed; a plain floor gives more accurate positions");
     add_warnings(tracked);
 }
-
-namespace {
 
 /// The number of frames to track, or 0 if it is unknown. Throws Failure if there are none.
 std::int64_t expected_frames(const TrackingSettings& settings, const VideoTimes& times) {

@@ -43,8 +43,7 @@ struct TrackingSettings {
     std::int64_t max_frames = 0;                             // 0: all
     std::vector<FrameRange> skip;                            // frames that are not used
     bool accept_duplicates = false, accept_missing = false;  // correct the times instead
-    bool readable_again = true;  // false: frames exist once only, so missing discs are not searched
-    unsigned threads = 0;        // 0: one for each core
+    unsigned threads = 0;                                    // 0: one for each core
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string& step, double share)> progress;
     bool spins = false;  // measure_spins() follows

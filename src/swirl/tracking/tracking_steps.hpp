@@ -41,13 +41,6 @@ struct VideoSurvey {
 };
 /// `frame_count` may be an estimate.
 VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_count);
-/// The same of these images, spread over the video.
-VideoSurvey survey_images(const TrackingSettings& settings, std::vector<cv::Mat> images);
-/// One survey image in this number of frames.
-constexpr std::int64_t survey_stride(std::int64_t frame_count) {
-    return std::max<std::int64_t>(1, frame_count / survey_frames);
-}
-inline constexpr std::size_t max_survey_images = survey_frames + 2;  // the division rounds down
 
 // frame_detection.cpp
 
@@ -68,9 +61,6 @@ struct FrameDetections {
     }
 };
 using Detections = std::vector<FrameDetections>;  // for each frame
-/// Frame number `index` of those that are tracked. `before` is the frame before it, or empty.
-FrameDetections detect_frame(const TrackingSettings& settings, const VideoSurvey& survey,
-                             std::size_t index, const cv::Mat& before, cv::Mat image);
 /// Positions as seen through the lens. `expected` frames, for the progress; 0: unknown.
 Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& survey,
                          std::int64_t expected, TrackedVideo& tracked);
@@ -85,15 +75,6 @@ void collect_camera_motion(Detections& all, TrackedVideo& tracked);
 /// If the camera shakes and the background does not show it, takes the motion from the rim: removes
 /// its deviation from the path from all positions. True if it did.
 bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked);
-
-// tracking.cpp
-
-/// Sets the species and their numbers of discs.
-void set_species(const TrackingSettings& settings, const ParticleAppearance& appearance,
-                 const Detections& all, TrackedVideo& tracked);
-/// All steps after the detection. Throws Failure, and UncertainDiscs.
-void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey,
-                     const VideoTimes& times, Detections& all, TrackedVideo& tracked);
 
 // frame_times.cpp
 

@@ -26,13 +26,18 @@ constexpr const char* no_ascending_times =
     "the times of the video's frames do not ascend\n"
     "hint: if the frames are equally spaced in time, give --fps";
 
-}  // namespace
+bool is_stream(const std::string& source) {
+    return source == "-" || source.find("://") != source.npos;
+}
+bool is_numbered(const std::string& source) {
+    return source.find('%') != source.npos && !is_stream(source);
+}
 
-bool is_camera_device(const std::string& source) { return source.starts_with("/dev/video"); }
-bool is_numbered(const std::string& source) { return source.find('%') != source.npos; }
-
+/// The least number for which there is an image. Throws Failure if there is none, and UsageError for
+/// a wrong pattern.
 std::int64_t first_number(const std::string& pattern) {
     constexpr std::size_t max_digits = 15;  // these fit into 64 bits
+    if (const auto wrong = video_problem(pattern)) throw UsageError(*wrong);
     const std::filesystem::path path = pattern;
     const std::string name = path.filename().string();
     const std::size_t begin = name.find('%'), after = name.size() - name.find('d', begin) - 1;
@@ -52,29 +57,40 @@ std::int64_t first_number(const std::string& pattern) {
     return *minimum;
 }
 
-namespace {
-
 void append(std::vector<std::string>& arguments, std::initializer_list<std::string> more) {
     arguments.insert(arguments.end(), more.begin(), more.end());
+}
+
+/// Throws unless the source is a file: frames are read more than once.
+void require_file(const std::string& source) {
+    constexpr const char* record_first = "record it first, for example with ffmpeg -t 60";
+    if (is_stream(source))
+        throw UsageError(fmt::format(
+            "'{}' is a stream, but a video must be a file: it is read more than once.\nhint: {}.",
+            source, record_first));
+    std::error_code ignored;
+    const auto type = std::filesystem::status(source, ignored).type();
+    if (type == std::filesystem::file_type::regular) return;
+    if (type == std::filesystem::file_type::directory)
+        throw UsageError(fmt::format(
+            "'{0}' is a folder, but a video must be a file.\n"
+            "hint: for numbered images, mark the field of the number, as in '{0}/%05d.png'.",
+            source));
+    if (std::filesystem::exists(source, ignored) || source.starts_with("/dev/"))
+        throw UsageError(fmt::format(
+            "'{}' is a device or a stream, but a video must be a file: it is read more than "
+            "once.\nhint: {}.",
+            source, record_first));
+    throw Failure(fmt::format("there is no video '{}'", source));
 }
 
 /// ffmpeg's arguments up to the input.
 std::vector<std::string> input_arguments(const std::string& source) {
     std::vector<std::string> arguments{"-hide_banner", "-nostats", "-loglevel", "error"};
-    if (is_camera_device(source)) {
-        append(arguments, {"-f", "v4l2", "-i", source});
-        return arguments;
-    }
-    if (is_numbered(source)) {
-        if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
+    if (is_numbered(source))
         append(arguments, {"-f", "image2", "-start_number", std::to_string(first_number(source))});
-    } else if (!std::filesystem::exists(source)) {
-        throw Failure(fmt::format("there is no video '{}'", source));
-    } else if (!std::filesystem::is_regular_file(source)) {
-        throw Failure(fmt::format(
-            "'{}' is not a regular file, but a video must be one: it is read more than once",
-            source));
-    }
+    else
+        require_file(source);
     append(arguments, {"-i", "file:" + source, "-map", "0:v:0"});
     return arguments;
 }
@@ -119,9 +135,7 @@ std::vector<double> framecrc_times(const std::string& text) {
 
 VideoTimes video_times(const std::string& source) {
     VideoTimes times;
-    if (is_camera_device(source)) return times;
     if (is_numbered(source)) {
-        if (const auto wrong = video_problem(source)) throw UsageError(*wrong);
         const NumberedFrames names(source);
         const std::int64_t first = first_number(source);
         while (names.has_file(first + times.frame_count)) ++times.frame_count;
@@ -190,7 +204,6 @@ AscendingTimes ascending_times(const std::vector<double>& seconds) {
 FieldOrder field_order(const std::string& source, std::int64_t first) {
     constexpr std::int64_t frames = 60;  // examined
     constexpr int min_share = 2;         // one in so many
-    if (is_camera_device(source)) return FieldOrder::progressive;
     std::vector<std::string> arguments = input_arguments(source);
     append(arguments, {"-an", "-vf",
                        fmt::format("trim=start_frame={}:end_frame={},idet,metadata=mode=print:"
@@ -243,6 +256,9 @@ bool Video::read(std::uint8_t* into, std::size_t bytes) {
     return true;
 }
 
+namespace {
+
+/// The size of a PGM image with 8 bits, from its first three lines; nothing if it is no such image.
 std::optional<cv::Size> pgm_size(const std::string& head) {
     constexpr int max_side = 20000;  // pixels: larger is no frame
     int width = 0, height = 0;
@@ -250,6 +266,8 @@ std::optional<cv::Size> pgm_size(const std::string& head) {
     if (width < 1 || height < 1 || width > max_side || height > max_side) return std::nullopt;
     return cv::Size(width, height);
 }
+
+}  // namespace
 
 /// A PGM image: "P5\nWIDTH HEIGHT\n255\n" and a byte a pixel.
 bool Video::read_frame(cv::Mat& grey) {

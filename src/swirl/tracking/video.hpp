@@ -1,7 +1,6 @@
 // The frames of a video in order, in grey. ffmpeg decodes them, and rotates them as the file asks.
 //
-// A source is a file that ffmpeg reads, numbered images ('frames/%05d.png'), or a camera of this
-// machine (/dev/video0).
+// A source is a file that ffmpeg reads, or numbered images ('frames/%05d.png').
 #pragma once
 
 #include <cstdint>
@@ -24,7 +23,7 @@ struct VideoTimes {
 };
 
 /// Reads the file without decoding its frames. Throws Failure if it is not a video, and UsageError
-/// for a wrong pattern of numbered images.
+/// for a camera, a stream, or a wrong pattern of numbered images.
 VideoTimes video_times(const std::string& source);
 
 /// Strictly ascending times, and the frames for which the times in the video are not used.
@@ -39,13 +38,6 @@ struct AscendingTimes {
 /// between their timed neighbours. Throws Failure if fewer than two frames are timed.
 AscendingTimes ascending_times(const std::vector<double>& seconds);
 
-/// True for a camera of this machine, and for numbered images.
-bool is_camera_device(const std::string& source);
-bool is_numbered(const std::string& source);
-/// The least number for which there is an image. Throws Failure if there is none.
-std::int64_t first_number(const std::string& pattern);
-/// The size of a PGM image with 8 bits, from its first three lines; nothing if it is no such image.
-std::optional<cv::Size> pgm_size(const std::string& head);
 /// For errors if ffmpeg is not installed.
 inline constexpr const char* missing_ffmpeg =
     "videos are read by the program ffmpeg, which was not found\n"
@@ -59,7 +51,6 @@ inline const char* parity_of(FieldOrder order) {
 }
 
 /// Determined from the motion in the frames from number `first` on, by ffmpeg's filter idet.
-/// Progressive for a camera, which cannot be read twice.
 FieldOrder field_order(const std::string& source, std::int64_t first);
 
 class Video {

@@ -17,8 +17,8 @@ namespace {
 
 std::vector<cv::Mat> read_survey_frames(const TrackingSettings& settings,
                                         std::int64_t frame_count) {
-    const std::int64_t every = survey_stride(frame_count);
-    std::size_t maximum = max_survey_images;
+    const std::int64_t every = std::max<std::int64_t>(1, frame_count / survey_frames);
+    std::size_t maximum = survey_frames + 2;  // the division rounds down
     if (settings.max_frames > 0)
         maximum = std::min(maximum, static_cast<std::size_t>((frame_count + every - 1) / every));
     Video video(settings.video, every, settings.first_frame, settings.fields);
@@ -246,14 +246,11 @@ void remove_floor_pattern(const TrackingSettings& settings, double reduction,
 }  // namespace
 
 VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_count) {
-    return survey_images(settings, read_survey_frames(settings, frame_count));
-}
-
-VideoSurvey survey_images(const TrackingSettings& settings, std::vector<cv::Mat> images) {
     constexpr double min_side = 64.0;      // pixels: smaller frames show no discs
     constexpr double rim_side = 300.0;     // pixels: enough to find the rim
     constexpr double particle_side = 1.3;  // times that, for discs: they are smaller
     VideoSurvey survey;
+    std::vector<cv::Mat> images = read_survey_frames(settings, frame_count);
     survey.size = images.front().size();
     const double side = std::min(survey.size.width, survey.size.height);
     if (side < min_side)
