@@ -122,7 +122,7 @@ build_page() {
             cmake --build "$home/build/wasm" &&
             mkdir -p "$home/web/generated" &&
             zopfli -c "$home/build/wasm/swirl.wasm" >"$home/web/generated/swirl.wasm.gz" &&
-            cd "$home/web" && npm install --no-audit --no-fund --no-save && npm run build
+            (cd "$home/web" && npm install --no-audit --no-fund --no-save && npm run build)
     } >"$log" 2>&1; then
         tail -n 30 "$log" >&2
         give_up "the page could not be built (see above; full log: $log)."

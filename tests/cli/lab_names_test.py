@@ -1,0 +1,51 @@
+"""`swirl lab --out` writes where it says, and builds the page once. The tests run web/lab.sh in a small tree like a
+fresh clone, with stand-ins for the tools of a build."""
+
+import os
+import shutil
+import subprocess
+import unittest
+
+from program import SOURCE, InFolder
+
+# Programs in the PATH. npm runs in the folder web; its build is counted.
+PROGRAMS = {
+    "cmake": 'case $1 in --build) echo engine >"$2/swirl.wasm" ;; -S) mkdir -p "$4" ;; esac',
+    "zopfli": "echo packed",
+    "npm": '[ "$1" != run ] || { echo x >>../builds && mkdir -p ../build/lab && echo page >../build/lab/index.html; }',
+}
+
+
+class LabNames(InFolder):
+    def setUp(self):
+        super().setUp()
+        for folder in ("clone/web", "clone/bin", "clone/cmake", "elsewhere/inner"):
+            os.makedirs(self.path(folder))
+        for name in ("web/lab.sh", "cmake/launcher.sh"):
+            shutil.copy(os.path.join(SOURCE, name), self.path("clone/" + name))
+        open(self.path("clone/packages"), "w").close()
+        for name, script in PROGRAMS.items():
+            with open(self.path("clone/bin/" + name), "w", encoding="utf-8") as opened:
+                opened.write(f"#!/bin/sh\n{script}\n")
+            os.chmod(self.path("clone/bin/" + name), 0o755)
+
+    def test_a_relative_path_is_that_of_the_caller_and_the_page_is_built_once(self):
+        before = sorted(os.listdir(self.path("clone/web")))
+        absolute = self.path("elsewhere/absolute.html")
+        for out, written in (("page.html", "page.html"), ("page.html", "page.html"),
+                             ("inner/page.html", "inner/page.html"), ("./inner/../b.html", "b.html"),
+                             (absolute, "absolute.html")):
+            with self.subTest(out):
+                done = subprocess.run([self.path("clone/web/lab.sh"), "--out", out], cwd=self.path("elsewhere"),
+                                      capture_output=True, text=True, timeout=60,
+                                      env={**os.environ, "PATH": self.path("clone/bin") + ":" + os.environ["PATH"]})
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with open(self.path("elsewhere/" + written), encoding="utf-8") as opened:
+                    self.assertEqual(opened.read(), "page\n")
+                with open(self.path("clone/builds"), encoding="utf-8") as opened:
+                    self.assertEqual(opened.read(), "x\n")
+        self.assertEqual(sorted(os.listdir(self.path("clone/web"))), sorted([*before, "generated"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
