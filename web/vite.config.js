@@ -1,7 +1,7 @@
 // Builds one self-contained file: it includes the script, styles, worker and engine.
 import {defineConfig} from "vite";
 import {viteSingleFile} from "vite-plugin-singlefile";
-import {fileURLToPath} from "node:url";
+import {createHash} from "node:crypto";
 import {pageTexts} from "./src/texts.en.ts";
 
 /** Replaces {{name}} in the page by the English text of this name; translatePage() of texts.ts replaces it by another language. */
@@ -13,14 +13,25 @@ const texts = {
     })},
 };
 
+/** Adds the Content-Security-Policy: the page runs its own script and engine only, and requests nothing. Its worker comes
+ *  from a blob (as data: if the browser has none), the engine from data:. */
+const policy = {
+    name: "policy",
+    enforce: "post",
+    generateBundle: (_, bundle) => {
+        const page = bundle["index.html"];
+        const hashes = [...page.source.matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map(
+            ([, script]) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`);
+        const rules = ["default-src 'none'", `script-src ${hashes.join(" ")} 'wasm-unsafe-eval'`, "worker-src blob: data:",
+                       "style-src 'unsafe-inline'", "img-src data: blob:", "connect-src data:", "base-uri 'none'", "form-action 'none'"];
+        page.source = page.source.replace('<meta charset="utf-8">', (charset) =>
+            `${charset}\n<meta http-equiv="Content-Security-Policy" content="${rules.join("; ")}">`);
+    },
+};
+
 export default defineConfig({
     base: "./",
-    plugins: [texts, viteSingleFile()],
-    resolve: {alias: [
-        // The sources of jsfive without its copy of pako: the page has a smaller library for the same format.
-        {find: /^jsfive$/, replacement: fileURLToPath(new URL("node_modules/jsfive/esm/high-level.js", import.meta.url))},
-        {find: /^.*\/pako\.esm\.mjs$/, replacement: fileURLToPath(new URL("src/inflate.ts", import.meta.url))},
-    ]},
+    plugins: [texts, viteSingleFile(), policy],
     assetsInclude: ["**/*.wasm.gz"],
     worker: {format: "iife"},
     build: {outDir: "../build/lab", emptyOutDir: true, assetsInlineLimit: 100_000_000,

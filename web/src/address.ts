@@ -1,4 +1,5 @@
-// The page's address: the parameters, and a number of events to run to.
+// The page's address: the parameters, a number of events to run to, and the points of the plot. It is all that the page
+// stores, so that two tabs have nothing in common, and nothing can be full or blocked.
 import type {Laboratory} from "./laboratory";
 import {addressOf} from "./share";
 import {startParameters} from "./start";
@@ -10,15 +11,11 @@ const maxEvents = 1e7;
 export function readAddress(lab: Laboratory): {given: Record<string, string>; events: number} | undefined {
     const given: Record<string, string> = {};
     let events = 0;
-    for (const [name, value] of startParameters()) {
+    for (const [name, value] of startParameters(lab.isParameter)) {
         if (name === "events") {
-            events = Number(value);
+            events = value.trim() === "" ? NaN : Number(value);
             if (Number.isInteger(events) && events >= 0 && events <= maxEvents) continue;
             lab.fail(texts.invalidEvents(value));
-            return undefined;
-        }
-        if (!lab.parameters.some((row) => row.name === name && row.settable)) {
-            lab.fail(texts.unknownParameter(name));
             return undefined;
         }
         given[name] = value;
@@ -26,13 +23,26 @@ export function readAddress(lab: Laboratory): {given: Record<string, string>; ev
     return {given, events};
 }
 
-/** Keeps the address up to date. */
-export function followAddress(lab: Laboratory): void {
-    lab.on("given", () => {
+/** A random seed of four digits. */
+export const newSeed = (): string => String(1000 + crypto.getRandomValues(new Uint32Array(1))[0]! % 9000);
+
+const settling = 250; // milliseconds; browsers allow about three changes per second
+
+/** Keeps the address up to date. `fragment` is its part after #. Returns a function to call when that has changed. */
+export function followAddress(lab: Laboratory, fragment: () => string): () => void {
+    let later: ReturnType<typeof setTimeout> | undefined;
+    const write = (): void => {
+        clearTimeout(later);
+        later = undefined;
         try {
-            window.history.replaceState(null, "", addressOf(lab.given));
+            const hash = fragment();
+            window.history.replaceState(null, "", addressOf(lab.given) + (hash && `#${hash}`));
         } catch {
             // In some browsers the address of a local file cannot be changed.
         }
-    });
+    };
+    const follow = (): void => { later ??= setTimeout(write, settling); };
+    lab.on("given", follow);
+    addEventListener("pagehide", () => { if (later !== undefined) write(); });
+    return follow;
 }

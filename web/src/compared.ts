@@ -1,9 +1,10 @@
 // A second container next to the first. It keeps its parameters and runs at the same speed.
+import {liveEstimate} from "./estimates";
 import type {FromWorker, ToWorker} from "./messages";
 import {button, dark, element, withError} from "./page";
 import {SectorPaint} from "./paint";
 import {draw, type Coloring} from "./scene";
-import {texts} from "./texts";
+import {engineMessage, texts} from "./texts";
 
 export class ComparedContainer {
     readonly figure = element("figure", {id: "compared"});
@@ -52,14 +53,14 @@ export class ComparedContainer {
     private hear(data: FromWorker): void {
         if (data.kind === "ready") this.send({kind: "begin", given: this.given, events: 0, run: 0});
         else if (data.kind === "started") this.room = Number(data.configuration["amplitude"]);
-        else if (data.kind === "rejected") this.caption.textContent = data.message;
+        else if (data.kind === "rejected") this.caption.textContent = engineMessage(data.message);
         if (data.kind !== "frame") return;
         this.waiting = false;
         if (this.frame?.length !== data.frame.length) this.paint.apply(data.frame);
         this.frame = data.frame;
         this.turns = data.turns[0];
         this.redraw();
-        const found = data.rotation?.by_time;
+        const found = data.rotation && liveEstimate(data.rotation);
         if (found)
             this.caption.textContent =
                 texts.comparedResult(this.name, withError(found.mean, found.error, texts.notYet));

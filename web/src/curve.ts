@@ -1,7 +1,7 @@
 // The rotation rate period by period, with a mark where a parameter was changed.
 import type {Rotation} from "./engine";
 import type {Laboratory} from "./laboratory";
-import {accent, byId, element, ink, line, quiet} from "./page";
+import {accent, byId, element, ink, line, localized, quiet} from "./page";
 import {Plot} from "./plot";
 import {meansOf, periodsOf} from "./series";
 import {symbols, texts} from "./texts";
@@ -60,7 +60,7 @@ export class Curve {
     private mark(): void {
         const {configuration} = this.lab, at = this.shown[0].at(-1) ?? 0;
         const changes = Object.keys(configuration).filter((name) => configuration[name] !== this.before[name] &&
-            this.before[name] !== undefined).map((name) => `${texts.symbolOf[name] ?? name} = ${configuration[name]}`);
+            this.before[name] !== undefined).map((name) => localized(`${texts.symbolOf[name] ?? name} = ${configuration[name]}`));
         this.before = configuration;
         this.earlier = this.shown.map((column) => column.slice(-remembered)) as Columns;
         if (at === 0 || changes.length === 0) return;

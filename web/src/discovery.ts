@@ -1,20 +1,22 @@
 // The discovery plot: each number of discs that is selected adds a point with its error, so that the paper's
-// Figure 5b appears. A point is a separate run in the background. A short run gives the point at once, and
-// longer runs make it more precise while its number of discs stays selected.
+// Figure 5b appears. A point is the mean of separate runs in the background, and its error is that between them. Short
+// runs give the point at once, and longer ones make it more precise while its number of discs stays selected.
 import {UsageError, perRate, type Crossing, type Rotation} from "./engine";
+import {intervalOf, liveEstimate} from "./estimates";
 import type {Host, Values} from "./host";
 import {addressOf} from "./share";
 import {button, element, save, withError} from "./page";
 import {PointsPlot, type Curve, type PlottedPoint} from "./points_plot";
-import {Runs, type EvaluatedRun} from "./runs";
+import {Runs, estimates, seedsPerPoint} from "./runs";
 import {startParameters} from "./start";
 import {symbols, texts} from "./texts";
 
 /** A point of the plot. */
 export interface Visited {
     mean: number;
+    /** mean ± 1.96 errors is the 95 % interval. */
     error: number;
-    /** After the warm-up. */
+    /** Of each run, after the warm-up. */
     periods: number;
 }
 
@@ -22,7 +24,7 @@ export interface Visited {
 export type Setting = Map<number, Visited>;
 
 /** Parameters that do not distinguish settings. */
-const ofNoSetting = ["discs", "events", "periods"];
+const ofNoSetting = ["discs", "events", "periods", "seed"];
 const runLengths = [50, 200, 800]; // periods
 const largestForLongRuns = 150; // discs
 const maxInLink = 60; // points
@@ -40,31 +42,36 @@ export function linkTextOf(setting: Setting): string {
         .map(([n, {mean, error, periods}]) => `${n}_${mean.toPrecision(4)}_${error.toPrecision(2)}_${periods}`).join(",");
 }
 
-/** The points in such a text; invalid ones are omitted. */
-export function settingFrom(text: string): Setting {
-    const setting: Setting = new Map();
-    for (const part of text.split(",").slice(0, maxInLink)) {
-        const [n, mean, error, periods] = part.split("_").map((each) => (each.trim() === "" ? NaN : Number(each)));
-        if (Number.isInteger(n) && n! > 0 && Number.isFinite(mean) && error! > 0 && Number.isFinite(error) &&
-            Number.isInteger(periods) && periods! > 0)
-            setting.set(n!, {mean: mean!, error: error!, periods: periods!});
+/** The points in such a text, and how many parts of it are none. */
+export function settingFrom(text: string): {setting: Setting; invalid: number} {
+    const setting: Setting = new Map(), parts = text.split(","), isWhole = (x: number, most: number): boolean =>
+        Number.isInteger(x) && x > 0 && x <= most;
+    let invalid = Math.max(0, parts.length - maxInLink);
+    for (const part of parts.slice(0, maxInLink)) {
+        const [n, mean, error, periods, more] = part.split("_").map((each) => (each.trim() === "" ? NaN : Number(each))) as
+            [number, number, number, number, number?];
+        if (isWhole(n, 20_000) && Math.abs(mean) <= 100 && error > 0 && error <= 100 && isWhole(periods, 1e6) && more === undefined)
+            setting.set(n, {mean, error, periods});
+        else ++invalid;
     }
-    return setting;
+    return {setting, invalid};
 }
 
 /** All points as CSV. */
 export function tableOf(settings: Map<string, Setting>): string {
     const rows = [...settings].flatMap(([name, points]) => [...points].sort(([a], [b]) => a - b).map(
-        ([n, {mean, error, periods}]) => `${n},${mean},${error},${periods},"${name.replaceAll('"', '""')}"\n`));
-    return `discs,varpi,varpi_error,periods,other_parameters\n${rows.join("")}`;
+        ([n, {mean, error, periods}]) => `${n},${mean},${error},${seedsPerPoint},${periods},"${name.replaceAll('"', '""')}"\n`));
+    return `discs,varpi,varpi_error,runs,periods,other_parameters\n${rows.join("")}`;
 }
 
 const titled = (made: HTMLButtonElement, title: string): HTMLButtonElement => Object.assign(made, {title});
 
 const asPlotted = (x: number, {mean, error}: {mean: number; error: number}): PlottedPoint =>
-    ({x, y: mean, lower: mean - 1.96 * error, upper: mean + 1.96 * error});
+    ({x, y: mean, lower: mean - intervalOf(error), upper: mean + intervalOf(error)});
 
 export class Discovery {
+    /** Is called when there are other points. */
+    changed: () => void = () => {};
     readonly settings = new Map<string, Setting>();
     private readonly plot: PointsPlot;
     private readonly finding = element("p", {id: "discovery-finding"});
@@ -76,7 +83,7 @@ export class Discovery {
     private found: Crossing | undefined;
     private timer: ReturnType<typeof setTimeout> | undefined;
 
-    constructor(place: HTMLElement, private readonly host: Host) {
+    constructor(place: HTMLElement, private readonly host: Host, private readonly fail: (message: string) => void) {
         this.runs = new Runs(() => host.newWorker(), 2); // one is free while the other refines a point
         const plotPlace = element("div", {id: "discovery-plot"});
         place.replaceChildren(
@@ -90,7 +97,6 @@ export class Discovery {
         // A frame without an address, as in a notebook, has no link.
         document.getElementById("discovery-link")!.hidden = location.protocol === "about:";
         this.plot = new PointsPlot(plotPlace, 210);
-        this.readLink();
         this.draw();
     }
 
@@ -98,8 +104,12 @@ export class Discovery {
     visit(): void {
         const given = this.host.given(), discs = Number(this.host.configuration()["discs"]);
         const setting = settingOf(given);
-        if (this.present?.setting !== setting) this.found = undefined;
+        const isOther = this.present?.setting !== setting;
         this.present = {setting, discs, given};
+        if (isOther) {
+            this.found = undefined;
+            void this.evaluate(setting); // the points of a link, or of a setting that was left
+        }
         this.live = undefined;
         clearTimeout(this.timer);
         this.timer = setTimeout(() => {
@@ -110,8 +120,8 @@ export class Discovery {
 
     /** The averages of the simulation on display. */
     follow(rotation: Rotation): void {
-        const {mean, error, blocks} = rotation.by_time;
-        this.live = this.present && mean !== null && error !== null && blocks > 4
+        const {mean, error} = liveEstimate(rotation);
+        this.live = this.present && mean !== null && error !== null
             ? asPlotted(this.present.discs, {mean, error}) : undefined;
         this.draw();
     }
@@ -121,7 +131,7 @@ export class Discovery {
         const name = `${discs} ${setting}`;
         if (!this.settings.get(setting)?.has(discs) && !this.under.has(name)) {
             this.under.add(name);
-            await this.lengthen(setting, discs, given, runLengths[0]!);
+            await this.lengthen(setting, discs, given, runLengths[0]!, true);
             this.under.delete(name);
         }
         if (this.refining) return;
@@ -139,20 +149,20 @@ export class Discovery {
         return {...present, periods};
     }
 
-    private async lengthen(setting: string, discs: number, given: Values, periods: number): Promise<boolean> {
-        const visited = await this.point({...given, discs: String(discs)}, periods);
-        if (visited) this.add(setting, discs, visited);
-        return visited !== undefined;
-    }
-
-    /** Undefined for a collapsed run or parameters that the engine rejects; the page itself reports that. */
-    private async point(given: Values, periods: number): Promise<Visited | undefined> {
+    /** Longer runs end when another point is shown; they leave a worker free for its first runs. False if there is no
+     *  result: a run collapsed, or the engine rejects the parameters, which the page itself reports. */
+    private async lengthen(setting: string, discs: number, given: Values, periods: number, isFirst = false): Promise<boolean> {
+        const isWanted = (): boolean => this.present?.setting === setting && this.present.discs === discs;
         try {
-            const {rotation} = await this.runs.run(given, periods);
-            const {mean, error} = rotation?.by_time ?? {};
-            return mean != null && error != null && error > 0 ? {mean, error, periods} : undefined;
+            const all = {...given, discs: String(discs)};
+            const runs = await this.runs.replicates(all, periods, isFirst ? undefined : isWanted);
+            if (!runs) return !isWanted();
+            const {mean, error} = estimates(runs).by_time;
+            if (mean === null || error === null || !(error > 0)) return false;
+            this.add(setting, discs, {mean, error, periods});
+            return true;
         } catch (error) {
-            if (error instanceof UsageError) return undefined;
+            if (error instanceof UsageError) return false;
             throw error;
         }
     }
@@ -161,26 +171,16 @@ export class Discovery {
         const points = this.settings.get(setting) ?? new Map<number, Visited>();
         this.settings.set(setting, points.set(discs, visited));
         this.draw();
-        this.storeInAddress();
+        this.changed();
         void this.evaluate(setting);
-    }
-
-    /** So that the points survive a reload. */
-    private storeInAddress(): void {
-        try {
-            window.history.replaceState(null, "", this.link());
-        } catch {
-            // In some browsers the address of a local file cannot be changed.
-        }
     }
 
     /** N_c from the points of the present setting. */
     private async evaluate(setting: string): Promise<void> {
         const points = this.settings.get(setting);
         if (!points || points.size < 2) return;
-        const runs = [...points].map(([discs, {mean, error, periods}]): EvaluatedRun => (
-            {discs, periods, rotation: perRate(() => ({mean, error, effective_samples: 0, blocks: 0}))}));
-        const {by_time} = await this.runs.crossings(runs);
+        const {by_time} = await this.runs.crossings([...points].map(
+            ([discs, {mean, error, periods}]) => ({discs, periods, rotation: perRate(() => ({mean, error}))})));
         if (this.present?.setting !== setting) return;
         this.found = by_time;
         this.draw();
@@ -224,13 +224,19 @@ export class Discovery {
         this.settings.clear();
         this.found = undefined;
         this.draw();
+        this.changed();
+    }
+
+    /** The part of the address after # with the points of the parameters that are given. */
+    fragment(): string {
+        const points = this.settings.get(settingOf(this.host.given()));
+        return points?.size ? `points=${linkTextOf(points)}` : "";
     }
 
     /** An address with the present parameters and the points of this setting. */
-    link(): string {
+    private link(): string {
         const address = new URL(addressOf(this.host.given()), location.href);
-        const points = this.settings.get(this.present?.setting ?? "");
-        address.hash = points?.size ? `points=${linkTextOf(points)}` : "";
+        address.hash = this.fragment();
         return address.href;
     }
 
@@ -244,10 +250,12 @@ export class Discovery {
         }
     }
 
-    /** The points in the page's address belong to the parameters in it. */
-    private readLink(): void {
+    /** Reads the points in the page's address, which belong to the parameters in it. */
+    readLink(): void {
         const points = new URLSearchParams(location.hash.slice(1)).get("points");
-        if (!points) return;
-        this.settings.set(settingOf(Object.fromEntries(startParameters())), settingFrom(points));
+        if (points === null) return;
+        const {setting, invalid} = settingFrom(points);
+        this.settings.set(settingOf(Object.fromEntries(startParameters((name) => this.host.isParameter(name)))), setting);
+        if (invalid > 0) this.fail(texts.discovery.invalid(invalid));
     }
 }

@@ -39,7 +39,6 @@ export class Dish {
     private lastMaps = 0;
     private shown: Frame | undefined; // with the stroboscope, the last image
     private history: Float64Array[] = [];
-    private recordedRoom: number | undefined; // while a recording is shown
     private dragged: number | undefined; // the disc under the pointer
     private held: number | undefined; // the disc selected by keys
 
@@ -98,17 +97,6 @@ export class Dish {
         this.redraw();
     }
 
-    /** Shows a recorded frame instead of the simulation; undefined: the simulation again. */
-    replay(recorded: {frame: Float64Array; room: number} | undefined): void {
-        this.recordedRoom = recorded?.room;
-        if (!recorded) {
-            this.forget();
-            if (this.lab.last) this.show(this.lab.last);
-            return;
-        }
-        this.show({kind: "frame", run: 0, frame: recorded.frame, turns: [0, 0], events: 0, hash: "", command: ""});
-    }
-
     private forget(): void {
         this.history = [];
         this.shown = this.maps = undefined;
@@ -116,14 +104,13 @@ export class Dish {
     }
 
     private receive(frame: Frame): void {
-        if (this.recordedRoom !== undefined) return;
         this.requestMaps();
         this.show(frame);
     }
 
     private show(frame: Frame): void {
         const before = this.shown?.frame;
-        const stops = (this.strobe || this.isLapse) && !this.lab.isByHand && this.recordedRoom === undefined;
+        const stops = (this.strobe || this.isLapse) && !this.lab.isByHand;
         // The stroboscope shows the end of each period; its clock is a rounding error from a whole period.
         const phase = frame.frame[2]! / this.lab.value("period");
         if (stops && before && phase > 1e-6 && phase < 1 - 1e-6 && !frame.event) return;
@@ -161,7 +148,7 @@ export class Dish {
                 view: each, coloring: this.coloring, sectors: this.paint.sectors, trails: past,
                 event: shown.event, next: shown.next, dark: dark(),
                 omega: this.forces && !lab.isByHand ? 2 * Math.PI / period : 0,
-                room: this.recordedRoom ?? lab.maxDistance(), turns: shown.turns[0], held: this.held,
+                room: lab.maxDistance(), turns: shown.turns[0], held: this.held,
                 map: isMap(this.view) ? layerOf(this.view, this.maps) : undefined, note: this.note});
             this.compared?.redraw();
             const label = texts.container(lab.counted(shown.frame[10] ?? 0), texts.views[each]);

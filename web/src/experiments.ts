@@ -2,7 +2,7 @@
 import {ComparedContainer} from "./compared";
 import type {Dish} from "./dish";
 import type {Laboratory} from "./laboratory";
-import {button, element} from "./page";
+import {button, element, localized} from "./page";
 import type {Player} from "./player";
 import type {Transport} from "./transport";
 import {texts} from "./texts";
@@ -19,7 +19,7 @@ export function experiments(lab: Laboratory, dish: Dish, player: Player, transpo
     backwards.title = texts.backwardsHelp;
     const compare = button(texts.compare, () => {
         const given = {...lab.given}, name = [lab.counted(lab.value("discs")), ...Object.entries(given)
-            .filter(([key]) => key !== "discs").map(([key, value]) => `${key} ${value}`)].join(", ");
+            .filter(([key]) => key !== "discs").map(([key, value]) => localized(`${key} ${value}`))].join(", ");
         dish.compared = new ComparedContainer(lab.newWorker(), given, name, () => {
             dish.compared = undefined;
             compare.disabled = false;

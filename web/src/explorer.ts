@@ -1,11 +1,12 @@
 // The explorer: ϖ/Ω or N_c against any parameter, with one curve or several. Points appear as the runs on all
 // cores finish. With N on the axis it is the paper's Figure 5b.
-import {UsageError, rates, type Crossing, type Parameter, type Rotation} from "./engine";
+import {UsageError, rates, type Crossing, type Parameter} from "./engine";
 import {controlling, searchCrossing, usualSearch} from "./crossing_search";
+import {intervalOf} from "./estimates";
 import {optionsOf, type Host, type Values} from "./host";
-import {button, element, save, withError} from "./page";
+import {button, element, localized, save, shownList, typedList, withError} from "./page";
 import {PointsPlot, type Curve} from "./points_plot";
-import {Runs, type Crossings} from "./runs";
+import {Runs, estimates, seedsFrom, seedsPerPoint, type Crossings, type Estimates} from "./runs";
 import {commands as commandOf} from "./symbols";
 import {symbols, texts} from "./texts";
 
@@ -17,18 +18,18 @@ export interface CurveValues {
     given: Values;
 }
 
-/** A point: a run, or a search for N_c. */
+/** A point: the mean of runs with different seeds, or a search for N_c. */
 export interface Point {
     curve: CurveValues;
     x: number;
     given: Values;
     done?: boolean;
     collapsed?: boolean;
-    rotation?: Rotation;
+    rotation?: Estimates;
     crossings?: Crossings;
     withinTolerance?: boolean;
     runs?: number;
-    /** The command line of exactly this run. */
+    /** The command lines of exactly these runs. */
     command?: string;
 }
 
@@ -99,12 +100,12 @@ export function tableOf(points: Point[], x: string, quantity: Quantity): string 
     const done = points.filter((each) => each.done);
     const names = [...new Set(done.flatMap(({curve}) => Object.keys(curve.given)))].filter((name) => name !== x);
     const columns = quantity === "rotation"
-        ? ["collapsed", ...rates.flatMap((rate) => [`varpi_${rate}`, `varpi_${rate}_error`]), "command"]
+        ? ["runs", "collapsed", ...rates.flatMap((rate) => [`varpi_${rate}`, `varpi_${rate}_error`]), "command"]
         : ["verdict", ...rates.flatMap((rate) => ["N_c", "N_c_error", "N_c_lower", "N_c_upper"].map((each) => `${each}_${rate}`))];
     const rows = done.map((point) => [
         ...names.map((name) => point.curve.given[name] ?? ""), point.x,
         ...(quantity === "rotation"
-            ? [point.collapsed ? 1 : 0, ...rates.flatMap((rate) =>
+            ? [seedsPerPoint, point.collapsed ? 1 : 0, ...rates.flatMap((rate) =>
                 [point.rotation?.[rate].mean ?? "", point.rotation?.[rate].error ?? ""]), `"${point.command ?? ""}"`]
             : [point.crossings?.[controlling].verdict ?? "", ...rates.flatMap((rate) => {
                 const found = point.crossings?.[rate];
@@ -134,8 +135,8 @@ export class Explorer {
     private readonly x = element("select", {id: "explorer-x"});
     private readonly values = element("input", {type: "text", id: "explorer-values", value: "5:6:53"});
     private readonly curveOf = element("select", {id: "explorer-curve"});
-    private readonly curveValues = element("input", {type: "text", id: "explorer-curves", value: "0.1, 1"});
-    private readonly periods = element("input", {type: "text", id: "explorer-periods", value: "200", inputMode: "numeric"});
+    private readonly curveValues = element("input", {type: "text", id: "explorer-curves", value: shownList("0.1, 1")});
+    private readonly periods = element("input", {type: "text", id: "explorer-periods", value: "100", inputMode: "numeric"});
     private readonly status = element("p", {id: "explorer-status"});
     private readonly findings = element("div", {id: "explorer-findings", className: "findings", tabIndex: 0});
     private readonly command = element("code", {id: "explorer-command"});
@@ -179,7 +180,7 @@ export class Explorer {
     /** Fills the choices; call it when the table of parameters is there. */
     parametersKnown(): void {
         const numeric = this.host.parameters().filter(({slider, name, settable}) =>
-            slider && settable && !["events", "events_per_sample", "periods", "warmup"].includes(name));
+            slider && settable && !["events", "events_per_sample", "periods", "seed", "warmup"].includes(name));
         const option = ({name}: Parameter): HTMLElement =>
             element("option", {value: name, textContent: this.labelOf(name), title: `--${name.replaceAll("_", "-")}`});
         this.x.replaceChildren(...numeric.map(option));
@@ -209,7 +210,7 @@ export class Explorer {
 
     private propose(): void {
         const row = this.host.parameters().find(({name}) => name === this.x.value);
-        if (row) this.values.value = proposedValues(row);
+        if (row) this.values.value = shownList(proposedValues(row));
     }
 
     private toggle(): void {
@@ -218,8 +219,8 @@ export class Explorer {
             this.status.textContent = texts.stopped;
             return;
         }
-        const values = parseNumbers(this.values.value);
-        const curves = parseCurves(this.curveOf.value, this.curveValues.value);
+        const values = parseNumbers(typedList(this.values.value));
+        const curves = parseCurves(this.curveOf.value, typedList(this.curveValues.value));
         const quantity = this.quantity.value as Quantity, periods = Number(this.periods.value);
         if (!values || !curves || values.length * curves.length > maxPoints) {
             this.status.textContent = texts.explorer.invalid(maxPoints);
@@ -239,7 +240,6 @@ export class Explorer {
             curve, x: value, given: merged(base, curve.given, {[x]: String(value)})})));
         this.findings.replaceChildren();
         this.showCommand(base, values, periods);
-        for (const point of this.points) point.command = this.commandOf(point.given, periods);
         void this.make(quantity, periods);
     }
 
@@ -264,8 +264,9 @@ export class Explorer {
     }
 
     private async runPoint(runs: Runs, point: Point, periods: number): Promise<void> {
-        const {rotation} = await runs.run(point.given, periods);
-        Object.assign(point, rotation ? {done: true, rotation} : {done: true, collapsed: true});
+        const replicates = await runs.replicates({...point.given, discs: this.discsOf(point)}, periods);
+        const command = this.commandOf(point.given, periods, replicates?.map(({seed}) => seed!));
+        Object.assign(point, replicates ? {rotation: estimates(replicates)} : {collapsed: true}, {done: true, command});
         if (this.runs === runs) this.report();
     }
 
@@ -303,7 +304,7 @@ export class Explorer {
         if (this.findings.childElementCount === 0)
             this.findings.append(element("table", {}, element("tr", {}, head("col", symbols.crossing),
                 ...rates.map((rate) => head("col", texts.rateNames[rate])))));
-        this.findings.firstElementChild!.append(element("tr", {}, head("row", name),
+        this.findings.firstElementChild!.append(element("tr", {}, head("row", localized(name)),
             ...rates.map((rate) => element("td", {textContent: crossingText(crossings[rate]),
                                                   title: rate === controlling ? note : ""}))));
     }
@@ -321,7 +322,7 @@ export class Explorer {
         const made = this.points.reduce((sum, point) => sum + (point.runs ?? 0), 0);
         this.status.textContent = (this.shown.quantity === "rotation"
             ? texts.studyProgress(done, this.points.length) : texts.explorer.searches(done, this.points.length, made)) +
-            (names ? ` ${texts.collapsed(names)}` : "");
+            (names ? ` ${texts.collapsed(localized(names))}` : "");
         this.draw();
     }
 
@@ -335,11 +336,15 @@ export class Explorer {
                        shown, {}, texts.explorer.description(found, this.labelOf(x)));
     }
 
-    /** The command line of a run with this many periods after the warm-up. */
-    private commandOf(given: Values, periods: number): string {
+    private discsOf({given}: Point): string {
+        return given["discs"] || this.host.configuration()["discs"]!;
+    }
+
+    /** The command lines of the runs of a point with this many periods after the warm-up. */
+    private commandOf(given: Values, periods: number, seeds = seedsFrom(given["seed"])): string {
         const warmup = Number(given["warmup"]) >= 0 && given["warmup"] ? Number(given["warmup"]) : defaultWarmup;
-        return commandOf.run(optionsOf({...given, periods: String(periods + warmup), warmup: String(warmup)},
-                                      this.host.parameters()));
+        return seeds.map((seed) => commandOf.run(optionsOf(
+            {...given, periods: String(periods + warmup), warmup: String(warmup), seed}, this.host.parameters()))).join(" && ");
     }
 
     /** Command lines for all points: a sweep, which has other seeds, or the searches. */
@@ -360,8 +365,8 @@ export class Explorer {
             const {discs: _, ...withoutDiscs} = given;
             return quantity === "crossing"
                 ? commandOf.crossing([optionsOf(withoutDiscs, rows), "--to", densestSearch({...this.host.configuration(), ...base})].join(" "))
-                : commandOf.sweep(optionsOf({...given, periods: String(periods + warmup), warmup: String(warmup)}, rows),
-                                 `study${k || ""}`);
+                : commandOf.sweep(`${optionsOf({...given, periods: String(periods + warmup), warmup: String(warmup)}, rows)} ` +
+                                  `--seeds ${seedsPerPoint}`, `study${k || ""}`);
         });
         this.command.textContent = commands.join("\n");
         this.command.parentElement!.hidden = false;
@@ -395,5 +400,5 @@ function plottedPoint(point: Point, quantity: Quantity): Curve["points"] {
     }
     const {mean, error} = point.rotation?.[controlling] ?? {};
     if (mean == null || error == null) return [];
-    return [{x: point.x, y: mean, lower: mean - 1.96 * error, upper: mean + 1.96 * error}];
+    return [{x: point.x, y: mean, lower: mean - intervalOf(error), upper: mean + intervalOf(error)}];
 }

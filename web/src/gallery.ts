@@ -52,5 +52,8 @@ export function buildGallery(lab: Laboratory, chosen: (given: Record<string, str
     show();
 }
 
-const sameGiven = (a: Record<string, string>, b: Record<string, string>): boolean =>
-    JSON.stringify(Object.entries(a).sort()) === JSON.stringify(Object.entries(b).sort());
+/** The same parameters, whatever their seed. */
+function sameGiven(a: Record<string, string>, b: Record<string, string>): boolean {
+    const [one, other] = [a, b].map((given) => JSON.stringify(Object.entries(given).filter(([name]) => name !== "seed").sort()));
+    return one === other;
+}

@@ -1,61 +1,60 @@
 // The part of the page that its panels use.
 import type {Parameter} from "./engine";
-import type {Dish} from "./dish";
 import type {Laboratory} from "./laboratory";
 import type {Player} from "./player";
-import type {View} from "./scene";
+import type {Coloring, View} from "./scene";
 import type {Transport} from "./transport";
 
 export type Values = Record<string, string>;
 
+/** How a simulation is shown; omitted parts stay as they are. */
+export interface Shown {
+    view?: View | "both";
+    coloring?: Coloring;
+    /** Shows its start only. */
+    isPaused?: boolean;
+}
+
 export interface Host {
     /** The table of parameters. */
     parameters(): Parameter[];
+    /** Whether the engine has a parameter of this name. */
+    isParameter(name: string): boolean;
     /** The parameters that were set; all others have their defaults. */
     given(): Values;
+    /** These values with the present seed. */
+    withSeed(given: Values): Values;
     /** All parameters of the present simulation. */
     configuration(): Values;
-    /** Sets the parameters and starts their simulation; `isPaused`: shows its start only. */
-    show(given: Values, view?: View | "both", isPaused?: boolean): void;
+    /** Sets the parameters and starts their simulation. */
+    show(given: Values, how?: Shown): void;
+    /** Whether the page shows the motion within a period; see Player. */
+    setSlow(on: boolean): void;
     /** Lets time advance, unless the reader wants less motion. */
     play(): void;
     /** Whether time advances. */
     playing(): boolean;
     /** A worker that gets the engine. */
     newWorker(): Worker;
-    /** Shows a recorded frame instead of the simulation, or the simulation again. */
-    replay(recorded: Recorded | undefined): void;
 }
 
-/** A recorded frame in the engine's layout (engine.ts), and the largest distance of the container from S. */
-export interface Recorded {
-    frame: Float64Array;
-    room: number;
-}
-
-export function hostOf(lab: Laboratory, dish: Dish, player: Player, transport: Transport): Host {
-    let isReplaying = false, wasPlaying = false;
+export function hostOf(lab: Laboratory, player: Player, transport: Transport): Host {
     return {
         parameters: () => lab.parameters,
+        isParameter: lab.isParameter,
         given: () => lab.given,
+        withSeed: (given) => lab.withSeed(given),
         configuration: () => lab.configuration,
-        show: (given, view, isPaused = false) => {
+        show: (given, {view, coloring, isPaused = false} = {}) => {
             if (view) transport.setView(view);
+            if (coloring) transport.setColoring(coloring);
             player.setPlaying(!isPaused && !player.reducedMotion);
             lab.set(given, {all: true, restart: true});
         },
+        setSlow: (on) => { player.isSlow = on; },
         play: () => player.setPlaying(!player.reducedMotion),
         playing: () => player.isPlaying,
         newWorker: () => lab.newWorker(),
-        replay: (recorded) => {
-            if (recorded && !isReplaying) {
-                wasPlaying = player.isPlaying;
-                player.setPlaying(false);
-            }
-            dish.replay(recorded);
-            if (!recorded && isReplaying) player.setPlaying(wasPlaying);
-            isReplaying = recorded !== undefined;
-        },
     };
 }
 

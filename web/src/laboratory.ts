@@ -50,6 +50,8 @@ export class Laboratory {
     given: Record<string, string> = {};
     /** All values in effect. */
     configuration: Record<string, string> = {};
+    /** Whether the engine has a parameter of this name. */
+    readonly isParameter = (name: string): boolean => this.parameters.some((row) => row.name === name && row.settable);
     last: Frame | undefined;
     averages: Rotation | undefined;
     /** Whether a parameter that changes keeps the discs, if it can. */
@@ -81,6 +83,12 @@ export class Laboratory {
 
     on<Kind extends keyof Reports>(kind: Kind, listener: (...report: Reports[Kind]) => void): void {
         (this.listeners[kind] ??= [] as never[] as NonNullable<Listeners[Kind]>).push(listener);
+    }
+
+    /** These values with the present seed, so that examples of a new visitor are not always the same run. */
+    withSeed(given: Record<string, string>): Record<string, string> {
+        const {seed} = this.given;
+        return seed ? {seed, ...given} : given;
     }
 
     /** A worker with the engine, for further simulations. */
@@ -183,10 +191,10 @@ export class Laboratory {
         this.report("error", message, parameter);
     }
 
-    /** The value in effect if none is given: the preset's, or the default. */
+    /** The value in effect if none is given: the preset's, or the default. Two coefficients are DISC:WALL. */
     effectiveValue(name: string): string {
         const {mu_disc, mu_wall, [name]: configured} = this.configuration;
-        const both = name === "mu" && mu_disc === mu_wall ? mu_disc : undefined;
+        const both = name !== "mu" ? undefined : mu_disc === mu_wall ? mu_disc : `${mu_disc}:${mu_wall}`;
         return configured ?? both ?? this.parameters.find((row) => row.name === name)?.default ?? "";
     }
     value(name: string): number {

@@ -2,9 +2,10 @@
 // the result of the present one is known.
 import {searchCrossing, controlling, usualSearch} from "./crossing_search";
 import type {Host, Values} from "./host";
-import {button, element, withError} from "./page";
-import {Runs} from "./runs";
-import type {View} from "./scene";
+import {button, element, signed, withError} from "./page";
+import {Runs, estimates} from "./runs";
+import type {Coloring, View} from "./scene";
+import {pageEntry, setPageEntry} from "./start";
 import {documentIn} from "./symbols";
 import {lessonSteps, symbols, team, texts, worksheet} from "./texts";
 
@@ -15,20 +16,27 @@ export interface Step {
     given: Values;
     view: View | "both";
     kind: Kind;
+    /** The colours that its text speaks of; by sector if omitted. */
+    coloring?: Coloring;
+    /** Shows the motion within a period. */
+    isSlow?: boolean;
+    /** The experiment that its explanation proposes. */
+    next?: Values;
 }
 
 export const steps: Step[] = [
     {given: {discs: "8"}, view: "lab", kind: "direction"},
     {given: {discs: "48"}, view: "lab", kind: "direction"},
     {given: {discs: "28"}, view: "lab", kind: "crossing"},
-    {given: {discs: "48"}, view: "m", kind: 0},
-    {given: {discs: "48", mu_disc: "1", mu_wall: "0"}, view: "both", kind: "direction"},
-    {given: {discs: "48"}, view: "m", kind: 2},
+    {given: {discs: "48"}, view: "m", kind: 0, isSlow: true}, // one image per period would show the wall at rest
+    {given: {discs: "48", mu_disc: "1", mu_wall: "0"}, view: "both", kind: "direction",
+     next: {discs: "48", mu_disc: "0", mu_wall: "1"}},
+    {given: {discs: "48"}, view: "m", kind: 1, coloring: "spin"},
 ];
 
 /** The options for N_c: first and last number of discs. */
 export const ranges: [number, number][] = [[0, 19], [20, 34], [35, 44], [45, Infinity]];
-const runPeriods = 100;
+const runPeriods = 50;
 const watchTime = 4000; // milliseconds between the prediction and its result
 
 /** The option of texts.lesson.directions that an estimate belongs to. */
@@ -47,6 +55,8 @@ interface Result {
 }
 
 export class Lesson {
+    /** Is called when there is another step. */
+    changed: () => void = () => {};
     private step = -1; // closed
     private chosen: number | undefined;
     private result: Result | undefined;
@@ -55,7 +65,7 @@ export class Lesson {
 
     /** The steps are shown in `place`, the button that begins in `start`, the rest in `panels`. */
     constructor(private readonly place: HTMLElement, start: HTMLElement, panels: HTMLElement,
-                private readonly host: Host) {
+                private readonly host: Host, private readonly fail: (message: string) => void) {
         start.replaceChildren(button(texts.lesson.start, () => this.go(0), "lesson-open"));
         panels.append(teachingPanel());
     }
@@ -67,20 +77,37 @@ export class Lesson {
             : lessonSteps[step]!.options ?? [];
     }
 
+    /** Opens the step in the page's address. */
+    open(): void {
+        const text = pageEntry("lesson");
+        if (text === null) return;
+        const step = /^\d+$/.test(text) ? Number(text) : NaN;
+        if (step >= 1 && step <= steps.length) return this.go(step - 1);
+        setPageEntry("lesson", undefined);
+        this.fail(texts.invalidLesson(text, steps.length));
+    }
+
     private go(to: number): void {
         this.runs?.stop();
         this.runs = undefined;
         this.step = to < steps.length ? to : -1;
+        setPageEntry("lesson", this.step < 0 ? undefined : String(this.step + 1));
+        this.changed();
         const at = steps[this.step], before = this.finished.get(this.step);
         this.chosen = before?.chosen;
         this.result = before?.result;
         // The answer stays hidden until there is a prediction.
         const predicted = document.body.classList.contains("predicts");
         document.body.classList.toggle("predicts", at !== undefined && !before);
-        if (at) this.host.show(at.given, at.view, !before);
+        this.host.setSlow(at?.isSlow ?? false);
+        if (at) this.display(at, !before);
         else if (predicted) this.host.play();
         this.show();
         (this.place.querySelector<HTMLElement>("h2") ?? document.getElementById("lesson-open"))?.focus();
+    }
+
+    private display({given, view, coloring = "sector"}: Step, isPaused = false): void {
+        this.host.show(this.host.withSeed(given), {view, coloring, isPaused});
     }
 
     /** After the prediction: watch, measure, and show the result. */
@@ -88,7 +115,7 @@ export class Lesson {
         const step = this.step;
         this.chosen = option;
         document.body.classList.remove("predicts");
-        this.host.show(steps[step]!.given, steps[step]!.view);
+        this.display(steps[step]!);
         this.show();
         const [result] = await Promise.all([this.measure(step), this.watched()]);
         if (this.step !== step) return;
@@ -108,10 +135,10 @@ export class Lesson {
         this.runs ??= new Runs(() => this.host.newWorker());
         const runs = this.runs;
         if (kind === "direction") {
-            const {mean, error} = (await runs.run(given, runPeriods)).rotation?.by_time ?? {};
+            const replicates = await runs.replicates(this.host.withSeed(given), runPeriods);
+            const {mean = null, error = null} = replicates ? estimates(replicates).by_time : {};
             const answer = directionOf(mean ?? 0, error ?? 1);
-            return {answer, text: texts.lesson.rotation(withError(mean ?? null, error ?? null, texts.notYet),
-                                                        texts.lesson.directions[answer]!)};
+            return {answer, text: texts.lesson.rotation(withError(mean, error, texts.notYet), texts.lesson.directions[answer]!)};
         }
         const {discs: _, ...others} = given;
         const {crossings} = await searchCrossing(usualSearch, {
@@ -158,6 +185,8 @@ export class Lesson {
             place.append(
                 element("p", {className: "result", textContent: texts.lesson.result(this.result.text)}),
                 element("p", {}, element("strong", {textContent: right ? texts.lesson.right : texts.lesson.wrong}), " ", explanation));
+            const {next} = steps[this.step]!;
+            if (next) place.append(button(texts.lesson.tryNext, () => this.host.show(this.host.withSeed(next)), "lesson-try"));
         } else place.append(element("p", {className: "quiet",
                                         textContent: this.chosen === undefined ? texts.lesson.predict : texts.lesson.watch}));
         return place;
@@ -206,7 +235,7 @@ function graph(): SVGSVGElement {
     for (let n = 0; n <= 50; n += 10) add("text", {x: n * 10, y: height + 14, "text-anchor": "middle", "font-size": 11}, String(n));
     for (let k = 0; k <= 20; ++k) grid(0, k * 10, width, k * 10, k === 15);
     for (const [k, value] of [0.3, 0.2, 0.1, 0, -0.1].entries())
-        add("text", {x: -6, y: k * 50 + 4, "text-anchor": "end", "font-size": 11}, value.toFixed(1).replace("-", "−"));
+        add("text", {x: -6, y: k * 50 + 4, "text-anchor": "end", "font-size": 11}, signed(value, 1));
     add("text", {x: width / 2, y: height + 30, "text-anchor": "middle", "font-size": 12}, texts.numberOfDiscs);
     add("text", {x: -34, y: height / 2, "text-anchor": "middle", "font-size": 12, transform: `rotate(-90 -34 ${height / 2})`},
         symbols.rotation);

@@ -1,7 +1,7 @@
 // Puts the parts of the page together. The simulation itself runs in the worker.
 import "./style.css";
 import "./panels.css";
-import {followAddress, readAddress} from "./address";
+import {followAddress, newSeed, readAddress} from "./address";
 import {Curve} from "./curve";
 import {Dish} from "./dish";
 import {experiments} from "./experiments";
@@ -34,16 +34,15 @@ const transport = new Transport(lab, dish, player);
 const parameters = new Parameters(lab);
 new Curve(lab);
 new Share(lab, dish);
-const host = hostOf(lab, dish, player, transport);
-const discovery = new Discovery(byId("discovery"), host);
+const host = hostOf(lab, player, transport);
+const discovery = new Discovery(byId("discovery"), host, (message) => showError(message));
 const explorer = new Explorer(byId("explorer"), host);
-new Lesson(byId("lesson"), byId("lesson-start"), byId("panels"), host);
+const lesson = new Lesson(byId("lesson"), byId("lesson-start"), byId("panels"), host, (message) => showError(message));
 const lessonButton = byId("lesson-open") as HTMLButtonElement;
 lessonButton.disabled = true; // until the page has read the parameters in its address, which would replace the lesson's
 lab.on("ready", () => { lessonButton.disabled = false; });
-const opened = new OpenedFile(byId("controls"), byId("options"), host, (message) => showError(message));
+new OpenedFile(byId("controls"), byId("options"), host, (message) => showError(message));
 for (const kind of ["started", "changed"] as const) lab.on(kind, () => { if (lab.missing === 0) discovery.visit(); });
-lab.on("given", () => opened.parametersChanged());
 lab.on("averages", (rotation) => discovery.follow(rotation));
 lab.on("ready", () => explorer.parametersKnown());
 byId("options").append(...experiments(lab, dish, player, transport));
@@ -68,19 +67,22 @@ lab.on("frame", () => {
     if (!isFirst) return;
     isFirst = false;
     if (isExact) player.setPlaying(false);
-    else if (player.lapsesByItself && (player.isPlaying || player.reducedMotion)) player.lapse();
+    else player.lapseByItself();
     isExact = false;
 });
 lab.on("ready", () => {
     dish.layOut();
     const address = readAddress(lab);
     if (address) {
-        lab.given = address.given;
-        followAddress(lab);
+        // Each new visitor sees another run; a link keeps its own.
+        lab.given = Object.keys(address.given).length > 0 || address.events > 0 ? address.given : {seed: newSeed()};
+        discovery.changed = lesson.changed = followAddress(lab, () => discovery.fragment());
         isExact = address.events > 0;
         lab.begin(address.events);
+        lesson.open();
     }
-    buildGallery(lab, (given) => lab.set(given, {all: true, restart: true}));
+    discovery.readLink();
+    buildGallery(lab, (given) => lab.set(lab.withSeed(given), {all: true, restart: true}));
     player.start();
 });
 

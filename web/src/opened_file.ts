@@ -1,12 +1,11 @@
 // Files of the command line on the page: a result or a checkpoint sets the parameters, and the page repeats the
-// run and compares; a trajectory is replayed in the container's view.
+// run and compares.
 import {rates, type Estimate} from "./engine";
 import type {Host, Values} from "./host";
 import {button, element, withError} from "./page";
 import {Runs} from "./runs";
 import {checkpointLine} from "./symbols";
 import {symbols, texts} from "./texts";
-import {TooLarge, readTrajectory, type Trajectory} from "./trajectory_file";
 
 /** A result of `swirl run --json`, as far as the page reads it. */
 interface Result {
@@ -19,17 +18,15 @@ interface Result {
 
 export type Opened =
     | {kind: "result"; given: Values; result: Result}
-    | {kind: "checkpoint"; given: Values; events: number}
-    | {kind: "trajectory"; given: Values; trajectory: Trajectory};
+    | {kind: "checkpoint"; given: Values; events: number};
 
-/** Thrown for a file that the page cannot read; `problem` is a key of texts.opened. */
+/** Thrown for a file that the page cannot read; `problem` is a key of texts.opened, `what` its wrong value. */
 export class NotReadable extends Error {
-    constructor(readonly problem: "unknown" | "damaged" | "noParameters") { super(problem); }
+    constructor(readonly problem: "unknown" | "damaged" | "noParameters" | "wrongValue", readonly what = "") { super(problem); }
 }
 
-const maxBytes = 400e6;
+const maxBytes = 50e6;
 const maxRepeated = 2e7; // events
-const hdf5Signature = [0x89, 0x48, 0x44, 0x46, 0x0d, 0x0a, 0x1a, 0x0a];
 
 /** The parameters of a run, as the page takes them, from the JSON of the command line. Values that follow from
  *  others, and the length of the run, are omitted. */
@@ -38,7 +35,7 @@ export function givenFrom(config: Record<string, unknown>, known: readonly {name
     for (const {name, settable, default: standard} of known) {
         const value = config[name];
         if (!settable || fixed.includes(name) || value === null || value === undefined) continue;
-        const text = typeof value === "object" ? mixtureText(value as Record<string, unknown>) : String(value);
+        const text = isObject(value) ? mixtureText(value) : String(value);
         // Numbers are compared as numbers: "1.0" is the default "1".
         const isDefault = text === standard || (standard !== "" && Number(text) === Number(standard));
         if (!isDefault) given[name] = text;
@@ -71,16 +68,16 @@ function parsed(text: string): unknown {
 type Known = Parameters<typeof givenFrom>[1];
 
 /** Throws NotReadable. */
-export function readFile(bytes: ArrayBuffer, name: string, known: Known): Opened {
+export function readFile(bytes: ArrayBuffer, known: Known): Opened {
     const all = new Uint8Array(bytes);
-    if (hdf5Signature.every((byte, k) => all[k] === byte)) return readHdf5(bytes, name, known);
     const begin = new TextDecoder("latin1").decode(all.subarray(0, 40));
     if (begin.startsWith(checkpointLine)) return readCheckpoint(all, known);
     if (!/^\s*\{/.test(begin)) throw new NotReadable("unknown");
     const result = parsed(new TextDecoder().decode(all));
     if (!isObject(result)) throw new NotReadable("damaged");
     const {config, events} = result;
-    if (!isObject(config) || !isObject(events) || typeof events["total"] !== "number") throw new NotReadable("unknown");
+    if (!isObject(config) || !isObject(events)) throw new NotReadable("unknown");
+    requireValues(result);
     const warmup = isObject(result["warmup"]) ? Number(result["warmup"]["periods"]) : NaN;
     const given = givenFrom(config, known);
     if (Number.isInteger(warmup) && warmup !== 20) given["warmup"] = String(warmup);
@@ -88,16 +85,24 @@ export function readFile(bytes: ArrayBuffer, name: string, known: Known): Opened
     return {kind: "result", given, result: result as unknown as Result};
 }
 
-function readHdf5(bytes: ArrayBuffer, name: string, known: Known): Opened {
-    let trajectory: Trajectory;
-    try {
-        trajectory = readTrajectory(bytes, name);
-    } catch (error) {
-        if (error instanceof TooLarge) throw error;
-        throw new NotReadable("damaged"); // jsfive throws errors of any kind
+const isNumber = (value: unknown): boolean => typeof value === "number" && Number.isFinite(value);
+const isMissing = (value: unknown): boolean => value === null || value === undefined;
+
+/** Throws NotReadable for a value of a result that the page would use and that is not of its kind. */
+function requireValues(result: Record<string, unknown>): void {
+    const require = (name: string, value: unknown, holds: boolean): void => {
+        if (!holds) throw new NotReadable("wrongValue", `${name} = ${String(JSON.stringify(value)).slice(0, 60)}`);
+    };
+    const inside = (value: unknown): Record<string, unknown> => (isObject(value) ? value : {});
+    const {total} = inside(result["events"]), {periods} = inside(result["warmup"]);
+    require("events.total", total, Number.isSafeInteger(total) && (total as number) >= 0);
+    require("warmup.periods", periods, isMissing(periods) || isNumber(periods));
+    const {state_hash: hash} = result;
+    require("state_hash", hash, isMissing(hash) || typeof hash === "string");
+    for (const rate of rates) for (const key of ["mean", "error"]) {
+        const value = inside(inside(result["rotation"])[rate])[key];
+        require(`rotation.${rate}.${key}`, value, isMissing(value) || isNumber(value));
     }
-    const config = parsed(trajectory.parameters);
-    return {kind: "trajectory", trajectory, given: isObject(config) ? givenFrom(config, known) : {}};
 }
 
 /** The layout is that of src/swirl/io/checkpoint.hpp. The state begins with the numbers of recorded frames, of
@@ -107,7 +112,7 @@ function readCheckpoint(all: Uint8Array, known: Known): Opened {
     const line = all.indexOf(10) + 1;
     if (line === 0 || all.length < line + 8) throw new NotReadable("damaged");
     const size = Number(view.getBigUint64(line, true)), state = line + 8 + size;
-    if (!(state + 32 <= all.length)) throw new NotReadable("damaged");
+    if (!(state + 32 <= all.length)) throw new NotReadable("damaged"); // also for a size beyond 2^53
     const about = parsed(new TextDecoder().decode(all.subarray(line + 8, state)));
     const identity = isObject(about) ? about["identity"] : undefined;
     const config = isObject(identity) ? identity["parameters"] : undefined;
@@ -117,10 +122,8 @@ function readCheckpoint(all: Uint8Array, known: Known): Opened {
 
 export class OpenedFile {
     private readonly place = element("section", {id: "opened", hidden: true});
-    private readonly choose = element("input", {type: "file", id: "open-file", accept: ".json,.h5,.hdf5,.checkpoint,.partial"});
+    private readonly choose = element("input", {type: "file", id: "open-file", accept: ".json,.checkpoint,.partial"});
     private runs: Runs | undefined;
-    private replay: Replayer | undefined;
-    private isShowing = false; // sets the parameters itself
 
     /** The section with the file goes to `place`, the button to `buttons`. */
     constructor(place: HTMLElement, buttons: HTMLElement, private readonly host: Host,
@@ -163,49 +166,33 @@ export class OpenedFile {
         this.close();
         if (file.size > maxBytes) return this.fail(texts.opened.tooLarge(file.name, maxBytes / 1e6));
         try {
-            this.show(readFile(await file.arrayBuffer(), file.name, this.host.parameters()), file.name);
+            this.show(readFile(await file.arrayBuffer(), this.host.parameters()), file.name);
         } catch (error) {
-            if (error instanceof NotReadable) return this.fail(texts.opened[error.problem](file.name));
-            if (error instanceof TooLarge) return this.fail(texts.opened.tooLarge(file.name, maxBytes / 1e6));
+            if (error instanceof NotReadable) return this.fail(texts.opened[error.problem](file.name, error.what));
             throw error;
         }
     }
 
-    /** Other parameters end the replay, since the page shows their simulation. */
-    parametersChanged(): void {
-        if (this.replay && !this.isShowing) this.close();
-    }
-
     private close(): void {
         this.runs?.stop();
-        this.replay?.stop();
-        this.runs = this.replay = undefined;
+        this.runs = undefined;
         this.place.hidden = true;
         this.place.replaceChildren();
     }
 
     private show(opened: Opened, name: string): void {
-        this.isShowing = true;
         this.host.show(opened.given);
-        this.isShowing = false;
         const end = button("×", () => this.close(), "close-opened");
         end.setAttribute("aria-label", texts.opened.close);
         end.title = texts.opened.close;
         const heading = opened.kind === "result" ? texts.opened.result(name)
-            : opened.kind === "checkpoint" ? texts.opened.checkpoint(name, opened.events)
-            : texts.opened.trajectory(name, opened.trajectory.frames.length, opened.trajectory.discs);
+            : texts.opened.checkpoint(name, opened.events);
         const status = element("p", {id: "opened-status", textContent: texts.opened.parametersSet});
         status.setAttribute("role", "status");
         this.place.hidden = false;
         this.place.replaceChildren(element("div", {className: "row-of-caption"}, element("h2", {textContent: heading}), end), status);
-        if (opened.kind === "trajectory") {
-            if (!opened.trajectory.complete) status.textContent = texts.opened.incomplete;
-            this.replay = new Replayer(opened.trajectory, this.host);
-            this.place.append(this.replay.controls);
-        } else {
-            const result = opened.kind === "result" ? opened.result : undefined;
-            void this.compare(opened.given, opened.kind === "result" ? opened.result.events.total : opened.events, result, status);
-        }
+        const result = opened.kind === "result" ? opened.result : undefined;
+        void this.compare(opened.given, opened.kind === "result" ? opened.result.events.total : opened.events, result, status);
     }
 
     /** Repeats the run to its last event and shows both results. */
@@ -253,71 +240,4 @@ function comparison(file: Result, page: Result | undefined): HTMLElement {
         element("tr", {}, ...head.map((each) => element("th", {textContent: each, scope: "col"}))),
         ...rows.map(([name, of]) => element("tr", {}, element("th", {textContent: name, scope: "row"}),
                                             ...cells(of).map((each) => element("td", {textContent: each})))));
-}
-
-/** Plays the frames of a trajectory at one period per second. */
-class Replayer {
-    readonly controls: HTMLElement;
-    private readonly slider = element("input", {type: "range", min: "0", step: "1", value: "0", id: "replay-frame"});
-    private readonly caption = element("span", {id: "replay-caption"});
-    private readonly toggle = button(texts.opened.pause, () => this.setPlaying(!this.playing), "replay-play");
-    private playing = false;
-    private stopped = false;
-    private at = 0; // in periods of the recording
-    private before = 0;
-
-    constructor(private readonly trajectory: Trajectory, private readonly host: Host) {
-        this.slider.max = String(trajectory.frames.length - 1);
-        this.slider.setAttribute("aria-label", texts.opened.position);
-        this.slider.addEventListener("input", () => {
-            this.setPlaying(false);
-            this.at = this.periodsAt(Number(this.slider.value));
-            this.draw(Number(this.slider.value));
-        });
-        this.controls = element("div", {className: "bar"}, this.toggle, this.slider, this.caption);
-        this.at = this.periodsAt(0);
-        this.setPlaying(host.playing()); // before the simulation is paused for the recording
-        this.draw(0);
-        const animate = (now: number): void => {
-            if (this.stopped) return;
-            requestAnimationFrame(animate);
-            this.advance(now);
-        };
-        requestAnimationFrame(animate);
-    }
-
-    stop(): void {
-        this.stopped = true;
-        this.host.replay(undefined);
-    }
-
-    private periodsAt(frame: number): number {
-        return (this.trajectory.frames[frame]?.[0] ?? 0) / this.trajectory.period;
-    }
-
-    private setPlaying(on: boolean): void {
-        this.playing = on;
-        this.before = 0;
-        this.toggle.textContent = on ? texts.opened.pause : texts.opened.play;
-    }
-
-    private advance(now: number): void {
-        const elapsed = this.before > 0 ? Math.min(now - this.before, 100) / 1000 : 0;
-        this.before = now;
-        if (!this.playing) return;
-        const last = this.trajectory.frames.length - 1;
-        this.at += elapsed;
-        if (this.at > this.periodsAt(last)) this.at = this.periodsAt(0);
-        let frame = Number(this.slider.value);
-        if (this.periodsAt(frame) > this.at) frame = 0;
-        while (frame < last && this.periodsAt(frame + 1) <= this.at) ++frame;
-        if (frame !== Number(this.slider.value)) this.draw(frame);
-    }
-
-    private draw(frame: number): void {
-        const {frames, room} = this.trajectory;
-        this.slider.value = String(frame);
-        this.caption.textContent = texts.opened.frame(frame + 1, frames.length, this.periodsAt(frame).toFixed(2));
-        this.host.replay({frame: frames[frame]!, room});
-    }
 }

@@ -1,4 +1,5 @@
-// Creates and finds elements of the page.
+// Creates and finds elements of the page, and formats its numbers.
+import {language} from "./start";
 
 export function element<Tag extends keyof HTMLElementTagNameMap>(
     tag: Tag, properties: Partial<HTMLElementTagNameMap[Tag]> = {},
@@ -45,12 +46,20 @@ export const paper = (): string => style("--paper");
 export const accent = (): string => style("--accent");
 export const dark = (): boolean => matchMedia("(prefers-color-scheme: dark)").matches;
 
+/** Numbers with the decimal sign of the page's language. */
+export const localized = (text: string): string => language === "de" ? text.replace(/(\d)\.(?=\d)/g, "$1,") : text;
+/** A number as it was typed, with a decimal point. */
+export const typedNumber = (text: string): string => language === "de" ? text.replaceAll(",", ".") : text;
+/** A list as it was typed, separated by commas; where these are decimal signs, semicolons separate. */
+export const typedList = (text: string): string => language === "de" ? typedNumber(text).replaceAll(";", ",") : text;
+export const shownList = (text: string): string => language === "de" ? localized(text.replaceAll(",", ";")) : text;
+
 /** With a minus sign. */
-export const signed = (x: number, decimals: number): string => x.toFixed(decimals).replace("-", "−");
+export const signed = (x: number, decimals: number): string => localized(x.toFixed(decimals).replace("-", "−"));
 
 export function withError(mean: number | null, error: number | null, unknown: string): string {
     if (mean === null) return unknown;
-    if (error === null || !(error > 0)) return mean.toFixed(3);
+    if (error === null || !(error > 0)) return signed(mean, 3);
     const decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(error))));
-    return `${mean.toFixed(decimals)} ± ${error.toFixed(decimals)}`.replace(/-/g, "−");
+    return `${signed(mean, decimals)} ± ${signed(error, decimals)}`;
 }

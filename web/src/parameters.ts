@@ -1,7 +1,7 @@
 // The controls of the parameters: large sliders for the most important ones, and the others in groups.
 import type {Parameter} from "./engine";
 import type {Laboratory} from "./laboratory";
-import {byId, element} from "./page";
+import {byId, element, localized, typedNumber} from "./page";
 import {texts} from "./texts";
 
 /** The inputs of a parameter: a text or a choice of words, and an optional slider. */
@@ -56,6 +56,16 @@ function textField(row: Parameter, id: string): [Field["text"], ...HTMLElement[]
                           ...words.map((word) => element("option", {value: word})))];
 }
 
+/** A value that is no number, such as a word or two coefficients, leaves the slider without a thumb. */
+function showOn(slider: HTMLInputElement, value: string): void {
+    const isNumber = value !== "" && Number.isFinite(Number(value));
+    if (isNumber) slider.value = value;
+    slider.setAttribute("aria-valuetext", localized(value));
+    slider.classList.toggle("unset", !isNumber);
+    const share = isNumber ? (Number(slider.value) - Number(slider.min)) / (Number(slider.max) - Number(slider.min)) : 0;
+    slider.style.setProperty("--share", `${100 * share}%`);
+}
+
 export class Parameters {
     private readonly fields: Record<string, Field> = {};
     private readonly groups: HTMLElement[] = [];
@@ -96,7 +106,8 @@ export class Parameters {
         const label = element("label", {htmlFor: id, title}, texts.labels[row.name] ?? row.name,
             ...(symbol ? [" ", element("i", {}, symbol, ...(index ? [element("sub", {textContent: index})] : []))] : []));
         text.title = title;
-        text.addEventListener("input", () => this.change(row.name, text.value.trim()));
+        const isNumber = row.slider !== null || row.name === "mixture";
+        text.addEventListener("input", () => this.change(row.name, isNumber ? typedNumber(text.value.trim()) : text.value.trim()));
         const made = element("div", {className}, label, text, ...proposed);
         this.fields[row.name] = {row: made, text};
         if (!row.slider) return made;
@@ -123,16 +134,12 @@ export class Parameters {
     private show(): void {
         const {lab, fields} = this;
         for (const [name, {row, text, slider}] of Object.entries(fields)) {
-            const value = lab.given[name] ?? "", holds = lab.effectiveValue(name);
+            const value = lab.given[name] ?? "", holds = lab.effectiveValue(name), shown = shortened(holds.split(",")[0]!);
             const isChoice = text instanceof HTMLSelectElement;
-            if (text instanceof HTMLInputElement) text.placeholder = shortened(holds.split(",")[0]!);
+            if (text instanceof HTMLInputElement) text.placeholder = localized(shown);
             const wanted = isChoice ? value || holds : value;
-            if (text.value.trim() !== wanted) text.value = wanted; // unless it is being typed
-            if (slider) {
-                slider.value = value || holds || slider.value;
-                const share = (Number(slider.value) - Number(slider.min)) / (Number(slider.max) - Number(slider.min));
-                slider.style.setProperty("--share", `${100 * share}%`);
-            }
+            if (typedNumber(text.value.trim()) !== typedNumber(wanted)) text.value = isChoice ? wanted : localized(wanted); // unless it is being typed
+            if (slider) showOn(slider, value || shown);
             row.hidden = !main.includes(name) && value === "" && !applies(name, lab.configuration);
         }
         for (const group of this.groups) group.hidden = [...group.querySelectorAll<HTMLElement>(".control")].every((row) => row.hidden);

@@ -1,10 +1,11 @@
 // Time on the page: playing, its pace, single events, and the fast run to the averages.
 import type {Dish} from "./dish";
+import {minPeriods} from "./estimates";
 import type {Laboratory} from "./laboratory";
 
 /** In the time-lapse, one image per period. */
 const lapsePace = 16; // periods per second
-const averagedInLapse = 12; // periods after the warm-up
+const averagedInLapse = minPeriods; // after the warm-up, so that the average has an error
 /** A period of more discs takes too long for a time-lapse. */
 const lapseDiscs = 300;
 /** Time for which a change of parameters is shown at the usual pace, before the time-lapse to its averages. */
@@ -13,6 +14,8 @@ const watched = 3000; // milliseconds
 export class Player {
     isPlaying: boolean;
     pace = 1; // periods per second
+    /** The motion within a period is visible: at a third of the pace, and no time-lapse starts automatically. */
+    isSlow = false;
     /** The time-lapse starts automatically at the beginning and after a change of parameters. */
     lapsesByItself = true;
     /** Period at which the time-lapse ends; 0: there is none. */
@@ -36,8 +39,8 @@ export class Player {
         lab.on("changed", (byParameters) => {
             clearTimeout(this.lapseBegin);
             this.endLapse();
-            if (byParameters && this.lapsesByItself && this.isPlaying)
-                this.lapseBegin = setTimeout(() => { if (this.isPlaying) this.lapse(); }, watched);
+            if (byParameters && this.isPlaying)
+                this.lapseBegin = setTimeout(() => { if (this.isPlaying) this.lapseByItself(); }, watched);
         });
         lab.on("error", () => {
             this.playsAfterError ||= this.isPlaying;
@@ -76,6 +79,11 @@ export class Player {
         return last ? last.frame[1]! + last.frame[2]! / this.lab.value("period") : 0;
     }
 
+    /** The time-lapse at the beginning and after a change. */
+    lapseByItself(): void {
+        if (this.lapsesByItself && !this.isSlow && (this.isPlaying || this.reducedMotion)) this.lapse();
+    }
+
     /** Runs until there are averages, or further; draws one image per period, or none with reduced motion. */
     lapse(): void {
         const {lab} = this;
@@ -111,7 +119,7 @@ export class Player {
         // After a pause, or a while in the background, time continues from here.
         const elapsed = this.lastTick > 0 ? Math.min(now - this.lastTick, 100) : 0;
         this.lastTick = now;
-        const periods = elapsed / 1000 * (this.lapseEnd > 0 ? lapsePace : this.pace);
+        const periods = elapsed / 1000 * (this.lapseEnd > 0 ? lapsePace : this.isSlow ? this.pace / 3 : this.pace);
         if (dish.compared) {
             dish.compared.coloring = dish.coloring;
             dish.compared.tick(periods);

@@ -1,5 +1,5 @@
 // A plot of curves: two linear axes, lines with gaps, and an optional drawing on top. Each change redraws it.
-import {element} from "./page";
+import {element, signed} from "./page";
 
 export interface Axis {
     label?: string;
@@ -50,7 +50,7 @@ export function ticksOf(from: number, to: number, most: number): number[] {
 /** Tick labels with the same number of decimals. */
 export function labelsOf(ticks: number[]): string[] {
     const decimals = Math.max(0, ...ticks.map((tick) => (String(tick).split(".")[1] ?? "").length));
-    return ticks.map((tick) => tick.toFixed(decimals).replace("-", "−"));
+    return ticks.map((tick) => signed(tick, decimals));
 }
 
 export class Plot {

@@ -1,5 +1,5 @@
 // A plot of estimates with intervals. Curves differ in colour and in the shape of their points.
-import {element, ink, line, paper, quiet} from "./page";
+import {element, ink, line, localized, paper, quiet} from "./page";
 import {Plot} from "./plot";
 
 export interface PlottedPoint {
@@ -68,14 +68,14 @@ export class PointsPlot {
         context.drawImage(from, 0, row * (rows + 0.5));
         context.fillStyle = ink();
         context.font = `600 ${pixelsOf(13)}px system-ui, sans-serif`;
-        context.fillText(heading, pixelsOf(10), 0.8 * row, canvas.width - pixelsOf(20));
+        context.fillText(localized(heading), pixelsOf(10), 0.8 * row, canvas.width - pixelsOf(20));
         if (rows === 1) return canvas.toDataURL("image/png");
         context.font = `${pixelsOf(13)}px system-ui, sans-serif`;
         for (const [k, curve] of this.curves.entries()) {
             const y = (1.7 + k) * row;
             this.drawShape(context, pixelsOf(18), y, k, curve);
             context.fillStyle = ink();
-            context.fillText(curve.name, pixelsOf(32), y + pixelsOf(4));
+            context.fillText(localized(curve.name), pixelsOf(32), y + pixelsOf(4));
         }
         return canvas.toDataURL("image/png");
     }
@@ -199,7 +199,7 @@ export class PointsPlot {
         this.legend.replaceChildren(...this.curves.map((curve, k) => {
             const shape = element("span", {className: `shape shape-${k % 3}`});
             shape.style.background = this.colorOf(k, curve);
-            return element("span", {}, shape, curve.name);
+            return element("span", {}, shape, localized(curve.name));
         }));
     }
 }

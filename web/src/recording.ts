@@ -4,6 +4,9 @@ import {frameDisc, frameHead} from "./engine";
 import {button, element, save} from "./page";
 import {texts} from "./texts";
 
+/** In order of preference. Safari before 18.4 records MP4 only. */
+const movieTypes = ["video/webm;codecs=vp8", "video/webm", "video/mp4"];
+const movieNames: Record<string, string> = {webm: "WebM", mp4: "MP4"};
 const maxNumbers = 2e7; // per recording, eight bytes each
 
 /** A frame as extended XYZ. */
@@ -71,8 +74,7 @@ export class Recording {
         this.done = []; // frees memory for the new recording
         this.movie = undefined;
         const canvas = this.canvas();
-        const type = ["video/webm;codecs=vp8", "video/webm"].find(
-            (each) => globalThis.MediaRecorder?.isTypeSupported(each));
+        const type = movieTypes.find((each) => globalThis.MediaRecorder?.isTypeSupported(each));
         if (canvas && type) {
             const parts: Blob[] = [];
             this.recorder = new MediaRecorder(canvas.captureStream(), {mimeType: type,
@@ -80,7 +82,7 @@ export class Recording {
             this.recorder.ondataavailable = ({data}): void => { parts.push(data); };
             this.recorder.onstop = (): void => {
                 this.recorder = undefined;
-                this.movie = new Blob(parts, {type: "video/webm"});
+                this.movie = new Blob(parts, {type: type.split(";")[0]!});
                 this.layOut();
             };
             this.recorder.start();
@@ -93,8 +95,8 @@ export class Recording {
         this.start.setAttribute("aria-pressed", String(this.frames !== undefined));
         const buttons: HTMLElement[] = [];
         if (this.movie && !this.frames) {
-            const movie = this.movie;
-            buttons.push(button(texts.movie, () => save("swirl.webm", {bytes: movie}), "save-movie"));
+            const movie = this.movie, form = movie.type.split("/")[1]!;
+            buttons.push(button(texts.movie(movieNames[form]!), () => save(`swirl.${form}`, {bytes: movie}), "save-movie"));
         }
         if (this.done.length > 0 && !this.frames)
             buttons.push(button(texts.positions, () => save("swirl.xyz", {bytes: positionsOf(this.done)}),

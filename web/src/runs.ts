@@ -1,5 +1,6 @@
 // Whole runs in the background, on all cores. Each worker makes one run at a time.
 import {UsageError, perRate, type Crossing, type Estimate, type Rate, type Rotation, type RunNumbers} from "./engine";
+import {estimateOf, type MeanWithError} from "./estimates";
 import type {FromWorker, ToWorker} from "./messages";
 import {engineMessage} from "./texts";
 
@@ -8,16 +9,36 @@ export interface FinishedRun {
     rotation: Rotation | undefined;
 }
 
-/** A run for the evaluation of N_c. */
+/** A run for the evaluation of a point or of N_c. */
 export interface EvaluatedRun {
     discs: number;
     periods: number;
-    rotation: Record<Rate, Estimate>;
+    rotation: Record<Rate, MeanWithError & Partial<Estimate>>;
+    seed?: string;
 }
 export type Crossings = Record<Rate, Crossing>;
+export type Estimates = Record<Rate, MeanWithError>;
+
+/** The means of replicates with the errors between them. */
+export const estimates = (replicates: EvaluatedRun[]): Estimates => perRate((rate) => {
+    const means = replicates.map(({rotation}) => rotation[rate].mean);
+    return means.every((mean) => mean !== null) ? estimateOf(means) : {mean: null, error: null};
+});
+
+/** Number of seeds of a point. A single run underestimates its error where the discs remember their arrangement for
+ *  longer than a block of it; the scatter between seeds does not. */
+export const seedsPerPoint = 4;
+const maxSeeds = 12;
+
+/** The seeds of a point. A text that is no number stays, and the engine rejects it. */
+export function seedsFrom(first = "1", count = seedsPerPoint): string[] {
+    const whole = /^\d+$/.test(first || "1") ? BigInt(first || "1") : undefined;
+    return Array.from({length: count}, (_, k) =>
+        whole === undefined ? first : String(BigInt.asUintN(64, whole + BigInt(k))));
+}
 
 /** Runs without a mean or an error are omitted. */
-function numbersOf(discs: number, periods: number, {mean, error, effective_samples}: Estimate): RunNumbers[] {
+function numbersOf(discs: number, periods: number, {mean, error, effective_samples}: EvaluatedRun["rotation"][Rate]): RunNumbers[] {
     return mean === null || error === null ? [] : [[discs, mean, error, periods, effective_samples ?? 0]];
 }
 
@@ -45,6 +66,21 @@ export class Runs {
         const answer = await this.ask({kind: "point", given, periods});
         if (answer.kind !== "point") throw new Error(answer.kind);
         return {rotation: answer.collapsed ? undefined : answer.rotation};
+    }
+
+    /** Runs that differ in their seeds only, in parallel or one after the other. A collapsed run is replaced by one with
+     *  the next seed. Undefined if too many collapse, or `isWanted` has become false. Rejects with UsageError. */
+    async replicates(given: Record<string, string>, periods: number,
+                     isWanted?: () => boolean): Promise<EvaluatedRun[] | undefined> {
+        const discs = Number(given["discs"]), all: EvaluatedRun[] = [], seeds = seedsFrom(given["seed"], maxSeeds);
+        while (all.length < seedsPerPoint && seeds.length > 0) {
+            if (isWanted && !isWanted()) return undefined;
+            const next = seeds.splice(0, isWanted ? 1 : seedsPerPoint - all.length);
+            const finished = await Promise.all(next.map((seed) => this.run({...given, seed}, periods)));
+            for (const [k, {rotation}] of finished.entries())
+                if (rotation) all.push({discs, periods, rotation, seed: next[k]!});
+        }
+        return all.length === seedsPerPoint ? all : undefined;
     }
 
     /** N_c by each rotation rate. */

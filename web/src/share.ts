@@ -12,7 +12,7 @@ const copyButton = (): HTMLButtonElement => byId("copy") as HTMLButtonElement;
 
 /** The address of the page with the given parameters, in the language that was chosen. */
 export function addressOf(given: Record<string, string>): string {
-    const query = new URLSearchParams({...given, ...pageEntries()}), text = query.toString();
+    const query = new URLSearchParams({...given, ...pageEntries}), text = query.toString();
     return text ? `?${text}` : location.pathname;
 }
 

@@ -3,33 +3,34 @@
 // notebook has no address of its own.
 
 /** Entries of the query that are not parameters of a run. */
-const ofThePage = ["lang", "embed"];
+const ofThePage = ["lang", "embed", "lesson"];
 
-export function startQuery(): URLSearchParams {
-    if (typeof document === "undefined") return new URLSearchParams();
-    const written = document.querySelector<HTMLMetaElement>('meta[name="swirl-start"]')?.content ?? "";
-    const query = new URLSearchParams(written);
-    // An address with parameters replaces those of the file.
-    const own = new URLSearchParams(location.search);
-    if ([...own.keys()].some((name) => !ofThePage.includes(name)))
-        for (const name of [...query.keys()]) if (!ofThePage.includes(name)) query.delete(name);
-    for (const [name, value] of own) query.set(name, value);
-    return query;
-}
+const entriesOf = (query: string): [string, string][] => [...new URLSearchParams(query)];
+const hasPage = typeof document !== "undefined";
+const address = hasPage ? entriesOf(location.search) : [];
+const written = hasPage ? entriesOf(document.querySelector<HTMLMetaElement>('meta[name="swirl-start"]')?.content ?? "") : [];
 
-/** The parameters among them; names are written with underscores. */
-export function startParameters(): [string, string][] {
-    return [...startQuery()].filter(([name]) => !ofThePage.includes(name))
-        .map(([name, value]) => [name.replaceAll("-", "_"), value]);
+/** The parameters among the entries, with underscores in their names; those of the address replace those of the file.
+ *  Names that are not known, such as those that other sites add to a link, are ignored. */
+export function startParameters(isKnown: (name: string) => boolean): [string, string][] {
+    const [own, ofFile] = [address, written].map((entries) => entries
+        .map(([name, value]): [string, string] => [name.replaceAll("-", "_"), value]).filter(([name]) => isKnown(name)));
+    return own!.length > 0 ? own! : ofFile!;
 }
 
 /** The other entries of the page's own address. */
-export function pageEntries(): Record<string, string> {
-    return Object.fromEntries([...new URLSearchParams(location.search)].filter(([name]) => ofThePage.includes(name)));
+export const pageEntries: Record<string, string> = Object.fromEntries(address.filter(([name]) => ofThePage.includes(name)));
+/** Sets one of them for later addresses, or removes it. */
+export function setPageEntry(name: string, value: string | undefined): void {
+    if (value === undefined) delete pageEntries[name];
+    else pageEntries[name] = value;
 }
+/** Such an entry of the address or of the file. */
+export const pageEntry = (name: string): string | null =>
+    pageEntries[name] ?? written.find(([each]) => each === name)?.[1] ?? null;
 
 /** Whether the page shows the container and its main controls only. */
-export const isEmbedded = (): boolean => startQuery().get("embed") === "1";
+export const isEmbedded = (): boolean => pageEntry("embed") === "1";
 
 /** The first supported language of the address and of the browser. */
 export function languageOf(wanted: string | null, preferred: readonly string[]): "en" | "de" {
@@ -43,4 +44,4 @@ export function languageOf(wanted: string | null, preferred: readonly string[]):
 /** Workers get the language as their name. */
 export const language: "en" | "de" = typeof document === "undefined"
     ? languageOf((globalThis as {name?: string}).name || null, [])
-    : languageOf(startQuery().get("lang"), navigator.languages);
+    : languageOf(pageEntry("lang"), navigator.languages);

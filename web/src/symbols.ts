@@ -19,3 +19,11 @@ export const documentIn = (page: string): string => `docs/${page}.md`;
 
 /** The first line of a checkpoint begins with it (src/swirl/io/checkpoint.hpp). */
 export const checkpointLine = "swirl checkpoint ";
+
+/** A message with the names of fields instead of options; within a sentence they begin with a small letter if
+ *  `isEnglish`. */
+export const labelled = (message: string, labels: Record<string, string>, isEnglish = true): string =>
+    message.replace(/--([a-z-]+)/g, (option, name: string, at: number) => {
+        const label = labels[name.replaceAll("-", "_")], begins = at === 0 || message[at - 1] === "\n";
+        return !label ? option : begins || !isEnglish ? label : label[0]!.toLowerCase() + label.slice(1);
+    });

@@ -6,6 +6,8 @@ import type {Crossing, Rate} from "./engine";
 import {symbols} from "./symbols";
 import type * as en from "./texts.en";
 
+const comma = (number: string): string => number.replace(".", ",");
+
 export const pageTexts: typeof en.pageTexts = {
     language: "de",
     title: "swirl: Scheiben in einer geschwenkten Schale",
@@ -16,7 +18,7 @@ export const pageTexts: typeof en.pageTexts = {
     lesson: "Schulstunde",
     gallery: "Beispiele",
     panels: "Weitere Ansichten",
-    tagline: "Murmeln in einer geschwenkten Schale drehen sich mit dem Schwenken oder dagegen.",
+    tagline: "Murmeln in einer geschwenkten Schale drehen sich im Umlaufsinn oder gegensinnig.",
     commandLine: "Die Seite rechnet mit dem Programm, den Parametern und den Mittelwerten der Kommandozeile. Dieser Befehl " +
         "erzeugt exakt denselben Zustand:",
     copy: "Kopieren",
@@ -40,7 +42,7 @@ export const texts: typeof en.texts = {
     result: "Ergebnis speichern (JSON)",
     record: "Aufnehmen",
     recordStop: "Aufnahme beenden",
-    movie: "Video speichern (WebM)",
+    movie: (form: string): string => `Video speichern (${form})`,
     positions: "Orte speichern (XYZ)",
     compare: "Vergleichen",
     compareHelp: "Behält diese Schale auf der Seite, neben einer neuen",
@@ -64,8 +66,8 @@ export const texts: typeof en.texts = {
     loose: "frei",
     sparse: "leer",
     dense: "dicht",
-    spinAgainst: "dagegen",
-    spinWith: "im Schwenksinn",
+    spinAgainst: "gegensinnig",
+    spinWith: "im Umlaufsinn",
     atRest: "in Ruhe",
     fast: "schnell",
     flowKey: "Pfeil von einer Zelle: Geschwindigkeit der Schale",
@@ -83,28 +85,28 @@ export const texts: typeof en.texts = {
         `Bewege die Schale mit dem Zeiger. Der Haufen hat sich um ${turns} Umdrehungen gedreht.`,
     turned: "gedreht",
     turnedHelp: "Winkel, um den sich der Haufen gedreht hat: ϖ, über die Zeit summiert. Der Bogen zeigt diesen Winkel",
-    rotationHelp: "Drehrate des Haufens im Verhältnis zur Rate, mit der die Schale ihre Bahn umläuft: Mittel über Scheiben und Zeit, mit " +
-        "Standardunsicherheit. Das Band auf der Skala ist das 95-%-Intervall.",
+    rotationHelp: "Drehrate des Haufens im Verhältnis zur Rate, mit der die Schale ihre Bahn umläuft: Mittel über Scheiben und Zeit. " +
+        "Die Unsicherheit erscheint nach 50 Umläufen. Das Band auf der Skala ist das 95-%-Intervall: 1,96 Unsicherheiten nach jeder Seite.",
     periodsHelp: "Umläufe der Schale auf ihrer Bahn",
     differ: (rigid: string): string => `Zählen äußere Scheiben mehr, wie bei einem starren Körper, so hat sich der Haufen um ${rigid} Umdrehungen gedreht: ` +
         "Innere und äußere Scheiben drehen sich verschieden schnell.",
-    sides: {with: "im Schwenksinn", against: "gegen den Schwenksinn"},
+    sides: {with: "im Umlaufsinn", against: "gegensinnig"},
     verdict: (n: number, particles: string): [string, string] =>
         [`${particles} ${n === 1 ? "dreht" : "drehen"} sich `, "."],
     soFar: (particles: string): [string, string] => [`${particles}, bisher: `, "."],
     nearZero: (particles: string): [string, string] => [`${particles} drehen sich kaum; wenn, dann `, "."],
     perPeriod: "Drehrate in jedem Umlauf, und ihr Mittel seit dem Einschwingen",
     symbolOf: {discs: "N", mu_disc: "μ_d", mu_wall: "μ_w", amplitude: "A", restitution: "e"},
-    clipped: (n: number, at: number): string => `${n === 1 ? "Ein Umlauf liegt" : `${n} Umläufe liegen`} jenseits von ±${at}: ` +
+    clipped: (n: number, at: number): string => `${n === 1 ? "Ein Umlauf liegt" : `${n} Umläufe liegen`} jenseits von ±${comma(String(at))}: ` +
         "Eine Scheibe kam dem Schwerpunkt sehr nahe.",
-    labels: {discs: "Anzahl der Scheiben", mu: "Reibung", amplitude: "Amplitude", mu_disc: "Reibung zwischen Scheiben",
+    labels: {discs: "Anzahl der Scheiben", mu: "Reibung", amplitude: "Bahnradius", mu_disc: "Reibung zwischen Scheiben",
         mu_wall: "Reibung an der Wand", preset: "Voreinstellung", body: "Körper", radius: "Scheibenradius", mass: "Masse einer Scheibe",
         inertia: "Trägheitsmoment", mixture: "Zweite Sorte", sizes: "Größenverteilung", restitution: "Stoßzahl",
         tangential_restitution: "Tangentiale Stoßzahl", contact_duration: "Kontaktdauer", floor: "Boden",
         floor_friction: "Reibung am Boden", gravity: "Fallbeschleunigung", rolling_resistance: "Rollwiderstand",
         vertical_disc: "Vertikaler Schlupf, Scheiben", vertical_wall: "Vertikaler Schlupf, Wand", container_radius: "Schalenradius",
         period: "Umlaufzeit", speed: "Geschwindigkeit", path: "Bahn", sides: "Ecken der Bahn",
-        direction: "Umlaufsinn", path_phase: "Startpunkt auf der Bahn", warmup: "Einschwingzeit", seed: "Zufallszahl",
+        direction: "Umlaufsinn", path_phase: "Startpunkt auf der Bahn", warmup: "Einschwingzeit", seed: "Startwert",
     },
     spheres: "Rollende Kugeln",
     spheresHelp: "Kugeln, die auf einem Boden rollen, wie im Experiment der Veröffentlichung\n--preset experiment",
@@ -123,21 +125,21 @@ export const texts: typeof en.texts = {
     numberOfDiscs: "Anzahl der Scheiben N",
     invalidPeriods: (text: string): string =>
         `Die Länge eines Laufs ist '${text}', aber sie muss eine ganze Zahl von Umläufen von 10 bis 100000 sein.`,
-    studyProgress: (done: number, all: number): string => `${done} von ${all} Läufen fertig.`,
+    studyProgress: (done: number, all: number): string => `${done} von ${all} Punkten fertig.`,
     crossing: (discs: string, lower: number, upper: number): string =>
-        `${discs} (95 %: ${lower.toFixed(1)} bis ${upper.toFixed(1)})`,
+        `${discs} (95 %: ${comma(lower.toFixed(1))} bis ${comma(upper.toFixed(1))})`,
     bracket: (lower: number, upper: number): string => `zwischen ${lower} und ${upper}`,
     collapsed: (runs: string): string => `Weggelassen, weil der Lauf kollabiert ist: ${runs}.`,
-    verdicts: {always_rotates: "keine: Der Haufen dreht sich immer im Schwenksinn",
-               always_counterrotates: "keine: Der Haufen dreht sich immer gegen den Schwenksinn",
+    verdicts: {always_rotates: "keine: Der Haufen dreht sich immer im Umlaufsinn",
+               always_counterrotates: "keine: Der Haufen dreht sich immer gegensinnig",
                undecided: "nicht bestimmt"} as Record<Exclude<Crossing["verdict"], "crosses">, string>,
     rateNames: {by_time: "zeitlich gemittelt", by_event: "über Ereignisse gemittelt", rigid_by_time: "zeitlich, starrer Körper",
                 rigid_by_event: "über Ereignisse, starrer Körper"} as Record<Rate, string>,
     discovery: {
         title: "Drehung und Anzahl der Scheiben",
         about: "Zu dieser Kurve",
-        help: "Für jede Anzahl, die du einstellst, rechnet die Seite im Hintergrund einen eigenen Lauf: erst 50 Umläufe, dann " +
-            "200 und 800. Balken sind 95-%-Intervalle. Die gestrichelte Linie markiert die jetzige Anzahl, der Ring ihren laufenden " +
+        help: "Für jede Anzahl, die du einstellst, rechnet die Seite im Hintergrund vier eigene Läufe: erst 50 Umläufe, dann " +
+            "200 und 800. Balken sind 95-%-Intervalle aus der Streuung zwischen den Läufen. Die gestrichelte Linie markiert die jetzige Anzahl, der Ring ihren laufenden " +
             "Mittelwert. Die Punkte bleiben, bis du die Seite schließt; der Link enthält sie.",
         description: (points: number, finding: string): string =>
             `Diagramm der Drehrate gegen die Anzahl der Scheiben mit ${points} Punkten. ${finding}`,
@@ -146,6 +148,8 @@ export const texts: typeof en.texts = {
         bracket: (lower: number, upper: number): string =>
             `Die Richtung kehrt sich zwischen N = ${lower} und N = ${upper} um. Wähle die Zahlen dazwischen.`,
         crossing: (discs: string): string => `Aus deinen Punkten: Die Richtung kehrt sich bei N_c = ${discs} um.`,
+        invalid: (points: number): string => `Die Adresse enthält ${points} ${points === 1 ? "beschädigten Punkt" : "beschädigte Punkte"}; ` +
+            "die Seite lässt sie weg.\nTipp: Kopiere den ganzen Link.",
         table: "CSV",
         tableHelp: "Die Punkte als Tabelle speichern",
         link: "Link",
@@ -157,24 +161,24 @@ export const texts: typeof en.texts = {
     },
     explorer: {
         title: "Erkunden: Drehrate oder N_c gegen einen beliebigen Parameter",
-        help: "Die Läufe nutzen alle Kerne dieses Rechners. Die übrigen Parameter sind die der Seite. Die Punkte erscheinen mit " +
+        help: "Jeder Punkt besteht aus vier Läufen; sie nutzen alle Kerne dieses Rechners. Die übrigen Parameter sind die der Seite. Die Punkte erscheinen mit " +
             "ihren 95-%-Intervallen. Mit der Anzahl der Scheiben auf der Achse ist das Abbildung 5b der Veröffentlichung. N_c ist die " +
             "Anzahl der Scheiben, bei der sich die Richtung umkehrt.",
         quantity: "Zeige",
         crossing: "N_c",
         against: "gegen",
         values: "Werte",
-        valuesHelp: "Zahlen und Bereiche VON:SCHRITT:BIS, durch Kommas getrennt; Dezimalpunkt statt Komma",
+        valuesHelp: "Zahlen und Bereiche VON:SCHRITT:BIS, durch Strichpunkte getrennt",
         curves: "eine Kurve für jeden Wert von",
         curvesHelp: "Wie für die Achse. Bei mu setzt SCHEIBE:WAND die Zahlen zwischen Scheiben und an der Wand getrennt",
         oneCurve: "(eine Kurve)",
-        invalid: (most: number): string => "Werte müssen Zahlen oder Bereiche VON:SCHRITT:BIS sein, durch Kommas getrennt; " +
-            `mu darf Paare SCHEIBE:WAND haben. Höchstens ${most} Punkte.\nTipp: zum Beispiel discs 5:6:53 und mu 0.1, 1, 1:0.`,
+        invalid: (most: number): string => "Werte müssen Zahlen oder Bereiche VON:SCHRITT:BIS sein, durch Strichpunkte getrennt; " +
+            `mu darf Paare SCHEIBE:WAND haben. Höchstens ${most} Punkte.\nTipp: zum Beispiel discs 5:6:53 und mu 0,1; 1; 1:0.`,
         sameParameter: (name: string): string =>
             `Der Parameter ${name} steht auf der Achse und bei den Kurven.\nTipp: Wähle für die Kurven einen anderen.`,
         searches: (done: number, all: number, runs: number): string =>
             `${done} von ${all} Suchen fertig, bisher ${runs} Läufe.`,
-        imprecise: "Die Unsicherheit liegt über dem Ziel von 0.25.",
+        imprecise: "Die Unsicherheit liegt über dem Ziel von 0,25.",
         description: (points: number, name: string): string => `Diagramm gegen ${name} mit ${points} Punkten.`,
         command: "Dasselbe auf der Kommandozeile:",
         table: "Tabelle speichern (CSV)",
@@ -182,23 +186,19 @@ export const texts: typeof en.texts = {
     },
     opened: {
         choose: "Datei von swirl öffnen …",
-        help: "Ein Ergebnis (JSON), ein Zwischenstand (Checkpoint) oder eine Aufzeichnung (HDF5). Du kannst die Datei auch auf die Seite " +
+        help: "Ein Ergebnis (JSON) oder ein Zwischenstand (Checkpoint). Du kannst die Datei auch auf die Seite " +
             "ziehen. Sie bleibt auf diesem Rechner.",
-        drop: "Ergebnis, Checkpoint oder Aufzeichnung von swirl hier ablegen",
+        drop: "Ergebnis oder Checkpoint von swirl hier ablegen",
         close: "Datei schließen",
-        unknown: (name: string): string => `'${name}' ist kein Ergebnis, kein Checkpoint und keine Aufzeichnung von swirl.\n` +
-            "Tipp: Öffne eine Datei, die swirl run mit --json, --checkpoint oder --trajectory geschrieben hat.",
+        unknown: (name: string): string => `'${name}' ist kein Ergebnis und kein Checkpoint von swirl.\n` +
+            "Tipp: Öffne eine Datei, die swirl run mit --json oder --checkpoint geschrieben hat. Aufzeichnungen lesen die Notebooks.",
         tooLarge: (name: string, most: number): string => `'${name}' ist größer als ${most} MB.\n` +
-            "Tipp: Nimm swirl movie oder swirl export auf der Kommandozeile.",
+            "Tipp: Nimm die Kommandozeile.",
         damaged: (name: string): string => `'${name}' ist nicht lesbar: beschädigt oder unvollständig.`,
+        wrongValue: (name: string, what: string): string => `'${name}' ist beschädigt: ${what} ist unmöglich.`,
         noParameters: (name: string): string => `'${name}' enthält keine Parameter eines Laufs.`,
-        notOfThePage: (name: string, parameter: string): string =>
-            `'${name}' hat den Parameter ${parameter}, den diese Seite nicht kennt. Nimm eine Seite derselben Version.`,
         result: (name: string): string => `Ergebnis ${name}`,
         checkpoint: (name: string, events: number): string => `Checkpoint ${name}, nach ${events} Ereignissen`,
-        trajectory: (name: string, frames: number, discs: number): string =>
-            `Aufzeichnung ${name}: ${frames} Bilder von ${discs} Körpern`,
-        incomplete: "Die Datei ist unvollständig; alle Bilder darin werden gezeigt.",
         parametersSet: "Die Seite hat jetzt die Parameter der Datei.",
         comparing: "Die Seite wiederholt den Lauf …",
         sameHash: "Die Seite hat den Lauf wiederholt. Der Zustand nach dem letzten Ereignis ist bitgenau derselbe.",
@@ -211,17 +211,14 @@ export const texts: typeof en.texts = {
         onPage: "Seite",
         events: "Ereignisse",
         hash: "Prüfsumme des Zustands",
-        play: "Aufzeichnung abspielen",
-        pause: "Aufzeichnung anhalten",
-        frame: (frame: number, all: number, periods: string): string => `Bild ${frame} von ${all}, ${periods} Umläufe`,
-        position: "Bild",
     },
     lesson: {
-        start: "Eine Schulstunde",
+        start: "Schulstunde",
         next: "Weiter",
         back: "Zurück",
-        close: "Stunde beenden",
+        close: "Schulstunde beenden",
         step: (step: number, all: number, title: string): string => `Schritt ${step} von ${all}: ${title}`,
+        tryNext: "Das Gegenteil probieren",
         predict: "Wähle zuerst deine Vorhersage.",
         watch: "Beobachte die Schale. Das Ergebnis erscheint, sobald die Seite es gemessen hat.",
         right: "Deine Vorhersage war richtig.",
@@ -230,11 +227,11 @@ export const texts: typeof en.texts = {
         rotation: (rotation: string, direction: string): string => `${symbols.rotation} = ${rotation}, ${direction}`,
         crossing: (discs: string): string => `Die Richtung kehrt sich bei N_c = ${discs} Scheiben um`,
         noCrossing: "Die Richtung kehrt sich in diesem Bereich nicht um",
-        directions: ["im Schwenksinn", "gegen den Schwenksinn", "gar nicht, oder zu langsam, um es zu sehen"],
+        directions: ["im Umlaufsinn", "gegensinnig", "gar nicht, oder zu langsam, um es zu sehen"],
         ranges: (lower: number, upper: number): string =>
             lower <= 0 ? `unter ${upper + 1} Scheiben` : upper === Infinity ? `${lower} Scheiben oder mehr` : `${lower} bis ${upper} Scheiben`,
         teaching: "Für Lehrkräfte und Turnierteams",
-        worksheetHelp: "Die Stunde hat sechs Schritte; in jedem sagt die Klasse vorher, beobachtet und erklärt. Das Arbeitsblatt enthält " +
+        worksheetHelp: "Die Schulstunde hat sechs Schritte; in jedem sagt die Klasse vorher, beobachtet und erklärt. Das Arbeitsblatt enthält " +
             "dieselben Fragen, Millimeterpapier für die Messpunkte und ein Experiment mit Murmeln.",
         worksheet: "Arbeitsblatt drucken",
         team: "Für Turnierteams",
@@ -242,7 +239,8 @@ export const texts: typeof en.texts = {
     copied: "Kopiert",
     noWebAssembly: "Dieser Browser kann kein WebAssembly mit SIMD, das die Simulation braucht.\n" +
         "Tipp: Nimm Chrome 91, Firefox 113, Safari 16.4 oder neuer.",
-    unknownParameter: (name: string): string => `Die Adresse enthält '${name}', aber diesen Parameter gibt es nicht.`,
+    invalidLesson: (text: string, steps: number): string =>
+        `Die Adresse enthält lesson=${text}, aber die Schulstunde hat die Schritte 1 bis ${steps}.`,
     invalidEvents: (text: string): string =>
         `Die Adresse enthält events=${text}, aber es muss eine ganze Zahl von 0 bis 10000000 sein.`,
     warmup: (periods: number): string => `Die Mittelwerte beginnen nach ${periods} Umläufen.`,
@@ -250,9 +248,9 @@ export const texts: typeof en.texts = {
     grows: "Ohne Reibung wächst die Energie auf dem Vieleck unbegrenzt. Die Mittelwerte gehören zu keinem " +
         "stationären Zustand.",
     noSimulation: "Keine Simulation",
-    tooDense: (particles: string, percent: number): string => `${particles} würden ${percent} % des Behälters bedecken, und ` +
-        "binnen einer Sekunde fand sich keine Anordnung ohne Überlappung.\nTipp: weniger oder kleinere Scheiben oder einen größeren " +
-        "Behälter wählen.",
+    tooDense: (particles: string, percent: number): string => `${particles} würden ${percent} % der Schale bedecken, und ` +
+        "binnen einer Sekunde fand sich keine Anordnung ohne Überlappung.\nTipp: weniger oder kleinere Scheiben oder eine größere " +
+        "Schale wählen.",
     paint: "Neu färben",
     paintHelp: "Färbt die Scheiben nach dem Sektor, in dem sie jetzt liegen (P)",
     lapsesByItself: "Automatisch vorspulen",
@@ -264,7 +262,7 @@ export const texts: typeof en.texts = {
         " ": ["Leertaste", "abspielen und anhalten"], ".": [".", "nächstes Ereignis"], r: ["R", "neu starten"],
         f: ["F", "bis zu den Mittelwerten vorspulen"], s: ["S", "Stroboskop"], t: ["T", "Spuren"], v: ["V", "nächste Ansicht"],
         c: ["C", "nächste Färbung"], p: ["P", "neu nach Sektor färben"], h: ["H", "von Hand bewegen"], "+": ["+", "eine Scheibe mehr"],
-        "-": ["−", "eine Scheibe weniger"], m: ["M", "weitere Parameter"], l: ["L", "Unterrichtsstunde"], e: ["E", "Explorer"],
+        "-": ["−", "eine Scheibe weniger"], m: ["M", "weitere Parameter"], l: ["L", "Schulstunde"], e: ["E", "Erkunden"],
         d: ["D", "speichern und teilen"], "?": ["?", "diese Liste"],
     } as Record<string, [string, string]>,
     keysOfDish: "In der Schale: [ und ] wählen eine Scheibe, die Pfeile bewegen sie, Escape lässt sie los.",
@@ -310,7 +308,7 @@ export const texts: typeof en.texts = {
         direction: "Umlaufsinn der Bahn",
         path_phase: "Punkt der Bahn, an dem ein Lauf beginnt; 360 für einen Umlauf",
         warmup: "Umläufe am Anfang, die nicht gemittelt werden, oder auto",
-        seed: "Zufallszahl, aus der Anfangsorte und -geschwindigkeiten folgen",
+        seed: "Startwert des Zufalls, aus dem Anfangsorte und -geschwindigkeiten folgen",
     },
 };
 
@@ -319,7 +317,7 @@ export const workerTexts: typeof en.workerTexts = {
     control: (name: string, code: number): string => `--${name.replaceAll("_", "-")} enthält das Steuer` +
         `zeichen U+${code.toString(16).toUpperCase().padStart(4, "0")}, aber ein Wert muss eine Zeile Text sein.`,
     tooMany: (discs: string, most: number): string => `${discs} Scheiben sind zu viele für die Seite; höchstens ` +
-        `${most} gehen.\nTipp: Nimm die Kommandozeile: ./swirl run --discs ${discs}.`,
+        `${most} gehen.\nTipp: Nimm weniger Scheiben; das Programm swirl hat keine solche Grenze.`,
 };
 
 export const lessonSteps: en.StepTexts[] = [
@@ -327,13 +325,12 @@ export const lessonSteps: en.StepTexts[] = [
      text: "Eine runde Schale wird gegen den Uhrzeigersinn auf einem Kreis bewegt und dreht sich dabei selbst nicht. Darin liegen 8 Scheiben. " +
          "Sie sammeln sich auf einer Seite und laufen an der Wand entlang.",
      question: "In welche Richtung dreht sich der Haufen der Scheiben?",
-     explanation: "Die wenigen Scheiben rollen an der Wand entlang wie eine Kugel in einer geschwenkten Schüssel. Der Haufen dreht sich " +
-         "im Schwenksinn."},
+     explanation: "Der Haufen dreht sich im Umlaufsinn, wie die meisten erwarten: Die Schale läuft um, und ihr Inhalt läuft mit."},
     {title: "Viele Scheiben",
      text: "Jetzt liegen 48 Scheiben in derselben Schale. Sonst wurde nichts geändert.",
      question: "In welche Richtung dreht sich der Haufen jetzt?",
-     explanation: "Der Haufen dreht sich gegen den Schwenksinn, obwohl die Schale genau so bewegt wird wie " +
-         "vorher. Im Rest der Stunde suchen wir den Grund."},
+     explanation: "Der Haufen dreht sich gegensinnig, obwohl die Schale genau so bewegt wird wie vorher. Im Rest der Schulstunde " +
+         "suchen wir den Grund."},
     {title: "Wo sich die Richtung umkehrt",
      text: "Irgendwo zwischen 8 und 48 Scheiben kehrt sich die Richtung um. Diese Zahl heißt N_c. Verschiebe nach deiner Vorhersage " +
          "den Regler für die Anzahl der Scheiben. Jede Anzahl, die du einstellst, gibt einen Punkt im Diagramm.",
@@ -341,28 +338,28 @@ export const lessonSteps: en.StepTexts[] = [
      explanation: "Nahe N_c schwappt der Haufen durch die Schale, ohne sich zu drehen. Die Seite hat N_c mit " +
          "vielen Läufen gesucht. Passen deine eigenen Punkte dazu?"},
     {title: "Die Schale in Ruhe",
-     text: "Diese Ansicht dreht sich mit dem Schwenken mit (M-System). Hier ruht die Schale, und ihr Punkt M, der am weitesten vom " +
+     text: "Diese Ansicht dreht sich mit dem Umlauf mit (M-System). Hier ruht die Schale, und ihr Punkt M, der am weitesten vom " +
          "Mittelpunkt der Bahn entfernt ist, liegt immer unten. Die Scheiben werden zu M hin gedrückt.",
      question: "Wie bewegt sich die Wand in dieser Ansicht?",
      options: ["im Uhrzeigersinn, wie ein Förderband", "gegen den Uhrzeigersinn, wie ein Förderband", "sie ruht"],
      explanation: "Im Raum dreht sich die Wand nicht. Von einem System aus, das sich gegen den Uhrzeigersinn dreht, läuft sie " +
          "im Uhrzeigersinn an den Scheiben vorbei wie ein Förderband. Durch Reibung nimmt dieses Band die Scheiben an der Wand mit: " +
-         "gegen den Schwenksinn."},
+         "gegensinnig."},
     {title: "Auf welche Reibung es ankommt",
      text: "Die 48 Scheiben reiben noch aneinander, aber die Wand ist jetzt vollkommen glatt.",
      question: "In welche Richtung dreht sich der Haufen ohne Reibung an der Wand?",
-     explanation: "Ein glattes Band kann nichts mitnehmen, also folgt der Haufen dem Schwenken. Probiere auch das Gegenteil: Reibung " +
-         "an der Wand (mu_wall 1), aber keine zwischen den Scheiben (mu_disc 0). Dann rollt jede Scheibe an der Wand wie in einem Kugel" +
-         "lager, und der Haufen folgt wieder dem Schwenken. Die Gegendrehung braucht beide Arten von Reibung."},
-    {title: "Frustration",
-     text: "Eine Scheibe an der Wand möchte an ihr abrollen. Scheiben, die sich berühren und aneinander abrollen, drehen sich " +
-         "gegenläufig wie Zahnräder. Die Farben zeigen die Richtung der Eigendrehung.",
-     question: "Drei Zahnräder berühren sich in einem Dreieck. Können sich alle drei drehen?",
-     options: ["ja, alle in dieselbe Richtung", "ja, zwei in die eine und eines in die andere Richtung", "nein, sie blockieren sich"],
-     explanation: "Nachbarn müssen sich gegenläufig drehen, und bei drei Rädern im Dreieck geht das nicht. In der " +
-         "Physik heißt das Frustration. Bei vielen Scheiben gibt es überall Dreiecke, deshalb können die Scheiben nicht aneinander " +
-         "abrollen. Der Haufen verhält sich wie ein einziger rauer Block, und das Band zieht ihn rückwärts mit. Bei wenigen Scheiben " +
-         "ist Platz zum Rollen, und der Haufen folgt dem Schwenken."},
+     explanation: "Ein glattes Band kann nichts mitnehmen, also folgt der Haufen dem Umlauf. Probiere jetzt das Gegenteil: Reibung " +
+         "an der Wand, aber keine zwischen den Scheiben. Dann kann die Wand nur die äußersten Scheiben in Drehung versetzen, und sie " +
+         "geben nichts weiter. Der Haufen folgt wieder dem Umlauf. Die Gegendrehung braucht beide Arten von Reibung."},
+    {title: "Zahnräder oder Haftung?",
+     text: "Zahnräder, die sich berühren, drehen sich gegenläufig. Drei Zahnräder in einem Dreieck blockieren sich deshalb; in der " +
+         "Physik heißt das Frustration. Verhalten sich die Scheiben wie Zahnräder? Die Farben zeigen die Richtung der Eigendrehung.",
+     question: "In welche Richtungen drehen sich zwei Scheiben, die sich berühren?",
+     options: ["gegenläufig, wie Zahnräder", "es gibt kaum eine Regel", "in dieselbe Richtung"],
+     explanation: "Bei Zahnrädern wäre die Korrelation der Eigendrehungen −1. In der Simulation liegt sie zwischen −0,04 und 0; die " +
+         "Scheiben sind also keine Zahnräder. Viel stärker ändert sich der Halt an der Wand: Bei 24 Scheiben laufen die an der Wand mit " +
+         "79 % von deren Geschwindigkeit, bei 48 mit 97 %. Bei vielen Scheiben rutscht das Band also kaum. Dann dreht sich der " +
+         "Haufen gegensinnig, fast wie ein Pfannkuchen, der an der Wand abrollt."},
 ];
 
 export const worksheet: typeof en.worksheet = {
@@ -381,7 +378,7 @@ export const worksheet: typeof en.worksheet = {
         "Markiere dazu eine Kugel farbig.",
     number: "Anzahl",
     turns: "Umdrehungen des Haufens",
-    direction: "im (+) oder gegen (−) den Schwenksinn",
+    direction: "im Umlaufsinn (+) oder gegensinnig (−)",
     question: "Bei welcher Anzahl von Kugeln hört die Drehung auf? Warum kann sie von der Anzahl auf der Seite abweichen?",
 };
 

@@ -39,7 +39,7 @@ export const texts = {
     result: "Save result (JSON)",
     record: "Record",
     recordStop: "Stop recording",
-    movie: "Save movie (WebM)",
+    movie: (form: string): string => `Save movie (${form})`,
     positions: "Save positions (XYZ)",
     compare: "Compare",
     compareHelp: "Keeps this container on the page, next to a new one",
@@ -83,7 +83,7 @@ export const texts = {
     turned: "turned",
     turnedHelp: "Angle by which the cluster has rotated: ϖ summed over time. The arc shows this angle",
     rotationHelp: "Rotation rate of the cluster relative to the rate at which the container moves around its path: mean over discs and " +
-        "time, with its standard error. The band on the gauge is the 95 % interval.",
+        "time. The error appears after 50 periods. The band on the gauge is the 95 % interval, 1.96 errors to each side.",
     periodsHelp: "Turns of the container on its path",
     differ: (rigid: string): string => `With more weight on outer discs, as in a rigid body, the cluster has turned by ${rigid} turns: ` +
         "inner and outer discs rotate at different rates.",
@@ -123,7 +123,7 @@ export const texts = {
     numberOfDiscs: "number of discs N",
     invalidPeriods: (text: string): string =>
         `The length of a run is '${text}', but it must be a whole number of periods from 10 to 100000.`,
-    studyProgress: (done: number, all: number): string => `${done} of ${all} runs done.`,
+    studyProgress: (done: number, all: number): string => `${done} of ${all} points done.`,
     crossing: (discs: string, lower: number, upper: number): string =>
         `${discs} (95 %: ${lower.toFixed(1)} to ${upper.toFixed(1)})`,
     bracket: (lower: number, upper: number): string => `between ${lower} and ${upper}`,
@@ -136,8 +136,8 @@ export const texts = {
     discovery: {
         title: "Rotation against the number of discs",
         about: "About this plot",
-        help: "For each number of discs that you select, the page makes a separate run in the background: first of 50 periods, " +
-            "then of 200 and 800. Bars are 95 % intervals. The dashed line marks the present number, the ring its live average. " +
+        help: "For each number of discs that you select, the page makes four separate runs in the background: first of 50 " +
+            "periods, then of 200 and 800. Bars are 95 % intervals from the scatter between the runs. The dashed line marks the present number, the ring its live average. " +
             "The points stay until you close the page; the link contains them.",
         description: (points: number, finding: string): string =>
             `Plot of the rotation rate against the number of discs with ${points} points. ${finding}`,
@@ -146,6 +146,8 @@ export const texts = {
         bracket: (lower: number, upper: number): string =>
             `The direction changes between N = ${lower} and N = ${upper}. Select the numbers in between.`,
         crossing: (discs: string): string => `From your points: the direction changes at N_c = ${discs}.`,
+        invalid: (points: number): string => `The address contains ${points} ${points === 1 ? "point that is" : "points that are"} ` +
+            "damaged. The page omits them.\nhint: copy the whole link.",
         table: "CSV",
         tableHelp: "Save the points as a table",
         link: "Link",
@@ -157,7 +159,7 @@ export const texts = {
     },
     explorer: {
         title: "Explorer: rotation or N_c against any parameter",
-        help: "The runs use all cores of this computer. The other parameters are those of the page. Points appear with their " +
+        help: "Each point has four runs, which use all cores of this computer. The other parameters are those of the page. Points appear with their " +
             "95 % intervals. With the number of discs on the axis, this is the paper's Figure 5b. N_c is the number of discs at which the direction changes.",
         quantity: "Show",
         crossing: "N_c",
@@ -181,22 +183,18 @@ export const texts = {
     },
     opened: {
         choose: "Open a file of swirl…",
-        help: "A result (JSON), a checkpoint or a trajectory (HDF5). You can also drop it on the page. It stays on this computer.",
-        drop: "Drop a result, checkpoint or trajectory of swirl here",
+        help: "A result (JSON) or a checkpoint. You can also drop it on the page. It stays on this computer.",
+        drop: "Drop a result or checkpoint of swirl here",
         close: "Close the file",
-        unknown: (name: string): string => `'${name}' is not a result, checkpoint or trajectory of swirl.\n` +
-            "hint: open a file that swirl run wrote with --json, --checkpoint or --trajectory.",
+        unknown: (name: string): string => `'${name}' is not a result or checkpoint of swirl.\n` +
+            "hint: open a file that swirl run wrote with --json or --checkpoint. Notebooks read recordings.",
         tooLarge: (name: string, most: number): string => `'${name}' is larger than ${most} MB.\n` +
-            "hint: use swirl movie or swirl export on the command line.",
+            "hint: use the command line.",
         damaged: (name: string): string => `'${name}' cannot be read: it is damaged or incomplete.`,
+        wrongValue: (name: string, what: string): string => `'${name}' is damaged: ${what}, which is not possible.`,
         noParameters: (name: string): string => `'${name}' contains no parameters of a run.`,
-        notOfThePage: (name: string, parameter: string): string =>
-            `'${name}' has the parameter ${parameter}, which this page does not know. Use a page of the same version.`,
         result: (name: string): string => `Result ${name}`,
         checkpoint: (name: string, events: number): string => `Checkpoint ${name}, after ${events} events`,
-        trajectory: (name: string, frames: number, discs: number): string =>
-            `Trajectory ${name}: ${frames} frames of ${discs} particles`,
-        incomplete: "The file is incomplete; all frames in it are shown.",
         parametersSet: "The page now has the parameters of the file.",
         comparing: "The page repeats the run…",
         sameHash: "The page repeated the run. The state after its last event is bitwise identical.",
@@ -209,10 +207,6 @@ export const texts = {
         onPage: "Page",
         events: "events",
         hash: "hash of the state",
-        play: "Play recording",
-        pause: "Pause recording",
-        frame: (frame: number, all: number, periods: string): string => `Frame ${frame} of ${all}, ${periods} periods`,
-        position: "Frame",
     },
     lesson: {
         start: "Lesson for one school hour",
@@ -220,6 +214,7 @@ export const texts = {
         back: "Back",
         close: "End the lesson",
         step: (step: number, all: number, title: string): string => `Step ${step} of ${all}: ${title}`,
+        tryNext: "Try the opposite",
         predict: "Choose your prediction first.",
         watch: "Watch the container. The result appears when the page has measured it.",
         right: "Your prediction was right.",
@@ -240,7 +235,8 @@ export const texts = {
     copied: "Copied",
     noWebAssembly: "This browser does not support WebAssembly with SIMD, which the engine needs.\n" +
         "hint: use Chrome 91, Firefox 113, Safari 16.4 or later.",
-    unknownParameter: (name: string): string => `The address contains '${name}', but there is no such parameter.`,
+    invalidLesson: (text: string, steps: number): string =>
+        `The address contains lesson=${text}, but the lesson has the steps 1 to ${steps}.`,
     invalidEvents: (text: string): string =>
         `The address contains events=${text}, but it must be a whole number from 0 to 10000000.`,
     warmup: (periods: number): string => `Averages start after ${periods} periods.`,
@@ -287,7 +283,7 @@ export const workerTexts = {
     control: (name: string, code: number): string => `--${name.replaceAll("_", "-")} contains the control ` +
         `character U+${code.toString(16).toUpperCase().padStart(4, "0")}, but a value must be one line of text.`,
     tooMany: (discs: string, most: number): string => `${discs} discs are too many for the page, whose limit is ` +
-        `${most}.\nhint: use the command line: ./swirl run --discs ${discs}.`,
+        `${most}.\nhint: choose fewer discs; the program swirl has no such limit.`,
 };
 
 /** A step of the lesson; lesson.ts has its parameters. Steps that ask for a direction or for N_c have their
@@ -305,12 +301,13 @@ export const lessonSteps: StepTexts[] = [
      text: "A round container moves on a circle, counter-clockwise, and does not rotate itself. There are 8 discs in it. " +
          "They gather on one side and move along the wall.",
      question: "Which way does the cluster of discs rotate?",
-     explanation: "The few discs roll along the wall like a ball in a swirled bowl. The cluster rotates with the swirl."},
+     explanation: "The cluster rotates with the swirl, as most people expect: the container goes round, and its content goes " +
+         "round with it."},
     {title: "Many discs",
      text: "Now there are 48 discs in the same container. Nothing else was changed.",
      question: "Which way does the cluster rotate now?",
-     explanation: "The cluster rotates against the swirl, although every single push of the container is the same as " +
-         "before. The rest of the lesson looks for the reason."},
+     explanation: "The cluster rotates against the swirl, although the container moves in exactly the same way as before. " +
+         "The rest of the lesson looks for the reason."},
     {title: "The change of direction",
      text: "Somewhere between 8 and 48 discs the direction changes. This number is called N_c. After your prediction, move " +
          "the slider of the number of discs. Each number that you select adds a point to the plot.",
@@ -328,18 +325,18 @@ export const lessonSteps: StepTexts[] = [
     {title: "Which friction matters",
      text: "The 48 discs keep their friction with each other, but now the wall is perfectly smooth.",
      question: "Which way does the cluster rotate without friction at the wall?",
-     explanation: "A smooth belt cannot drag anything, so the cluster follows the swirl. Try the opposite, too: friction " +
-         "at the wall (mu_wall 1) but none between the discs (mu_disc 0). Then each disc rolls along the wall as in a ball " +
-         "bearing, and the cluster again follows the swirl. Counterrotation needs both kinds of friction."},
-    {title: "Frustration",
-     text: "A disc at the wall tends to roll along it. Discs that touch and roll on each other spin in opposite " +
-         "directions, like gears. Colours show the direction of the spin.",
-     question: "Three gears touch each other in a triangle. Can all three turn?",
-     options: ["yes, all in the same direction", "yes, two in one direction and one in the other", "no, they block each other"],
-     explanation: "Two neighbours must turn in opposite directions, and with three in a triangle this is impossible. " +
-         "Physicists call that frustration. With many discs there are triangles everywhere, so the discs cannot roll on " +
-         "each other. The cluster behaves like one rough block, and the belt drags it backwards. With few discs there " +
-         "is room to roll, and the cluster follows the swirl."},
+     explanation: "A smooth belt cannot drag anything, so the cluster follows the swirl. Now try the opposite: friction " +
+         "at the wall, but none between the discs. Then the wall can only spin the outermost discs, and they pass nothing " +
+         "on. The cluster again follows the swirl. Counterrotation needs both kinds of friction."},
+    {title: "Gears or grip?",
+     text: "Gears that touch turn in opposite directions. Three gears in a triangle therefore block each other, which " +
+         "physicists call frustration. Do the discs behave like gears? Colours show the direction of the spin.",
+     question: "In which directions do two discs spin that touch each other?",
+     options: ["in opposite directions, like gears", "there is hardly any rule", "in the same direction"],
+     explanation: "Gears would have a spin correlation of −1. In the simulation it is between −0.04 and 0, so the " +
+         "discs are not gears. The grip of the wall changes much more: discs at the wall move with 79 % of its speed in a " +
+         "cluster of 24, and with 97 % in a cluster of 48. With many discs the belt hardly slips. The cluster then " +
+         "rotates against the swirl, nearly like a pancake that rolls on the wall."},
 ];
 
 export const worksheet = {

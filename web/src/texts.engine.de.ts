@@ -1,6 +1,8 @@
 // Die Fehlermeldungen des Programms, die auf der Seite erscheinen können, auf Deutsch. Eine Meldung ohne Regel
 // bleibt englisch. Ein Test prüft, dass die Zahlen erhalten bleiben.
 
+import {labelled} from "./symbols";
+
 const rules: [RegExp, string][] = [
     [/^(\d+) \w+ do(?:es)? not fit into a container of radius (\S+): no .*more than (\d+)\.$/,
      "$1 Körper passen nicht in eine Schale vom Radius $2; mehr als $3 haben darin nicht Platz."],
@@ -65,5 +67,4 @@ const translatedLine = (line: string): string => {
 
 /** The message in German. Options are written as the names of their fields. */
 export const translated = (message: string, labels: Record<string, string>): string =>
-    message.split("\n").map(translatedLine).join("\n")
-        .replace(/--([a-z-]+)/g, (option, name: string) => labels[name.replaceAll("-", "_")] ?? option);
+    labelled(message.split("\n").map(translatedLine).join("\n"), labels, false).replace(/(\d)\.(?=\d)/g, "$1,");

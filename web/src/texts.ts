@@ -1,6 +1,7 @@
 // The texts of the page in the language of its reader (start.ts). Each language has its file.
 import * as de from "./texts.de";
 import * as en from "./texts.en";
+import {labelled} from "./symbols";
 import {translated} from "./texts.engine.de";
 import {language} from "./start";
 
@@ -18,7 +19,7 @@ export const examples: typeof en.examples = german ? de.examples : en.examples;
 export const workerTexts: typeof en.workerTexts = german ? de.workerTexts : en.workerTexts;
 
 /** An error message of the engine in the language of the page. */
-export const engineMessage = (message: string): string => german ? translated(message, texts.labels) : message;
+export const engineMessage = (message: string): string => german ? translated(message, texts.labels) : labelled(message, texts.labels);
 
 /** Replaces the texts of index.html, which are built in as English ones. */
 export function translatePage(): void {

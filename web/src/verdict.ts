@@ -1,5 +1,6 @@
 // The direction in which the cluster rotates: as a sentence, on a signed gauge and as numbers.
 import type {Rotation} from "./engine";
+import {intervalOf, liveEstimate} from "./estimates";
 import type {Laboratory} from "./laboratory";
 import {byId, element, signed, withError} from "./page";
 import {symbols, texts} from "./texts";
@@ -8,31 +9,21 @@ export type Direction = "with" | "against";
 export interface Finding {
     /** ϖ/Ω, from periods after the warm-up if there are any; null without any data. */
     mean: number | null;
-    /** Half the 95 % interval; null if it is not known yet. */
-    interval: number | null;
+    /** The 95 % interval is mean ± 1.96 errors; null if it is not known yet. */
+    error: number | null;
     direction: Direction | undefined;
     /** The interval excludes zero. */
     isFirm: boolean;
 }
 
-/** Student's t for 95 % (Abramowitz and Stegun 26.7.5), within 1 % from three degrees of freedom on. */
-export function student95(freedom: number): number {
-    const z = 1.959964, z2 = z * z;
-    return z * (1 + (z2 + 1) / (4 * freedom) + ((5 * z2 + 16) * z2 + 3) / (96 * freedom ** 2) +
-        (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * freedom ** 3));
-}
-
-const minBlocks = 5; // for an interval
-
 /** `turns` in the `periods` so far count while there is no complete period. */
 export function findingOf(rotation: Rotation | undefined, turns: number, periods: number): Finding {
-    const of = (mean: number | null, interval: number | null = null): Finding => ({
-        mean, interval, direction: mean ? (mean > 0 ? "with" : "against") : undefined,
-        isFirm: mean !== null && interval !== null && Math.abs(mean) > interval});
+    const of = (mean: number | null, error: number | null = null): Finding => ({
+        mean, error, direction: mean ? (mean > 0 ? "with" : "against") : undefined,
+        isFirm: mean !== null && error !== null && Math.abs(mean) > intervalOf(error)});
     if (rotation) {
-        const {mean, error, blocks} = rotation.by_time;
-        if (mean !== null && blocks > 0)
-            return of(mean, error !== null && blocks >= minBlocks ? student95(blocks - 1) * error : null);
+        const {mean, error} = liveEstimate(rotation);
+        if (mean !== null && rotation.by_time.blocks > 0) return of(mean, error);
         // In the warm-up the later half of the periods is closer to the steady state.
         const early = rotation.blocks.filter((each) => each !== null);
         const late = early.slice(Math.floor(early.length / 2));
@@ -92,7 +83,7 @@ export class Verdict {
     }
 
     private clear(): void {
-        this.drawGauge({mean: null, interval: null, direction: undefined, isFirm: false});
+        this.drawGauge({mean: null, error: null, direction: undefined, isFirm: false});
         byId("numbers").replaceChildren();
         const discs = Number(this.lab.given["discs"]);
         // Many discs, or discs close to the densest packing, take seconds.
@@ -105,13 +96,12 @@ export class Verdict {
         this.drawGauge(finding);
         this.showNumbers();
         if (lab.isByHand) return this.say(texts.byHandHeadline(signed(lab.last?.turns[0] ?? 0, 2)));
-        const {direction, isFirm, interval} = finding, strong = element("strong");
+        const {direction, isFirm, error} = finding, strong = element("strong");
         if (!direction) return this.say(texts.undecided(particles));
         strong.textContent = texts.sides[direction];
         strong.className = direction;
-        const blocks = lab.averages?.by_time.blocks ?? 0;
         const words = isFirm ? texts.verdict(n, particles)
-            : interval !== null && blocks >= 40 ? texts.nearZero(particles) : texts.soFar(particles);
+            : error !== null ? texts.nearZero(particles) : texts.soFar(particles);
         const key = words.join(direction);
         if (key === this.said) return;
         this.said = key;
@@ -119,23 +109,22 @@ export class Verdict {
         byId("verdict").classList.toggle("firm", isFirm);
     }
 
-    private drawGauge({mean, interval, direction}: Finding): void {
+    private drawGauge({mean, error, direction}: Finding): void {
         this.gauge.dataset["direction"] = direction ?? "";
         this.needle.hidden = this.band.hidden = mean === null;
         this.gauge.setAttribute("aria-valuetext", this.rotationText());
         this.gauge.setAttribute("aria-valuenow", String(mean ?? 0));
         if (mean === null) return;
         this.needle.style.left = percent(position(mean));
-        const [from, to] = [position(mean - (interval ?? 0)), position(mean + (interval ?? 0))];
+        const [from, to] = [-1, 1].map((side) => position(mean + side * intervalOf(error ?? 0))) as [number, number];
         this.band.style.left = percent(from);
         this.band.style.width = percent(to - from);
-        this.band.classList.toggle("unknown", interval === null);
+        this.band.classList.toggle("unknown", error === null);
     }
 
     private rotationText(): string {
-        const {mean, interval} = this.finding;
-        if (mean === null) return texts.notYet;
-        return interval === null ? signed(mean, 2) : withError(mean, this.lab.averages!.by_time.error, texts.notYet);
+        const {mean, error} = this.finding;
+        return mean !== null && error === null ? signed(mean, 2) : withError(mean, error, texts.notYet);
     }
 
     private showNumbers(): void {
@@ -147,7 +136,7 @@ export class Verdict {
             [symbols.rotation, this.rotationText(),
              texts.rotationHelp, "rotation"],
             [texts.turned, texts.turns(signed(turns, 2)), texts.turnedHelp, "turned"],
-            [texts.periods, (time / lab.value("period")).toFixed(1), texts.periodsHelp, "period-count"],
+            [texts.periods, signed(time / lab.value("period"), 1), texts.periodsHelp, "period-count"],
         ];
         if (lab.isByHand) pairs.splice(0, 1), pairs.splice(1, 1); // no period, so no averages
         const warmup = averages && averages.by_time.blocks === 0 && !lab.isByHand ? texts.warmup(averages.warmup) : "";

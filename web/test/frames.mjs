@@ -9,7 +9,7 @@ const watched = 3000; // milliseconds
 const patience = 30_000; // milliseconds, for a firm verdict
 
 const browser = await chromium.launch({executablePath, args: ["--no-sandbox", "--disable-gpu"]});
-const page = await browser.newPage({viewport: {width: 1200, height: 800}});
+const page = await browser.newPage({bypassCSP: true, viewport: {width: 1200, height: 800}});
 // Notes when each of these is first true, in milliseconds after the request.
 await page.addInitScript(() => {
     globalThis.times = {};

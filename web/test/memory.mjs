@@ -18,7 +18,7 @@ const settled = 120_000;
 const browser = await chromium.launch({executablePath, args: [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync"]});
-const page = await browser.newPage({viewport: {width: 800, height: 600}});
+const page = await browser.newPage({bypassCSP: true, viewport: {width: 800, height: 600}});
 const errors = [];
 page.on("pageerror", (error) => errors.push(error.message));
 // The page's workers are blobs, and the engine is not visible from outside. This code is added to each

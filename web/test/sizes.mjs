@@ -13,11 +13,13 @@ const browser = await chromium.launch({executablePath, args: [
     "--disable-background-networking", "--disable-component-update", "--disable-sync"]});
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
-for (const [width, height] of all ? [[1440, 900], [1024, 768], [390, 844], [360, 640]] : [[360, 640]]) {
+for (const [width, height] of all ? [[1440, 900], [1024, 768], [768, 1024], [683, 384], [683, 800], [390, 844], [360, 640]]
+                                  : [[683, 800], [360, 640]]) {
     for (const colorScheme of all ? ["light", "dark"] : ["light"]) {
         for (const lang of all ? ["en", "de"] : ["de"]) {
             const where = `${width} × ${height}, ${colorScheme}, ${lang}`;
-            const page = await browser.newPage({viewport: {width, height}, colorScheme, reducedMotion: "reduce"});
+            const page = await browser.newPage({bypassCSP: true, viewport: {width, height}, colorScheme, reducedMotion: "reduce"});
+            await page.addInitScript({path: axe});
             await page.goto(`${address}?lang=${lang}`);
             await page.waitForFunction(() => Number(document.getElementById("period-count")?.textContent.replace(",", ".")) >= 30,
                                        null, {timeout: 60_000});
@@ -34,6 +36,14 @@ for (const [width, height] of all ? [[1440, 900], [1024, 768], [390, 844], [360,
             const broken = await page.$$eval("label, button, legend, summary, dt", (all) => all.filter((each) =>
                 each.offsetParent !== null && each.scrollWidth > each.clientWidth + 1).map((each) => each.outerHTML.slice(0, 80)));
             assert.deepEqual(broken, [], where);
+            // Menus open inside the window.
+            for (const id of ["view-options", "share"]) {
+                await page.click(`#${id} summary`);
+                const menu = await page.locator(`#${id} .menu`).boundingBox();
+                assert.ok(menu.x >= 0 && menu.y >= 0 && menu.x + menu.width <= width && menu.y + menu.height <= height,
+                          `${where}: the menu of #${id} is at ${JSON.stringify(menu)}`);
+                await page.click(`#${id} summary`);
+            }
             // On a phone the dish stays while the controls scroll.
             await page.evaluate(() => scrollTo(0, 600));
             if (width < 768) {
@@ -46,7 +56,6 @@ for (const [width, height] of all ? [[1440, 900], [1024, 768], [390, 844], [360,
             });
             const wideOpen = await page.evaluate(() => document.documentElement.scrollWidth);
             assert.ok(wideOpen <= width, `${where}: the open page is ${wideOpen} wide`);
-            await page.addScriptTag({path: axe});
             const violations = await page.evaluate(async () => (await globalThis.axe.run(
                 {runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]})).violations
                 .map(({id, nodes}) => `${id}: ${nodes[0].html}`));

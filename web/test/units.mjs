@@ -9,8 +9,8 @@ import ts from "typescript";
 
 const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "src");
 const folder = mkdtempSync(join(tmpdir(), "swirl-units-"));
-const load = async (name) => {
-    const outfile = join(folder, `${name}.mjs`);
+const load = async (name, as = name) => {
+    const outfile = join(folder, `${as}.mjs`);
     await build({entryPoints: [join(sources, `${name}.ts`)], bundle: true, format: "esm", outfile,
                  logLevel: "error"});
     return import(pathToFileURL(outfile).href);
@@ -117,19 +117,42 @@ try {
     paint.extend(frame(ring(2)));
     assert.deepEqual([...paint.sectors], [0, 0]);
 
-    // The verdict: from all periods while there is no average, firm when the 95 % interval excludes zero.
-    const {findingOf, student95} = await load("verdict");
+    // Estimates: the interval of a few values is that of Student's t, and a run has one from 50 periods on.
+    const {estimateOf, liveEstimate, student95} = await load("estimates");
     for (const [freedom, t] of [[3, 3.182], [4, 2.776], [9, 2.262], [30, 2.042], [1e6, 1.960]]) // Student's table
         assert.ok(Math.abs(student95(freedom) / t - 1) < 0.01, `${student95(freedom)} for ${freedom}`);
-    const rotation = (mean, error, count, blocks = []) => ({by_time: {mean, error, blocks: count}, blocks});
-    assert.deepEqual(findingOf(undefined, 0.02, 0.1), {mean: null, interval: null, direction: undefined, isFirm: false});
-    assert.deepEqual(findingOf(undefined, -0.1, 0.5), {mean: -0.2, interval: null, direction: "against", isFirm: false});
-    assert.deepEqual(findingOf(rotation(null, null, 0, [9, 9, 0.25, 0.75]), 0, 4),
-                     {mean: 0.5, interval: null, direction: "with", isFirm: false}); // the later half of the warm-up
-    assert.equal(findingOf(rotation(0.1, 0.01, 4), 0, 24).isFirm, false); // too few blocks
-    assert.equal(findingOf(rotation(0.1, 0.01, 10), 0, 30).isFirm, true);
-    assert.equal(findingOf(rotation(-0.1, 0.05, 10), 0, 30).isFirm, false);
-    assert.equal(findingOf(rotation(-0.1, 0.04, 10), 0, 30).isFirm, true);
+    const four = estimateOf([1, 2, 3, 4]); // variance 5/3; t within 1 %
+    assert.equal(four.mean, 2.5);
+    assert.ok(Math.abs(1.96 * four.error / (3.182 * Math.sqrt(5 / 12)) - 1) < 0.01, `${four.error}`);
+    const rotation = (blocks, {early = 0, periods = 1, mean = 0.1} = {}) => ({
+        by_time: {mean, blocks: blocks.length - early}, blocks, warmup_blocks: early, periods_per_block: [1, periods]});
+    const wave = (length, slow = 1) => Array.from({length}, (_, k) => 0.1 + 0.01 * (Math.floor(k / slow) % 2 ? 1 : -1));
+    assert.deepEqual(liveEstimate(rotation(wave(49))), {mean: 0.1, error: null});
+    assert.ok(liveEstimate(rotation(wave(50))).error < 1e-3);
+    // A run that remembers for a quarter has the scatter of its quarters, not that of its periods.
+    assert.ok(Math.abs(liveEstimate(rotation(wave(52, 13))).error - estimateOf([0.09, 0.11, 0.09, 0.11]).error) < 1e-12);
+    assert.equal(liveEstimate(rotation(wave(60), {early: 20})).error, null); // the warm-up does not count
+    assert.ok(liveEstimate(rotation(wave(13), {periods: 4})).error > 0); // blocks of four periods do
+    assert.equal(liveEstimate(rotation(Array(80).fill(null), {mean: null})).error, null);
+
+    // The verdict: from all periods while there is no average, firm when the 95 % interval excludes zero.
+    const {findingOf} = await load("verdict");
+    const nothing = {error: null, isFirm: false};
+    assert.deepEqual(findingOf(undefined, 0.02, 0.1), {mean: null, direction: undefined, ...nothing});
+    assert.deepEqual(findingOf(undefined, -0.1, 0.5), {mean: -0.2, direction: "against", ...nothing});
+    assert.deepEqual(findingOf(rotation([9, 9, 0.25, 0.75], {early: 4, mean: null}), 0, 4),
+                     {mean: 0.5, direction: "with", ...nothing}); // the later half of the warm-up
+    assert.deepEqual(findingOf(rotation(wave(49)), 0, 49), {mean: 0.1, direction: "with", ...nothing});
+    assert.equal(findingOf(rotation(wave(50)), 0, 50).isFirm, true);
+    const slow = wave(52, 13), half = 1.96 * liveEstimate(rotation(slow)).error;
+    assert.equal(findingOf(rotation(slow, {mean: -0.99 * half}), 0, 52).isFirm, false);
+    assert.deepEqual([findingOf(rotation(slow, {mean: -1.01 * half}), 0, 52)].map(({isFirm, direction}) => [isFirm, direction]),
+                     [[true, "against"]]);
+
+    // The page stores nothing in the browser, so that tabs have nothing in common and nothing can be damaged.
+    for (const name of readdirSync(sources))
+        assert.doesNotMatch(readFileSync(join(sources, name), "utf-8"),
+                            /localStorage|sessionStorage|indexedDB|BroadcastChannel|SharedWorker|serviceWorker|\.cookie/, name);
 
     // In any orientation the eight octants of a sphere cover its visible half exactly once.
     const {inRotatedAxes, rotated, visiblePart} = await load("ball");
@@ -193,6 +216,16 @@ try {
     assert.equal(withError(12.34, 3, "?"), "12.3 ± 3.0");
     assert.equal(withError(null, null, "?"), "?");
     assert.equal(withError(0.25, null, "?"), "0.250");
+
+    // German numbers have a decimal comma, in and out; a list is then separated by semicolons.
+    globalThis.name = "de"; // as in a worker
+    const german = await load("page", "page.de");
+    delete globalThis.name;
+    assert.equal(german.withError(-0.0412, 0.0013, "?"), "−0,0412 ± 0,0013");
+    assert.equal(german.localized("mu 0.5, discs 5"), "mu 0,5, discs 5");
+    assert.equal(german.typedNumber("0,35"), "0.35");
+    assert.equal(german.typedList("0,1; 1; 5:0,5:7"), "0.1, 1, 5:0.5:7");
+    assert.equal(german.shownList("0.1, 1"), "0,1; 1");
 } finally {
     rmSync(folder, {recursive: true});
 }
