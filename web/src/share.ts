@@ -22,12 +22,15 @@ export class Share {
     constructor(private readonly lab: Laboratory, dish: Dish) {
         this.recording = new Recording(() => dish.canvas);
         dish.laidOut = (): void => this.recording.stop();
-        const link = button(texts.link, () => void this.copy(
-            new URL(addressOf(lab.given), location.href).href, link, texts.link), "copy-link");
+        const address = (): string => new URL(addressOf(lab.given), location.href).href;
+        const link = button(texts.link, () => void this.copy(address(), link, texts.link), "copy-link");
+        // The reader may close the dialog of the system, which rejects.
+        const send = button(texts.send, () => void navigator.share({title: document.title, url: address()}).catch(() => {}), "send-link");
         link.hidden = location.protocol === "about:"; // a frame in a notebook has no address
+        send.hidden = link.hidden || !("share" in navigator);
         const menu = element("details", {},
             element("summary", {title: texts.share}, icon("share"), element("span", {textContent: texts.share})),
-            element("div", {className: "menu"}, link,
+            element("div", {className: "menu"}, link, send,
                 button(texts.image, () => {
                     if (dish.canvas) save("swirl.png", {href: dish.canvas.toDataURL("image/png")});
                 }, "save-image"),
@@ -64,7 +67,12 @@ export class Share {
     }
 
     private async copy(text: string, from: HTMLButtonElement, label: string): Promise<void> {
-        await navigator.clipboard.writeText(text);
+        try {
+            await navigator.clipboard.writeText(text);
+        } catch {
+            prompt(label, text); // a browser without the clipboard, for example without https
+            return;
+        }
         from.textContent = texts.copied;
         setTimeout(() => { from.textContent = label; }, 2000);
     }

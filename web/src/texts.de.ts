@@ -10,7 +10,9 @@ const comma = (number: string): string => number.replace(".", ",");
 
 export const pageTexts: typeof en.pageTexts = {
     language: "de",
-    title: "swirl: Scheiben in einer geschwenkten Schale",
+    title: "Pancake Rotation: warum sich Murmeln in einer geschwenkten Schale rückwärts drehen",
+    description: "Schwenke eine Schale: Wenige Murmeln drehen sich im Umlaufsinn, viele rückwärts. Verschiebe den Regler und finde die " +
+        "Anzahl, bei der sich die Richtung umkehrt, in einer exakten Simulation.",
     name: "swirl",
     noScript: "Diese Seite braucht JavaScript, das hier ausgeschaltet ist.",
     dish: "Simulierte Schale",
@@ -31,6 +33,7 @@ export const texts: typeof en.texts = {
     pause: "Anhalten (Leertaste)",
     share: "Speichern und teilen",
     link: "Link kopieren",
+    send: "Link senden …",
     copy: "Kopieren",
     step: "Nächstes Ereignis (.)",
     lapse: "Vorspulen bis zu den Mittelwerten, ein Bild je Umlauf (F)",

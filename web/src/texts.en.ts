@@ -7,7 +7,9 @@ import {symbols} from "./symbols";
 /** The texts for the {{names}} in index.html, inserted when the page is built. */
 export const pageTexts = {
     language: "en",
-    title: "swirl: discs in a swirled container",
+    title: "Pancake rotation: why marbles in a swirled dish turn backwards",
+    description: "Swirl a dish: a few marbles turn with the swirl, many turn backwards. Move the slider and find the number at which " +
+        "the direction changes, in an exact simulation.",
     name: "swirl",
     noScript: "This page needs JavaScript, which is turned off here.",
     dish: "Simulated container",
@@ -28,6 +30,7 @@ export const texts = {
     pause: "Pause (space)",
     share: "Save and share",
     link: "Copy the link",
+    send: "Send the link…",
     copy: "Copy",
     step: "Next event (.)",
     lapse: "Fast-forward to the averages, one image per period (F)",

@@ -28,7 +28,7 @@ export function translatePage(): void {
     document.title = de.pageTexts.title;
     const known = new Map(Object.entries(en.pageTexts).map(
         ([name, text]) => [text, de.pageTexts[name as keyof typeof en.pageTexts]]));
-    const nodes = document.createTreeWalker(document.body, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
+    const nodes = document.createTreeWalker(document.documentElement, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
     for (let node = nodes.nextNode(); node; node = nodes.nextNode()) {
         if (node instanceof Element) {
             for (const {name, value} of [...node.attributes]) {

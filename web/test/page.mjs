@@ -575,6 +575,34 @@ assert.deepEqual(await strict.evaluate(() => new Promise((resolve) => setTimeout
                  ["script-src-elem inline", "connect-src https://example.org/"]);
 await strict.close();
 
+// The page can be found and shared.
+assert.equal(await page.title(), "Pancake rotation: why marbles in a swirled dish turn backwards");
+for (const name of ["name=description", "property='og:title'", "property='og:description'"])
+    assert.ok((await page.getAttribute(`meta[${name}]`, "content")).length > 40, name);
+assert.match(await page.getAttribute("link[rel=icon]", "href"), /^data:image\/svg/);
+assert.deepEqual(await page.evaluate(async () => {
+    const image = new Image();
+    image.src = document.querySelector("link[rel=icon]").href;
+    await image.decode();
+    return document.getElementById("send-link").hidden || "share" in navigator;
+}), true);
+const phoneShare = await browser.newPage({bypassCSP: true});
+await phoneShare.addInitScript(() => {
+    navigator.share = async (shared) => {
+        globalThis.shared = shared;
+        throw new DOMException("closed", "AbortError");
+    };
+});
+phoneShare.on("pageerror", (error) => errors.push(error.message));
+await phoneShare.goto(`${address}?discs=9&seed=3`);
+await phoneShare.waitForFunction(() => document.getElementById("state-hash").textContent !== "");
+const shared = await phoneShare.evaluate(() => {
+    document.getElementById("send-link").click();
+    return globalThis.shared;
+});
+assert.match(shared.url, /\?discs=9&seed=3$/);
+await phoneShare.close();
+
 // A browser that records MP4 only saves a movie of that kind.
 const apple = await browser.newPage({bypassCSP: true});
 await apple.addInitScript(() => {

@@ -216,7 +216,7 @@ await page.evaluate((text) => {
 }, readFileSync(join(files, "run.json"), "utf-8"));
 await page.waitForFunction(() => /dropped\.json/.test(document.querySelector("#opened h2")?.textContent));
 for (const [buffer, said] of [["no such thing", /'a\.txt' is not a result/], ["{\"config\": {", /'a\.txt' cannot be read/],
-                              ["\x89HDF\r\n\x1a\n1234", /'a\.txt' is not a result.*Notebooks read recordings/s],
+                              ["\x89HDF\r\n\x1a\n1234", /'a\.txt' is not a result[^]*Notebooks read recordings/],
                               ["{\"config\": {}, \"events\": {\"total\": \"x\"}}", /'a\.txt' is damaged: events\.total = "x"/]]) {
     await page.setInputFiles("#open-file", {name: "a.txt", mimeType: "text/plain", buffer: Buffer.from(buffer, "latin1")});
     await page.waitForFunction((wanted) => new RegExp(wanted).test(document.getElementById("error").textContent), said.source);
@@ -226,7 +226,8 @@ for (const [buffer, said] of [["no such thing", /'a\.txt' is not a result/], ["{
 await open("?lang=de&discs=8");
 const german = async () => {
     assert.equal(await page.getAttribute("html", "lang"), "de");
-    assert.match(await page.title(), /Scheiben/);
+    assert.match(await page.title(), /^Pancake Rotation: warum sich Murmeln/);
+    assert.match(await page.getAttribute("meta[name=description]", "content"), /^Schwenke eine Schale/);
     assert.match(await page.textContent("label[for=parameter-discs]"), /^Anzahl der Scheiben/);
     await page.waitForFunction(() => /^8 Scheiben/.test(document.getElementById("headline").textContent));
     const shown = await page.evaluate(() => document.body.innerText);
