@@ -34,7 +34,7 @@ class Container {
           run_(endless(config), begin, measured_.empty() ? nullptr : &observation_),
           shown_(run_.stored_snapshot()),
           turned_times_(rotation_samples, config.period),
-          pinned_times_(samples_per_period, config.period),
+          map_times_(samples_per_period, config.period),
           spins_(config.container_radius) {
         run_.follow_orientations();
     }
@@ -55,8 +55,22 @@ class Container {
     void pass_found_event() {
         if (found_) pass();
     }
+    /// Maps, profile and pinned criterion take 511 samples per period, which cost several times the
+    /// simulation. They are taken only while they are shown, from the next period on.
+    void show_maps(bool shown) {
+        if (shown && !maps_)
+            maps_.emplace(config_.container_radius, config_.period,
+                          std::vector<std::string>{"density", "flow", "profile"});
+        if (shown && !maps_are_shown_) {
+            maps_begin_ = run_.stored_snapshot().periods + 1;
+            pinned_ = PinnedFrames();
+        }
+        maps_are_shown_ = shown;
+    }
+    /// Null if they have never been shown.
+    const Observation* maps() const { return maps_ ? &*maps_ : nullptr; }
     /// True if disc i is pinned by the paper's criterion, which is known some frames later. False
-    /// in the first frames, and if nothing is measured.
+    /// in the first frames, and if no maps are shown.
     bool is_pinned(std::size_t i) const {
         const PinnedLoose& found = pinned_.pinned_loose();
         return found.is_known() && found.pinned()[i] != 0;
@@ -168,11 +182,16 @@ class Container {
         run_.execute_event();
         found_ = true;
         while (run_.next_sample(turned_times_)) add_turns();
-        // The pinned criterion takes 511 samples per period, which cost more than the simulation.
-        // They are taken only for a page that measures; its map of the spins takes them, too.
-        if (!measured_.empty())
-            while (run_.next_sample(pinned_times_)) spins_.sample(pinned_.sample(run_.snapshot()));
+        if (samples_maps())
+            while (run_.next_sample(map_times_)) {
+                const Snapshot& now = run_.snapshot();
+                spins_.sample(pinned_.sample(now));
+                if (run_.is_warm()) maps_->sample(now);
+            }
         return true;
+    }
+    bool samples_maps() const {
+        return maps_are_shown_ && run_.stored_snapshot().periods >= maps_begin_;
     }
     void add_turns() {
         const Snapshot& s = run_.snapshot();
@@ -187,7 +206,9 @@ class Container {
         turns_.rigid += turns * rate.rigid;
     }
     void pass() {
+        const std::int64_t period = run_.stored_snapshot().periods;
         run_.pass_event();
+        if (samples_maps() && run_.stored_snapshot().periods > period) maps_->close_block();
         found_ = false;
         passed_ = run_.event();
         passed_clock_ = run_.stored_snapshot().clock;
@@ -202,8 +223,11 @@ class Container {
     RotationSample turns_{0.0, 0.0};
     bool turns_are_averaged_ = false;
     SampleTimes turned_times_;
-    SampleTimes pinned_times_;
+    SampleTimes map_times_;
     PinnedFrames pinned_;
+    std::optional<Observation> maps_;
+    bool maps_are_shown_ = false;
+    std::int64_t maps_begin_ = 0;  // the period
     SpinMap spins_;
     bool found_ = false;
     double passed_clock_ = 0.0;  // of the last passed event

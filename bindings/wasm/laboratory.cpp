@@ -105,6 +105,13 @@ Request parse_request(std::string_view lines) {
 }
 
 std::unique_ptr<Container> simulated;
+bool maps_are_shown = false;
+void simulate(const RunConfig& config, const InitialState& state,
+              const std::vector<std::string>& measured) {
+    auto container = std::make_unique<Container>(config, state, measured);
+    container->show_maps(maps_are_shown);
+    simulated = std::move(container);
+}
 ParameterTexts given_at_start;
 RotationSample turns_by_hand{0.0, 0.0};
 std::vector<double> numbers;
@@ -236,7 +243,7 @@ EXPORTED(parameters) std::uint32_t parameters() {
 EXPORTED(begin) void begin() {
     auto [config, measured, given] = parse_request(buffer);
     simulated.reset();
-    simulated = std::make_unique<Container>(config, make_initial_state(config), measured);
+    simulate(config, make_initial_state(config), measured);
     given_at_start = std::move(given);
 }
 
@@ -262,7 +269,7 @@ EXPORTED(change) std::uint32_t change(double time) {
     const auto wanted = static_cast<std::size_t>(config.discs);
     fit_discs(state, wanted);
     config.discs = static_cast<std::int64_t>(state.discs.size());
-    simulated = std::make_unique<Container>(config, state, measured);
+    simulate(config, state, measured);
     return static_cast<std::uint32_t>(1 + wanted - state.discs.size());
 }
 
@@ -279,7 +286,7 @@ EXPORTED(reverse) std::uint32_t reverse(double time) {
         disc.velocity = -1.0 * disc.velocity;
         disc.spin = -disc.spin;
     }
-    simulated = std::make_unique<Container>(config, state, simulated->measured());
+    simulate(config, state, simulated->measured());
     return 1;
 }
 
@@ -293,7 +300,7 @@ EXPORTED(drag) void drag(double time, std::uint32_t i, double x, double y) {
     disc.position = nearest_free_position(state, i, {x, y});
     disc.velocity = later.segments.front().velocity;
     disc.spin = 0.0;
-    simulated = std::make_unique<Container>(simulated->config(), state, simulated->measured());
+    simulate(simulated->config(), state, simulated->measured());
 }
 
 /// By hand: from `time` on the container moves straight to (x, y) within `duration` (above 0) and
@@ -437,8 +444,17 @@ EXPORTED(turns) const double* turns() {
     return numbers.data();
 }
 
-/// Stores the current report of all measurements; column() reads it.
-EXPORTED(report) void report() { reports = simulated->observation().report(); }
+/// Whether maps are measured from now on (Container::show_maps), also in later simulations.
+EXPORTED(show_maps) void show_maps(std::uint32_t shown) {
+    maps_are_shown = shown != 0;
+    if (simulated) simulated->show_maps(maps_are_shown);
+}
+
+/// Stores the current report of the maps; column() reads it.
+EXPORTED(report) void report() {
+    reports.clear();
+    if (const Observation* maps = simulated->maps()) reports = maps->report();
+}
 
 /// Selects a column of the stored report, e.g. "density//by_time". Returns its number of values; 0
 /// if there is no such column. values() has them.

@@ -548,6 +548,41 @@ class Laboratory(unittest.TestCase):
                 error = 3.182 / 1.96 * statistics.stdev(means) / 2  # Student's t, which the page has within 1 %
                 self.assertAlmostEqual(float(row[f"varpi_{rate}_error"]), error, delta=0.01 * error, msg=rate)
 
+    def test_maps_are_measured_only_while_they_are_shown(self):
+        done = subprocess.run(["node", "-e", NODE.split("engineOf(process.argv[1])")[0] + """
+            engineOf(process.argv[1]).then((make) => {
+                const said = {}, period = 11.866071;
+                for (const [name, from, to] of [["never", 99, 99], ["always", 0, 99], ["late", 22.5, 99], ["ended", 0, 25]]) {
+                    const engine = make();
+                    engine.begin({discs: "12"});
+                    const until = (periods) => { while (!engine.out.advance_to(periods * period, 1000)); };
+                    for (const [periods, shown] of [[from, 1], [to, 0]]) if (periods < 40) {
+                        until(periods);
+                        engine.out.show_maps(shown);
+                    }
+                    until(40);
+                    engine.out.report();
+                    const write = new TextEncoder().encode("density//by_time"), at = engine.out.buffer_for(write.length);
+                    new Uint8Array(engine.out.memory.buffer, at, write.length).set(write);
+                    const size = engine.out.column();
+                    const values = [...new Float64Array(engine.out.memory.buffer, engine.out.values(), size)];
+                    said[name] = [engine.out.state_hash().toString(), values.map((each) => (Number.isFinite(each) ? each : 0))];
+                }
+                console.log(JSON.stringify(said));
+            });""", os.path.join(SOURCE, "build/wasm/swirl.wasm")], check=True, capture_output=True, text=True)
+        said = json.loads(done.stdout)
+        self.assertEqual(len({state for state, _ in said.values()}), 1)  # the trajectory is the same
+        never, always, late, ended = (said[name][1] for name in ("never", "always", "late", "ended"))
+        self.assertEqual(never, [])
+        # Each is the mean over its periods after the warm-up: 20 of them, 17 from period 23 on, and the first five.
+        for values in (always, late, ended):
+            self.assertGreater(max(values), 0.1)
+        self.assertNotEqual(always, late)
+        self.assertNotEqual(always, ended)
+        # A map over all periods is nearer to one over 17 of them than to one over five.
+        distance = lambda other: math.dist(always, other)  # noqa: E731
+        self.assertLess(distance(late), distance(ended))
+
     @slow("it makes 240 runs at each of two numbers of discs")
     def test_intervals_contain_the_true_rotation_rate(self):
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "coverage.mjs"),

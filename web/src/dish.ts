@@ -37,6 +37,7 @@ export class Dish {
     private readonly paint = new SectorPaint();
     private maps: Maps | undefined;
     private lastMaps = 0;
+    private measures: boolean | undefined; // what the worker was told
     private shown: Frame | undefined; // with the stroboscope, the last image
     private history: Float64Array[] = [];
     private dragged: number | undefined; // the disc under the pointer
@@ -98,6 +99,7 @@ export class Dish {
     }
 
     private forget(): void {
+        this.measures = undefined; // there may be another worker
         this.history = [];
         this.shown = this.maps = undefined;
         this.paint.sectors.length = 0;
@@ -128,8 +130,10 @@ export class Dish {
     }
 
     private requestMaps(): void {
-        if (this.lab.isByHand || performance.now() - this.lastMaps < mapInterval) return;
-        if (!isMap(this.view) && !this.needsMaps()) return;
+        const maps = isMap(this.view) || this.needsMaps(), measures = maps || this.coloring === "pinned";
+        if (measures !== this.measures) this.lab.send({kind: "measure", maps: measures});
+        this.measures = measures;
+        if (this.lab.isByHand || !maps || performance.now() - this.lastMaps < mapInterval) return;
         this.lastMaps = performance.now();
         this.lab.send({kind: "maps"});
     }

@@ -79,6 +79,7 @@ interface Exports {
     result(): number;
     command(): number;
     report(): void;
+    show_maps(shown: number): void;
     column(): number;
     spin_map(): number;
     values(): number;
@@ -197,7 +198,11 @@ export class Engine {
     result(): string {
         return this.answer(this.out.result());
     }
-    /** Stores the current report of all measurements; column() reads it. */
+    /** Whether maps are measured, which costs several times the simulation. */
+    showMaps(shown: boolean): void {
+        this.out.show_maps(Number(shown));
+    }
+    /** Stores the current report of the maps; column() reads it. */
     report(): void {
         this.out.report();
     }

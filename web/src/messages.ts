@@ -20,6 +20,8 @@ export type ToWorker =
     /** Moves a disc to the free position nearest to a point. Answered by a frame. */
     | {kind: "drag"; disc: number; x: number; y: number}
     | {kind: "result"}
+    /** Whether maps and the pinned discs are measured from now on. */
+    | {kind: "measure"; maps: boolean}
     | {kind: "maps"}
     /** A whole run with this many periods after the warm-up. */
     | {kind: "point"; given: Record<string, string>; periods: number}

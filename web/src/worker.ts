@@ -17,6 +17,7 @@ let period = 1;
 let runNumber = 0;
 let lastAverages = -Infinity;
 let change: Record<string, string> | undefined; // takes effect at the end of the period
+let showsMaps = false;
 let toFit: {given: Record<string, string>; tries: number} | undefined; // discs without room so far
 
 const send = (message: FromWorker): void => postMessage(message);
@@ -69,7 +70,8 @@ function run(simulation: Engine, events: number): void {
 
 function begin(given: Record<string, string>, events: number): void {
     if (!module) return;
-    engine = startSimulation(module, {...given, ...measured});
+    engine = startSimulation(module, given);
+    engine.showMaps(showsMaps);
     now = 0;
     lastAverages = -Infinity;
     change = toFit = undefined;
@@ -80,9 +82,6 @@ function begin(given: Record<string, string>, events: number): void {
     now = engine.time;
     show(events > 0);
 }
-
-/** The measurements of each simulation. They do not alter the trajectory. */
-const measured = {measure: "density,flow,profile"};
 
 /** Advances to `target` within tickBudget. Returns whether it was reached. */
 function advance(simulation: Engine, target: number): boolean {
@@ -140,7 +139,7 @@ const triesToFit = 12; // four periods
 function applyChange(given: Record<string, string>, tries = triesToFit): void {
     if (!engine) return;
     change = undefined;
-    const missing = engine.change(now, {...given, ...measured}), configuration = engine.configuration();
+    const missing = engine.change(now, given), configuration = engine.configuration();
     if (missing !== undefined) {
         now = 0;
         period = Number(configuration["period"]);
@@ -235,6 +234,10 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                 break;
             case "result":
                 if (engine) send({kind: "result", text: engine.result()});
+                break;
+            case "measure":
+                showsMaps = data.maps;
+                engine?.showMaps(showsMaps);
                 break;
             case "maps":
                 maps();

@@ -44,7 +44,7 @@ await page.evaluate(() => {
     speed.value = speed.max;
     speed.dispatchEvent(new Event("input"));
 });
-await page.click("#maps summary");
+await page.click("#profile-panel summary");
 
 const session = await page.context().newCDPSession(page);
 const whole = await browser.newBrowserCDPSession();
