@@ -14,6 +14,7 @@ const args = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run
               "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 const browser = await chromium.launch({executablePath, args});
 const page = await browser.newPage({bypassCSP: true, viewport: {width: 1200, height: 800}});
+page.setDefaultTimeout(180_000); // a busy machine is slow
 const errors = [], requests = [];
 page.on("pageerror", (error) => errors.push(error.message));
 page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
@@ -57,7 +58,7 @@ const setPace = (pace) => page.evaluate((value) => {
 const open = async (query) => {
     await page.goto(address + query);
     await page.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
-        !document.getElementById("error").hidden, null, {timeout: 60_000});
+        !document.getElementById("error").hidden, null, {timeout: 180_000});
 };
 
 // The address sets the parameters, and the page runs to exactly that event.
@@ -119,7 +120,7 @@ for (const [query, options] of [["?discs=48&events=2000", "--discs 48"], // ends
 await open("?discs=48");
 const before = Number(await text("event-count"));
 await page.waitForFunction((n) => Number(document.getElementById("event-count").textContent) > n,
-                           before + 1000, {timeout: 60_000});
+                           before + 1000, {timeout: 180_000});
 const painted = await page.evaluate(() => {
     const canvas = document.querySelector("canvas");
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -256,7 +257,7 @@ assert.deepEqual(errors, []);
 // A collapse is an error, both on the way to an event and while the page runs.
 for (const events of ["&events=300000", ""]) {
     await page.goto(`${address}?discs=48&restitution=0.5&contact_duration=0${events}`);
-    await page.waitForFunction(() => !document.getElementById("error").hidden, null, {timeout: 60_000});
+    await page.waitForFunction(() => !document.getElementById("error").hidden, null, {timeout: 180_000});
     assert.match(await text("error"), /\(inelastic collapse\)/);
     if (events) assert.equal(await text("state-hash"), "");
 }
@@ -267,7 +268,7 @@ if (all) {
     await page.waitForFunction(
         () => /^\d+ of 1000000 events done\.$/.test(document.getElementById("headline").textContent));
     await page.waitForFunction(() => document.getElementById("event-count").textContent === "1000000", null,
-                               {timeout: 60_000});
+                               {timeout: 180_000});
     await page.evaluate(() => {
         globalThis.headlines = [];
         const headline = document.getElementById("headline");
@@ -338,7 +339,7 @@ if (all) {
             const canvas = document.querySelector("#views canvas");
             const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
             return new Set(Array.from({length: data.length / 40}, (_, k) => data[40 * k])).size > 40;
-        }, null, {timeout: 60_000});
+        }, null, {timeout: 180_000});
     }
     await page.selectOption("#choose-view", "lab");
     await page.click("#profile-panel summary");
@@ -463,7 +464,7 @@ if (all) {
 
     // If reduced motion is enabled in the system, the page is paused, after the warm-up and some periods.
     await phone.goto(`${address}?discs=8`);
-    await phone.waitForFunction(() => Number(document.getElementById("period-count")?.textContent) >= 30, null, {timeout: 60_000});
+    await phone.waitForFunction(() => Number(document.getElementById("period-count")?.textContent) >= 30, null, {timeout: 180_000});
     assert.equal(await phone.getAttribute("#play", "aria-label"), "Play (space)");
     await phone.close();
 
@@ -472,7 +473,7 @@ if (all) {
     await press("compare");
     await page.fill("#parameter-discs", "20");
     await page.waitForFunction(() => /^12 discs: ϖ/.test(
-        document.querySelector("#compared figcaption")?.textContent ?? ""), null, {timeout: 60_000});
+        document.querySelector("#compared figcaption")?.textContent ?? ""), null, {timeout: 180_000});
     await page.waitForSelector('canvas[aria-label^="20 discs"]');
     await requireAccessible("two containers");
     await page.click("#close-compared");
@@ -529,6 +530,7 @@ for (const [events, wanted] of [["60000", /^−0\.\d\d$/], ["260000", /^−0\.\d
 // A browser whose storage is blocked, and whose address cannot be changed, loses nothing that is on the page; two tabs
 // do not disturb each other.
 const blocked = await browser.newPage({bypassCSP: true, viewport: {width: 1200, height: 800}});
+blocked.setDefaultTimeout(180_000);
 blocked.on("pageerror", (error) => errors.push(error.message));
 await blocked.addInitScript(() => {
     for (const name of ["localStorage", "sessionStorage", "indexedDB", "caches"])
@@ -536,7 +538,7 @@ await blocked.addInitScript(() => {
     history.replaceState = () => { throw new DOMException("full", "QuotaExceededError"); };
 });
 const pointsOn = (of, count) => of.waitForFunction((wanted) => document.querySelector("#discovery-plot [role=img]").ariaLabel
-    .includes(`with ${wanted} point`), count, {timeout: 60_000});
+    .includes(`with ${wanted} point`), count);
 await blocked.goto(`${address}?discs=8`);
 await pointsOn(blocked, 1);
 await open("?discs=8");
@@ -551,12 +553,13 @@ await blocked.close();
 // The page's policy forbids other scripts and all requests, and its own parts obey it. Playwright's waitForFunction needs
 // eval, so all other tests bypass the policy.
 const strict = await browser.newPage();
+strict.setDefaultTimeout(180_000);
 await strict.addInitScript(() => {
     globalThis.violations = [];
     document.addEventListener("securitypolicyviolation", (event) => globalThis.violations.push(`${event.effectiveDirective} ${event.blockedURI}`));
 });
 await strict.goto(`${address}?discs=8`);
-await strict.locator("#discovery-plot [role=img][aria-label*='with 1 point']").waitFor({timeout: 60_000}); // workers run
+await strict.locator("#discovery-plot [role=img][aria-label*='with 1 point']").waitFor({timeout: 180_000}); // workers run
 await strict.evaluate(() => { for (const id of ["compare", "record"]) document.getElementById(id).click(); });
 await strict.locator("#compared canvas").waitFor();
 for (const id of ["save-image", "save-result", "save-table"]) {
@@ -587,6 +590,7 @@ assert.deepEqual(await page.evaluate(async () => {
     return document.getElementById("send-link").hidden || "share" in navigator;
 }), true);
 const phoneShare = await browser.newPage({bypassCSP: true});
+phoneShare.setDefaultTimeout(180_000);
 await phoneShare.addInitScript(() => {
     navigator.share = async (shared) => {
         globalThis.shared = shared;
@@ -605,6 +609,7 @@ await phoneShare.close();
 
 // A browser that records MP4 only saves a movie of that kind.
 const apple = await browser.newPage({bypassCSP: true});
+apple.setDefaultTimeout(180_000);
 await apple.addInitScript(() => {
     globalThis.MediaRecorder = class {
         static isTypeSupported(type) { return type === "video/mp4"; }
@@ -682,6 +687,6 @@ const old = await chromium.launch({executablePath, args: [
 const without = await old.newPage({bypassCSP: true});
 await without.goto(address);
 await without.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
-    !document.getElementById("error").hidden, null, {timeout: 60_000});
+    !document.getElementById("error").hidden, null, {timeout: 180_000});
 assert.match(await without.textContent("#error"), /^This browser does not support WebAssembly with SIMD/);
 await old.close();
