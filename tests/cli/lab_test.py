@@ -444,7 +444,7 @@ class Laboratory(unittest.TestCase):
         swirl("image", *dish, "--at", repr(run["periods"]), "--bare", "--out", picture, "--quiet")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page,
                                CHROMIUM, run["state_hash"], picture, folder, *COMPLETE],
-                              capture_output=True, text=True, timeout=300)
+                              capture_output=True, text=True, timeout=700)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with open(os.path.join(folder, "result.json"), encoding="utf-8") as opened:
             self.assertEqual(json.load(opened)["config"]["discs"], 28)
