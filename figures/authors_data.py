@@ -110,9 +110,9 @@ def sample(simulation, samples):
     return turn * (position @ (1, 1j)), turn * (velocity @ (1, 1j))
 
 
-def averages(discs, seed, **parameters):
+def averages(discs, seed):
     """Density, flow and profile of each block of a run."""
-    simulation = swirl.Simulation(discs=discs, seed=seed, **parameters)
+    simulation = swirl.Simulation(discs=discs, seed=seed)
     found = {"density": [], "flow": [], "profile": []}
     for _ in range(BLOCKS):
         r, u = sample(simulation, EVENTS // BLOCKS // EVERY)
