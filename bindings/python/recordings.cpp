@@ -27,10 +27,11 @@ namespace {
 class Recording {
   public:
     explicit Recording(SnapshotSeries series) : series_(std::move(series)) {
-        series_.frame = [this, read = std::move(series_.frame)](std::uint64_t k) {
-            const std::lock_guard lock(mutex_);
+        series_.frame = [mutex = mutex_, read = std::move(series_.frame)](std::uint64_t k) {
+            const std::lock_guard lock(*mutex);
             return read(k);
         };
+        states_ = std::make_shared<PinnedSeries>(series_);
     }
     static std::unique_ptr<Recording> open(const std::string& file) {
         auto reader = std::make_shared<TrajectoryReader>(file);
@@ -52,13 +53,15 @@ class Recording {
                                 "hint: read frames with different discs one by one.",
                                 k, s.size(), frames->discs));
             frames->add(s);
+            frames->numbers.push_back(k);
         }
+        frames->recording = states_;
         return frames;
     }
     py::dict about() {
         py::dict about;
         if (!reader_) return about;
-        const std::lock_guard lock(mutex_);
+        const std::lock_guard lock(*mutex_);
         for (const std::string& name : reader_->provenance_names())
             about[py::str(name)] = reader_->provenance(name);
         return about;
@@ -69,8 +72,34 @@ class Recording {
   private:
     SnapshotSeries series_;
     std::shared_ptr<TrajectoryReader> reader_;
-    std::mutex mutex_;
+    std::shared_ptr<PinnedSeries> states_;
+    std::shared_ptr<std::mutex> mutex_ = std::make_shared<std::mutex>();
 };
+
+/// The columns of a trackpy table in a file. The radius is there only if `swirl track` wrote it.
+py::dict read_tracks(const std::string& file) {
+    std::vector<std::int64_t> frame, particle;
+    std::vector<double> x, y, radius;
+    for (const TrackFrame& at : read_trackpy_csv(file).frames)
+        for (std::size_t i = 0; i < at.id.size(); ++i) {
+            frame.push_back(at.number);
+            particle.push_back(at.id[i]);
+            x.push_back(at.position[i].x);
+            y.push_back(at.position[i].y);
+            if (!at.radius.empty()) radius.push_back(at.radius[i]);
+        }
+    py::dict columns;
+    const auto add = [&](const char* name, auto&& column) {
+        const py::ssize_t rows = signed_size(column.size());
+        if (rows > 0) columns[name] = owned_array(std::forward<decltype(column)>(column), {rows});
+    };
+    add("frame", std::move(frame));
+    add("particle", std::move(particle));
+    add("x", std::move(x));
+    add("y", std::move(y));
+    add("radius", std::move(radius));
+    return columns;
+}
 
 /// Rows of a trackpy table in order of frames. `radius` may be empty.
 std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers& particle,
@@ -139,7 +168,7 @@ void reject_unmeasurable(const std::vector<std::string>& names, bool tracked) {
                 "measure contains '{1}', which needs the same discs in {0} consecutive frames, but "
                 "the recording does not have them.\nhint: density, flow, profile, radial, "
                 "temperature, order and packing do not need this.",
-                PinnedLoose::width + 1, name));
+                FrameWindow().width() + 1, name));
     }
 }
 
@@ -167,7 +196,7 @@ py::tuple analyse(Recording& recording, const std::vector<std::string>& names, b
     const MeasuredSeries found =
         interruptible(stop, [&] { return measure_series(series, measured, skip, control); });
     return py::make_tuple(reports_in_python(found.reports), estimate_tuple(found.rotation.by_time),
-                          estimate_tuple(found.rotation.rigid_by_time), found.frames);
+                          estimate_tuple(found.rotation.rigid_by_time), found.frames, found.remark);
 }
 
 }  // namespace
@@ -176,6 +205,7 @@ void bind_recordings(py::module_& module) {
     py::class_<Recording>(module, "Recording")
         .def_static("open", &Recording::open)
         .def_static("tracks", &tracks)
+        .def_static("read_tracks", &read_tracks)
         .def_static("of_frames",
                     [](const std::shared_ptr<Frames>& frames) { return recording_of(frames); })
         .def("__len__", &Recording::size)

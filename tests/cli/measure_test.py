@@ -1,5 +1,6 @@
 """Tracks with a known result: a simulated container, sampled as by a camera, and measured."""
 
+import csv
 import json
 import math
 import unittest
@@ -18,6 +19,14 @@ class MeasureTest(InFolder):
     def setUpClass(cls):
         super().setUpClass()
         cls.table = None
+
+    def test_help_needs_no_file(self):
+        done = swirl("measure", "--measure", "help")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout, swirl("run", "--measure", "help").stdout)
+        done = swirl("measure", "--measure", "slip")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("missing required argument FILE", done.stderr)
 
     def answer(self):
         """Results from the engine's own frames, and the positions in disc radii: {frame: {disc: (x, y)}}."""
@@ -182,6 +191,71 @@ class MeasureTest(InFolder):
             self.assertEqual(share > 0.5, not remark)
         done = swirl("measure", self.path("30.h5"), "--measure", "rolling")
         self.assertIn("hint: record 511 frames per period", done.stderr)
+
+    def test_values_below_the_frame_rate_of_their_definition_are_missing_with_the_reason(self):
+        # At 30 frames per period the depinning angle was 133.1 ± 0.6 degrees instead of 5 ± 1.
+        names = "pinned,residence,slip,order,density"
+        for frames, missing in ((30, ("pinned (120)", "residence (120)", "pinned discs in slip, order (400)",
+                                      "resident discs in slip, order (120)")),
+                                (128, ("pinned discs in pinned, slip, order (400)",)), (511, ())):
+            recording = self.path(f"{frames}.h5")
+            done = swirl("run", "--discs", 20, "--periods", 4, "--warmup", 0, "--frames", frames,
+                         "--trajectory", recording, "--quiet", "--overwrite")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            done = swirl("measure", recording, "--measure", names, "--json", "-")
+            found = json.loads(done.stdout)
+            for reason in missing:
+                self.assertIn(reason, done.stderr)
+                self.assertIn(reason, found["remark"])
+            self.assertEqual("too few" in done.stderr, bool(missing))
+            measured = found["measured"]
+            self.assertEqual(measured["pinned"]["depinning"]["mean"] is None, frames < 400)
+            self.assertEqual(measured["pinned"]["pinning"]["mean"] is None, frames < 120)
+            self.assertEqual(measured["residence"]["length"]["mean"] is None, frames < 120)
+            self.assertEqual(measured["order"]["pinned"]["mean"] is None, frames < 400)
+            self.assertIsNotNone(measured["order"]["all"]["mean"])
+            self.assertIsNotNone(measured["slip"]["cluster"]["mean"])
+
+    def test_exports_have_the_pinned_and_resident_discs_if_they_are_known(self):
+        for frames, known in ((30, False), (511, True)):
+            recording, table, dump, xyz = (self.path(f"e{frames}{end}") for end in (".h5", ".csv", ".dump", ".xyz"))
+            swirl("run", "--discs", 20, "--periods", 2, "--warmup", 0, "--frames", frames, "--trajectory", recording,
+                  "--quiet")
+            for form, out in (("table", table), ("lammps", dump), ("xyz", xyz)):
+                done = swirl("export", recording, "--to", form, "--out", out, "--quiet", "--range", "0:599")
+                self.assertEqual(done.returncode, 0 if known else 2, done.stderr)
+                if not known:
+                    done = swirl("export", recording, "--to", form, "--out", out, "--quiet")
+            with open(table, newline="", encoding="utf-8") as opened:
+                rows = list(csv.DictReader(opened))
+            self.assertEqual("pinned" in rows[0], known)
+            with open(dump, encoding="utf-8") as opened:
+                text = opened.read()
+            self.assertEqual(text.count("mass omegaz pinned resident\n") > 0, known)
+            with open(xyz, encoding="utf-8") as opened:
+                self.assertEqual(":pinned:I:1:resident:I:1 Time" in opened.read(), known)
+            if not known:
+                continue
+            # It takes seven earlier and seven later frames.
+            self.assertEqual({row["pinned"] for row in rows if int(row["frame"]) < 7}, {""})
+            later = [row for row in rows if int(row["frame"]) == 300]
+            self.assertEqual({row["pinned"] for row in later}, {"0", "1"})
+            self.assertEqual({row["resident"] for row in later}, {"0", "1"})
+            atoms = text.split("ITEM: ATOMS")[301].splitlines()[1:21]
+            self.assertEqual([atom.split()[-2] for atom in atoms], [row["pinned"] for row in later])
+
+    def test_all_frames_of_a_slow_recording_are_used(self):
+        # One frame per period: an average of every 100th had one of 100, and the effective samples of all.
+        recording = self.path("slow.h5")
+        swirl("run", "--discs", 20, "--periods", 100, "--warmup", 0, "--frames", 1, "--trajectory", recording,
+              "--quiet")
+        found = json.loads(swirl("measure", recording, "--measure", "order,packing,pair_correlation", "--json",
+                                 "-").stdout)["measured"]
+        for name, row in (("order", "all"), ("packing", "all"), ("pair_correlation", "inner_packing")):
+            estimate = found[name][row]
+            self.assertGreater(estimate["effective_samples"], 20)
+            # The scatter of one frame is below 1, so the error of the mean of 20 is below 1/√20.
+            self.assertLess(estimate["error"], 0.22)
 
     def test_missing_averages_of_a_short_recording_are_one_line(self):
         recording = self.path("short.h5")

@@ -28,9 +28,8 @@ double deepest_overlap(const Snapshot& s) {
     return deepest;
 }
 
-void expect_no_overlap(const InitialState& scene, int events) {
-    if (sanitized) events /= 50;
-    Simulation simulation(scene);
+void expect_no_overlap_in_all(const InitialState& scene, int events, const Tuning& tuning) {
+    Simulation simulation(scene, {}, tuning);
     double deepest = -1.0;
     for (int k = 1; k <= events; ++k) {
         const Event event = simulation.step();
@@ -40,6 +39,23 @@ void expect_no_overlap(const InitialState& scene, int events) {
     EXPECT_LT(deepest, allowed);
     EXPECT_GT(deepest, -1e-12);  // at contact the overlap is zero
 }
+
+void expect_no_overlap(const InitialState& scene, int events) {
+    expect_no_overlap_in_all(scene, sanitized ? events / 50 : events, {});
+}
+
+// The sanitizers check every access and every invariant of these, too (./check --slow).
+void run_search(SearchMethod search, const InitialState& scene) {
+    expect_no_overlap_in_all(scene, 3'000'000, {.search = search});
+}
+TEST(Overlap, SlowSearchAllPairs) { run_search(SearchMethod::all_pairs, paper_container(28)); }
+TEST(Overlap, SlowSearchLists) { run_search(SearchMethod::lists, paper_container(48)); }
+TEST(Overlap, SlowSearchCells) {
+    run_search(SearchMethod::cells,
+               state_of({unit_disc()}, 200, 30.0, polygon_path(6.6, 41.4, paper_sides), 1.0, 1.0));
+}
+TEST(Overlap, SlowSearchFewSpheres) { run_search(SearchMethod::all_pairs, sphere_container(48)); }
+TEST(Overlap, SlowSearchManySpheres) { run_search(SearchMethod::cells, sphere_container(48)); }
 
 TEST(Overlap, NoneWith48DiscsInSixMillionEvents) {
     expect_no_overlap(paper_container(48), 6000000);

@@ -55,6 +55,37 @@ TEST(Config, InvalidConfigurationIsRejectedWithTheLine) {
     EXPECT_NE(rejection("mu = 1\nmu = 2\n"), "");
 }
 
+std::string repeated(const std::string& text, int count) {
+    std::string all;
+    for (int k = 0; k < count; ++k) all += text;
+    return all;
+}
+
+// The parser follows each of these by recursion, and would exhaust the stack.
+TEST(Config, DeepNestingIsRejected) {
+    constexpr int deep = 40000;
+    for (const std::string& before :
+         {std::string("discs = 1\n"), std::string("a = \"\"\"b\"\"\"\"\n"),
+          std::string("a = '\\'\n"), std::string("a = [\"\"\"b\"\"\"\"\", "),
+          std::string("a = [\"\\\"\", {"), std::string("# \"\n[")})
+        EXPECT_NE(rejection(before + repeated("a.", deep) + "a = 1\n")
+                      .find("a key has more than 16 parts"),
+                  std::string::npos)
+            << before;
+    EXPECT_NE(rejection("[" + repeated("\"=\" . ", deep) + "a]\n").find("more than 16 parts"),
+              std::string::npos);
+    EXPECT_NE(rejection("x = " + repeated("[", deep) + "\n"), "");
+    EXPECT_NE(rejection("x = " + repeated("{a.b.c.d.e.f.g.h = ", deep) + "\n"), "");
+    EXPECT_NE(rejection(repeated("a.", 15) + "a = 1\n").find("[a] is a table"), std::string::npos);
+    // Dots in texts, comments and numbers are no keys.
+    const std::string dots = repeated(".", deep);
+    EXPECT_EQ(parse_config("# " + dots + "\nmu = [" + repeated("0.5, ", 100) + "1]\nout = \"" +
+                               dots + "\"\njson = '" + dots + "'\n",
+                           "a.toml")
+                  .entries.size(),
+              3u);
+}
+
 TEST(Config, BytesThatAreNotTextAreRejected) {
     using namespace std::string_literals;
     for (const std::string& bytes :

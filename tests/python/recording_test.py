@@ -65,6 +65,31 @@ def test_analysis_equals_that_of_the_command_line(file):
     assert compared > 20
 
 
+def test_frames_have_the_pinned_and_resident_discs(file):
+    t = swirl.Trajectory(file)
+    frames = t[:]
+    assert frames.pinned.shape == frames.resident.shape == (len(t), 20)
+    assert np.isnan(frames.pinned[:7]).all() and not np.isnan(frames.pinned[7:-7]).any()
+    assert set(np.unique(frames.pinned[7:-7])) == {0.0, 1.0}
+    np.testing.assert_array_equal(t[600:620].pinned, frames.pinned[600:620])
+    np.testing.assert_array_equal(t[611].resident, frames.resident[611])
+    np.testing.assert_array_equal(frames[611].m_frame().resident, frames.resident[611])
+    found = swirl.analyse(t, ["pinned", "residence"]).measured
+    assert np.nanmean(frames.pinned) == pytest.approx(found["pinned"].rows["share"].mean, rel=1e-12)
+    sampled = swirl.Simulation(discs=20, seed=3).sample(3, 511)
+    np.testing.assert_array_equal(sampled.pinned[7:-7], frames.pinned[7:3 * 511 - 7])
+    np.testing.assert_array_equal(sampled[20].pinned, sampled.pinned[20])
+    assert np.isnan(swirl.Simulation(discs=20, seed=3).sample(3, 30).resident).all()
+
+
+def test_values_that_need_more_frames_are_missing_with_the_reason():
+    slow = swirl.Simulation(discs=20, seed=3).sample(5, 30)
+    found = swirl.analyse(slow, ["residence", "order"])
+    assert math.isnan(found.measured["residence"].rows["length"].mean)
+    assert "residence (120)" in found.warnings[0] and "hint:" in found.warnings[0]
+    assert swirl.analyse(slow, ["density"]).warnings == ()
+
+
 def test_custom_measurement_of_a_recording_agrees_with_the_run(file):
     class Spread:
         def sample(self, snapshot):
@@ -230,7 +255,7 @@ def test_tracks_of_swirl_track_need_no_scale(table, tmp_path):
     np.testing.assert_array_equal(read[200].position, given[200].position)
     np.testing.assert_array_equal(read[200].radius, np.ones(20))
     good = json.dumps({"camera": camera})
-    wrong = ["{}", good.replace('"clockwise"', '"clockwise": true, "clockwise"')]
+    wrong = ["{}", "[" * 100_000, good.replace('"clockwise"', '"clockwise": true, "clockwise"')]
     wrong += [json.dumps({"camera": {**camera, name: value}})
               for name, value in (("phase", None), ("clockwise", 1), ("centre", [1.0]),
                                   ("scale", "20"))]
@@ -242,5 +267,9 @@ def test_tracks_of_swirl_track_need_no_scale(table, tmp_path):
     text = (tmp_path / "tracks.csv").read_text().splitlines()
     twice = [text[0] + ",x", *(line + ",0" for line in text[1:])]
     (tmp_path / "tracks.csv").write_text("\n".join(twice) + "\n")
-    with pytest.raises(swirl.Failure, match="two columns 'x'"):
+    with pytest.raises(swirl.FileError, match="two columns 'x'"):
         swirl.Tracks.read(tmp_path / "tracks.csv")
+    semicolons = [line.replace(",", ";").replace(".", ",") for line in text]
+    (tmp_path / "tracks.csv").write_text("\n".join(semicolons) + "\n", encoding="utf-8-sig")
+    np.testing.assert_array_equal(swirl.Tracks.read(tmp_path / "tracks.csv")[200].position,
+                                  read[200].position)

@@ -85,7 +85,8 @@ TEST_F(ParameterFiles, HostileFilesAreRejected) {
     expect_error("0,1\n1,0\n", "no column 'y'");
     expect_error("0,1,0\n1,zero,1\n2,1,0\n", "line 2: column 2 is 'zero'");
     expect_error("0,1,0\n1,nan,1\n2,1,0\n", "'nan'");
-    expect_error("0,1,0\n1,0\n2,1,0\n", "column 3 is ''");
+    expect_error("0,1,0\n1,0\n2,1,0\n", "line 2: 2 fields, but the first line has 3");
+    expect_error("0,1,0\n1,,1\n2,1,0\n", "line 2: column 2 is ''");
     expect_error("0,1,0\n", "1 point");
     expect_error("0,1,0\n1,0,1\n2,0,0\n", "not closed");
     expect_error("0,1,0\n2,0,1\n1,1,0\n", "times must increase");

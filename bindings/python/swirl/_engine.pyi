@@ -40,6 +40,14 @@ class Snapshot:
     def rolling_spin(self) -> Optional[_Floats]:
         """[disc, xy], horizontal angular velocity of spheres; None for discs"""
     @property
+    def pinned(self) -> _Floats:
+        """[disc], 1 if the disc is pinned, 0 if not. NaN if that is unknown: it takes the frames before
+        and after, at least 400 per period."""
+    @property
+    def resident(self) -> _Floats:
+        """[disc], 1 if the disc is resident at the wall, 0 if not. NaN if that is unknown: it takes the
+        frames before and after, at least 120 per period."""
+    @property
     def radius(self) -> _Floats: ...
     @property
     def mass(self) -> _Floats: ...
@@ -90,6 +98,12 @@ class Frames:
     @property
     def spin(self) -> _Floats:
         """[frame, disc]"""
+    @property
+    def pinned(self) -> _Floats:
+        """[frame, disc], as in Snapshot"""
+    @property
+    def resident(self) -> _Floats:
+        """[frame, disc], as in Snapshot"""
     @property
     def radius(self) -> _Floats: ...
     @property
@@ -194,6 +208,8 @@ class Recording:
     def tracks(frame: npt.NDArray[Any], particle: npt.NDArray[Any], x: npt.NDArray[Any],
                y: npt.NDArray[Any], radius: npt.NDArray[Any], scale: dict[str, Any],
                misfit: float) -> Recording: ...
+    @staticmethod
+    def read_tracks(file: str) -> dict[str, npt.NDArray[Any]]: ...
     @property
     def remarks(self) -> str: ...
     def frames(self, begin: int, end: int, step: int) -> Frames: ...
@@ -203,7 +219,7 @@ class Recording:
     def complete(self) -> bool: ...
     def about(self) -> dict[str, str]: ...
     def analyse(self, measured: list[str], all: bool, skip: float) -> tuple[
-        list[Report], tuple[float, float, float, int], tuple[float, float, float, int], int]: ...
+        list[Report], tuple[float, float, float, int], tuple[float, float, float, int], int, str]: ...
     def __len__(self) -> int: ...
 
 samples_per_period: int

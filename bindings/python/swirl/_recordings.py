@@ -62,6 +62,9 @@ class Trajectory(Recording):
 
         t = swirl.Trajectory("frames.h5")
         t[0].position, t[10:20].position, t.parameters, t.complete
+
+    Of a recording that is still being written (NAME.partial) it has the frames that were in the file
+    when it was opened. Open it again to see later ones.
     """
 
     def __init__(self, file: PathName) -> None:
@@ -144,15 +147,10 @@ class Tracks(Recording):
     def read(cls, file: PathName, **scale: Any) -> "Tracks":
         """Reads a trackpy table in CSV format. Arguments that are not given come from
         NAME.camera.json next to NAME.csv, which `swirl track` writes."""
-        import pandas
-        header = pandas.read_csv(file, header=None, nrows=1, dtype=str).iloc[0]
-        for name in ("frame", "particle", "x", "y", "seen", "radius"):
-            if (header == name).sum() > 1:
-                raise _engine.Failure(f"'{file}' has two columns {name!r}.")
         camera_file = pathlib.Path(file).with_suffix(".camera.json")
         if camera_file.is_file():
             scale = {**_camera(camera_file), **scale}
-        return cls(pandas.read_csv(file, float_precision="round_trip"), **scale)
+        return cls(_ReadTracks(_engine.Recording.read_tracks(os.fspath(file))), **scale)
 
     @property
     def remarks(self) -> list[str]:
@@ -163,8 +161,14 @@ class Tracks(Recording):
         return f"<swirl.Tracks: {len(self)} frames>"
 
 
+class _ReadTracks(dict[str, Any]):
+    """The columns of a file. A column radius is that of `swirl track`."""
+
+
 def _is_of_swirl_track(table: Any) -> bool:
     """True for tables of `swirl track`. Other trackers use the column radius differently."""
+    if isinstance(table, _ReadTracks):
+        return "radius" in table
     names = getattr(table, "columns", ())
     return "seen" in names and "radius" in names
 
@@ -192,7 +196,7 @@ def _camera(file: pathlib.Path) -> dict[str, Any]:
         if type(camera["clockwise"]) is not bool:
             raise TypeError(f"clockwise is {camera['clockwise']!r}, but it must be true or false")
         return camera
-    except (ValueError, KeyError, TypeError) as wrong:
+    except (ValueError, KeyError, TypeError, RecursionError) as wrong:
         raise _engine.Failure(f"'{file}' is not a valid file of `swirl track`: {wrong}.\n"
                               "hint: remove it, or track the video again.") from None
 
@@ -202,12 +206,14 @@ class Analysis:
     """Rotation and measurements of a recording, with the names of Result.
 
     `rotation.by_time` and `rotation.rigid_by_time` are averages over `frames` frames. A recording has
-    no events, so the averages by event are NaN.
+    no events, so the averages by event are NaN. `warnings` names values that are NaN because there are
+    too few frames per period.
     """
 
     rotation: Rotation
     frames: int
     measured: Mapping[str, Measured]
+    warnings: tuple[str, ...] = ()
 
 
 class _Sampled(Recording):
@@ -237,7 +243,7 @@ def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measu
         raise TypeError(f"skip is {skip!r}, but it must be a number of periods.")
     names, custom = split_measure(measure)
     is_all = measure == "all"
-    reports, by_time, rigid, used = recording._frames.analyse(names, is_all, float(skip))
+    reports, by_time, rigid, used, remark = recording._frames.analyse(names, is_all, float(skip))
     found = measured_of(reports)
     if custom:
         blocks = CustomBlocks(custom)
@@ -247,7 +253,7 @@ def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measu
     no_events = Estimate(math.nan, unit="Ω")
     rotation = Rotation(no_events, Estimate(*by_time, unit="Ω"), no_events,
                         Estimate(*rigid, unit="Ω"))
-    return Analysis(rotation, used, found)
+    return Analysis(rotation, used, found, (remark,) if remark else ())
 
 
 def _periods(recording: Recording, skip: float) -> Iterator[tuple[int, int]]:

@@ -11,6 +11,8 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/study/crossing_search.hpp"
+#include "swirl/study/search_folder.hpp"
+#include "swirl/study/sweep_folder.hpp"
 #include "swirl/study/sweep_plan.hpp"
 
 namespace swirl {
@@ -22,7 +24,7 @@ constexpr std::int64_t max_threads = 4096;
 struct CrossingCall {
     std::shared_ptr<ParameterTexts> parameters;
     CrossingSettings settings;
-    std::string config_file, json, table, rate;
+    std::string config_file, json, table, rate, out;
     std::int64_t threads = 0;
     bool quiet = false;
 
@@ -56,6 +58,7 @@ std::string name_of(const SweepPlan& plan, const ParameterTexts& texts) {
 
 SweepPlan plan_of(const CrossingCall& call) {
     ParameterTexts given = overridden(defaults, *call.parameters);
+    reject_listed_sizes(given);
     given["discs"] = std::to_string(call.settings.to);  // the largest number that must fit
     return make_plan(given, 1);
 }
@@ -80,16 +83,23 @@ void validate_call(const CrossingCall& call) {
 }
 
 void validate_outputs(const CrossingCall& call) {
-    for (const std::string* file : {&call.json, &call.table})
-        if (!file->empty() && *file != "-") reject_unwritable(*file);
+    for (const std::string* file : {&call.json, &call.table}) {
+        if (file->empty() || *file == "-") continue;
+        reject_unwritable(*file);
+        if (!call.out.empty() && belongs_to_sweep(call.out, canonical_name(*file)))
+            throw UsageError(
+                fmt::format("'{}' belongs to the search itself.\nhint: use another name.", *file));
+    }
     reject_same_files({call.config_file, call.json, call.table});
 }
 
-CrossingSearch search_with_progress(const CrossingCall& call, const SearchTask& task) {
+CrossingSearch search_with_progress(const CrossingCall& call, const SearchTask& task,
+                                    StoredRuns* stored) {
     ProgressLine line(task.name.empty() ? "crossing" : task.name, call.quiet);
     CrossingControl control;
     control.stop = &stop_signal();
     control.threads = static_cast<unsigned>(call.threads);
+    control.stored = stored;
     double done = 0.0;
     control.progress = [&](const std::string& stage, double rate) {
         // The number of runs is unknown in advance, so the fraction approaches 1 without reaching
@@ -101,13 +111,14 @@ CrossingSearch search_with_progress(const CrossingCall& call, const SearchTask& 
     return search_crossing(task.settings, control);
 }
 
-std::string points_text(const CrossingSearch& search) {
+std::string points_text(const RunConfig& config, const CrossingSearch& search) {
     std::string text;
     for (std::size_t k = 0; k < search.points().size(); ++k) {
         const RotationPoint& p = search.points()[k];
-        text += fmt::format("  N = {:<4.0f} ϖ/Ω = {:<20} {} run{}\n", p.discs,
-                            with_error(p.mean, p.error), search.runs_made[k],
-                            search.runs_made[k] == 1 ? "" : "s");
+        const std::string rounded = rounded_share_text(with_discs(config, std::int64_t(p.discs)));
+        text += fmt::format("  N = {:<4.0f} ϖ/Ω = {:<20} {}{}{}\n", p.discs,
+                            with_error(p.mean, p.error), counted(search.runs_made[k], "run"),
+                            rounded.empty() ? "" : "; ", rounded);
     }
     return text;
 }
@@ -118,7 +129,7 @@ std::string report_text(const CrossingCall& call, const SearchTask& task,
     const std::string text =
         prefix + crossing_report(task.settings, search) + "\n" + other_crossings_report(search);
     if (call.quiet) return text;
-    return text + points_text(search) +
+    return text + points_text(task.settings.config, search) +
            fmt::format("  {} runs, {} events, {}\n", search.runs, with_commas(search.events),
                        short_duration(search.seconds));
 }
@@ -130,6 +141,31 @@ void print_report(const CrossingCall& call, const SearchTask& task, const Crossi
     else if (!call.quiet)
         fmt::print(stderr, "{}", text);
     for (const std::string& warning : warnings(search)) print_warning(warning);
+}
+
+/// If stopped, prints what the search has found so far.
+CrossingSearch search_or_report(const CrossingCall& call, const SearchTask& task,
+                                const std::optional<SweepPlan>& plan) {
+    std::optional<SearchFolder> folder;
+    if (plan) folder.emplace(call.out, *plan, task.parameters);
+    try {
+        return search_with_progress(call, task, folder ? &*folder : nullptr);
+    } catch (const StoppedSearch& stopped) {
+        print_report(call, task, stopped.search);
+        throw Interrupted(fmt::format(
+            "{}\nhint: {}.", stopped.what(),
+            plan ? "repeat the call to continue" : "with --out DIR, a repeated call continues"));
+    }
+}
+
+/// The plan in the folder of the call, which this writes if it is not there yet.
+std::optional<SweepPlan> plan_in_folder(const CrossingCall& call) {
+    if (call.out.empty()) return {};
+    const CrossingSettings& s = call.settings;
+    const SweepPlan plan = search_plan(overridden(defaults, *call.parameters), s.from, s.to);
+    make_folder(call.out);
+    write_plan(call.out, plan);
+    return plan;
 }
 
 CrossingResults empty_results(const SweepPlan& plan) {
@@ -169,10 +205,11 @@ void run_searches(const CrossingCall& call) {
     const SweepPlan plan = plan_of(call);
     const std::vector<SearchTask> tasks = tasks_of(call, plan);
     validate_outputs(call);
+    const std::optional<SweepPlan> stored = plan_in_folder(call);
     const bool is_single = tasks.size() == 1;
     CrossingResults results = empty_results(plan);
     for (const SearchTask& task : tasks) {
-        const CrossingSearch search = search_with_progress(call, task);
+        const CrossingSearch search = search_or_report(call, task, stored);
         add_result(results, task, search);
         if (!call.json.empty() && call.json != "-")
             write_output(call.json, json_of(results, is_single));
@@ -202,24 +239,31 @@ void add_crossing_command(Subcommand& subcommand) {
                           "Step of the coarse scan in discs [about eight numbers]", "N", search);
     subcommand.add_option("--rate", call->rate, "Rotation rate that controls the search [by_time]",
                           "NAME", search);
+    subcommand.add_option("--out", call->out, "Folder for the runs; a repeated call continues",
+                          "DIR", search);
     subcommand.add_option("--threads", call->threads, "Number of simultaneous runs [one per core]",
                           "N", search);
     subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
                           output);
     subcommand.add_option("--csv", call->table, "File for a table of the searches, or - for stdout",
                           "FILE|-", output);
+    add_omit_paths_option(subcommand, output);
     subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: each combination is a search of its "
         "own. A run has at least --events events and fifty periods after the warm-up. Near "
         "the crossing, further runs are made, each twice as long as the ones before, until "
-        "--tolerance is reached, at most ten times. Rotation rates (--rate): by_event, by_time, "
+        "--tolerance is reached, at most ten times; if seeds differ by more than their errors, "
+        "there are twice as many runs instead. Rates count in the direction of the swirl. "
+        "A search that was stopped prints its points, and continues with --out DIR, the folder of "
+        "a sweep. Rotation rates (--rate): by_event, by_time, "
         "rigid_by_event and rigid_by_time; the report gives N_c for all four. Use a small --step "
         "if the direction of rotation may change several times.\n");
     subcommand.set_main_options({"--mu", "--events", "--seed", "--tolerance", "--from", "--to",
                                  "--step", "--threads", "--json", "--csv"});
     subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",
                              "swirl crossing --mu 0.5 --tolerance 0.1",
+                             "swirl crossing --sizes normal:1:0.2 --out N_c",
                              "swirl crossing --mu-wall 0.5 --from 20 --json -"});
     subcommand.callback([call, &subcommand] {
         if (!call->config_file.empty())

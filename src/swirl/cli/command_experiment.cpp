@@ -21,6 +21,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
+#include "swirl/run/parse_json.hpp"
 #include "swirl/run/version.hpp"
 #ifdef SWIRL_CAMERA
 #include "swirl/tracking/spin.hpp"
@@ -57,6 +58,8 @@ std::string name_of_video(const std::string& video) {
 }
 
 #ifdef SWIRL_CAMERA
+
+using namespace tracking;
 
 /// Identifies the video and the options that its tracks were made with.
 nlohmann::ordered_json tracking_key(const ExperimentCall& call, const std::string& video) {
@@ -115,7 +118,7 @@ void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& 
             fmt::format("there is no calibration '{}' next to '{}'.\nhint: give a video, or tracks "
                         "by `swirl track`, which writes both files.",
                         calibration.filename().string(), table.string()));
-    container.found = nlohmann::ordered_json::parse(read_whole_file(calibration), nullptr, false);
+    container.found = parse_json(read_whole_file(calibration));
     if (!container.found.is_object() || !container.found.contains("camera") ||
         !container.found.contains("discs"))
         throw Failure(
@@ -136,12 +139,12 @@ void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& 
     };
     const MeasuredSeries measured =
         measure_series(opened.series, measurable(measurements_of_a_video(), tracked), 0.0, control);
-    if (!fits_criteria(measured.frames_per_period()))
-        container.remarks.push_back(fmt::format(
-            "The video has {:.0f} frames per period, but the criteria for pinned discs assume {}. "
-            "The simulation is sampled at the same rate, so the two can be compared with each "
-            "other, but not with the paper.",
-            measured.frames_per_period(), samples_per_period));
+    if (measured.frames_per_period < min_rate_of_pinned)
+        container.remarks.push_back(
+            fmt::format("The video has {:.0f} frames per period, but pinned discs need {:.0f}. The "
+                        "simulation is "
+                        "sampled at the same rate, so neither has them.",
+                        measured.frames_per_period, min_rate_of_pinned));
     container.result = {{"periods", measured.periods},
                         {"rotation",
                          {{"by_time", estimate_json(measured.rotation.by_time)},

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <algorithm>
 #include <string_view>
+#include <vector>
 
+#include "swirl/cli/options.hpp"
 #include "swirl/io/utf8.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/shell_word.hpp"
@@ -12,9 +14,32 @@
 namespace swirl {
 namespace {
 
-std::string& stored_line() {
-    static std::string line;
-    return line;
+std::vector<std::string>& stored_words() {
+    static std::vector<std::string> words;
+    return words;
+}
+
+bool& omits_paths() {
+    static bool omits = false;
+    return omits;
+}
+
+/// --path=/home/ada/a.csv → --path=a.csv, file:../a.csv → file:a.csv. A fraction such as 30000/1001
+/// stays.
+std::string without_folders(std::string_view word) {
+    std::string text;
+    while (!word.empty()) {
+        const std::size_t end = std::min(word.find_first_of("=:,"), word.size());
+        std::string_view part = word.substr(0, end);
+        while (part.size() > 1 && part.ends_with('/')) part.remove_suffix(1);
+        const std::size_t slash = part.rfind('/');
+        if (slash != part.npos && part.find_first_not_of("0123456789/.") != part.npos)
+            part.remove_prefix(slash + 1);
+        text += part;
+        if (end < word.size()) text += word[end];
+        word.remove_prefix(std::min(end + 1, word.size()));
+    }
+    return text;
 }
 
 /// The printable ASCII characters of the word, and \xNN for all other bytes.
@@ -39,15 +64,23 @@ void reject_invalid_utf8(int argc, char** argv) {
     }
 }
 
-const std::string& command_line() { return stored_line(); }
-
-void remember_command_line(int argc, char** argv) {
-    std::string line = "swirl";
-    for (int k = 1; k < argc; ++k) {
-        line += ' ';
-        line += shell_word(argv[k]);
-    }
-    stored_line() = line;
+void add_omit_paths_option(Subcommand& subcommand, const std::string& group) {
+    subcommand.add_flag("--omit-paths", omits_paths(),
+                        "Store file names without folders, no config text", group);
 }
+
+std::string command_line() {
+    std::string line = "swirl";
+    for (const std::string& word : stored_words()) line += ' ' + shell_word(stored_path(word));
+    return line;
+}
+
+std::string stored_path(const std::string& file) {
+    return omits_paths() ? without_folders(file) : file;
+}
+
+std::string stored_config(const std::string& text) { return omits_paths() ? "" : text; }
+
+void remember_command_line(int argc, char** argv) { stored_words().assign(argv + 1, argv + argc); }
 
 }  // namespace swirl

@@ -5,12 +5,21 @@
 
 namespace swirl {
 
+class Subcommand;
+
+/// --omit-paths: results and recordings do not tell where files are, which may contain a user name.
+void add_omit_paths_option(Subcommand& subcommand, const std::string& group = "");
+
 /// Throws UsageError if an argument is not UTF-8: results and recordings store the command line and
 /// cannot hold anything else.
 void reject_invalid_utf8(int argc, char** argv);
 
-/// The command as one would type it, with shell quotes where needed.
-const std::string& command_line();
+/// The command as you would type it, with shell quotes where needed; with --omit-paths it has file
+/// names without folders.
+std::string command_line();
+/// What results store of the name of a file, and of the text of a configuration file.
+std::string stored_path(const std::string& file);
+std::string stored_config(const std::string& text);
 void remember_command_line(int argc, char** argv);
 
 }  // namespace swirl

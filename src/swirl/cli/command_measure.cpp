@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
+#include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
@@ -66,7 +68,7 @@ void reject_measurements_of_tracks(const std::vector<std::string>& names, const 
                 "'{}' needs the same discs in {} consecutive frames, but '{}' never has "
                 "them.\nhint: measure density, flow, profile, radial, temperature, order or "
                 "packing.",
-                name, PinnedLoose::width + 1, call.file));
+                name, FrameWindow().width() + 1, call.file));
 }
 
 /// At a vertex of the path the velocity of the floor has just changed, so all spheres slide.
@@ -79,18 +81,6 @@ std::string remark_on_rolling(const Json& measured) {
                 "record {} frames per period.",
                 samples_per_period);
     return "";
-}
-
-std::string remark_on_pinned(const std::vector<std::string>& names,
-                             const MeasuredSeries& measured) {
-    const bool needs_pinned = std::any_of(names.begin(), names.end(), [](const std::string& name) {
-        return find_measurement(name)->needs_pinned;
-    });
-    const double frames_per_period = measured.frames_per_period();
-    if (!needs_pinned || frames_per_period == 0.0 || fits_criteria(frames_per_period)) return "";
-    return fmt::format(
-        "there are {:.0f} frames per period, but the criteria for pinned discs assume {}.",
-        frames_per_period, samples_per_period);
 }
 
 void validate_outputs(const MeasureCall& call, const std::vector<std::string>& names) {
@@ -118,7 +108,7 @@ MeasuredSeries measure_with_progress(const MeasureCall& call, const SnapshotSeri
 
 Json json_of(const MeasureCall& call, const OpenedSeries& opened, const MeasuredSeries& measured,
              const Json& values, const std::string& remarks) {
-    return {{"file", call.file},
+    return {{"file", stored_path(call.file)},
             {"frames", measured.frames},
             {"discs", measured.discs},
             {"same_discs", opened.series.same_discs()},
@@ -150,6 +140,7 @@ std::string report_text(const SnapshotSeries& series, const MeasuredSeries& meas
 
 void measure_file(const MeasureCall& call) {
     if (call.list == "help") return print_all(measurement_help_text());
+    if (call.file.empty()) throw UsageError("missing required argument FILE.");
     std::vector<std::string> names;
     if (!call.list.empty()) names = read_measurement_list(call.list);
     reject_measurements_of_events(names, call.list);
@@ -167,9 +158,10 @@ void measure_file(const MeasureCall& call) {
 
     const MeasuredSeries measured = measure_with_progress(call, series, names, skip);
     const Json values = measured_json(measured.reports);
-    const std::string rolling = remark_on_rolling(values);
-    const Json json = json_of(call, opened, measured, values,
-                              opened.remarks + (rolling.empty() ? "" : rolling + "\n"));
+    std::string remarks = opened.remarks;
+    const std::array warnings{remark_on_rolling(values), measured.remark};
+    for (const std::string& warning : warnings) remarks += warning.empty() ? "" : warning + "\n";
+    const Json json = json_of(call, opened, measured, values, remarks);
     if (!call.tables.empty()) {
         make_folder(call.tables);
         write_measured_tables(measured.reports, call.tables);
@@ -179,16 +171,15 @@ void measure_file(const MeasureCall& call) {
     else if (!call.json.empty())
         write_output(call.json, json.dump(2) + "\n");
     if (call.json != "-" && !call.quiet) print_all(report_text(series, measured) + opened.remarks);
-    for (const std::string& warning : {rolling, remark_on_pinned(names, measured)})
+    for (const std::string& warning : warnings)
         if (!warning.empty()) print_warning(warning);
 }
 
 void add_measure_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MeasureCall>();
     const char *const output = "Output", *const camera = "Tracks of other programs";
-    subcommand
-        .add_option("file", call->file, "Trajectory, tracks (CSV) or LAMMPS text dump", "FILE")
-        ->required();
+    subcommand.add_option("file", call->file, "Trajectory, tracks (CSV) or LAMMPS text dump",
+                          "FILE");
     subcommand.add_option("--measure", call->list,
                           "Measurements, separated by commas, or all (or help)", "LIST", output);
     subcommand.add_option("--tables", call->tables, "Folder for the measurements as CSV tables",
@@ -197,6 +188,7 @@ void add_measure_command(Subcommand& subcommand) {
                           output);
     subcommand.add_option("--skip", call->skip, "Periods at the start to exclude [0]", "PERIODS",
                           output);
+    add_omit_paths_option(subcommand, output);
     subcommand.add_flag("--quiet", call->quiet, "No progress and no report", output);
     add_track_options(subcommand, call->camera, camera);
     subcommand.add_option("--amplitude", call->camera.amplitude,

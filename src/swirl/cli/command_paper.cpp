@@ -171,12 +171,11 @@ void add_paper_command(Subcommand& subcommand) {
     subcommand.add_option("--figure", call->figures, "Figures or groups to make [all]; repeatable")
         ->type_name("NAME");
     subcommand.add_flag("--quick", call->settings.quick,
-                        "Fewer points and shorter runs, about a minute per figure");
+                        "Fewer points and seeds, in runs of the same length");
     subcommand.add_flag("--movies", call->movies,
                         "Movies of the paper, and movies.html that plays them");
     subcommand
-        .add_option("--events", call->events,
-                    "Events per run; scales lengths in periods [1e6, quick 2e5]")
+        .add_option("--events", call->events, "Events per run; scales lengths in periods [1e6]")
         ->type_name("NUMBER");
     subcommand.add_option("--seed", call->seed, "Random seed of the first run of each point [1]")
         ->type_name("NUMBER");
@@ -188,6 +187,7 @@ void add_paper_command(Subcommand& subcommand) {
     subcommand.add_option("--part", call->share.part, "Part of the runs to make, such as 2/10")
         ->type_name("K/M");
     add_threads_option(subcommand, call->share, "");
+    add_omit_paths_option(subcommand);
     subcommand.add_flag("--quiet", call->quiet, "No progress line");
     subcommand.set_examples({"swirl paper --figure 5b --quick",
                              "swirl paper --figure 5b --out fig5b",

@@ -145,18 +145,18 @@ RunResult run_with_progress(PreparedRun& prepared, bool quiet) {
     if (!prepared.observation.empty()) control.observation = &prepared.observation;
     if (prepared.series) control.series = &*prepared.series;
     return run_recorded(config, prepared.files, control,
-                        provenance_of(config, command_line(), prepared.config_text));
+                        provenance_of(config, command_line(), stored_config(prepared.config_text)));
 }
 
 nlohmann::ordered_json json_of(const RunResult& result, const PreparedRun& prepared,
                                const MeasurementReports& measured) {
     nlohmann::ordered_json json = result_json(result);
     json["command"] = command_line();
-    json["config_text"] = prepared.config_text;
+    json["config_text"] = stored_config(prepared.config_text);
     if (!measured.empty()) json["measured"] = measured_json(measured);
     if (prepared.series) {
         json["series"] = series_json(*prepared.series);
-        json["series"]["file"] = prepared.files.series.string();
+        json["series"]["file"] = stored_path(prepared.files.series.string());
     }
     return json;
 }
@@ -244,6 +244,7 @@ void add_run_command(Subcommand& subcommand) {
                           "Measurements, separated by commas, or all (or help)", "LIST", output);
     subcommand.add_option("--tables", call->tables, "Folder for the measurements as CSV tables",
                           "DIR", output);
+    add_omit_paths_option(subcommand, output);
     subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
     subcommand.add_flag("--verbose", call->verbose, "Also report errors, energy, overlap and time",
                         output);

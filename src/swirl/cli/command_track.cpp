@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
@@ -46,6 +47,8 @@ struct TrackCall {
 void track(const TrackCall&) { throw_no_camera_support(); }
 
 #else
+
+using namespace tracking;
 
 /// The camera's tilt and view angle as given. Throws UsageError.
 KnownCamera known_camera(const TrackCall& call) {
@@ -381,6 +384,7 @@ void add_track_command(Subcommand& subcommand) {
     subcommand.add_flag("--spin", call->spin,
                         "Measure spins from textures; adds columns to the tracks");
     subcommand.add_flag("--overwrite", call->overwrite, "Replace existing tracks");
+    add_omit_paths_option(subcommand);
     subcommand.add_flag("--quiet", call->quiet, "No progress line and no summary");
     subcommand.set_main_options({"--out", "--path", "--fps", "--container-diameter",
                                  "--disc-diameter", "--discs", "--tilt", "--overlay", "--report",

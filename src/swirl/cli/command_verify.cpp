@@ -19,6 +19,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/parse_json.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/run.hpp"
@@ -51,23 +52,13 @@ std::string version_of(const Json& result) {
     return by.is_string() ? by.get<std::string>() : "?";
 }
 
-/// True if an entry describes how, when and by which program a result was made, not what it is.
-bool is_metadata(const std::string& name) {
-    for (const char* other :
-         {"format", "seconds", "events_per_second", "simd", "warnings", "version", "build"})
-        if (name == other) return true;
-    return false;
-}
-
 /// Repeats a run. `pass_event` passes each event and returns false to end the run early.
 template <class PassEvent>
 RunResult repeat_run(const RunConfig& config, bool quiet, const PassEvent& pass_event,
-                     Observation* observation = nullptr) {
+                     RunControl control = {}) {
     ProgressLine line("verifying", quiet);
-    RunControl control;
     control.stop = &stop_signal();
     control.orientations = true;
-    control.observation = observation;
     control.progress = [&](const RunProgress& p) {
         line.show(p.fraction, fmt::format("{} events", p.events));
     };
@@ -89,10 +80,14 @@ std::vector<std::string> measurements_in(const std::string& file, const Json& re
     return names;
 }
 
-void verify_result(const std::string& file, bool quiet) {
-    const Json json = Json::parse(read_regular_file(file), nullptr, false);
+/// The result in a file, if it can be verified.
+Json verifiable_result(const std::string& file) {
+    RepeatedNames repeated;
+    const Json json = parse_json(read_regular_file(file), std::ref(repeated));
     if (!json.is_object() || !json.contains("config") || !json.contains("state_hash"))
         throw Failure(fmt::format("'{}' is not the result of a run.", file));
+    if (!repeated.first().empty())
+        throw Failure(fmt::format("'{}' holds '{}' twice.", file, repeated.first()));
     if (const Json format = json.value("format", Json(result_format)); format != result_format)
         throw Failure(
             fmt::format("'{}' has format {} of swirl {}, but this program reads format {}.", file,
@@ -105,36 +100,101 @@ void verify_result(const std::string& file, bool quiet) {
             "'{}' cannot be verified: its run started from the end of another one.\nhint: "
             "repeat the sweep in another folder and compare the tables.",
             file));
+    return json;
+}
+
+/// The result of the repeated run, with all entries that the file of such a result has.
+Json repeated_result(const std::string& file, const Json& json, bool quiet) {
     const RunConfig config = config_in(file, json["config"].dump());
-    Observation observation = observation_of(config, measurements_in(file, json));
-    Json result = result_json(repeat_run(
+    const std::vector<std::string> measured = measurements_in(file, json);
+    Observation observation = observation_of(config, measured);
+    RunControl control;
+    control.observation = &observation;
+    std::optional<PeriodSeries> series;
+    if (json.contains("series")) control.series = &series.emplace(config, measured);
+    RunResult run = repeat_run(
         config, quiet,
-        [](Run& run) {
-            run.pass_event();
+        [](Run& passed) {
+            passed.pass_event();
             return true;
         },
-        &observation));
+        control);
+    // The number of events per second follows from the seconds, which only the file knows.
+    const Json seconds = json.value("seconds", Json());
+    run.seconds = seconds.is_number() ? seconds.get<double>() : -1.0;
+    Json result = result_json(run);
+    // Older versions wrote no format number (result.hpp).
+    if (version_of(json) != version() && !json.contains("format")) result.erase("format");
+    result["command"] = "";
+    if (json.contains("point")) {  // of a sweep
+        result["point"] = 0;
+        result["replica"] = 0;
+        if (json.contains("direction")) {
+            result["direction"] = "";
+            result["started_from"] = nullptr;
+        }
+    } else {
+        result["config_text"] = "";
+    }
     if (json.contains("measured")) result["measured"] = measured_json(observation.report());
-    // The verdict on the steady state follows from the averages, but by a test that may differ
-    // between versions.
-    const bool same_version = json.value("version", Json()) == Json(version());
+    if (series) {
+        result["series"] = series_json(*series);
+        if (json["series"].contains("file")) result["series"]["file"] = "";
+    }
+    return result;
+}
+
+/// Takes over from the file what a repeated run cannot give, if it has the right type. Returns the
+/// names of these entries.
+std::vector<std::string> take_unverifiable(const Json& json, Json& result) {
+    std::vector<std::string> names;
+    const auto take = [&](const char* name) {
+        const Json::json_pointer path(name);
+        if (!json.contains(path) || !result.contains(path)) return;
+        const Json &there = json[path], &now = result[path];
+        if (there.type() != now.type() && !(there.is_number_integer() && now.is_number_integer()))
+            return;
+        names.push_back(path == Json::json_pointer("/series/file") ? "series.file" : name + 1);
+        result[path] = there;
+    };
+    for (const char* name :
+         {"/command", "/config_text", "/point", "/replica", "/direction", "/series/file"})
+        take(name);
+    std::vector<const char*> compared{"/version", "/build", "/simd"};
+    // These follow from the averages, but by rules that may differ between versions.
+    if (json.value("version", Json()) != result["version"])
+        compared.insert(compared.end(), {"/steady_state", "/warnings"});
+    for (const char* name : compared)
+        if (const Json::json_pointer path(name); json.value(path, Json()) != result[path])
+            take(name);
+    names.push_back("seconds");
+    return names;
+}
+
+void verify_result(const std::string& file, bool quiet) {
+    const Json json = verifiable_result(file);
+    Json result = repeated_result(file, json, quiet);
+    const std::vector<std::string> unverifiable = take_unverifiable(json, result);
+    const auto fail = [&](const std::string& part, const std::string& difference) {
+        throw Failure(fmt::format("'{}' differs: {} {}.{}", file, part, difference,
+                                  version_note(version_of(json))));
+    };
     for (const auto& [part, now] : result.items())
-        if (!is_metadata(part) && (part != "steady_state" || same_version) &&
-            json.value(part, Json()) != Json::parse(now.dump()))
-            throw Failure(fmt::format("'{}' differs: {} is {} there, but {} now.{}", file, part,
-                                      json.value(part, Json()).dump(), now.dump(),
-                                      version_note(version_of(json))));
+        if (!json.contains(part) || json[part] != Json::parse(now.dump()))
+            fail(part, fmt::format("is {} there, but {} now", json.value(part, Json()).dump(),
+                                   now.dump()));
+    for (const auto& [part, there] : json.items())
+        if (!result.contains(part)) fail(part, "is not an entry of a result");
     if (quiet) return;
-    const auto& measured = observation.names();
-    std::string text =
-        fmt::format("bitwise identical: {} events, state {}, {}\n",
-                    result["events"]["total"].dump(), result["state_hash"].get<std::string>(),
-                    measured.empty() ? "no measurements in the file"
-                                     : fmt::format("measured {}", fmt::join(measured, ", ")));
-    if (!same_version)
-        text += fmt::format("not compared: steady_state, since '{}' was made by swirl {}\n", file,
-                            version_of(json));
-    print_all(text);
+    const std::vector<std::string> measured = measurements_in(file, json);
+    print_all(fmt::format("bitwise identical: {} events, state {}, {}\nnot verifiable: {}{}\n",
+                          result["events"]["total"].dump(), result["state_hash"].get<std::string>(),
+                          measured.empty() ? "no measurements in the file"
+                                           : fmt::format("measured {}", fmt::join(measured, ", ")),
+                          fmt::join(unverifiable, ", "),
+                          version_note(version_of(json)).empty()
+                              ? ""
+                              : fmt::format(" (made by swirl {})", version_of(json))));
 }
 
 bool same_bits(double a, double b) {
@@ -166,6 +226,30 @@ bool same_frame(const Snapshot& frame, const Snapshot& now) {
     return same;
 }
 
+/// Compares the texts of a recording on its run. Returns the names of those that a repeated run
+/// cannot give.
+template <class Reader>
+std::string verify_provenance(const std::string& file, Reader& recording, const RunConfig& config) {
+    std::vector<std::string> unverifiable;
+    const std::string by = recording.provenance("version");
+    for (const auto& [name, now] : provenance_of(config, "", "")) {
+        const std::string there = recording.provenance(name);
+        const bool is_known = name != "command" && name != "config";
+        if (is_known && there == now) continue;
+        // Names and defaults of parameters may differ between versions.
+        const bool may_differ = name == "command"
+                                    ? !there.empty()
+                                    : name == "config" || name == "version" || name == "build" ||
+                                          (name == "parameters" && by != version());
+        if (!may_differ)
+            throw Failure(
+                fmt::format("'{}' differs from its run: {} is '{}' there, but '{}' now.{}", file,
+                            name, there, now, version_note(by)));
+        unverifiable.push_back(name);
+    }
+    return fmt::format("not verifiable: {}\n", fmt::join(unverifiable, ", "));
+}
+
 /// Compares the frames or events (`item`) of a recording with those of its run, and counts them.
 class Comparison {
   public:
@@ -191,7 +275,7 @@ class Comparison {
         throw Failure(fmt::format("'{}' differs from {} {} on: {}.{}", file_, item_, next_,
                                   difference, version_note(version_)));
     }
-    void report(bool quiet) const {
+    void report(bool quiet, const std::string& remark) const {
         if (next_ < recorded_)
             fail(fmt::format("the run has only {}", counted(std::int64_t(next_), item_)));
         if (quiet) return;
@@ -200,6 +284,7 @@ class Comparison {
                 ? fmt::format("bitwise identical: {}\n", counted(std::int64_t(next_), item_))
                 : fmt::format("bitwise identical: {}, all that an unfinished run has recorded\n",
                               counted(std::int64_t(next_), item_)));
+        print_all(remark);
     }
 
   private:
@@ -212,7 +297,7 @@ class Comparison {
 
 /// The frame times that the provenance entry `frames` of a recording gives.
 FrameTimes frame_times_in(const std::string& file, const std::string& text) {
-    const Json json = Json::parse(text, nullptr, false);
+    const Json json = parse_json(text);
     FrameTimes times;
     try {
         if (json.contains("events"))
@@ -235,6 +320,7 @@ FrameTimes frame_times_in(const std::string& file, const std::string& text) {
 void verify_trajectory(const std::string& file, bool quiet) {
     TrajectoryReader reader(file);
     const RunConfig config = config_in(file, reader.provenance("parameters"));
+    const std::string remark = verify_provenance(file, reader, config);
     const FrameTimes times = frame_times_in(file, reader.provenance("frames"));
     Comparison comparison(file, "frame", reader.frames(), reader.complete(),
                           reader.provenance("version"));
@@ -258,7 +344,7 @@ void verify_trajectory(const std::string& file, bool quiet) {
     if (const std::string column = reader.inconsistent_dataset(); !column.empty())
         throw Failure(fmt::format("'{}' differs from its run in its dataset {}.{}", file, column,
                                   version_note(reader.provenance("version"))));
-    comparison.report(quiet);
+    comparison.report(quiet, remark);
 }
 
 bool same_events(const Event& a, const Event& b) {
@@ -305,6 +391,7 @@ void verify_initial_state(const EventLogReader& log, const InitialState& scene,
 void verify_event_log(const std::string& file, bool quiet) {
     EventLogReader log(file);
     const RunConfig config = config_in(file, log.provenance("parameters"));
+    const std::string remark = verify_provenance(file, log, config);
     Comparison comparison(file, "event", log.events(), log.complete(), log.provenance("version"));
     const InitialState scene = make_initial_state(config, &stop_signal());
     Simulation simulation(scene, {}, selected_tuning(&stop_signal()));
@@ -329,7 +416,7 @@ void verify_event_log(const std::string& file, bool quiet) {
     for (std::size_t i = 0; i < simulation.size(); ++i)
         if (!same_discs(replay.discs()[i], simulation.disc(i)))
             comparison.fail("the replayed state differs");
-    comparison.report(quiet);
+    comparison.report(quiet, remark);
 }
 
 void add_verify_command(Subcommand& subcommand) {

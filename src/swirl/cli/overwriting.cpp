@@ -12,6 +12,7 @@
 #include "swirl/io/recording.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/parse_json.hpp"
 
 namespace swirl {
 namespace {
@@ -39,9 +40,7 @@ bool is_recording_of(const fs::path& file, const RunConfig& config, const std::s
            (frames.empty() || recorded_entry(file, "frames") == frames);
 }
 
-Json result_in(const fs::path& file) {
-    return Json::parse(read_regular_file(file), nullptr, false);
-}
+Json result_in(const fs::path& file) { return parse_json(read_regular_file(file)); }
 
 Json config_in(const Json& result) {
     return result.is_object() ? result.value("config", Json()) : Json();
@@ -82,7 +81,7 @@ void reject_files_of_another_run(const RunFiles& files, const std::string& json)
             "choose another name.",
             files.series.string()));
     if (!result || may_replace("json", json)) return;
-    const Json of_checkpoint = Json::parse(saved.configuration, nullptr, false);
+    const Json of_checkpoint = parse_json(saved.configuration);
     if (without_length(config_in(result_in(json))) != without_length(of_checkpoint))
         throw Failure(
             fmt::format("'{}' is not a result of the run in the checkpoint; it was left "

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "swirl/cli/command_line.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/tracked_video.hpp"
 #include "swirl/physics/container_path.hpp"
@@ -13,6 +14,8 @@
 
 namespace swirl {
 namespace {
+
+using namespace tracking;
 
 /// A polyline through 120 points of a circle is inside it by at most 0.04 % of the radius.
 constexpr int path_points = 120;
@@ -58,7 +61,7 @@ void write_motion(const TrackedVideo& video, const RecordedMotion& motion,
         "# amplitude {}; standard error of a coordinate {:.2g} disc radii\n"
         "# period {}, here {} in the unit of time of swirl run\n"
         "t,x,y\n",
-        source.video, motion.periods, harmonics_text(motion), video.radius,
+        stored_path(source.video), motion.periods, harmonics_text(motion), video.radius,
         100.0 * scale_error(video, source), wall_text(video),
         in_radii(motion.amplitude(), motion.point_error, video), motion.point_error / video.radius,
         period_text(video, motion), paper_period);

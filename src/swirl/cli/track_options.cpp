@@ -7,7 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/parse_json.hpp"
 
 namespace swirl {
 namespace {
@@ -54,16 +54,9 @@ double parse_number(const TrackTexts& texts, std::string_view name) {
 class CameraFile {
   public:
     explicit CameraFile(std::filesystem::path path) : path_(std::move(path)) {
-        std::vector<std::set<std::string>> keys;  // of the enclosing objects
-        const auto check = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& part) {
-            using Event = nlohmann::json::parse_event_t;
-            if (event == Event::object_start) keys.emplace_back();
-            if (event == Event::object_end) keys.pop_back();
-            if (event == Event::key && !keys.back().insert(part.get<std::string>()).second)
-                fail(fmt::format("'{}' appears twice", part.get<std::string>()));
-            return true;
-        };
-        const auto json = nlohmann::json::parse(read_regular_file(path_), check, false);
+        RepeatedNames repeated;
+        const nlohmann::json json = parse_json(read_regular_file(path_), std::ref(repeated));
+        if (!repeated.first().empty()) fail(fmt::format("'{}' appears twice", repeated.first()));
         if (json.is_object())
             if (const auto format = json.value("format", nlohmann::json(camera_format));
                 format != camera_format)

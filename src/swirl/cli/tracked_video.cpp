@@ -38,6 +38,8 @@ void check_video_options(const std::optional<double>& fps,
 
 namespace {
 
+using namespace tracking;
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -97,7 +99,7 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
     const TrackScale scale = video.scale();
     return {
         {"format", camera_format},
-        {"video", source.video},
+        {"video", stored_path(source.video)},
         {"frames", video.frame_count},
         {"size", {video.width, video.height}},
         {"fps", video.fps > 0.0 ? Json(video.fps) : Json(nullptr)},
@@ -216,7 +218,7 @@ void write_tracks_file(const TrackedVideo& video, const VideoSource& source,
     if (out.extension() != ".h5") return tracks_table(video.tracks, columns).write(out);
     write_track_recording(
         out, video.tracks, video.times, columns,
-        {{"version", version()}, {"command", command_line()}, {"film", source.video}});
+        {{"version", version()}, {"command", command_line()}, {"film", stored_path(source.video)}});
 }
 
 /// One row per frame: number of discs and quality of their positions.

@@ -9,4 +9,7 @@ namespace swirl {
 /// A finite number ("0.5", "1e6"); nothing otherwise.
 std::optional<double> read_number(std::string_view text);
 
+/// The text without spaces, tabs and carriage returns at its ends.
+std::string_view trimmed(std::string_view text);
+
 }  // namespace swirl

@@ -25,6 +25,34 @@ std::optional<std::size_t> first_invalid_byte(std::string_view text) {
     return control == text.end() ? std::nullopt : std::optional(at);
 }
 
+/// Position of the dot that gives a key more than 16 parts (a.b.c), which the parser would follow
+/// recursively. It limits the nesting of values itself. Dots in strings and comments do not count.
+std::optional<std::size_t> first_overlong_key(std::string_view text) {
+    std::size_t dots = 0;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        if (c == '#') {
+            k = std::min(text.find('\n', k), text.size()) - 1;
+        } else if (c == '"' || c == '\'') {
+            const bool is_long = text.substr(k, 3) == std::string(3, c);
+            const std::string_view mark = text.substr(k, is_long ? 3 : 1);
+            for (k += mark.size(); k < text.size() && !text.substr(k).starts_with(mark); ++k)
+                if (c == '"' && text[k] == '\\')
+                    ++k;
+                else if (text[k] == '\n' && !is_long)
+                    break;
+            // A long string may end with up to two more quotation marks.
+            const std::size_t last = is_long ? text.find_first_not_of(c, k) : k + 1;
+            k = std::min({last, text.size(), k + 5}) - 1;
+        } else if (c == '.') {
+            if (++dots > 15) return k;
+        } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
+            dots = 0;
+        }
+    }
+    return {};
+}
+
 int line_of(std::string_view text, std::size_t at) {
     return 1 + static_cast<int>(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
 }
@@ -98,6 +126,8 @@ Config parse_config(std::string text, std::string_view name) {
     if (const auto bad = first_invalid_byte(text))
         reader.fail(line_of(text, *bad), fmt::format("byte 0x{:02x} is not UTF-8 text",
                                                      static_cast<unsigned char>(text[*bad])));
+    if (const auto dot = first_overlong_key(text))
+        reader.fail(line_of(text, *dot), "a key has more than 16 parts");
     Config config;
     try {
         const toml::table table = toml::parse(text, name);

@@ -12,8 +12,8 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/number_table.hpp"
 #include "swirl/io/range_checks.hpp"
-#include "swirl/io/read_number.hpp"
 #include "swirl/io/track_repair.hpp"
 #include "swirl/math/unit_circle.hpp"
 
@@ -21,97 +21,6 @@ namespace swirl {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Iterates over the lines of a text and reports errors with the line number.
-class Lines {
-  public:
-    Lines(const std::filesystem::path& path, std::string_view text) : path_(path), rest_(text) {
-        // Some editors and spreadsheets write a byte order mark first.
-        constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-        if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
-    }
-
-    bool next(std::string_view& line) {
-        if (rest_.empty()) return false;
-        const std::size_t end = rest_.find('\n');
-        ++number_;
-        // If a file was truncated within a number, its last line would hold a wrong number.
-        if (end == rest_.npos)
-            error(
-                "the last line has no line break, so the file may be truncated here.\n"
-                "hint: if the file is complete, append a line break");
-        line = rest_.substr(0, end);
-        rest_.remove_prefix(end + 1);
-        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-        return true;
-    }
-    std::string_view expect(std::string_view what) {
-        std::string_view line;
-        if (!next(line))
-            throw FileError(fmt::format("'{}' ends after line {}, but {} was expected.",
-                                        path_.string(), number_, what));
-        return line;
-    }
-    [[noreturn]] void error(std::string_view what) const {
-        throw FileError(fmt::format("'{}', line {}: {}.", path_.string(), number_, what));
-    }
-    double number(std::string_view text) const {
-        while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-        while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-        const auto value = read_number(text);
-        if (!value) error(fmt::format("'{}' is not a finite number", text));
-        return *value;
-    }
-    std::int64_t integer(std::string_view text) const {
-        const double value = number(text);  // pandas writes frame 3 as 3.0 if a column has gaps
-        if (value != std::floor(value) || std::abs(value) > 0x1p53)
-            error(fmt::format("'{}' is not a whole number", text));
-        return static_cast<std::int64_t>(value);
-    }
-
-  private:
-    const std::filesystem::path& path_;
-    std::string_view rest_;
-    std::size_t number_ = 0;
-};
-
-std::vector<std::string_view> split(std::string_view line, char separator) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        const std::size_t end = line.find(separator);
-        const std::string_view part = line.substr(0, end);
-        if (separator != ' ' || !part.empty()) parts.push_back(part);
-        if (end == line.npos) return parts;
-        line.remove_prefix(end + 1);
-    }
-}
-
-/// Splits a CSV line at its commas; surrounding spaces and quotes are removed.
-std::vector<std::string_view> cells(std::string_view line) {
-    std::vector<std::string_view> parts;
-    for (;;) {
-        while (line.starts_with(' ')) line.remove_prefix(1);
-        const std::size_t close = line.starts_with('"') ? line.find('"', 1) : line.npos;
-        const std::size_t end = line.find(',', close == line.npos ? 0 : close);
-        std::string_view part =
-            close == line.npos ? line.substr(0, end) : line.substr(1, close - 1);
-        while (close == line.npos && part.ends_with(' ')) part.remove_suffix(1);
-        parts.push_back(part);
-        if (end == line.npos) return parts;
-        line.remove_prefix(end + 1);
-    }
-}
-
-/// Index of column `name` in the header line `names`; none if absent. A repeated column is an
-/// error.
-std::optional<std::size_t> index_of(const Lines& lines, const std::vector<std::string_view>& names,
-                                    std::string_view name) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) return {};
-    if (std::find(found + 1, names.end(), name) != names.end())
-        lines.error(fmt::format("there are two columns '{}'", name));
-    return std::size_t(found - names.begin());
-}
 
 /// Converts frames to snapshots; missing velocities are finite differences.
 class TrackSeries {
@@ -199,45 +108,31 @@ class TrackSeries {
 
 Tracks read_trackpy_csv(const std::filesystem::path& path) {
     const std::string text = read_whole_file(path);
-    Lines lines(path, text);
-    const auto names = cells(lines.expect("a header line with frame, particle, x, y"));
-    const auto frame = index_of(lines, names, "frame"),
-               particle = index_of(lines, names, "particle");
-    const auto x = index_of(lines, names, "x"), y = index_of(lines, names, "y");
+    TextLines lines(fmt::format("'{}'", path.string()), text);
+    NumberTable table(lines);
+    const auto frame = table.find({"frame"}), particle = table.find({"particle"}),
+               x = table.find({"x"}), y = table.find({"y"});
     if (!frame || !particle || !x || !y)
-        lines.error(
-            "the header must name the columns frame, particle, x and y, separated by commas");
-
+        lines.fail("the header must name the columns frame, particle, x and y");
     struct Entry {
         Vec2 position;
         double radius, spin;
     };
     std::map<std::int64_t, std::map<std::int64_t, Entry>> tracks;  // by particle and frame
-    const auto swirl_column = [&](std::string_view name) {
-        return index_of(lines, names, "seen") ? index_of(lines, names, name) : std::nullopt;
-    };
-    const auto radius = swirl_column("radius"), spin = swirl_column("spin");
-    // The table counts spins counter-clockwise in the image; y points down, which flips the sign.
-    const auto spin_in = [&](std::string_view cell) {
-        return cell.empty() ? unknown : -lines.number(cell);
-    };
-    std::string_view line;
-    while (lines.next(line)) {
-        if (line.empty()) continue;
-        const auto parts = cells(line);
-        if (parts.size() != names.size())
-            lines.error(fmt::format("{} values, but the header names {} columns", parts.size(),
-                                    names.size()));
-        const bool fresh =
-            tracks[lines.integer(parts[*particle])]
-                .try_emplace(lines.integer(parts[*frame]),
-                             Entry{{lines.number(parts[*x]), lines.number(parts[*y])},
-                                   radius ? lines.number(parts[*radius]) : 0.0,
-                                   spin ? spin_in(parts[*spin]) : 0.0})
-                .second;
-        if (!fresh)
-            lines.error(fmt::format("particle {} appears twice in frame {}", parts[*particle],
-                                    parts[*frame]));
+    std::optional<std::size_t> radius, spin;
+    if (table.find({"seen"})) {  // by `swirl track`
+        radius = table.find({"radius"});
+        spin = table.find({"spin"});
+    }
+    while (table.next()) {
+        const std::int64_t id = table.integer(*particle), number = table.integer(*frame);
+        Entry entry{{table.number(*x), table.number(*y)}, 0.0, unknown};
+        if (radius) entry.radius = table.number(*radius);
+        // The table counts spins counter-clockwise in the image; y points down, which flips the
+        // sign.
+        if (spin && !table.is_empty(*spin)) entry.spin = -table.number(*spin);
+        if (!tracks[id].try_emplace(number, entry).second)
+            lines.fail(fmt::format("particle {} appears twice in frame {}", id, number));
     }
     if (tracks.empty()) throw FileError(fmt::format("'{}' holds no positions.", path.string()));
 
@@ -259,56 +154,43 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
 
 namespace {
 
-/// The columns of a LAMMPS dump that are read; the optional ones may be absent.
-struct DumpColumns {
-    std::size_t count;
-    std::size_t id, x, y;
-    std::optional<std::size_t> vx, vy, radius, mass, omega;
-};
-
-DumpColumns dump_columns(const Lines& lines, const std::vector<std::string_view>& names) {
-    const auto column = [&](std::string_view name) { return index_of(lines, names, name); };
-    const auto wrapped_or_not = [&](std::string_view wrapped, std::string_view unwrapped) {
-        const auto index = column(wrapped);
-        return index ? index : column(unwrapped);
-    };
-    const auto id = column("id"), x = wrapped_or_not("x", "xu"), y = wrapped_or_not("y", "yu");
-    if (!id || !x || !y) lines.error("the atoms must have the columns id, x and y (or xu and yu)");
-    return {
-        names.size(),    *id, *x, *y, column("vx"), column("vy"), column("radius"), column("mass"),
-        column("omegaz")};
-}
-
 /// Reads the atoms after an "ITEM: ATOMS" line into `frame`, sorted by ID.
-void read_atoms(Lines& lines, std::string_view names, std::int64_t atoms, TrackFrame& frame) {
-    const DumpColumns columns = dump_columns(lines, split(names, ' '));
+void read_atoms(TextLines& lines, std::string_view names, std::int64_t atoms, TrackFrame& frame) {
+    NumberTable table(lines, names);
+    const auto wrapped_or_not = [&](std::string_view wrapped, std::string_view unwrapped) {
+        const auto index = table.find({wrapped});
+        return index ? index : table.find({unwrapped});
+    };
+    const auto id = table.find({"id"}), x = wrapped_or_not("x", "xu"),
+               y = wrapped_or_not("y", "yu"), vx = table.find({"vx"}), vy = table.find({"vy"}),
+               radius = table.find({"radius"}), mass = table.find({"mass"}),
+               omega = table.find({"omegaz"});
+    if (!id || !x || !y) lines.fail("the atoms must have the columns id, x and y (or xu and yu)");
+    const auto value = [&](const std::optional<std::size_t>& column, double otherwise) {
+        return column ? table.number(*column) : otherwise;
+    };
     struct Atom {
         Vec2 position, velocity;
         double radius, mass, spin;
     };
     std::map<std::int64_t, Atom> by_id;
     for (std::int64_t k = 0; k < atoms; ++k) {
-        const auto parts = split(lines.expect("an atom"), ' ');
-        if (parts.size() != columns.count)
-            lines.error(fmt::format("{} values for {} columns", parts.size(), columns.count));
-        const auto value = [&](const std::optional<std::size_t>& column, double otherwise) {
-            return column ? lines.number(parts[*column]) : otherwise;
-        };
-        const Atom atom{{lines.number(parts[columns.x]), lines.number(parts[columns.y])},
-                        {value(columns.vx, 0.0), value(columns.vy, 0.0)},
-                        value(columns.radius, 1.0),
-                        value(columns.mass, 1.0),
-                        value(columns.omega, 0.0)};
-        if (!by_id.emplace(lines.integer(parts[columns.id]), atom).second)
-            lines.error(fmt::format("atom {} appears twice", parts[columns.id]));
+        if (!table.next()) lines.fail_at_end("an atom");
+        const Atom atom{{table.number(*x), table.number(*y)},
+                        {value(vx, 0.0), value(vy, 0.0)},
+                        value(radius, 1.0),
+                        value(mass, 1.0),
+                        value(omega, 0.0)};
+        if (const std::int64_t number = table.integer(*id); !by_id.emplace(number, atom).second)
+            lines.fail(fmt::format("atom {} appears twice", number));
     }
-    for (const auto& [id, atom] : by_id) {
-        frame.id.push_back(id);
+    for (const auto& [number, atom] : by_id) {
+        frame.id.push_back(number);
         frame.position.push_back(atom.position);
-        if (columns.vx && columns.vy) frame.velocity.push_back(atom.velocity);
-        if (columns.radius) frame.radius.push_back(atom.radius);
-        if (columns.mass) frame.mass.push_back(atom.mass);
-        if (columns.omega) frame.spin.push_back(atom.spin);
+        if (vx && vy) frame.velocity.push_back(atom.velocity);
+        if (radius) frame.radius.push_back(atom.radius);
+        if (mass) frame.mass.push_back(atom.mass);
+        if (omega) frame.spin.push_back(atom.spin);
     }
 }
 
@@ -317,7 +199,12 @@ void read_atoms(Lines& lines, std::string_view names, std::int64_t atoms, TrackF
 Tracks read_lammps_dump(const std::filesystem::path& path) {
     constexpr std::string_view atoms_item = "ITEM: ATOMS";
     const std::string text = read_whole_file(path);
-    Lines lines(path, text);
+    TextLines lines(fmt::format("'{}'", path.string()), text);
+    const auto integer = [&](std::string_view name) {
+        NumberTable table(lines, name);
+        if (!table.next()) lines.fail_at_end(name);
+        return table.integer(0);
+    };
     Tracks result;
     TrackFrame frame;
     std::int64_t atoms = -1;  // −1: not given yet for this frame
@@ -326,23 +213,23 @@ Tracks read_lammps_dump(const std::filesystem::path& path) {
         if (line == "ITEM: TIMESTEP") {
             frame = {};
             atoms = -1;
-            frame.number = lines.integer(lines.expect("a time step"));
+            frame.number = integer("timestep");
             if (!result.frames.empty() && frame.number <= result.frames.back().number)
-                lines.error("the time steps do not ascend");
+                lines.fail("the time steps do not ascend");
         } else if (line == "ITEM: NUMBER OF ATOMS") {
-            atoms = lines.integer(lines.expect("the number of atoms"));
+            atoms = integer("atoms");
             if (atoms < 0 || atoms > std::int64_t(text.size()))
-                lines.error(fmt::format("{} atoms cannot be in this file", atoms));
+                lines.fail(fmt::format("{} atoms cannot be in this file", atoms));
         } else if (line.starts_with("ITEM: BOX BOUNDS")) {
             for (int k = 0; k < 3; ++k) lines.expect("the bounds of the box");
         } else if (line.starts_with(atoms_item)) {
-            if (atoms < 0) lines.error("ITEM: NUMBER OF ATOMS is missing before ITEM: ATOMS");
+            if (atoms < 0) lines.fail("ITEM: NUMBER OF ATOMS is missing before ITEM: ATOMS");
             read_atoms(lines, line.substr(atoms_item.size()), atoms, frame);
             result.frames.push_back(frame);
         } else if (line == "ITEM: UNITS" || line == "ITEM: TIME") {
             lines.expect("a value");
         } else if (!line.empty()) {
-            lines.error("this is not a LAMMPS text dump: 'ITEM: …' was expected");
+            lines.fail("this is not a LAMMPS text dump: 'ITEM: …' was expected");
         }
     }
     if (result.frames.empty()) throw FileError(fmt::format("'{}' holds no frames.", path.string()));

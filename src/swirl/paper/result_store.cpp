@@ -7,6 +7,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parse_json.hpp"
 #include "swirl/run/version.hpp"
 
 namespace swirl {
@@ -34,7 +35,7 @@ ResultStore::ResultStore(const fs::path& out) : folder_(out / "parts") {
 
 std::optional<Json> ResultStore::find(const std::string& key) const {
     if (key.empty() || !fs::exists(file(key))) return {};
-    const Json stored = Json::parse(read_whole_file(file(key)), nullptr, false);
+    const Json stored = parse_json(read_whole_file(file(key)));
     const auto has = [&](const char* name, const std::string& text) {
         return stored.contains(name) && stored[name] == text;
     };

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parse_json.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 
@@ -32,16 +33,19 @@ Json counts_json(const EventCounts& counts) {
     return json;
 }
 
-/// COUNT:RADIUS:MASS. The values are not checked here.
+/// COUNT:RADIUS:MASS or SHARE%:RADIUS:MASS. The values are not checked here.
 std::string mixture_text(const Json& mixture) {
     const auto part = [&](const char* name) { return mixture.value(name, Json()).dump(); };
-    return fmt::format("{}:{}:{}", part("count"), part("radius"), part("mass"));
+    const std::string count = mixture.contains("percent") ? part("percent") + "%" : part("count");
+    return fmt::format("{}:{}:{}", count, part("radius"), part("mass"));
 }
 
 struct ToJson {
     Json operator()(std::monostate) const { return nullptr; }
     Json operator()(const Mixture& m) const {
-        return {{"count", m.count}, {"radius", m.radius}, {"mass", m.mass}};
+        Json json{{"count", m.count}, {"radius", m.radius}, {"mass", m.mass}};
+        if (m.percent) json["percent"] = *m.percent;
+        return json;
     }
     Json operator()(const auto& number_or_word) const { return number_or_word; }
 };
@@ -62,7 +66,7 @@ Json config_json(const RunConfig& config) {
 std::string config_text(const RunConfig& config) { return config_json(config).dump(); }
 
 ParameterTexts parameters_in(const std::string& config) {
-    const Json json = Json::parse(config, nullptr, false);
+    const Json json = parse_json(config);
     if (!json.is_object()) throw UsageError("it does not contain the configuration of a run.");
     return parameters_in(json);
 }

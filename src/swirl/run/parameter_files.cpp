@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <vector>
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/number_table.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
@@ -17,99 +17,6 @@ namespace swirl {
 namespace {
 
 constexpr std::size_t max_table_bytes = 1 << 24;
-
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    std::transform(lower.begin(), lower.end(), lower.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return lower;
-}
-
-/// The fields of a line: separated by commas, or else by semicolons, tabs or spaces.
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    if (line.find(',') == line.npos && line.find(';') == line.npos) {
-        for (const std::string_view part : split(line, " \t"))
-            if (!part.empty()) fields.push_back(part);
-        return fields;
-    }
-    for (const std::string_view part : split(line, ",;")) fields.push_back(trimmed(part));
-    return fields;
-}
-
-/// A column to take from a table: its names in a header line, and whether it may be absent.
-struct TableColumn {
-    std::vector<std::string> names;
-    bool optional = false;
-};
-
-/// Reads the columns of a table as texts joined by colons, one for each row. Without a header line,
-/// the first columns are used.
-class NumberTable {
-  public:
-    NumberTable(std::string option, std::string file, std::vector<TableColumn> columns)
-        : option_(std::move(option)), file_(std::move(file)), columns_(std::move(columns)) {}
-
-    std::string joined(std::string_view text, std::size_t max_rows) {
-        std::string rows;
-        std::size_t number = 0, count = 0;
-        for (const std::string_view raw : split(text, "\n")) {
-            ++number;
-            const std::string_view line = trimmed(raw.substr(0, raw.find('#')));
-            if (line.empty()) continue;
-            const auto fields = fields_of(line);
-            if (take_.empty() && choose_columns(fields, number)) continue;
-            if (++count > max_rows)
-                throw UsageError(
-                    fmt::format("{} '{}' has more than {} rows, which is the most allowed.",
-                                option_, file_, max_rows));
-            rows += ' ' + row(fields, number);
-        }
-        if (count == 0) throw UsageError(fmt::format("{} '{}' has no rows.", option_, file_));
-        return rows;
-    }
-
-  private:
-    /// True if the line is a header.
-    bool choose_columns(const std::vector<std::string_view>& fields, std::size_t number) {
-        const bool is_header = std::none_of(fields.begin(), fields.end(), [](const auto& field) {
-            return read_number(field).has_value();
-        });
-        for (std::size_t c = 0; c < columns_.size(); ++c) {
-            std::size_t index = c;
-            if (is_header)
-                for (index = 0; index < fields.size(); ++index) {
-                    const auto& names = columns_[c].names;
-                    if (std::find(names.begin(), names.end(), lower_case(fields[index])) !=
-                        names.end())
-                        break;
-                }
-            if (index < fields.size())
-                take_.push_back(index);
-            else if (!columns_[c].optional)
-                throw UsageError(fmt::format("{} '{}', line {}: there is no column '{}'.", option_,
-                                             file_, number, columns_[c].names.front()));
-        }
-        return is_header;
-    }
-
-    std::string row(const std::vector<std::string_view>& fields, std::size_t number) const {
-        std::string text;
-        for (const std::size_t index : take_) {
-            const auto value = index < fields.size() ? read_number(fields[index]) : std::nullopt;
-            if (!value)
-                throw UsageError(fmt::format(
-                    "{} '{}', line {}: column {} is '{}', but it must be a finite number.", option_,
-                    file_, number, index + 1, index < fields.size() ? fields[index] : ""));
-            text += (text.empty() ? "" : ":") + fmt::format("{}", *value);
-        }
-        return text;
-    }
-
-    std::string option_, file_;
-    std::vector<TableColumn> columns_;
-    std::vector<std::size_t> take_;  // indices of the columns, once they are known
-};
 
 bool is_there(const std::string& file) {
     std::error_code ignored;
@@ -143,18 +50,51 @@ bool names_file(const std::string& text) {
            std::isalpha(static_cast<unsigned char>(text[dot + 1]));
 }
 
+/// A column to take from a table: its names in a header line, and whether it may be absent.
+struct TableColumn {
+    std::vector<std::string_view> names;
+    bool is_optional = false;
+};
+
+/// The rows of a table as texts, with colons between the columns.
+std::string table_rows(const std::string& option, const std::string& file,
+                       const std::vector<TableColumn>& columns, std::size_t max_rows) {
+    const std::string text = table_text(option, file);
+    try {
+        TextLines lines(fmt::format("{} '{}'", option, file), text, false);
+        NumberTable table(lines, columns.size());
+        std::vector<std::size_t> taken;
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const auto& [names, is_optional] = columns[k];
+            if (!is_optional || table.find(names, k)) taken.push_back(table.column(names, k));
+        }
+        std::string rows;
+        std::size_t count = 0;
+        for (; table.next(); ++count) {
+            if (count == max_rows)
+                lines.fail(fmt::format("there are more than {} rows, the most allowed", max_rows));
+            for (const std::size_t k : taken)
+                rows += fmt::format("{}{}", k == taken.front() ? ' ' : ':', table.number(k));
+        }
+        if (count == 0) lines.fail_without_rows();
+        return rows;
+    } catch (const FileError& error) {
+        throw UsageError(error.what());
+    }
+}
+
 std::string path_text(const std::string& text) {
     if (text.empty() || is_path_shape(text) || !names_file(text)) return text;
-    NumberTable table("--path", text, {{{"t", "time"}}, {{"x"}}, {{"y"}}});
-    return "points" + table.joined(table_text("--path", text), max_path_points);
+    return "points" +
+           table_rows("--path", text, {{{"t", "time"}}, {{"x"}}, {{"y"}}}, max_path_points);
 }
 
 std::string sizes_text(const std::string& text) {
     constexpr std::string_view prefix = "file:";
     if (!text.starts_with(prefix)) return text;
     const std::string file = text.substr(prefix.size());
-    NumberTable table("--sizes", file, {{{"radius", "r"}}, {{"mass", "m"}, true}});
-    return "list" + table.joined(table_text("--sizes", file), max_listed_sizes);
+    return "list" + table_rows("--sizes", file, {{{"radius", "r"}}, {{"mass", "m"}, true}},
+                               max_listed_sizes);
 }
 
 }  // namespace

@@ -39,13 +39,6 @@ std::string_view without_dashes(std::string_view option) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-    return text;
-}
-
 std::optional<std::int64_t> read_whole_number(std::string_view text) {
     std::int64_t whole_value = 0;
     const char* const last = text.data() + text.size();

@@ -18,9 +18,6 @@ namespace swirl {
 /// A whole number that fits into 64 bits ("12", "1e6"); nothing otherwise.
 std::optional<std::int64_t> read_whole_number(std::string_view text);
 
-/// The text without spaces, tabs and carriage returns at its ends.
-std::string_view trimmed(std::string_view text);
-
 /// The parts between separators, any of these characters. Parts may be empty.
 std::vector<std::string_view> split(std::string_view text, std::string_view separators);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,7 @@
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/parse_json.hpp"
 #include "swirl/run/period_series.hpp"
 #include "swirl/run/simd.hpp"
 #include "swirl/run/version.hpp"
@@ -51,7 +53,7 @@ Json identity(const RunConfig& config, const RunFiles& files, const Observation*
 
 /// The JSON part of a checkpoint, with the entries that every checkpoint has.
 Json read_about(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-    Json about = Json::parse(checkpoint.about, nullptr, false);
+    Json about = parse_json(checkpoint.about);
     const auto is_valid = [&] {
         if (!about.is_object()) return false;
         const Json identity = about.value("identity", Json()),
@@ -123,6 +125,35 @@ std::string run_name(const Json& identity) {
     return fmt::format("{:016x}", checksum(identity.dump() + version()));
 }
 
+/// The series of a run that is not finished, as NAME.partial: it grows by a line per period, so that
+/// you can look at it. A killed run leaves it.
+class LiveSeries {
+  public:
+    LiveSeries(const PeriodSeries& series, const std::filesystem::path& path)
+        : series_(series), path_(partial_name(path)) {
+        require_replaceable(path_);
+        file_.open(path_, std::ios::binary | std::ios::trunc);
+        file_ << series_.header();
+        update();
+    }
+    void update() {
+        if (series_.periods() == periods_) return;
+        file_ << series_.rows(periods_) << std::flush;
+        periods_ = series_.periods();
+    }
+    void remove() {
+        file_.close();
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+
+  private:
+    const PeriodSeries& series_;
+    std::filesystem::path path_;
+    std::ofstream file_;
+    std::size_t periods_ = 0;  // in the file
+};
+
 /// Renames the checkpoint of an earlier run, so that it is not lost.
 void back_up(const std::filesystem::path& checkpoint) {
     std::error_code ignored;
@@ -159,12 +190,16 @@ class Recorder {
                     fmt::format("the run of the checkpoint '{}' cannot be continued to another "
                                 "length: {}.",
                                 files_.checkpoint.string(), *problem));
+        std::optional<LiveSeries> live;
+        if (!files_.series.empty()) live.emplace(*series_, files_.series);
         while (const std::uint64_t events = execute(run)) {
+            if (live) live->update();
             if (is_checkpoint_due(events) && !run.complete()) save(run);
         }
         if (!run.complete() || files_.keep_checkpoint) save(run);
         const RunResult result = run.result();
-        if (!files_.series.empty()) series_->write(files_.series);
+        if (live) series_->write(files_.series);
+        if (live) live->remove();
         if (!result.complete) {
             if (trajectory_) trajectory_->flush();
             if (event_log_) event_log_->flush();

@@ -12,6 +12,9 @@
 #include "swirl/io/file_error.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/parallel_for.hpp"
+#include "swirl/run/parse_json.hpp"
+#include "swirl/run/shell_word.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
@@ -20,7 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* remove_and_repeat = "remove it and run `swirl sweep` again.";
+std::string remove_and_repeat(const SweepPlan& plan) {
+    return fmt::format("remove it and run `swirl {}` again.", plan.command());
+}
 
 /// JSON parser callback: skips the parts of a result that the table does not use, because building
 /// them would take most of the time.
@@ -40,19 +45,48 @@ void reject_result_of_another_point(const fs::path& file, const Json& json, cons
     const bool belongs = json.at("point") == point && json.at("replica") == plan.replica(point) &&
                          json.at("config").at("seed") == plan.config(point).seed;
     if (!belongs)
-        throw FileError(fmt::format("'{}' is not the result of point {} of this sweep.\nhint: {}",
-                                    file.string(), point, remove_and_repeat));
+        throw FileError(fmt::format("'{}' is not the result of point {} of this {}.\nhint: {}",
+                                    file.string(), point, plan.kind(), remove_and_repeat(plan)));
+}
+
+/// The text of a file; empty if it cannot be read.
+std::string readable_text(const fs::path& file) {
+    try {
+        return read_regular_file(file);
+    } catch (const FileError&) {
+        return "";
+    }
+}
+
+bool is_whole_result(const fs::path& file) {
+    const std::string text = readable_text(file);
+    return text.starts_with('{') && Json::accept(text);
 }
 
 }  // namespace
 
+std::vector<bool> whole_results(const fs::path& folder, const SweepPlan& plan,
+                                const std::function<bool(std::size_t)>& matters) {
+    const std::vector<bool> exists =
+        numbered_files(part_of_sweep(folder, "results", plan), ".json", plan.points());
+    std::vector<char> whole(exists.size(), 0);  // not bool: threads write neighbours
+    constexpr std::size_t batch = 256;
+    parallel_for((whole.size() + batch - 1) / batch, [&](std::size_t b) {
+        for (std::size_t p = b * batch; p < std::min(whole.size(), (b + 1) * batch); ++p)
+            whole[p] = exists[p] && matters(p) && is_whole_result(result_file(folder, plan, p));
+    });
+    return {whole.begin(), whole.end()};
+}
+
+bool has_whole_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    return is_whole_result(result_file(folder, plan, point));
+}
+
 PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
     const fs::path file = result_file(folder, plan, point);
-    const Json json = Json::parse(read_regular_file(file), is_needed, false);
-    if (json.is_discarded() || !json.is_object())
-        throw FileError(
-            fmt::format("'{}' is damaged.\nhint: {}", file.string(), remove_and_repeat));
+    const Json json = parse_json(readable_text(file), is_needed);
     PointResult result;
+    if (json.is_discarded() || !json.is_object()) return result;
     result.exists = true;
     result.quantities.reserve(rotation_rates.size());
     const auto number = [](const Json& value) {
@@ -62,9 +96,9 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
         if (json.value("format", 0) != result_format)
             throw FileError(fmt::format(
                 "'{}' is in format {} of swirl {}, but this program reads format {}.\nhint: "
-                "collect with the program that wrote it, or remove it and run `swirl sweep` again.",
+                "collect with the program that wrote it, or {}",
                 file.string(), json.value("format", 0), json.value("version", std::string("?")),
-                result_format));
+                result_format, remove_and_repeat(plan)));
         reject_result_of_another_point(file, json, plan, point);
         for (const auto& [name, words] : rotation_rates) {
             const Json& rate = json.at("rotation").at(name);
@@ -87,9 +121,35 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
     } catch (const nlohmann::json::exception&) {
         throw FileError(fmt::format(
             "'{}' lacks a part of a result, or has a text instead of a number.\nhint: {}",
-            file.string(), remove_and_repeat));
+            file.string(), remove_and_repeat(plan)));
     }
     return result;
+}
+
+std::string command_of_run(const ParameterTexts& parameters, const std::string& more,
+                           std::uint64_t seed) {
+    std::string command = "swirl run";
+    for (const auto& [name, value] : parameters)
+        if (name != "seed") command += fmt::format(" {} {}", option_name(name), shell_word(value));
+    return command + fmt::format("{} --seed {}", more, seed);
+}
+
+Json point_json(const SweepPlan& plan, std::size_t point, const RunResult& result,
+                const std::string& command) {
+    Json results = result_json(result);
+    Json::object_t all;
+    all.reserve(results.size() + 6);
+    Json json = std::move(all);
+    json["format"] = result_format;
+    json["point"] = point;
+    json["replica"] = plan.replica(point);
+    if (!plan.chain.empty()) {
+        json["direction"] = plan.direction(point);
+        json["started_from"] = nullptr;
+    }
+    for (auto& [name, value] : results.items()) json[name] = std::move(value);
+    json["command"] = command;
+    return json;
 }
 
 }  // namespace swirl

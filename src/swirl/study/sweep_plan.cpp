@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -18,7 +19,11 @@
 #include "swirl/math/random.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/measurements.hpp"
+#include "swirl/run/parse_json.hpp"
 #include "swirl/run/ramp.hpp"
+#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/map_plan.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
@@ -112,6 +117,7 @@ double number_of_runs(const SweepPlan& plan) {
 std::uint64_t identity_of(const ParameterTexts& texts) {
     RunConfig config = resolve(texts);
     if (!config.uses_contact_duration()) config.contact_duration = RunConfig{}.contact_duration;
+    if (config.mixture) config.mixture->percent.reset();
     return checksum(config_text(config));
 }
 
@@ -154,8 +160,8 @@ void reject_repeated_runs(const SweepPlan& plan, const SweepAxis& axis) {
 /// point runs.
 void validate(const SweepPlan& plan) {
     if (const double count = number_of_runs(plan); count > double(max_points))
-        throw UsageError(fmt::format(
-            "the sweep would have {:.3g} runs, but at most {} are possible.", count, max_points));
+        throw UsageError(fmt::format("the call plans {:.3g} runs, but at most {} are possible.",
+                                     count, max_points));
     for (const SweepAxis& axis : plan.axes) reject_repeated_runs(plan, axis);
 }
 
@@ -188,6 +194,7 @@ Json plan_json(const SweepPlan& plan) {
     if (plan.generation > 1) json["generation"] = plan.generation;
     for (const SweepStage& stage : plan.before)
         json["before"].push_back({{"values", stage.values}, {"replicas", stage.replicas}});
+    if (plan.search) json["search"] = true;
     if (plan.map) {
         const MapTarget& m = *plan.map;
         json["map"] = {{"x", m.x},
@@ -248,6 +255,10 @@ ParameterTexts SweepPlan::parameters(std::size_t point) const {
 
 RunConfig SweepPlan::config(std::size_t point) const {
     RunConfig config = resolve(parameters(point));
+    if (search) {
+        config.seed = search_seed(config, replica(point));
+        return config;
+    }
     std::string identity = fmt::format("{} replica {}", config_text(config), replica(point));
     if (!chain.empty()) identity += fmt::format(" chain {} {}", chain, direction(point));
     config.seed = Random(checksum(identity)).bits() >> 11;  // exact in every JSON reader
@@ -307,8 +318,10 @@ void set_chain(SweepPlan& plan, std::string_view parameter) {
     if (!plan.axis("periods"))
         throw UsageError(
             "a chain needs runs of whole periods.\nhint: give their length with --periods.");
-    if (plan.axis("ramp"))
-        throw UsageError("--chain and --ramp cannot be combined.\nhint: omit one of them.");
+    for (const char* other : {"ramp", "direction"})  // the table has its own column direction
+        if (plan.axis(other))
+            throw UsageError(fmt::format(
+                "--chain and --{} cannot be combined.\nhint: omit one of them.", other));
     plan.chain = name;
     validate(plan);
 }
@@ -316,6 +329,8 @@ void set_chain(SweepPlan& plan, std::string_view parameter) {
 SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
                 const std::vector<std::string>& measure) {
     if (plan.map) throw UsageError("the folder holds a map.\nhint: use swirl map --grow.");
+    if (plan.search)
+        throw UsageError("the folder holds a search for N_c.\nhint: use another folder.");
     if (!plan.chain.empty())
         throw UsageError(
             "a sweep with a chain cannot grow: each run starts from the one before it.\nhint: use "
@@ -346,9 +361,8 @@ SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
                 axis->values.push_back(value);
     }
     if (replicas > 0 && replicas < plan.replicas)
-        throw UsageError(
-            fmt::format("--seeds is {}, but the sweep already has {} and can only grow.", replicas,
-                        plan.replicas));
+        throw UsageError(fmt::format("--seeds is {}, but the {} already has {} and can only grow.",
+                                     replicas, plan.kind(), plan.replicas));
     larger.replicas = std::max(replicas, plan.replicas);
     for (const std::string& name : measure)
         if (std::find(larger.measure.begin(), larger.measure.end(), name) == larger.measure.end())
@@ -386,9 +400,9 @@ SweepPlan read_plan(const fs::path& folder) {
     const fs::path file = folder / "plan.json";
     std::error_code ignored;
     if (!fs::exists(file, ignored))
-        throw FileError(fmt::format("'{}' is not the folder of a sweep: it holds no plan.json.",
-                                    folder.string()));
-    const Json json = Json::parse(read_whole_file(file), nullptr, false);
+        throw FileError(fmt::format(
+            "'{}' is not the folder of a sweep or map: it holds no plan.json.", folder.string()));
+    const Json json = parse_json(read_whole_file(file));
     SweepPlan plan;
     try {
         if (json.at("format") != sweep_format)
@@ -402,14 +416,18 @@ SweepPlan read_plan(const fs::path& folder) {
         plan.series = json.value("series", false);
         plan.chain = json.value("chain", std::string());
         plan.generation = json.value("generation", 1);
+        plan.search = json.value("search", false);
         for (const Json& stage : json.value("before", Json::array()))
             plan.before.push_back({stage.at("values").get<std::vector<std::size_t>>(),
                                    stage.at("replicas").get<std::int64_t>()});
         if (const auto map = json.find("map"); map != json.end()) plan.map = map_target_of(*map);
     } catch (const nlohmann::json::exception&) {
         throw FileError(
-            fmt::format("'{}' is damaged: it is not the plan of a sweep.", file.string()));
+            fmt::format("'{}' is damaged: it is not the plan of a sweep or map.", file.string()));
     }
+    if (plan.frames < 0 || plan.generation < 1)
+        throw FileError(fmt::format("'{}' is damaged: it has {} frames and the generation {}.",
+                                    file.string(), plan.frames, plan.generation));
     for (const SweepAxis& axis : plan.axes)
         if (axis.values.empty())
             throw FileError(fmt::format("'{}' is damaged: {} has no values, but it must have one.",
@@ -420,14 +438,16 @@ SweepPlan read_plan(const fs::path& folder) {
                         "each point, but from 1 to {} runs are possible.",
                         file.string(), count, plan.replicas, max_points));
     reject_shrinking(file, plan);
-    if (!plan.chain.empty()) {
-        try {
-            set_chain(plan, plan.chain);
-        } catch (const UsageError& error) {
-            throw FileError(fmt::format("'{}' is damaged: {}", file.string(), error.what()));
-        }
-    }
     plan.product_indices = product_indices_of(plan);
+    try {  // by the functions that validate a call
+        validate(plan);
+        if (!plan.measure.empty())
+            read_measurement_list(fmt::format("{}", fmt::join(plan.measure, ",")));
+        if (!plan.chain.empty()) set_chain(plan, plan.chain);
+        if (plan.map) validate_map(plan);
+    } catch (const UsageError& error) {
+        throw FileError(fmt::format("'{}' is damaged: {}", file.string(), error.what()));
+    }
     return plan;
 }
 
@@ -458,9 +478,9 @@ void replace_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan
     const PlanLock lock(folder);
     if (read_plan(folder) != grown_from)
         throw Failure(fmt::format(
-            "another process has extended the sweep in '{}' in the meantime.\nhint: repeat the "
-            "command to add to the extended sweep.",
-            folder.string()));
+            "another process has extended the {0} in '{1}' in the meantime.\nhint: repeat the "
+            "command to add to the extended {0}.",
+            plan.kind(), folder.string()));
     write_file_atomically(folder / "plan.json", plan_file_text(plan));
 }
 
@@ -484,12 +504,12 @@ void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* 
     if (!fs::exists(file) && write_new_file(file, plan_file_text(plan))) return;
     const SweepPlan existing = read_plan(folder);
     if (existing == plan) return;
-    const bool same_kind = existing.map.has_value() == plan.map.has_value();
+    const bool same_kind = existing.kind() == std::string_view(plan.kind());
     throw Failure(fmt::format(
         "'{}' holds {} {} (see its plan.json).\nhint: choose another folder{}.", folder.string(),
-        same_kind ? "another" : "a", existing.map ? "map" : "sweep",
-        !same_kind ? ""
-        : plan.map ? ", or continue that map by giving only --out"
+        same_kind ? "another" : "a", existing.kind(),
+        !same_kind || plan.search ? ""
+        : plan.map                ? ", or continue that map by giving only --out"
                    : ", continue that sweep by giving only --out, or extend it with --grow"));
 }
 

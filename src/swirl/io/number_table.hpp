@@ -1,0 +1,76 @@
+// Reads tables of numbers that other programs wrote: CSV from spreadsheets, trackers and editors.
+//
+// A file has one separator, that of its first line: semicolons, else tabs, else commas, else
+// spaces. Semicolons and tabs allow decimal commas; a file has one decimal sign, too. Each row has
+// as many fields as the first line, and no column appears twice. Text in quotation marks may
+// contain separators. `#` begins a comment. A byte order mark is skipped.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swirl {
+
+/// Iterates over the lines of a text, which the caller owns. Throws FileErrors that begin with
+/// `source` ("'a.csv'") and the line number.
+class TextLines {
+  public:
+    /// `needs_last_break`: a file that was truncated within a number would end in a wrong one.
+    TextLines(std::string source, std::string_view text, bool needs_last_break = true);
+
+    bool next(std::string_view& line);
+    std::string_view expect(std::string_view what);
+
+    [[noreturn]] void fail(std::string_view problem) const;
+    /// The text ends where `what` was expected.
+    [[noreturn]] void fail_at_end(std::string_view what) const;
+    [[noreturn]] void fail_without_rows() const;
+
+  private:
+    std::string source_;
+    std::string_view rest_;
+    bool needs_last_break_;
+    std::size_t number_ = 0;
+};
+
+class NumberTable {
+  public:
+    /// Reads the first line, which is a header. A table of up to `columns_without_header` columns
+    /// needs none: a first line with a number is then the first row.
+    explicit NumberTable(TextLines& lines, std::size_t columns_without_header = 0);
+    /// A table that is separated by spaces, and whose header was read before.
+    NumberTable(TextLines& lines, std::string_view header);
+
+    /// Index of the column with one of these names (in lower case); nothing if there is none. A
+    /// table without a header has it at `position`.
+    std::optional<std::size_t> find(const std::vector<std::string_view>& names,
+                                    std::size_t position = 0) const;
+    /// The same for a column that must exist.
+    std::size_t column(const std::vector<std::string_view>& names, std::size_t position = 0) const;
+
+    /// Reads the next row; false at the end of the text.
+    bool next();
+    bool is_empty(std::size_t column) const { return cells_[column].empty(); }
+    double number(std::size_t column);
+    std::int64_t integer(std::size_t column);
+
+  private:
+    bool read_line();
+    void take_header();
+    std::optional<double> value_of(std::string_view cell) const;
+    [[noreturn]] void fail(std::size_t column, std::string_view constraint) const;
+
+    TextLines& lines_;
+    char separator_ = '\0';  // ' ' stands for any number of spaces and tabs
+    char decimal_sign_ = '\0';
+    std::vector<std::string> names_;       // empty without a header
+    std::vector<std::string_view> cells_;  // of the current row
+    std::size_t width_ = 0;
+    bool is_first_row_read_ = false;
+};
+
+}  // namespace swirl
