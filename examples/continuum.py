@@ -99,6 +99,7 @@ def closure(fields, low, high, width=4.0):
         return np.concatenate([first, second], axis=1)
 
     stress = {ab: f[f"kinetic_{ab}"] + f[f"collisional_{ab}"] for ab in ("xx", "xy", "yy")}
+    stress["xy"] = 0.5 * (stress["xy"] + f["kinetic_xy"] + f["collisional_yx"])  # the symmetric part
     couple = [f[f"kinetic_couple_{a}"] + f[f"collisional_couple_{a}"] for a in "xy"]
     density = f["packing"] / np.pi  # of discs of radius 1
     return {

@@ -1,5 +1,7 @@
 #include "frames.hpp"
 
+#include "swirl/statistics/block_average.hpp"
+
 namespace swirl::python {
 
 void Frames::reserve(std::size_t frames, std::size_t of_discs) {
@@ -107,6 +109,32 @@ Snapshot Frames::frame(std::size_t k) const {
         if (are_spheres) s.set_floor_motion(i, vector(rolling_spin), vector(acceleration));
     }
     return s;
+}
+
+PinnedColumns Frames::pinned() const {
+    if (in_lab) return in_lab->pinned();
+    SnapshotSeries own;
+    own.frames = size();
+    own.frame = [this](std::uint64_t k) { return frame(k); };
+    const auto states = recording ? recording : std::make_shared<PinnedSeries>(own);
+    PinnedColumns all;
+    for (std::size_t k = 0; k < size(); ++k) {
+        const PinnedColumns& found = states->at(recording ? numbers[k] : k);
+        all.pinned.insert(all.pinned.end(), found.pinned.begin(), found.pinned.end());
+        all.resident.insert(all.resident.end(), found.resident.begin(), found.resident.end());
+    }
+    return all;
+}
+
+PinnedColumns SingleFrame::pinned() const {
+    const std::vector<double> unknown(frames.discs, not_available);
+    if (!taken_from) return {unknown, unknown};
+    const PinnedColumns all = taken_from->pinned();
+    const auto row = [&](const std::vector<double>& column) {
+        const auto begin = column.begin() + static_cast<std::ptrdiff_t>(number * frames.discs);
+        return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(frames.discs));
+    };
+    return {row(all.pinned), row(all.resident)};
 }
 
 }  // namespace swirl::python

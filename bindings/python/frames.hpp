@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "swirl/engine/simulation.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/snapshot.hpp"
+#include "swirl/run/pinned_series.hpp"
 #include "swirl/run/ramp.hpp"
 
 namespace swirl::python {
@@ -24,6 +26,12 @@ struct Frames {
     std::vector<double> position, velocity, acceleration, rolling_spin;  // [frame][disc][x, y]
     std::vector<double> angle, spin;                                     // [frame][disc]
 
+    /// Where the frames come from, and their numbers there. Without a recording they are one.
+    std::shared_ptr<PinnedSeries> recording;
+    std::vector<std::uint64_t> numbers;
+    /// The frames in the lab, of which these are a transformation; null for others.
+    std::shared_ptr<const Frames> in_lab;
+
     std::size_t size() const { return clock.size(); }
     /// True if the snapshot has as many discs as the frames.
     bool fits(const Snapshot& snapshot) const { return size() == 0 || snapshot.size() == discs; }
@@ -33,6 +41,8 @@ struct Frames {
     void add(const Simulation& simulation, const ContainerPath& path,
              const PeriodChange& since = {});
     Snapshot frame(std::size_t k) const;
+    /// The states of the discs in all frames, frame by frame.
+    PinnedColumns pinned() const;
 
   private:
     void begin(const Snapshot& snapshot);
@@ -43,12 +53,17 @@ struct Frames {
 /// A single snapshot, in the same columns.
 struct SingleFrame {
     Frames frames;
+    // The frames that it was taken from, and its number there; null for others.
+    std::shared_ptr<const Frames> taken_from = nullptr;
+    std::size_t number = 0;
 
     explicit SingleFrame(const Snapshot& snapshot) {
         frames.reserve(1, snapshot.size());
         frames.add(snapshot);
     }
     Snapshot snapshot() const { return frames.frame(0); }
+    /// NaN for all discs of a simulation, since it takes later frames.
+    PinnedColumns pinned() const;
 };
 
 }  // namespace swirl::python

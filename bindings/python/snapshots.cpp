@@ -61,7 +61,13 @@ void bind_columns(Class& type) {
         .def_property_readonly("container_velocity", column<Owner>(&Frames::container_velocity, xy))
         .def_property_readonly("container_radius",
                                [](const Owner& o) { return frames_of(o).container_radius; })
-        .def_property_readonly("period", [](const Owner& o) { return frames_of(o).period; });
+        .def_property_readonly("period", [](const Owner& o) { return frames_of(o).period; })
+        .def_property_readonly(
+            "pinned",
+            [](const Owner& o) { return owned_array(o.pinned().pinned, disc(frames_of(o))); })
+        .def_property_readonly("resident", [](const Owner& o) {
+            return owned_array(o.pinned().resident, disc(frames_of(o)));
+        });
 }
 
 /// Order of the columns in a pickled object, for io/state_archive.hpp.
@@ -113,7 +119,7 @@ void bind_snapshot(py::module_& module) {
         module, "Snapshot",
         "All discs and the container at one instant in the lab frame. Arrays are read-only views\n"
         "that never change: position and velocity [disc, xy], spin, angle, radius, mass and\n"
-        "inertia [disc].");
+        "inertia [disc]; pinned and resident [disc]: 1, 0, or NaN if that is unknown.");
     forbid_construction(type);
     bind_columns<SingleFrame>(type);
     type.def_property_readonly("rolling_spin",
@@ -131,7 +137,10 @@ void bind_snapshot(py::module_& module) {
         .def("m_frame",
              [](const SingleFrame& frame) {
                  const Snapshot s = frame.snapshot();
-                 return SingleFrame(seen_from(m_frame(s), s));
+                 SingleFrame transformed(seen_from(m_frame(s), s));
+                 transformed.taken_from = frame.taken_from;
+                 transformed.number = frame.number;
+                 return transformed;
              })
         .def("rotation", &rotation_of)
         .def("to_bytes", [](const SingleFrame& s) { return to_bytes(s.frames); })
@@ -147,7 +156,8 @@ void bind_frames(py::module_& module) {
     py::class_<Frames, std::shared_ptr<Frames>> type(
         module, "Frames",
         "Snapshots of the same discs in order of time, as columns: position and velocity\n"
-        "[frame, disc, xy], spin and angle [frame, disc], time [frame]. frames[k] is a Snapshot.");
+        "[frame, disc, xy], spin and angle [frame, disc], time [frame]. frames[k] is a Snapshot.\n"
+        "pinned and resident [frame, disc]: 1, 0, or NaN if that is unknown.");
     forbid_construction(type);
     bind_columns<Frames>(type);
     constexpr auto per_time = &per_frame<Frames, false, false>;
@@ -156,23 +166,29 @@ void bind_frames(py::module_& module) {
         .def_property_readonly("time", column<Frames>(&Frames::time, per_time))
         .def_property_readonly("discs", [](const Frames& f) { return f.discs; })
         .def("m_frame",
-             [](const Frames& f) {
+             [](const std::shared_ptr<const Frames>& frames) {
+                 const Frames& f = *frames;
                  auto transformed = std::make_shared<Frames>();
                  transformed->reserve(f.size(), f.discs);
                  for (std::size_t k = 0; k < f.size(); ++k) {
                      const Snapshot s = f.frame(k);
                      transformed->add(seen_from(m_frame(s), s));
                  }
+                 transformed->in_lab = frames;
                  return transformed;
              })
         .def("to_bytes", &to_bytes)
         .def("__len__", &Frames::size)
-        .def("__getitem__", [](const Frames& f, py::ssize_t k) {
+        .def("__getitem__", [](const std::shared_ptr<const Frames>& frames, py::ssize_t k) {
+            const Frames& f = *frames;
             const py::ssize_t count = signed_size(f.size()), at = k < 0 ? k + count : k;
             if (at < 0 || at >= count)
                 throw py::index_error(
                     fmt::format("index {} is out of range: there are {} frames.", k, f.size()));
-            return SingleFrame(f.frame(static_cast<std::size_t>(at)));
+            SingleFrame frame(f.frame(static_cast<std::size_t>(at)));
+            frame.taken_from = frames;
+            frame.number = static_cast<std::size_t>(at);
+            return frame;
         });
     module.def("frames_from_bytes",
                [](const py::bytes& bytes) { return std::make_shared<Frames>(from_bytes(bytes)); });

@@ -5,6 +5,7 @@ import json
 import os
 import signal
 import subprocess
+import time
 import unittest
 
 from program import InFolder, ONE_ERROR, SWIRL, swirl
@@ -88,6 +89,32 @@ class Series(InFolder):
         with open(self.path("s.csv")) as one, open(self.path("whole.csv")) as other:
             self.assertEqual(one.read(), other.read())
         self.run_swirl("verify", "t.h5")
+
+    def test_the_series_grows_while_the_run_runs(self):
+        call = ("run", "--discs", 48, "--periods", 1000000, "--series", "live.csv", "--trajectory", "live.h5",
+                "--frames", 120, "--quiet")
+        running = subprocess.Popen([SWIRL, *map(str, call)], cwd=self.folder, stdout=subprocess.DEVNULL)
+        try:
+            lengths, deadline = [], time.monotonic() + 100
+            while len(set(lengths)) < 3 and time.monotonic() < deadline:
+                time.sleep(0.2)
+                if os.path.exists(self.path("live.csv.partial")):
+                    lengths.append(len(rows(self.path("live.csv.partial"))))
+            self.assertGreaterEqual(len(set(lengths)), 3)
+            self.assertFalse(os.path.exists(self.path("live.csv")))
+            # The recording changes while it is read, so it is opened again. It has the frames that it had when
+            # it was opened first.
+            for _ in range(3):
+                done = self.run_swirl("measure", "live.h5.partial", "--measure", "radial", "--json", "-")
+                found = json.loads(done.stdout)
+                self.assertGreater(found["frames"], 0)
+        finally:
+            running.send_signal(signal.SIGINT)
+            running.wait(100)
+        self.assertFalse(os.path.exists(self.path("live.csv.partial")))
+        table = rows(self.path("live.csv"))
+        self.assertEqual([row["period"] for row in table], [str(k) for k in range(len(table))])
+        self.assertGreaterEqual(len(table), max(lengths))
 
     def test_existing_files_and_other_endings_are_rejected(self):
         with open(self.path("s.csv"), "w") as opened:

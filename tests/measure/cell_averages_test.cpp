@@ -54,6 +54,25 @@ TEST(CellAverages, UnvisitedCellHasNaNMeanAndZeroRate) {
     EXPECT_TRUE(std::isnan(CellRates(1).estimate(0).mean));
 }
 
+// The error of a cell that was visited in one block would be 0.
+TEST(CellAverages, BlocksWithoutAVisitDoNotCount) {
+    CellMeans<1> means(1);
+    CellRates rates(1);
+    for (int block = 0; block < 10; ++block) {
+        if (block == 4) {
+            means.add(0, {3.0});
+            rates.add(0);
+            rates.add_weight();
+        }
+        means.close_block();
+        rates.close_block();
+    }
+    for (const Estimate& e : {means.estimate(0), rates.estimate(0)}) {
+        EXPECT_EQ(e.effective_samples, 1.0);
+        EXPECT_TRUE(std::isnan(e.error));
+    }
+}
+
 TEST(CellAverages, MergedEqualsOneLongRun) {
     CellMeans<1> whole(4), first(4), second(4);
     CellRates all(4), one(4), two(4);

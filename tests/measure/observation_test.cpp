@@ -79,6 +79,63 @@ TEST(Observation, UsesEveryFrameAndEvery32ndEvent) {
     EXPECT_GT(by_event(), 0.0);
 }
 
+// One frame per period for five periods: an average of every 64th or 100th of them would have none,
+// or one, and could not have the error of five.
+TEST(Observation, UsesEveryFrameIfThereAreFewerThan511) {
+    const Snapshot s = random_discs(12, 7);
+    Observation observation(s.container_radius, s.period,
+                            {"order", "packing", "slip", "pair_correlation", "contact_network"},
+                            true, 1.0);
+    for (int period = 0; period < 5; ++period) {
+        Snapshot frame = random_discs(12, 7 + static_cast<std::uint64_t>(period));
+        frame.periods = period;
+        observation.sample(frame);
+        observation.close_block();
+    }
+    for (const auto& [name, row] : {std::pair{"order", "all"},
+                                    {"packing", "all"},
+                                    {"slip", "cluster_perimeter"},
+                                    {"pair_correlation", "inner_packing"},
+                                    {"contact_network", "coordination"}}) {
+        const auto reports = observation.report();
+        bool found = false;
+        for (const ReportRow& r : report_of(reports, name).rows) {
+            if (r.name != std::string(row)) continue;
+            found = true;
+            // Five at most, since the five frames may seem correlated by chance.
+            EXPECT_GT(r.estimate.effective_samples, 1.0) << name;
+            EXPECT_LE(r.estimate.effective_samples, 5.0) << name;
+            EXPECT_EQ(r.estimate.blocks, 5u) << name;
+            EXPECT_TRUE(std::isfinite(r.estimate.error)) << name;
+        }
+        EXPECT_TRUE(found) << name;
+    }
+}
+
+// The criteria are times. At a tenth of the rate for which they were made, they would report another
+// number without a word.
+TEST(Observation, ValuesAreMissingBelowTheFrameRateThatTheyNeed) {
+    const Snapshot s = random_discs(12, 7);
+    const auto known = [&](double rate) {
+        Observation observation(s.container_radius, s.period, everything(), true, rate);
+        observe(observation, 4, static_cast<int>(rate));
+        std::set<std::string> names;
+        for (const auto& [name, report] : observation.report())
+            for (const ReportRow& row : report.rows)
+                if (!std::isnan(row.estimate.mean)) names.insert(name + "." + row.name);
+        return names;
+    };
+    const std::set<std::string> all = known(400.0), residence = known(399.0), none = known(119.0);
+    for (const char* name : {"pinned.share", "residence.share", "fluctuations.n_variance"})
+        EXPECT_TRUE(all.contains(name)) << name;
+    EXPECT_FALSE(residence.contains("pinned.share"));
+    EXPECT_TRUE(residence.contains("residence.share"));
+    EXPECT_FALSE(none.contains("residence.share"));
+    EXPECT_FALSE(known(29.0).contains("fluctuations.n_variance"));
+    for (const char* name : {"order.all", "slip.cluster_perimeter", "radial.mean"})
+        EXPECT_EQ(none.contains(name), all.contains(name)) << name;
+}
+
 TEST(Observation, ReportsInTheOrderOfTheNamesAndIgnoresUnknownNames) {
     const Observation observation = observation_of({"slip", "nothing", "density"});
     EXPECT_THAT(observation.names(), testing::ElementsAre("slip", "density"));

@@ -25,13 +25,13 @@ Snapshot frame_of(int k, std::size_t discs, Path&& path) {
 
 /// A simplified form of the paper's cycle: clockwise along the wall with its speed from θ = 180° to
 /// 60°, then smoothly off the wall and down to 240°, then a sharp turn back along the wall to 180°.
-Vec2 cycle(int k) {
+Vec2 cycle(double k) {
     const double r = 7.0;
     const int along = static_cast<int>(120.0 / 360.0 * frames);  // with the wall's own speed
     const int across = 100, back = 43;
-    const int phase = k % (along + across + back);
+    const double phase = std::fmod(k, along + across + back);
     const Vec2 leave = r * unit_circle(60.0 / 360.0), arrive = r * unit_circle(240.0 / 360.0);
-    if (phase < along) return r * unit_circle(0.5 - static_cast<double>(phase) / frames);
+    if (phase < along) return r * unit_circle(0.5 - phase / frames);
     if (phase < along + across) {
         const double t = phase - along, end = across;
         const Vec2 v = (-2.0 * pi / frames) * perpendicular(leave);
@@ -54,6 +54,32 @@ TEST(PinnedLoose, ADiscThatMovesWithTheWallIsPinned) {
     EXPECT_EQ(pinning.depinning().count(), 0.0);
     EXPECT_EQ(pinning.pinning().count(), 0.0);
     EXPECT_NEAR(pinning.share().mean, 39.0 / 46.0, 1e-15);
+}
+
+// The numbers of frames in the criteria are those at 511 frames per period. At other rates they are
+// the same times, so the same motion gives the same results.
+TEST(PinnedLoose, CriteriaAreTimesAtAnyFrameRate) {
+    const auto found_at = [](int per_frame) {
+        PinnedLoose pinning(frame_window(511.0 * per_frame));
+        for (int k = 0; k < 5 * 313 * per_frame; ++k) {
+            const double time = static_cast<double>(k) / per_frame;  // in 511ths of a period
+            Snapshot s = empty_container(std::fmod(time, frames) / frames);
+            s.periods = static_cast<std::int64_t>(time) / frames;
+            add_disc(s, m_frame(s).lab_position(cycle(time)), {0.0, 0.0});
+            pinning.sample(s);
+        }
+        pinning.close_block();
+        return pinning;
+    };
+    const PinnedLoose standard = found_at(1);
+    ASSERT_GT(standard.depinning().count(), 2.0);
+    for (const int per_frame : {2, 4}) {
+        const PinnedLoose fast = found_at(per_frame);
+        EXPECT_EQ(fast.depinning().count(), standard.depinning().count()) << per_frame;
+        // A change is seen up to a frame earlier: 1/511 of a period is 0.7°, or 0.3 % of a cycle.
+        EXPECT_NEAR(fast.depinning().angle().mean, standard.depinning().angle().mean, 0.8 * degree);
+        EXPECT_NEAR(fast.share().mean, standard.share().mean, 0.01) << per_frame;
+    }
 }
 
 TEST(PinnedLoose, ADiscThatMovesAgainstTheWallOrAcrossIsLoose) {

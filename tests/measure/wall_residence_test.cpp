@@ -54,6 +54,23 @@ TEST(WallResidences, ShortOnesDoNotCount) {
     EXPECT_NEAR(residences.share(WallResidences::standard, 0).mean, 20.0 / 360.0, 1.5 / samples);
 }
 
+// Two of three residences are of 120°, a third of a period; one is of 20°, 0.056 periods.
+TEST(WallResidences, LengthsHaveADistribution) {
+    WallResidences residences;
+    for (int k = 0; k < 9 * samples; ++k) {
+        const bool is_short = k / samples % 3 == 2;
+        residences.sample(
+            at_sample(k, {is_short ? rounds(k, 200.0, 180.0) : rounds(k, 240.0, 120.0)}));
+        if (k % samples == samples - 1) residences.close_block();
+    }
+    EXPECT_NEAR(residences.length_share(6).mean, 2.0 / 3.0, 1e-12);  // 0.30 to 0.35
+    EXPECT_NEAR(residences.length_share(1).mean, 1.0 / 3.0, 1e-12);  // 0.05 to 0.10
+    double sum = 0.0;
+    for (std::size_t bin = 0; bin < WallResidences::length_bins; ++bin)
+        sum += residences.length_share(bin).mean;
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
 // The minimum length is 40 steps, from the first to the last of 41 samples.
 TEST(WallResidences, MinimumLengthIsInclusive) {
     for (const int length : {41, 40}) {

@@ -48,8 +48,10 @@ FieldSeeds planted_fields(std::size_t seeds, double noise, double shared = 0.0) 
         return -2.0 * planted_eta * speed(p) * f["strain_xx"][p] - f["kinetic_yy"][p] - 5.0;
     });
     obey("collisional_xy", [&](std::size_t p) {
-        return 2.0 * planted_eta * speed(p) * f["strain_xy"][p] - f["kinetic_xy"][p];
+        return 2.0 * planted_eta * speed(p) * f["strain_xy"][p] - f["kinetic_xy"][p] -
+               0.5 * f["torque"][p];
     });
+    obey("collisional_yx", [&](std::size_t p) { return f["collisional_xy"][p] + f["torque"][p]; });
     for (const std::string a : {"x", "y"})
         obey(("collisional_couple_" + a).c_str(), [&](std::size_t p) {
             return planted_diffusion * speed(p) * f["spin_gradient_" + a][p] -

@@ -31,7 +31,9 @@ def planted(noise, seeds=8, shared=0.0):
     speed = np.sqrt(exact["temperature"])
     f |= {
         "torque": -0.7 * speed * (2.0 * f["spin"] - f["vorticity"]),
-        "collisional_xy": 2.0 * 1.3 * speed * f["strain_xy"] - f["kinetic_xy"],
+        # The stress of a fluid of spinning discs is not symmetric: its antisymmetric part is the torque.
+        "collisional_xy": 2.0 * 1.3 * speed * f["strain_xy"] - f["kinetic_xy"] - 0.25,
+        "collisional_yx": 2.0 * 1.3 * speed * f["strain_xy"] - f["kinetic_xy"] + 0.25,
         "collisional_xx": -1.0 + 2.0 * 1.3 * speed * f["strain_xx"] - f["kinetic_xx"],
         "collisional_yy": -1.0 - 2.0 * 1.3 * speed * f["strain_xx"] - f["kinetic_yy"],
         "collisional_couple_x": 0.4 * speed * f["spin_gradient_x"] - f["kinetic_couple_x"],

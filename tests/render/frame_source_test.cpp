@@ -171,7 +171,7 @@ TEST(PinnedPlayback, AgreesWithTheMeasurementSevenFramesLater) {
     for (int k = 511; k <= 511 * 3; ++k) {
         view.update(playback(k / 511.0));
         pinned.sample(view);
-        const int shown = k - PinnedLoose::half_width;
+        const int shown = k - FrameWindow().half_width;
         if (shown < 2 * 511 || shown % 100 != 0) continue;
         EXPECT_EQ(pinned_playback.at(shown / 511.0), pinned.pinned()) << shown;
     }

@@ -183,7 +183,7 @@ InnerMean inner_mean(const FieldGrid& grid) {
         mean.vorticity += value(f, "vorticity");
         mean.spin += value(f, "spin");
         mean.torque += value(f, "torque");
-        mean.shear += value(f, "collisional_xy");
+        mean.shear += 0.5 * (value(f, "collisional_xy") + value(f, "collisional_yx"));
     }
     return mean;
 }

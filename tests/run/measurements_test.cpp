@@ -1,5 +1,6 @@
 #include "swirl/run/measurements.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "io/scratch.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/period_series.hpp"
 
 namespace swirl {
 namespace {
@@ -28,6 +30,17 @@ RunConfig short_run() {
 }
 
 std::vector<std::string> everything() { return read_measurement_list("all"); }
+
+/// At rest relative to the container, in its middle.
+Snapshot make_snapshot_of_one_disc() {
+    Snapshot s;
+    s.period = paper_period;
+    s.container_radius = 20.0;
+    s.container_centre = {0.0, -1.892};
+    s.resize(1);
+    s.set(0, {s.container_centre, {0.0, 0.0}, 0.0, 0.0, 0.0, 1.0, 1.0, 10.0});
+    return s;
+}
 
 double sum(const nlohmann::ordered_json& column) {
     double total = 0.0;
@@ -113,6 +126,72 @@ TEST(Measurements, WallStressObeysCoulombsLaw) {
     EXPECT_NEAR(pressure, mean_of(wall["pressure"]), 1e-12);
     EXPECT_NEAR(traction, mean_of(wall["traction"]), 1e-12);
     EXPECT_GT(pressure, 0.0);
+}
+
+/// All text that a result has in files and on the terminal.
+std::string written(const MeasurementReports& reports) {
+    const Scratch scratch;
+    std::string text = measured_json(reports).dump() + measured_text(reports);
+    for (const fs::path& file : write_measured_tables(reports, scratch.folder())) {
+        std::ifstream opened(file);
+        text.append(std::istreambuf_iterator<char>(opened), {});
+    }
+    return text;
+}
+
+void expect_missing_numbers_are_empty(const MeasurementReports& reports, const std::string& what) {
+    for (const auto& [name, report] : reports) {
+        for (const ReportRow& row : report.rows) {
+            EXPECT_FALSE(std::isinf(row.estimate.mean)) << what << " " << name << "." << row.name;
+            EXPECT_FALSE(std::isinf(row.estimate.error)) << what << " " << name << "." << row.name;
+        }
+        const std::string text = written({{name, report}});
+        // As values, not in names such as "frequency_finite".
+        for (const char* value : {",inf", ",-inf", ",nan", ",-nan", " inf", " nan", ":inf"})
+            EXPECT_EQ(text.find(value), std::string::npos) << what << " " << name << value;
+    }
+}
+
+// No sample, no period, one disc, a disc that is never pinned, no collision: every number that does
+// not exist is missing in the same way.
+TEST(Measurements, NumbersThatDoNotExistAreMissingInEveryFile) {
+    RunConfig config;
+    config.discs = 1;
+    config.periods = 3;
+    config.warmup = 0;
+    Observation nothing = observation_of(config, everything());
+    expect_missing_numbers_are_empty(nothing.report(), "no sample");
+    nothing.close_block();
+    expect_missing_numbers_are_empty(nothing.report(), "an empty period");
+    for (const std::int64_t discs : {1, 2}) {
+        config.discs = discs;
+        Observation observation = observation_of(config, everything());
+        PeriodSeries series(config, everything());
+        RunControl control;
+        control.observation = &observation;
+        control.series = &series;
+        run(config, control);
+        expect_missing_numbers_are_empty(observation.report(), fmt::format("{} discs", discs));
+        const std::string table = "\n" + series.header() + series.rows();
+        for (const char* value : {",inf", ",-inf", ",nan", ",-nan"})
+            EXPECT_EQ(table.find(value), std::string::npos) << discs << value;
+    }
+    // A disc in the middle of a large container: frames, and vertices of the path as events.
+    Snapshot s = make_snapshot_of_one_disc();
+    Observation at_rest(s.container_radius, s.period, everything());
+    Event vertex{};
+    vertex.kind = EventKind::path_vertex;
+    for (int period = 0; period < 2; ++period) {
+        s.periods = period;
+        for (int k = 0; k < samples_per_period; ++k) {
+            s.clock = s.period * k / samples_per_period;
+            s.held_at[0] = s.clock;
+            at_rest.sample(s);
+        }
+        at_rest.sample(vertex, s);
+        at_rest.close_block();
+    }
+    expect_missing_numbers_are_empty(at_rest.report(), "at rest");
 }
 
 TEST(Measurements, OrderAndPackingAreWithinTheirBounds) {

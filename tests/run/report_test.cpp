@@ -123,6 +123,12 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     result.steady_spin.verdict = result.steady.verdict = SteadyState::Verdict::too_short;
     EXPECT_THAT(warnings(result),
                 testing::ElementsAre(testing::HasSubstr("steady state not verified")));
+    // The spins may be too correlated for the test although the rotation is steady.
+    result.steady.verdict = SteadyState::Verdict::steady;
+    result.steady_spin.change = {.size = 15.9, .max_size = 79.1};
+    EXPECT_THAT(
+        warnings(result),
+        testing::ElementsAre(testing::HasSubstr("cannot distinguish a change from chance")));
     result.config.mu_disc = result.config.mu_wall = 0.0;
     EXPECT_THAT(warnings(result), testing::ElementsAre(testing::HasSubstr("without bound")));
     // Rotation and spins may be steady while the energy grows.

@@ -132,6 +132,26 @@ TEST(Statistics, MergingIntoAnEmptySeriesCopiesAndAddingContinuesTheOwnRun) {
     EXPECT_EQ(b.block_means(1), (std::vector<double>{1.0, 3.0}));
 }
 
+// 520 periods, of which five have a sample: the error is that of five numbers, √(Σ d²/(5·4)).
+TEST(Statistics, EffectiveSamplesAreThoseOfBlocksWithSamples) {
+    BlockSeries series, five;
+    for (int period = 0; period < 520; ++period) {
+        const double value = period % 208 == 0 ? 1.0 : 4.0;
+        const bool is_sampled = period % 104 == 0;
+        series.add(is_sampled ? value : 0.0, is_sampled ? 1.0 : 0.0);
+        if (is_sampled) five.add(value, 1.0);
+    }
+    EXPECT_EQ(series.estimate().blocks, 520u);
+    EXPECT_EQ(series.estimate().effective_samples, 5.0);
+    EXPECT_DOUBLE_EQ(series.estimate().mean, five.estimate().mean);
+    // 1, 4, 1, 4, 1: a mean of 2.2 and Σ d² = 10.8.
+    EXPECT_NEAR(series.estimate().error, std::sqrt(10.8 / 20.0), 1e-12);
+    BlockSeries one;
+    for (int period = 0; period < 10; ++period) one.add(period == 3 ? 7.0 : 0.0, period == 3);
+    EXPECT_EQ(one.estimate().effective_samples, 1.0);
+    EXPECT_TRUE(std::isnan(one.estimate().error));
+}
+
 TEST(Statistics, VeryLongRunsAreCoarsenedWithoutChangingTheMean) {
     BlockSeries series;
     double sum = 0.0;

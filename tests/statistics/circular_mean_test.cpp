@@ -55,6 +55,21 @@ TEST(CircularMean, IsNaNWithoutAnglesAndForOpposites) {
     EXPECT_EQ(mean.concentration(), 0.0);
 }
 
+// The error of a mean of one block would be 0.
+TEST(CircularMean, BlocksWithoutAnAngleDoNotCount) {
+    CircularMean mean;
+    for (int block = 0; block < 10; ++block) {
+        if (block == 4) mean.add({1.0, 0.2});
+        mean.close_block();
+    }
+    EXPECT_EQ(mean.angle().effective_samples, 1.0);
+    EXPECT_TRUE(std::isnan(mean.angle().error));
+    mean.add({1.0, -0.2});
+    mean.close_block();
+    EXPECT_EQ(mean.angle().effective_samples, 2.0);
+    EXPECT_GT(mean.angle().error, 0.0);
+}
+
 TEST(CircularMean, MergedEqualsOneLongRun) {
     CircularMean whole, first, second;
     Noise noise(8);

@@ -25,16 +25,22 @@ std::vector<double> correlated_noise(std::size_t blocks, double a, std::uint64_t
     return all;
 }
 
-/// The number of 200 such series, with `shape(block)` added, that have this verdict.
-template <class Shape>
-int count(Verdict verdict, std::size_t blocks, double a, const Shape& shape) {
+/// The number of 200 such series, with `shape(block)` added, for which `is_found(state)` is true.
+template <class Shape, class IsFound>
+int count_if(std::size_t blocks, double a, const Shape& shape, const IsFound& is_found) {
     int found = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         std::vector<double> all = correlated_noise(blocks, a, seed);
         for (std::size_t b = 0; b < blocks; ++b) all[b] += shape(b);
-        found += find_steady_state(all).verdict == verdict ? 1 : 0;
+        found += is_found(find_steady_state(all)) ? 1 : 0;
     }
     return found;
+}
+/// The number that have this verdict.
+template <class Shape>
+int count(Verdict verdict, std::size_t blocks, double a, const Shape& shape) {
+    return count_if(blocks, a, shape,
+                    [&](const SteadyState& state) { return state.verdict == verdict; });
 }
 
 TEST(SteadyState, SteadySeriesAreSteady) {
@@ -43,8 +49,28 @@ TEST(SteadyState, SteadySeriesAreSteady) {
     EXPECT_GE(count(Verdict::steady, 200, 0.0, nothing), 199);
     EXPECT_GE(count(Verdict::steady, 1000, 0.6, nothing), 199);
     // Below 1.5 % with fewer: 3 of 200, with a scatter of 1.7; three scatters more are 8.
-    EXPECT_GE(count(Verdict::steady, 250, 0.8, nothing), 192);
-    EXPECT_GE(count(Verdict::steady, 50, 0.6, nothing), 192);
+    const auto is_alarm = [](const SteadyState& state) { return state.has_changed(); };
+    EXPECT_LE(count_if(250, 0.8, nothing, is_alarm), 8);
+    EXPECT_LE(count_if(50, 0.6, nothing, is_alarm), 8);
+}
+
+// With a limit of 79 standard errors, a change of 16 errors would pass as steady. 50 blocks with
+// these correlations have 12 and 3 effective samples, 250 have 28, and 1000 have 110.
+TEST(SteadyState, LargeLimitIsNoTest) {
+    const auto nothing = [](std::size_t) { return 0.0; };
+    for (const auto& [blocks, a] : {std::pair{50u, 0.6}, {50u, 0.9}, {250u, 0.8}, {1000u, 0.8}})
+        EXPECT_EQ(
+            count_if(blocks, a, nothing,
+                     [](const SteadyState& state) {
+                         const MeanChange& change = state.change;
+                         return state.verdict == Verdict::steady &&
+                                (std::abs(change.size) > 10.0 || change.effective_samples < 25.0);
+                     }),
+            0)
+            << blocks;
+    // Most series with three effective samples, and none with 250.
+    EXPECT_GE(count(Verdict::too_short, 50, 0.9, nothing), 150);
+    EXPECT_EQ(count(Verdict::too_short, 1000, 0.6, nothing), 0);
 }
 
 // A jump by three standard deviations of the blocks, or 16 errors of the difference where one part

@@ -11,7 +11,9 @@
 #include "swirl/io/export.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/measured_series.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/pinned_series.hpp"
 
 namespace swirl {
 namespace {
@@ -119,7 +121,7 @@ void export_file(const ExportCall& call) {
         options.check_stop();
         line.show(double(done) / double(frames), fmt::format("frame {}", done));
     };
-    export_series(series_of(reader), *format, out, options);
+    export_series(with_pinned_discs(series_of_run(reader)), *format, out, options);
     line.clear();
     if (!reader->complete())
         print_warning(

@@ -132,9 +132,7 @@ std::vector<FrameSource> frame_sources(const SourceTexts& texts) {
     if (texts.slip) return {rolling(ball_of(texts, config), config.amplitude, config.period)};
     std::vector<FrameSource> containers{simulated(config, &stop_signal())};
     if (texts.compared_discs) {
-        RunConfig other = config;
-        other.discs = *texts.compared_discs;
-        if (const auto wrong = problem(other)) throw UsageError(*wrong);
+        const RunConfig other = with_discs(config, *texts.compared_discs);
         containers.insert(containers.begin(), simulated(other, &stop_signal()));
     }
     return containers;
@@ -160,11 +158,11 @@ void print_source_warnings(const std::vector<FrameSource>& sources, const Appear
                        "warning: the recording has no orientations; discs are drawn without "
                        "orientation marks.\n");
         const double frames = source.frames_per_period;
-        if (appearance.coloring == Coloring::pinned && frames > 0.0 && !fits_criteria(frames))
+        if (appearance.coloring == Coloring::pinned && frames > 0.0 && frames < min_rate_of_pinned)
             fmt::print(stderr,
                        "warning: the recording has {:.0f} frames per period, but the criteria for "
-                       "pinned discs assume {}.\n",
-                       frames, samples_per_period);
+                       "pinned discs need {:.0f}.\n",
+                       frames, min_rate_of_pinned);
     }
 }
 

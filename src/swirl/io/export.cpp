@@ -12,6 +12,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/h5md.hpp"
+#include "swirl/io/table.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/math/unit_circle.hpp"
 
@@ -26,7 +27,7 @@ void add(Text& text, fmt::format_string<Parts...> format, Parts&&... parts) {
 }
 
 /// Unknown values are NaN in a snapshot; formats without a missing value get 0.
-double or_zero(double value) { return std::isnan(value) ? 0.0 : value; }
+double or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
 
 template <class Write>
 void write_frames(const SnapshotSeries& series, const ExportOptions& options, Write&& write) {
@@ -36,6 +37,11 @@ void write_frames(const SnapshotSeries& series, const ExportOptions& options, Wr
         write(k, series.frame(k));
         if (options.on_frame) options.on_frame(n + 1);
     }
+}
+
+/// Null if they are unknown in all frames.
+const PinnedColumns* states_of(const SnapshotSeries& series, std::uint64_t k) {
+    return series.pinned ? &series.pinned(k) : nullptr;
 }
 
 /// Appends the text that format(text, k, snapshot) adds for each frame k.
@@ -56,6 +62,9 @@ bool has_spheres(const SnapshotSeries& series) {
     return first.are_spheres() && !first.turned.empty();
 }
 
+/// Formats without a missing value get −1.
+int state_number(double value) { return std::isfinite(value) ? static_cast<int>(value) : -1; }
+
 /// Type number of the container: the one after those of the discs, which count from 1.
 std::int64_t type_of_container(const std::vector<std::int64_t>& species) {
     return species.empty() ? 1 : *std::max_element(species.begin(), species.end()) + 2;
@@ -63,14 +72,16 @@ std::int64_t type_of_container(const std::vector<std::int64_t>& species) {
 
 void write_lammps(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& s) {
+        const PinnedColumns* const states = states_of(series, k);
         const auto species = h5md::species_of(s.radius, s.mass);
         add(text, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n", k,
             s.size() + (options.container ? 1 : 0));
         add(text, "{} {}\n{} {}\n-1 1\n", -series.reach, series.reach, -series.reach, series.reach);
-        add(text, "ITEM: ATOMS id type x y z vx vy vz radius mass {}\n",
+        add(text, "ITEM: ATOMS id type x y z vx vy vz radius mass {}{}\n",
             !s.are_spheres()   ? "omegaz"
             : s.turned.empty() ? "omegaz omegax omegay"
-                               : "omegaz omegax omegay quatw quati quatj quatk");
+                               : "omegaz omegax omegay quatw quati quatj quatk",
+            states ? " pinned resident" : "");
         for (std::size_t i = 0; i < s.size(); ++i) {
             options.check_stop_at(i);
             const Vec2 p = s.position(i);
@@ -81,13 +92,17 @@ void write_lammps(const SnapshotSeries& series, AtomicFile& file, const ExportOp
                 const Quaternion q = s.quaternion(i);
                 add(text, " {} {} {} {}", q.w, q.x, q.y, q.z);
             }
+            if (states)
+                add(text, " {} {}", state_number(states->pinned[i]),
+                    state_number(states->resident[i]));
             add(text, "\n");
         }
         if (!options.container) return;
         const Vec2 c = s.container_centre, v = s.container_velocity;
         add(text, "{} {} {} {} 0 {} {} 0 {} 0 0", s.size() + 1, type_of_container(species), c.x,
             c.y, v.x, v.y, s.container_radius);
-        add(text, "{}{}\n", s.are_spheres() ? " 0 0" : "", s.turned.empty() ? "" : " 1 0 0 0");
+        add(text, "{}{}{}\n", s.are_spheres() ? " 0 0" : "", s.turned.empty() ? "" : " 1 0 0 0",
+            states ? " -1 -1" : "");
     });
 }
 
@@ -98,14 +113,15 @@ const char* symbol_of_species(std::int64_t species) {
 }
 
 void write_xyz(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
-    write_text_frames(series, file, options, [&](Text& text, std::uint64_t, const Snapshot& s) {
+    write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& s) {
+        const PinnedColumns* const states = states_of(series, k);
         const auto species = h5md::species_of(s.radius, s.mass);
         add(text,
-            "{}\nProperties=species:S:1:pos:R:3:velo:R:3:omega:R:{}:radius:R:1:id:I:1{} Time={} "
+            "{}\nProperties=species:S:1:pos:R:3:velo:R:3:omega:R:{}:radius:R:1:id:I:1{}{} Time={} "
             "pbc=\"F F F\" container_x={} container_y={} container_radius={}\n",
             s.size() + (options.container ? 1 : 0), s.are_spheres() ? 3 : 1,
-            s.turned.empty() ? "" : ":orientation:R:4", s.time(), s.container_centre.x,
-            s.container_centre.y, s.container_radius);
+            s.turned.empty() ? "" : ":orientation:R:4", states ? ":pinned:I:1:resident:I:1" : "",
+            s.time(), s.container_centre.x, s.container_centre.y, s.container_radius);
         for (std::size_t i = 0; i < s.size(); ++i) {
             options.check_stop_at(i);
             const Vec2 p = s.position(i);
@@ -117,13 +133,16 @@ void write_xyz(const SnapshotSeries& series, AtomicFile& file, const ExportOptio
                 const Quaternion q = s.quaternion(i);
                 add(text, " {} {} {} {}", q.x, q.y, q.z, q.w);  // the order of OVITO
             }
+            if (states)
+                add(text, " {} {}", state_number(states->pinned[i]),
+                    state_number(states->resident[i]));
             add(text, "\n");
         }
         if (!options.container) return;
         const Vec2 c = s.container_centre, v = s.container_velocity;
-        add(text, "X {} {} 0 {} {} 0 {}0 {} {}{}\n", c.x, c.y, v.x, v.y,
+        add(text, "X {} {} 0 {} {} 0 {}0 {} {}{}{}\n", c.x, c.y, v.x, v.y,
             s.are_spheres() ? "0 0 " : "", s.container_radius, s.size() + 1,
-            s.turned.empty() ? "" : " 0 0 0 1");
+            s.turned.empty() ? "" : " 0 0 0 1", states ? " -1 -1" : "");
     });
 }
 
@@ -139,13 +158,7 @@ void write_csv(const SnapshotSeries& series, AtomicFile& file, const ExportOptio
     });
 }
 
-/// Unknown values become empty cells.
-void add_cell(Text& text, double value) {
-    if (std::isnan(value))
-        add(text, ",");
-    else
-        add(text, ",{}", value);
-}
+void add_cell(Text& text, double value) { add(text, ",{}", cell_text(value)); }
 
 void write_table(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     const bool spheres = has_spheres(series);
@@ -153,8 +166,10 @@ void write_table(const SnapshotSeries& series, AtomicFile& file, const ExportOpt
         "frame,time (r/v),periods,container x (r),container y (r),disc,x (r),y (r),v_x (v),v_y (v),"
         "angle (rad),spin (v/r),radius (r),mass (m),moment of inertia (m r²)");
     if (spheres) file.append(",spin x (v/r),spin y (v/r),turned w,turned x,turned y,turned z");
+    if (series.pinned) file.append(",pinned,resident");
     file.append("\n");
     write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& s) {
+        const PinnedColumns* const states = states_of(series, k);
         for (std::size_t i = 0; i < s.size(); ++i) {
             options.check_stop_at(i);
             const Vec2 p = s.position(i);
@@ -168,6 +183,9 @@ void write_table(const SnapshotSeries& series, AtomicFile& file, const ExportOpt
                 const Quaternion q = s.quaternion(i);
                 add(text, ",{},{},{},{},{},{}", s.spin_x[i], s.spin_y[i], q.w, q.x, q.y, q.z);
             }
+            if (states)
+                for (const double state : {states->pinned[i], states->resident[i]})
+                    add_cell(text, state);
             add(text, "\n");
         }
     });
@@ -213,7 +231,7 @@ void begin_vtp(Text& text, std::size_t points, std::size_t vertices, std::size_t
         points, vertices, lines);
 }
 
-std::string vtp_of(const Snapshot& s) {
+std::string vtp_of(const Snapshot& s, const PinnedColumns* states) {
     const std::size_t n = s.size();
     std::vector<double> points(3 * n), velocity(3 * n), angle(n);
     std::vector<std::int64_t> connectivity(n), offsets(n), id(n);
@@ -252,6 +270,10 @@ std::string vtp_of(const Snapshot& s) {
     add_array(text, "Float64", "radius", 1, s.radius);
     add_array(text, "Float64", "mass", 1, s.mass);
     add_array(text, "Int64", "id", 1, id);
+    if (states) {
+        add_array(text, "Float64", "pinned", 1, states->pinned);
+        add_array(text, "Float64", "resident", 1, states->resident);
+    }
     add(text, "</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
     return fmt::to_string(text);
 }
@@ -314,7 +336,7 @@ std::string write_vtp_frames(const SnapshotSeries& series, const std::filesystem
                 add(index, "<DataSet timestep=\"{}\" part=\"{}\" file=\"{}/{}\"/>\n", s.time(),
                     part, escaped(folder.filename().string()), name);
             };
-            add_part(0, fmt::format("{:06}.vtp", k), vtp_of(s));
+            add_part(0, fmt::format("{:06}.vtp", k), vtp_of(s, states_of(series, k)));
             add_part(1, fmt::format("{:06}_container.vtp", k), container_vtp_of(s));
         });
         frames.sync();
@@ -380,12 +402,14 @@ enum GsdType : std::uint8_t {
 
 class GsdWriter {
   public:
-    GsdWriter(AtomicFile& file, bool of_spheres) : file_(file) {
+    /// Readers expect values for every name in the list.
+    GsdWriter(AtomicFile& file, bool of_spheres, bool with_pinned) : file_(file) {
         file_.append({reinterpret_cast<const char*>(&header_), sizeof header_});
+        if (of_spheres) names_.emplace_back("log/particles/rolling_spin");
+        if (with_pinned)
+            names_.insert(names_.end(), {"log/particles/pinned", "log/particles/resident"});
         std::string list;
-        // Readers expect values for every name in the list.
-        for (const char* name : std::span(names).first(names.size() - (of_spheres ? 0 : 1)))
-            list += name + std::string(1, '\0');
+        for (const std::string_view name : names_) list += std::string(name) + '\0';
         header_.namelist_location = file_.size();
         header_.namelist_allocated_entries = (list.size() + 63) / 64;
         list.resize(64 * header_.namelist_allocated_entries);
@@ -394,7 +418,7 @@ class GsdWriter {
     template <class T>
     void add(std::string_view name, GsdType type, const std::vector<T>& values,
              std::uint32_t columns) {
-        const auto id = std::find(std::begin(names), std::end(names), name) - std::begin(names);
+        const auto id = std::find(names_.begin(), names_.end(), name) - names_.begin();
         entries_.push_back({frame_, values.size() / columns, std::int64_t(file_.size()), columns,
                             std::uint16_t(id), type, 0});
         file_.append({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
@@ -414,22 +438,21 @@ class GsdWriter {
     }
 
   private:
-    static constexpr std::array names{"configuration/step",
-                                      "configuration/dimensions",
-                                      "configuration/box",
-                                      "particles/N",
-                                      "particles/types",
-                                      "particles/typeid",
-                                      "particles/mass",
-                                      "particles/diameter",
-                                      "particles/moment_inertia",
-                                      "particles/position",
-                                      "particles/orientation",
-                                      "particles/velocity",
-                                      "particles/angmom",
-                                      "log/particles/angular_velocity",
-                                      "log/time",
-                                      "log/particles/rolling_spin"};
+    std::vector<std::string_view> names_{"configuration/step",
+                                         "configuration/dimensions",
+                                         "configuration/box",
+                                         "particles/N",
+                                         "particles/types",
+                                         "particles/typeid",
+                                         "particles/mass",
+                                         "particles/diameter",
+                                         "particles/moment_inertia",
+                                         "particles/position",
+                                         "particles/orientation",
+                                         "particles/velocity",
+                                         "particles/angmom",
+                                         "log/particles/angular_velocity",
+                                         "log/time"};
     AtomicFile& file_;
     GsdHeader header_;
     std::vector<GsdEntry> entries_;
@@ -467,7 +490,7 @@ void add_constants(GsdWriter& gsd, const Snapshot& s) {
     gsd.add("particles/moment_inertia", gsd_f32, inertia, 3);
 }
 
-void add_motion(GsdWriter& gsd, const Snapshot& s) {
+void add_motion(GsdWriter& gsd, const Snapshot& s, const PinnedColumns* states) {
     std::vector<float> position, orientation, velocity, momentum;
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Vec2 p = s.position(i);
@@ -485,6 +508,10 @@ void add_motion(GsdWriter& gsd, const Snapshot& s) {
     gsd.add("particles/velocity", gsd_f32, velocity, 3);
     gsd.add("particles/angmom", gsd_f32, momentum, 4);
     gsd.add("log/particles/angular_velocity", gsd_f64, s.spin, 1);
+    if (states) {
+        gsd.add("log/particles/pinned", gsd_f64, states->pinned, 1);
+        gsd.add("log/particles/resident", gsd_f64, states->resident, 1);
+    }
     if (!s.are_spheres()) return;
     std::vector<double> rolling;
     for (std::size_t i = 0; i < s.size(); ++i)
@@ -493,7 +520,7 @@ void add_motion(GsdWriter& gsd, const Snapshot& s) {
 }
 
 void write_gsd(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
-    GsdWriter gsd(file, has_spheres(series));
+    GsdWriter gsd(file, has_spheres(series), series.pinned != nullptr);
     const float width = float(2.0 * series.reach);
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         gsd.add("configuration/step", gsd_u64, std::vector<std::uint64_t>{k}, 1);
@@ -503,7 +530,7 @@ void write_gsd(const SnapshotSeries& series, AtomicFile& file, const ExportOptio
         }
         gsd.add("particles/N", gsd_u32, std::vector<std::uint32_t>{std::uint32_t(s.size())}, 1);
         if (k == options.first || !series.same_discs()) add_constants(gsd, s);
-        add_motion(gsd, s);
+        add_motion(gsd, s, states_of(series, k));
         gsd.add("log/time", gsd_f64, std::vector<double>{s.time()}, 1);
         gsd.end_frame();
     });

@@ -10,4 +10,9 @@ struct FileError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A file that another process writes has changed while it was read. Opened again, it is readable.
+struct FileChanged : FileError {
+    using FileError::FileError;
+};
+
 }  // namespace swirl

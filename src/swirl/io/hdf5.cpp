@@ -154,7 +154,7 @@ struct Hdf5File::State {
     /// since cannot be read on.
     void reject_overtaken() const {
         if (journaled.is_overtaken())
-            throw FileError(
+            throw FileChanged(
                 fmt::format("'{}' is still being recorded and has changed while it was read.\n"
                             "hint: read it when that run has ended or has been interrupted.",
                             path));

@@ -13,6 +13,12 @@
 
 namespace swirl {
 
+/// The states of the discs of one frame: 1 if the disc is pinned or resident at the wall, 0 if not,
+/// NaN if that is unknown (run/pinned_series.hpp).
+struct PinnedColumns {
+    std::vector<double> pinned, resident;
+};
+
 struct SnapshotSeries {
     std::uint64_t frames = 0;
     /// Half the width of a square about the origin that contains the container at all times.
@@ -25,6 +31,9 @@ struct SnapshotSeries {
     double missing_energy = 0.0;
     /// False if the path of the container is known to have no M-frame.
     bool has_m_frame = true;
+
+    /// Null if these states are known in no frame. The result is valid until the next call.
+    std::function<const PinnedColumns&(std::uint64_t frame)> pinned = nullptr;
 
     /// True if every frame has the same discs in the same order.
     bool same_discs() const { return breaks.empty(); }

@@ -11,8 +11,7 @@ namespace swirl {
 namespace {
 
 std::string text_of(const Table::Cell& cell) {
-    if (const auto* number = std::get_if<double>(&cell))
-        return std::isnan(*number) ? "" : fmt::format("{}", *number);
+    if (const auto* number = std::get_if<double>(&cell)) return cell_text(*number);
     if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
     const auto& text = std::get<std::string>(cell);
     if (text.find_first_of(",\"\n") == text.npos) return text;
@@ -22,6 +21,10 @@ std::string text_of(const Table::Cell& cell) {
 }
 
 }  // namespace
+
+std::string cell_text(double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
 
 void Table::add(std::vector<Cell> row) {
     if (row.size() != columns_.size())

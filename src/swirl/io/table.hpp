@@ -10,6 +10,10 @@
 
 namespace swirl {
 
+/// The text of a number in a CSV file: it reads back as the same double. Empty if the number is
+/// missing: NaN or infinite.
+std::string cell_text(double value);
+
 class Table {
   public:
     using Cell = std::variant<double, std::int64_t, std::string>;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
+#include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/h5md.hpp"
 #include "swirl/io/range_checks.hpp"
@@ -30,8 +32,58 @@ bool lie_in_plane(const std::vector<double>& vectors) {
 
 }  // namespace
 
-TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
-    : path_(path.string()), file_(std::make_unique<Hdf5File>(path, JournaledFile::Mode::read)) {
+namespace {
+
+/// Calls read(), and again if the file has changed meanwhile. A writer commits twice a second, and
+/// read() takes milliseconds, so the second attempt mostly succeeds.
+template <class Read>
+auto repeat_if_changed(Read&& read) {
+    for (int attempts_left = 50;; --attempts_left) {
+        try {
+            return read();
+        } catch (const FileChanged&) {
+            if (attempts_left == 0) throw;
+        }
+    }
+}
+
+}  // namespace
+
+TrajectoryReader::TrajectoryReader(const std::filesystem::path& path) : path_(path.string()) {
+    repeat_if_changed([&] { open(); });
+}
+
+template <class Read>
+auto TrajectoryReader::reread(Read&& read) {
+    bool is_first = true;
+    return repeat_if_changed([&] {
+        if (!std::exchange(is_first, false)) reopen();
+        return read();
+    });
+}
+
+/// The frames that were there remain. The file may have got its final name.
+void TrajectoryReader::reopen() {
+    std::string path = path_;
+    std::error_code ignored;
+    if (path.ends_with(partial_suffix) && !std::filesystem::exists(path, ignored))
+        path.resize(path.size() - partial_suffix.size());
+    TrajectoryReader again(path);
+    if (again.run_ != run_ || again.frames_ < frames_)
+        throw FileError(
+            fmt::format("'{}' was replaced by another recording while it was read.", path));
+    path_ = path;
+    file_ = std::move(again.file_);
+    series_ = std::move(again.series_);
+}
+
+void TrajectoryReader::open() {
+    const std::filesystem::path path = path_;
+    series_.clear();
+    counters_.clear();
+    scalars_.clear();
+    constants_ = {};
+    file_ = std::make_unique<Hdf5File>(path, JournaledFile::Mode::read);
     if (!file_->has_attribute("/h5md", "version") || !file_->has(group_of(position) + "/value"))
         throw FileError(fmt::format("'{}' is an HDF5 file, but not a trajectory: it has no {}.",
                                     path_, group_of(position)));
@@ -42,6 +94,8 @@ TrajectoryReader::TrajectoryReader(const std::filesystem::path& path)
     are_spheres_ = file_->has(group_of(orientation) + "/value");
     period_changes_ = file_->has(scalar_paths[period_length]);
     complete_ = file_->integers_attribute(parameters, "complete").at(0) == 1;
+    const std::string run_path = parameters + "/" + run_entry;
+    run_ = file_->has(run_path) ? file_->read_text(run_path) : "";
     open_columns();
     read_constants();
     if (!(reach() <= largest_coordinate))
@@ -104,11 +158,16 @@ void TrajectoryReader::read_constants() {
 
 void TrajectoryReader::load_block_of(std::uint64_t k) {
     if (k >= block_begin_ && k < block_end_) return;
-    block_begin_ = k / frames_per_block_ * frames_per_block_;
-    block_end_ = std::min(block_begin_ + frames_per_block_, frames_);
-    block_.clear();
-    for (const Column& column : series_)
-        block_.push_back(column.read<double>(block_begin_, block_end_ - block_begin_));
+    const std::uint64_t begin = k / frames_per_block_ * frames_per_block_;
+    const std::uint64_t end = std::min(begin + frames_per_block_, frames_);
+    block_begin_ = block_end_ = 0;
+    reread([&] {
+        block_.clear();
+        for (const Column& column : series_)
+            block_.push_back(column.read<double>(begin, end - begin));
+    });
+    block_begin_ = begin;
+    block_end_ = end;
 }
 
 Snapshot TrajectoryReader::frame(std::uint64_t k) {
@@ -226,12 +285,12 @@ std::string TrajectoryReader::inconsistent_dataset() {
     return "";
 }
 
-std::string TrajectoryReader::provenance(const std::string& name) const {
+std::string TrajectoryReader::provenance(const std::string& name) {
     const std::string path = parameters + "/" + name;
-    return file_->has(path) ? file_->read_text(path) : "";
+    return reread([&] { return file_->has(path) ? file_->read_text(path) : std::string(); });
 }
-std::vector<std::string> TrajectoryReader::provenance_names() const {
-    return file_->names_in(parameters);
+std::vector<std::string> TrajectoryReader::provenance_names() {
+    return reread([&] { return file_->names_in(parameters); });
 }
 
 }  // namespace swirl

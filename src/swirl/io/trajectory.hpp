@@ -85,7 +85,8 @@ class TrajectoryWriter {
     std::unique_ptr<Pipeline> pipeline_;
 };
 
-/// Random access to the frames of a trajectory.
+/// Random access to the frames of a trajectory. A recording that is being written can be read, too:
+/// the reader has the frames that it had when it was opened, and opens it again when it has changed.
 class TrajectoryReader {
   public:
     /// Opens a finished or unfinished file. This constructor and frame() throw FileError, also for
@@ -106,17 +107,21 @@ class TrajectoryReader {
     /// Half the width of a square about the origin that contains the container in all frames.
     double reach() const;
     /// "" if there is no entry of this name.
-    std::string provenance(const std::string& name) const;
-    std::vector<std::string> provenance_names() const;
+    std::string provenance(const std::string& name);
+    std::vector<std::string> provenance_names();
 
   private:
+    void open();
+    void reopen();
+    template <class Read>
+    auto reread(Read&& read);
     void open_columns();
     void read_constants();
     void load_block_of(std::uint64_t k);
     std::string inconsistent_index_or_time() const;
     std::string inconsistent_time_of(const std::string& group) const;
 
-    std::string path_;
+    std::string path_, run_;
     std::unique_ptr<Hdf5File> file_;
     bool are_spheres_ = false, complete_ = false, period_changes_ = false;
     std::vector<Column> series_;                       // by trajectory_layout::Series

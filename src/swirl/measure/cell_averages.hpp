@@ -5,7 +5,7 @@
 //   CellRates   the amount in the cell per sample: m = Σ s_b / Σ w_b, with w_b the samples of block
 //               b, common to all cells
 //
-// Both are ratios of sums over n blocks. What scatters is s_b − m w_b, so
+// Both are ratios of sums over n blocks with a weight. What scatters is s_b − m w_b, so
 //
 //     error² = n/(n−1) · (Σ s_b² − 2m Σ s_b w_b + m² Σ w_b²) / (Σ w_b)²
 //
@@ -14,7 +14,7 @@
 // history.
 //
 // Limits: a cell never visited has no mean (NaN); in CellRates it is 0 if there was a sample. With
-// fewer than two blocks the error is NaN. The open block does not count.
+// fewer than two such blocks the error is NaN. The open block does not count.
 #pragma once
 
 #include <algorithm>
@@ -33,14 +33,14 @@ namespace swirl {
 struct RatioSums {
     double s = 0.0, w = 0.0, ss = 0.0, sw = 0.0, ww = 0.0;
 
-    Estimate estimate(std::size_t blocks) const {
+    /// `n` of the blocks have a weight.
+    Estimate estimate(std::size_t blocks, double n) const {
         Estimate e;
         e.blocks = blocks;
         if (w == 0.0) return e;
         e.mean = s / w;
-        e.effective_samples = static_cast<double>(blocks);
-        if (blocks < 2) return e;
-        const double n = static_cast<double>(blocks);
+        e.effective_samples = n;
+        if (n < 2.0) return e;
         const double square = ss - 2.0 * e.mean * sw + e.mean * e.mean * ww;
         e.error = std::sqrt(std::max(square, 0.0) * n / (n - 1.0)) / std::abs(w);
         return e;
@@ -67,6 +67,7 @@ class CellMeans {
             Open& o = open_[cell];
             Sums& t = sums_[cell];
             if (o.visits == 0.0) continue;
+            t.n += 1.0;
             t.w += o.visits;
             t.ww += o.visits * o.visits;
             for (std::size_t k = 0; k < Quantities; ++k) {
@@ -84,8 +85,8 @@ class CellMeans {
     }
     Estimate estimate(std::size_t cell, std::size_t quantity = 0) const {
         const Sums& t = sums_[cell];
-        return RatioSums{t.s[quantity], t.w, t.ss[quantity], t.sw[quantity], t.ww}.estimate(
-            blocks_);
+        return RatioSums{t.s[quantity], t.w, t.ss[quantity], t.sw[quantity], t.ww}.estimate(blocks_,
+                                                                                            t.n);
     }
     /// The other must have as many cells.
     void merge(const CellMeans& other) {
@@ -93,6 +94,7 @@ class CellMeans {
         for (std::size_t c = 0; c < sums_.size(); ++c) {
             Sums& t = sums_[c];
             const Sums& o = other.sums_[c];
+            t.n += o.n;
             t.w += o.w;
             t.ww += o.ww;
             for (std::size_t k = 0; k < Quantities; ++k) {
@@ -115,7 +117,7 @@ class CellMeans {
         std::array<double, Quantities> sum{};
     };
     struct Sums {
-        double w = 0.0, ww = 0.0;
+        double n = 0.0, w = 0.0, ww = 0.0;  // n: blocks with a visit
         std::array<double, Quantities> s{}, ss{}, sw{};
     };
     std::vector<Open> open_;
@@ -136,6 +138,7 @@ class CellRates {
 
     void close_block() {
         ++blocks_;
+        used_ += weight_ != 0.0 ? 1.0 : 0.0;
         w_ += weight_;
         ww_ += weight_ * weight_;
         // All cells, visited or not: as columns this is faster than a list of the visited ones.
@@ -153,11 +156,12 @@ class CellRates {
     double sum(std::size_t cell) const { return s_[cell]; }
     double mean(std::size_t cell) const { return w_ != 0.0 ? s_[cell] / w_ : not_available; }
     Estimate estimate(std::size_t cell) const {
-        return RatioSums{s_[cell], w_, ss_[cell], sw_[cell], ww_}.estimate(blocks_);
+        return RatioSums{s_[cell], w_, ss_[cell], sw_[cell], ww_}.estimate(blocks_, used_);
     }
     /// The other must have as many cells.
     void merge(const CellRates& other) {
         blocks_ += other.blocks_;
+        used_ += other.used_;
         w_ += other.w_;
         ww_ += other.ww_;
         for (std::size_t c = 0; c < s_.size(); ++c) {
@@ -169,12 +173,12 @@ class CellRates {
     template <class Visitor>
     void fields(Visitor&& visit) {
         for (auto* column : {&open_, &s_, &ss_, &sw_}) visit(std::span(*column));
-        visit(weight_, w_, ww_, blocks_);
+        visit(weight_, w_, ww_, used_, blocks_);
     }
 
   private:
     std::vector<double> open_, s_, ss_, sw_;
-    double weight_ = 0.0, w_ = 0.0, ww_ = 0.0;
+    double weight_ = 0.0, w_ = 0.0, ww_ = 0.0, used_ = 0.0;  // used: blocks with a weight
     std::size_t blocks_ = 0;
 };
 

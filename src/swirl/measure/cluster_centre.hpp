@@ -24,22 +24,23 @@
 #include "swirl/measure/direction_histogram.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/statistics/block_average.hpp"
 #include "swirl/statistics/circular_mean.hpp"
 
 namespace swirl {
 
-class ClusterCentre : public BlockAverages<ClusterCentre> {
+class ClusterCentre : public BlockAverages<ClusterCentre>, public Strided {
   public:
     static auto averages(auto& s) {
         return std::tie(s.x_, s.y_, s.distance_, s.left_, s.elongation_, s.centrifugal_,
                         s.coriolis_, s.direction_);
     }
 
-    explicit ClusterCentre(int every = 8) : every_(every) {}
+    explicit ClusterCentre(int every = 8) : Strided(every) {}
 
     void sample(const MFrameView& view) {
-        if (samples_++ % every_ != 0 || view.size() == 0) return;
+        if (skips_next() || view.size() == 0) return;
         const Vec2 centre = view.centre_of_mass().position;
         x_.add(centre.x);
         y_.add(centre.y);
@@ -112,8 +113,6 @@ class ClusterCentre : public BlockAverages<ClusterCentre> {
     // Relative size of λ₂ below which the discs count as lying in a line: far above rounding.
     static constexpr double in_a_line = 1e-9;
 
-    int every_;
-    std::int64_t samples_ = 0;
     double max_centrifugal_ = 0.0, max_coriolis_ = 0.0;
     BlockMean x_, y_, distance_, left_, elongation_, centrifugal_, coriolis_;
     CircularMean direction_;

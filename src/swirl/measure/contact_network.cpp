@@ -11,7 +11,7 @@ std::uint32_t ContactNetwork::root_of(std::uint32_t disc) {
 }
 
 void ContactNetwork::sample(const MFrameView& view) {
-    if (samples_++ % every_ != 0 || view.size() == 0) return;
+    if (skips_next() || view.size() == 0) return;
     const std::size_t count = view.size();
     const auto n = static_cast<double>(count);
     const double gap = gap_ * view.mean_radius();

@@ -26,11 +26,12 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/measure/touching_pairs.hpp"
 
 namespace swirl {
 
-class ContactNetwork : public BlockAverages<ContactNetwork> {
+class ContactNetwork : public BlockAverages<ContactNetwork>, public Strided {
   public:
     static constexpr bool any_path = true;  // no axis of the M-frame matters
     static auto averages(auto& s) {
@@ -40,7 +41,7 @@ class ContactNetwork : public BlockAverages<ContactNetwork> {
     /// More contacts, which only mixtures have, are counted here.
     static constexpr std::size_t max_contacts = 12;
 
-    explicit ContactNetwork(double gap = 0.1, int every = 64) : gap_(gap), every_(every) {}
+    explicit ContactNetwork(double gap = 0.1, int every = 64) : Strided(every), gap_(gap) {}
 
     void sample(const MFrameView& view);
 
@@ -77,8 +78,6 @@ class ContactNetwork : public BlockAverages<ContactNetwork> {
     std::uint32_t root_of(std::uint32_t disc);
 
     double gap_;
-    int every_;
-    std::int64_t samples_ = 0;
     BlockMean coordination_, wall_, isolated_, rattlers_, groups_, largest_, loops_;
     CellRates contacts_{max_contacts + 1};
     TouchingPairs touching_;

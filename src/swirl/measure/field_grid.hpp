@@ -71,6 +71,7 @@ inline constexpr std::array field_quantities{
     FieldQuantity{"kinetic_yy", "m v²/r²"},
     FieldQuantity{"collisional_xx", "m v²/r²"},
     FieldQuantity{"collisional_xy", "m v²/r²"},
+    FieldQuantity{"collisional_yx", "m v²/r²"},
     FieldQuantity{"collisional_yy", "m v²/r²"},
     FieldQuantity{"torque", "m v²/r²"},
     FieldQuantity{"kinetic_couple_x", "m v²/r"},

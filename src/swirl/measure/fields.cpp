@@ -20,7 +20,8 @@ void Fields::begin(const Snapshot& first) {
 }
 
 void Fields::sample_in_lab(const Snapshot& lab) {
-    if (samples_++ % samples_per_use != sample_in_use || lab.size() == 0) return;
+    const bool is_used = samples_++ % samples_per_use == sample_in_use || uses_every_sample_;
+    if (!is_used || lab.size() == 0) return;
     if (!known_) begin(lab);
     const MFrame frame = m_frame(lab);
     // Without a floor its force is known to be 0.

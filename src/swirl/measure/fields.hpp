@@ -37,6 +37,7 @@ class Fields {
   public:
     /// Not the first sample of a period: that is at an event, where the floor's force jumps.
     static constexpr int samples_per_use = 7, sample_in_use = 3;
+    void use_every_sample() { uses_every_sample_ = true; }
 
     explicit Fields(double container_radius, std::size_t side = 20)
         : container_radius_(container_radius), side_(side) {}
@@ -87,7 +88,7 @@ class Fields {
 
     double container_radius_;
     std::size_t side_;
-    bool known_ = false;
+    bool uses_every_sample_ = false, known_ = false;
     std::int64_t samples_ = 0;
     std::array<FieldGrid, 3> grids_;
     std::array<FieldBalance, 3> balances_;

@@ -27,18 +27,19 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/square_grid.hpp"
+#include "swirl/measure/strided.hpp"
 
 namespace swirl {
 
-class GranularTemperature : public BlockAverages<GranularTemperature> {
+class GranularTemperature : public BlockAverages<GranularTemperature>, public Strided {
   public:
     static auto averages(auto& s) { return std::tie(s.cells_, s.spins_, s.energies_); }
 
     explicit GranularTemperature(double container_radius, std::size_t side = 20, int every = 8)
-        : grid_{side, container_radius}, every_(every), cells_(grid_.cells()), spins_(1) {}
+        : Strided(every), grid_{side, container_radius}, cells_(grid_.cells()), spins_(1) {}
 
     void sample(const MFrameView& view) {
-        if (samples_++ % every_ != 0) return;
+        if (skips_next()) return;
         for (std::size_t i = 0; i < view.size(); ++i) {
             const double m = view.mass[i], I = view.inertia[i], spin = view.spin[i];
             spins_.add(0, {I, I * spin, I * spin * spin});
@@ -87,9 +88,7 @@ class GranularTemperature : public BlockAverages<GranularTemperature> {
 
   private:
     SquareGrid grid_;
-    int every_;
     double missing_ = 0.0;
-    std::int64_t samples_ = 0;
     CellMeans<4> cells_;
     CellMeans<3> spins_;
     BlockMean energies_;

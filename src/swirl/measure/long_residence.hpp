@@ -28,6 +28,10 @@ inline constexpr double wall_layer = 1.5;
 /// Minimum length of a long residence, in periods: 40 frames of the paper's camera.
 inline constexpr double long_residence = 40.0 / 511.0;
 
+/// Lowest frame rate at which residences are determined. A residence is seen up to one frame short
+/// at either end: at this rate, its length is 1 % too short and its ends are off by 1°.
+inline constexpr double min_rate_of_resident = 120.0;
+
 /// True if the centre of disc i is less than `radii` of its radii from the wall. A layer thicker
 /// than the container contains every disc.
 inline bool in_wall_layer(const MFrameView& view, std::size_t i, double radii = wall_layer) {

@@ -13,6 +13,7 @@
 // of the container, Ω = 2π/T; ° for angles, 1 for none.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <string>
@@ -92,13 +93,26 @@ struct ReportTable {
     void push(const Estimate& e) { values.insert(values.end(), {e.mean, e.error}); }
 };
 
-/// All rows and tables of one measurement.
+inline double finite_or_missing(double value) {
+    return std::isfinite(value) ? value : not_available;
+}
+
+/// All rows and tables of one measurement. A number that is not finite, such as the mean free time
+/// of a disc that never collided, is a missing one: NaN here, and an empty cell or null in files.
 struct Report {
     std::vector<ReportRow> rows;
     std::vector<ReportTable> tables;
 
-    void operator()(ReportRow row) { rows.push_back(std::move(row)); }
-    void operator()(ReportTable table) { tables.push_back(std::move(table)); }
+    void operator()(ReportRow row) {
+        row.estimate.mean = finite_or_missing(row.estimate.mean);
+        row.estimate.error = finite_or_missing(row.estimate.error);
+        for (ReportDetail& detail : row.details) detail.value = finite_or_missing(detail.value);
+        rows.push_back(std::move(row));
+    }
+    void operator()(ReportTable table) {
+        for (double& value : table.values) value = finite_or_missing(value);
+        tables.push_back(std::move(table));
+    }
 };
 
 /// An average of a measurement, and its row in the report.

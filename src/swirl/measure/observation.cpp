@@ -1,9 +1,16 @@
 #include "swirl/measure/observation.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace swirl {
 namespace {
+
+template <class M>
+constexpr double min_rate_of() {
+    if constexpr (NeedsFrameRate<M>) return M::min_frames_per_period;
+    return 0.0;
+}
 
 template <class M>
 constexpr MeasurementKind kind_of(const MeasurementRow<M>& row) {
@@ -16,7 +23,10 @@ constexpr MeasurementKind kind_of(const MeasurementRow<M>& row) {
             .needs_tracks = pinned || positions,
             .needs_cells = SamplesCells<M>,
             .needs_events = !pinned && !SamplesFrames<M>,
-            .needs_m_frame = !AnyPath<M>};
+            .needs_m_frame = !AnyPath<M>,
+            .has_pinned = pinned || (SamplesCells<M> && SamplesResidences<M>),
+            .has_resident = SamplesResidences<M>,
+            .min_rate = min_rate_of<M>()};
 }
 
 constexpr auto kinds =
@@ -51,43 +61,57 @@ const MFrameView& PinnedFrames::sample(const Snapshot& lab) {
 
 const MFrameView* PinnedFrames::earlier() const {
     if (!pinned_loose_.is_known()) return nullptr;
-    return &recent_[(frames_ - 1 - PinnedLoose::half_width) % recent_.size()];
+    return &recent_[(frames_ - 1 - delay()) % recent_.size()];
 }
 
 Observation::Observation(double container_radius, double period, std::vector<std::string> names,
-                         bool same_discs)
-    : period_(period), names_(std::move(names)) {
+                         bool same_discs, double frames_per_period)
+    : period_(period),
+      frames_per_period_(frames_per_period),
+      names_(std::move(names)),
+      pinned_(frames_per_period) {
+    const bool knows_turns = same_discs && frames_per_period >= min_rate_of_turns;
+    const bool knows_pinned = same_discs && frames_per_period >= min_rate_of_pinned;
+    const bool knows_resident = same_discs && frames_per_period >= min_rate_of_resident;
+    const bool uses_every_frame = std::round(frames_per_period) < samples_per_period;
+    if (uses_every_frame) per_structure_ = per_position_ = 1;
     std::erase_if(names_, [](const std::string& name) { return !find_measurement(name); });
     each_row(chosen_, [&]<class M>(const MeasurementRow<M>& row, std::optional<M>& chosen) {
         for (const std::string& name : names_)
             if (name == row.name) chosen.emplace(row.make(container_radius));
         if (!chosen) return;
+        if constexpr (requires { chosen->use_every_sample(); }) {
+            if (uses_every_frame) chosen->use_every_sample();
+        }
         const MeasurementKind kind = kind_of(row);
         views_samples_ |= SamplesMFrame<M> || kind.needs_pinned || kind.needs_cells;
         // Residences are those of the frames in which pinned discs are known.
-        follows_pinned_ |=
-            same_discs && (kind.needs_pinned || kind.needs_cells || SamplesResidences<M>);
+        knows_pinned_ |=
+            knows_pinned && (kind.needs_pinned || kind.needs_cells || SamplesResidences<M>);
+        follows_tracks_ |= knows_pinned_ || (knows_turns && ReportsTracks<M>);
         finds_cells_ |= kind.needs_cells;
-        follows_residences_ |= same_discs && SamplesResidences<M>;
+        follows_residences_ |= knows_resident && SamplesResidences<M>;
         samples_by_event_ |= SamplesByEvent<M>;
         samples_events_ |= SamplesByEvent<M> || SamplesEvents<M> || SamplesEventStates<M>;
     });
 }
 
 void Observation::sample(const Snapshot& lab) {
-    if (views_samples_ && !follows_pinned_) view_.update(lab);
-    const MFrameView& now = follows_pinned_ ? pinned_.sample(lab) : view_;
-    const MFrameView* const earlier = pinned_.earlier();
-    const PinnedFlags pinned = pinned_.pinned_loose().pinned();
-    if (follows_residences_ && earlier) residences_.sample(*earlier);
-    const bool positions = samples_ % samples_per_position == 0;
-    const bool structure = finds_cells_ && (samples_ + 1) % samples_per_structure == 0;
-    const MFrameView* const with_cells = structure ? frame_with_cells(now) : nullptr;
+    if (views_samples_ && !follows_tracks_) view_.update(lab);
+    const MFrameView& now = follows_tracks_ ? pinned_.sample(lab) : view_;
+    const MFrameView* const known = knows_pinned_ ? pinned_.earlier() : &now;
+    const PinnedFlags pinned =
+        knows_pinned_ ? PinnedFlags(pinned_.pinned_loose().pinned()) : PinnedFlags();
+    if (follows_residences_ && known) residences_.sample(*known);
+    const bool positions = samples_ % per_position_ == 0;
+    const bool structure = finds_cells_ && (samples_ + 1) % per_structure_ == 0;
+    if (structure && known) cells_.find(*known);
     each([&]<class M>(M& m) {
+        if (frames_per_period_ < min_rate_of<M>()) return;
         if constexpr (SamplesCells<M>) {
-            if (with_cells) m.sample(*with_cells, cells_, pinned);
+            if (structure && known) m.sample(*known, cells_, pinned);
         } else if constexpr (SamplesPinned<M>) {
-            if (earlier) m.sample(*earlier, pinned);
+            if (known) m.sample(*known, pinned);
         } else if constexpr (SamplesMFrame<M>) {
             m.sample(now);
         }
@@ -104,14 +128,6 @@ void Observation::sample(const Snapshot& lab) {
     });
     block_begins_ = false;
     ++samples_;
-}
-
-/// Finds the cells of the frame whose pinned discs are known, and returns that frame; null if there
-/// is none yet.
-const MFrameView* Observation::frame_with_cells(const MFrameView& now) {
-    const MFrameView* const frame = follows_pinned_ ? pinned_.earlier() : &now;
-    if (frame) cells_.find(*frame);
-    return frame;
 }
 
 void Observation::sample(const Event& event, const Snapshot& after) {

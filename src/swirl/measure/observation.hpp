@@ -12,7 +12,6 @@
 // given and when; each of these kinds of sampling is a concept.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -29,14 +28,12 @@
 #include "swirl/measure/measurement_list.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/measure/voronoi.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
-
-/// The paper's camera took 960 frames per second of a table rotating at 11.81 rad/s.
-inline constexpr int samples_per_period = 511;
 
 /// Every 32nd event suffices for averages by event: the mean stays, and the error hardly grows.
 inline constexpr int events_per_sample = 32;
@@ -51,11 +48,13 @@ inline constexpr int samples_per_position = 7;
 /// A row of the list, and what follows from the functions of its class.
 struct MeasurementKind {
     std::string_view name, header, description;
-    bool needs_pinned;   // has no result if the pinned discs are unknown
-    bool needs_tracks;   // the same discs in every frame
-    bool needs_cells;    // Voronoi cells
-    bool needs_events;   // every collision: frames are not enough
-    bool needs_m_frame;  // undefined on a path without an M-frame
+    bool needs_pinned;              // has no result if the pinned discs are unknown
+    bool needs_tracks;              // the same discs in every frame
+    bool needs_cells;               // Voronoi cells
+    bool needs_events;              // every collision: frames are not enough
+    bool needs_m_frame;             // undefined on a path without an M-frame
+    bool has_pinned, has_resident;  // has values of pinned or of resident discs
+    double min_rate;                // frames per period without which it has no value
 };
 
 /// In the order of the list.
@@ -69,9 +68,11 @@ struct MeasurementReport {
 };
 
 /// Determines which discs are pinned, and stores the last frames. The result for a frame is
-/// available seven frames later, so a measurement of pinned discs needs the stored frame.
+/// available half a window later, so a measurement of pinned discs needs the stored frame.
 class PinnedFrames {
   public:
+    explicit PinnedFrames(double frames_per_period = samples_per_period)
+        : pinned_loose_(frame_window(frames_per_period)), recent_(delay() + 1) {}
     const MFrameView& sample(const Snapshot& lab);
     void begin_tracks() { pinned_loose_.begin_tracks(); }
     void close_block() { pinned_loose_.close_block(); }
@@ -84,10 +85,15 @@ class PinnedFrames {
     void fields(Visitor&& visit) {
         visit(pinned_loose_, recent_, frames_);
     }
+    bool is_consistent() const { return recent_.size() == delay() + 1; }
 
   private:
+    std::size_t delay() const {
+        return static_cast<std::size_t>(pinned_loose_.window().half_width);
+    }
+
     PinnedLoose pinned_loose_;
-    std::array<MFrameView, PinnedLoose::half_width + 1> recent_;
+    std::vector<MFrameView> recent_;
     std::size_t frames_ = 0;
 };
 
@@ -95,9 +101,11 @@ class Observation {
   public:
     /// The names are those of measurement_kinds(), each once; other names are ignored. Radius and
     /// period are those of the snapshots to come. `same_discs` is false if no disc can be followed
-    /// for some frames in a row: then it is never known which discs are pinned.
+    /// for some frames in a row: then it is never known which discs are pinned. The same holds if
+    /// there are too few frames per period. With fewer than 511 every frame is used; otherwise
+    /// expensive measurements use a part of them (strided.hpp).
     Observation(double container_radius, double period, std::vector<std::string> names,
-                bool same_discs = true);
+                bool same_discs = true, double frames_per_period = samples_per_period);
 
     const std::vector<std::string>& names() const { return names_; }
     bool empty() const { return names_.empty(); }
@@ -146,12 +154,14 @@ class Observation {
     void each(Visit&& visit) {
         std::apply([&](auto&... m) { ((m ? visit(*m) : void()), ...); }, chosen_);
     }
-    const MFrameView* frame_with_cells(const MFrameView& now);
 
     double period_;  // the present one
+    double frames_per_period_;
+    int per_structure_ = samples_per_structure, per_position_ = samples_per_position;
     std::vector<std::string> names_;
     ChosenFrom<std::remove_const_t<decltype(measurement_list)>>::Type chosen_;
-    bool views_samples_ = false, follows_pinned_ = false, follows_residences_ = false;
+    bool views_samples_ = false, follows_tracks_ = false, follows_residences_ = false;
+    bool knows_pinned_ = false;
     bool finds_cells_ = false, samples_by_event_ = false, samples_events_ = false;
 
     std::int64_t samples_ = 0;

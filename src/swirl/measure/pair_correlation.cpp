@@ -21,7 +21,7 @@ double PairCorrelation::contact_weight(double gap, double cell, double contact_d
 }
 
 void PairCorrelation::sample(const MFrameView& view) {
-    if (samples_++ % every_ != 0) return;
+    if (skips_next()) return;
     const auto n = static_cast<double>(view.size());
     double inside = 0.0, area = 0.0, at_contact = 0.0;
     is_inside_.resize(view.size());

@@ -37,13 +37,14 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pair_distances.hpp"
+#include "swirl/measure/strided.hpp"
 
 namespace swirl {
 
 /// Probability that two independent points, uniform in a circle of radius 1, are closer than s.
 double closer_in_circle(double s);
 
-class PairCorrelation : public BlockAverages<PairCorrelation> {
+class PairCorrelation : public BlockAverages<PairCorrelation>, public Strided {
   public:
     static constexpr bool any_path = true;  // no axis of the M-frame matters
     static auto averages(auto& s) {
@@ -51,9 +52,9 @@ class PairCorrelation : public BlockAverages<PairCorrelation> {
     }
 
     explicit PairCorrelation(double container_radius, int every = 64)
-        : inner_radius_(0.5 * container_radius),
+        : Strided(every),
+          inner_radius_(0.5 * container_radius),
           container_radius_(container_radius),
-          every_(every),
           bins_(container_radius),
           pairs_(bins_.count),
           partners_(bins_.count) {}
@@ -96,9 +97,7 @@ class PairCorrelation : public BlockAverages<PairCorrelation> {
     static double contact_weight(double gap, double cell, double contact_distance);
 
     double inner_radius_, container_radius_;
-    int every_;
     DistanceBins bins_;
-    std::int64_t samples_ = 0;
     CellRates pairs_;     // per pair of discs
     CellRates partners_;  // per disc in the inner circle
     BlockMean contact_, inside_, packing_, radius_;

@@ -12,9 +12,9 @@ constexpr std::int64_t frames_between_sums = 1024;
 
 /// Moves the window of the fit by one frame: Σ k r loses Σ r and the old end and gains the new
 /// end.
-SWIRL_WIDE void move_window(std::size_t n, const double* __restrict now, double* __restrict oldest,
-                            double* __restrict sum, double* __restrict slope) {
-    constexpr double h = PinnedLoose::half_width;
+SWIRL_WIDE void move_window(std::size_t n, double h, const double* __restrict now,
+                            double* __restrict oldest, double* __restrict sum,
+                            double* __restrict slope) {
     for (std::size_t i = 0; i < n; ++i) {
         slope[i] += (h + 1.0) * oldest[i] + h * now[i] - sum[i];
         sum[i] += now[i] - oldest[i];
@@ -23,8 +23,8 @@ SWIRL_WIDE void move_window(std::size_t n, const double* __restrict now, double*
 }
 
 /// Applies the criteria to every disc: (x, y) is its position, b the one in the frame before, a the
-/// one in the frame after, s the path direction.
-SWIRL_WIDE void classify(std::size_t n, double sine_square, double jump_square,
+/// one in the frame after, s the path direction. A change takes more than `half_width` frames.
+SWIRL_WIDE void classify(std::size_t n, double half_width, double sine_square, double jump_square,
                          const double* __restrict x, const double* __restrict y,
                          const double* __restrict bx, const double* __restrict by,
                          const double* __restrict ax, const double* __restrict ay,
@@ -41,7 +41,7 @@ SWIRL_WIDE void classify(std::size_t n, double sine_square, double jump_square,
         const double along = radial * radial <= bound ? 1.0 : 0.0;
         const double parallel = rotation < 0.0 ? along : 0.0;
         const double frames = parallel * (parallel_for[i] + 1.0);
-        const double long_enough = frames > PinnedLoose::half_width ? 1.0 : 0.0;
+        const double long_enough = frames > half_width ? 1.0 : 0.0;
         const double still_pinned = pinned[i] * parallel;
         const double now = long_enough > still_pinned ? long_enough : still_pinned;
         const double dx = ax[i] - 2.0 * x[i] + bx[i], dy = ay[i] - 2.0 * y[i] + by[i];
@@ -51,7 +51,7 @@ SWIRL_WIDE void classify(std::size_t n, double sine_square, double jump_square,
         const double leaving = pinned[i] * (1.0 - parallel);
         const double since = leaving > 0.0 ? 1.0 : loose_for[i] > 0.0 ? loose_for[i] + 1.0 : 0.0;
         const double loose = parallel > 0.0 ? 0.0 : since;
-        freed[i] = loose > PinnedLoose::half_width ? 1.0 : 0.0;
+        freed[i] = loose > half_width ? 1.0 : 0.0;
         loose_for[i] = freed[i] > 0.0 ? 0.0 : loose;
         left_x[i] = leaving > 0.0 ? x[i] : left_x[i];
         left_y[i] = leaving > 0.0 ? y[i] : left_y[i];
@@ -63,14 +63,15 @@ SWIRL_WIDE void classify(std::size_t n, double sine_square, double jump_square,
 
 }  // namespace
 
-PinnedLoose::PinnedLoose(const PinningCriteria& criteria)
-    : sine_square_(std::sin(criteria.deviation) * std::sin(criteria.deviation)),
+PinnedLoose::PinnedLoose(const FrameWindow& window, const PinningCriteria& criteria)
+    : window_(window),
+      sine_square_(std::sin(criteria.deviation) * std::sin(criteria.deviation)),
       sharp_turn_(criteria.sharp_turn) {}
 
 void PinnedLoose::restart(std::size_t n) {
     frames_ = 0;
-    past_x_.assign(n * width, 0.0);
-    past_y_.assign(n * width, 0.0);
+    for (auto* column : {&past_x_, &past_y_})
+        column->assign(n * static_cast<std::size_t>(window_.width()), 0.0);
     for (auto* column : {&sum_x_, &sum_y_, &slope_x_, &slope_y_}) column->assign(n, 0.0);
     for (auto* column :
          {&parallel_for_, &is_pinned_, &freed_, &turned_sharply_, &loose_for_, &left_x_, &left_y_})
@@ -85,14 +86,14 @@ void PinnedLoose::begin_tracks() {
 }
 
 double* PinnedLoose::slot(std::vector<double>& past, std::int64_t frame) {
-    return past.data() + static_cast<std::size_t>(frame % width) * pinned_.size();
+    return past.data() + static_cast<std::size_t>(frame % window_.width()) * pinned_.size();
 }
 
 void PinnedLoose::sum_window() {
     for (auto* column : {&sum_x_, &sum_y_, &slope_x_, &slope_y_})
         column->assign(pinned_.size(), 0.0);
-    for (int k = -half_width; k <= half_width; ++k) {
-        const std::int64_t frame = frames_ - 1 - half_width + k;
+    for (int k = -window_.half_width; k <= window_.half_width; ++k) {
+        const std::int64_t frame = frames_ - 1 - window_.half_width + k;
         const double *const x = slot(past_x_, frame), *const y = slot(past_y_, frame);
         for (std::size_t i = 0; i < pinned_.size(); ++i) {
             sum_x_[i] += x[i];
@@ -121,9 +122,10 @@ void PinnedLoose::sample(const MFrameView& view) {
     if (n == 0) return;
 
     double *const oldest_x = slot(past_x_, frames_), *const oldest_y = slot(past_y_, frames_);
-    if (frames_ >= width && frames_ % frames_between_sums != 0) {
-        move_window(n, view.x.data(), oldest_x, sum_x_.data(), slope_x_.data());
-        move_window(n, view.y.data(), oldest_y, sum_y_.data(), slope_y_.data());
+    if (is_known() && frames_ % frames_between_sums != 0) {
+        const double h = window_.half_width;
+        move_window(n, h, view.x.data(), oldest_x, sum_x_.data(), slope_x_.data());
+        move_window(n, h, view.y.data(), oldest_y, sum_y_.data(), slope_y_.data());
         ++frames_;
     } else {
         for (std::size_t i = 0; i < n; ++i) {
@@ -131,26 +133,32 @@ void PinnedLoose::sample(const MFrameView& view) {
             oldest_y[i] = view.y[i];
         }
         ++frames_;
-        if (frames_ >= width) sum_window();
+        if (is_known()) sum_window();
     }
-    if (frames_ >= width) apply_criteria(view);
+    if (is_known()) apply_criteria(view);
 }
 
 void PinnedLoose::apply_criteria(const MFrameView& view) {
     const std::size_t n = pinned_.size();
-    const std::int64_t centre = frames_ - 1 - half_width;
+    const std::int64_t centre = frames_ - 1 - window_.half_width;
     const double *const x = slot(past_x_, centre), *const y = slot(past_y_, centre);
-    const double *const bx = slot(past_x_, centre - 1), *const by = slot(past_y_, centre - 1);
-    const double *const ax = slot(past_x_, centre + 1), *const ay = slot(past_y_, centre + 1);
-    const double jump = sharp_turn_ * view.frame.omega * view.container_radius * step_;
-    classify(n, sine_square_, jump * jump, x, y, bx, by, ax, ay, slope_x_.data(), slope_y_.data(),
-             parallel_for_.data(), is_pinned_.data(), loose_for_.data(), left_x_.data(),
-             left_y_.data(), freed_.data(), turned_sharply_.data());
+    const double *const bx = slot(past_x_, centre - window_.turn), *const by =
+                                                                       slot(past_y_,
+                                                                            centre - window_.turn);
+    const double *const ax = slot(past_x_, centre + window_.turn), *const ay =
+                                                                       slot(past_y_,
+                                                                            centre + window_.turn);
+    const double jump =
+        sharp_turn_ * view.frame.omega * view.container_radius * step_ * window_.turn;
+    classify(n, window_.half_width, sine_square_, jump * jump, x, y, bx, by, ax, ay,
+             slope_x_.data(), slope_y_.data(), parallel_for_.data(), is_pinned_.data(),
+             loose_for_.data(), left_x_.data(), left_y_.data(), freed_.data(),
+             turned_sharply_.data());
     double pinned_now = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         pinned_[i] = is_pinned_[i] != 0.0 ? 1 : 0;
         pinned_now += is_pinned_[i];
-        if (freed_[i] != 0.0) {
+        if (freed_[i] != 0.0 && window_.knows_pinned) {
             const Vec2 position{left_x_[i], left_y_[i]};
             depinning_.add(position);
             free_positions_.add(position);
@@ -161,7 +169,7 @@ void PinnedLoose::apply_criteria(const MFrameView& view) {
             pinned_positions_.add(position);
         }
     }
-    share_.add(pinned_now / static_cast<double>(n));
+    if (window_.knows_pinned) share_.add(pinned_now / static_cast<double>(n));
 }
 
 void PinnedLoose::merge(const PinnedLoose& other) {

@@ -2,9 +2,10 @@
 // (paper, main text, Fig. 3 and SI "Calculation of location that particles become pinned and
 // free").
 //
-// From tracks, sampled at equal time steps (the paper: 511 frames per period). These are the SI's
-// criteria, with two corrections: the average that it means instead of the sum that it writes, and
-// an angle compared with an angle.
+// From tracks, sampled at equal time steps. The numbers of frames below are those at 511 frames per
+// period, the paper's. They stand for times: at another rate, n frames are those nearest to n/511
+// of a period (FrameWindow). These are the SI's criteria, with two corrections: the average that it
+// means instead of the sum that it writes, and an angle compared with an angle.
 //
 //   path direction   straight-line fit of x and of y against the frame number over the frame, the 7
 //                    before and the 7 after: s = Σ_k k r_{t+k}, in the M-frame
@@ -32,20 +33,25 @@
 //
 // Units: radians. Limits: tracks restart if the times of frames do not ascend in equal steps (to 1
 // %), and if the number of discs changes. These restarts are counted. With fewer than 15 frames
-// nothing is known.
+// nothing is known. Below min_rate_of_pinned the direction of a path is that of too long a piece of
+// it: at 30 frames per period discs would depin at 133° instead of 4°. Sharp turns are found at lower
+// rates, 3° off at min_rate_of_turns.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <tuple>
 #include <vector>
 
+#include "swirl/math/real.hpp"
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/direction_histogram.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/statistics/block_average.hpp"
 #include "swirl/statistics/circular_mean.hpp"
@@ -65,24 +71,43 @@ struct PinningCriteria {
     double sharp_turn = 0.5;       // in units of ΩR
 };
 
+/// Lowest frame rate at which pinned discs are determined, and at which sharp turns are.
+inline constexpr double min_rate_of_pinned = 400.0, min_rate_of_turns = 120.0;
+
+/// Numbers of frames in the criteria.
+struct FrameWindow {
+    int half_width = 7;        // of the path direction; one less than the frames of a change
+    int turn = 1;              // between the three positions of a second difference
+    bool knows_pinned = true;  // otherwise only sharp turns are found
+
+    int width() const { return 2 * half_width + 1; }
+};
+inline FrameWindow frame_window(double frames_per_period) {
+    const double scale = frames_per_period / samples_per_period;
+    const auto nearest = [&](int frames) {
+        return static_cast<int>(larger(1.0, std::floor(frames * scale + 0.5)));
+    };
+    const FrameWindow paper;
+    return {nearest(paper.half_width), nearest(paper.turn),
+            frames_per_period >= min_rate_of_pinned};
+}
+
 class PinnedLoose : public BlockAverages<PinnedLoose> {
   public:
     static auto averages(auto& s) { return std::tie(s.pinning_, s.depinning_, s.share_); }
 
-    static constexpr int half_width = 7;
-    static constexpr int width = 2 * half_width + 1;
-
-    explicit PinnedLoose(const PinningCriteria& criteria = {});
+    explicit PinnedLoose(const FrameWindow& window = {}, const PinningCriteria& criteria = {});
+    const FrameWindow& window() const { return window_; }
 
     /// One frame; frames at equal time steps.
     void sample(const MFrameView& view);
     /// The discs of the next frame are not those of the last, though there may be as many.
     void begin_tracks();
 
-    /// For each disc whether it was pinned seven frames ago; all 0 before there are enough frames.
+    /// For each disc whether it was pinned half a window ago; all 0 before there are enough frames.
     const std::vector<std::uint8_t>& pinned() const { return pinned_; }
     /// True if the present tracks are long enough for pinned() to be known.
-    bool is_known() const { return frames_ >= width; }
+    bool is_known() const { return frames_ >= window_.width(); }
 
     /// θ where discs pin, and where they depin.
     const CircularMean& pinning() const { return pinning_; }
@@ -113,7 +138,7 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
                                [=](const auto* column) { return column->size() == length; });
         };
         return n == 0 ||
-               (all(n * width, {&past_x_, &past_y_}) &&
+               (all(n * static_cast<std::size_t>(window_.width()), {&past_x_, &past_y_}) &&
                 all(n, {&sum_x_, &sum_y_, &slope_x_, &slope_y_, &loose_for_, &left_x_, &left_y_,
                         &parallel_for_, &is_pinned_, &freed_, &turned_sharply_}));
     }
@@ -124,10 +149,11 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
     double* slot(std::vector<double>& past, std::int64_t frame);
     void apply_criteria(const MFrameView& view);
 
+    FrameWindow window_;
     double sine_square_, sharp_turn_;
     std::int64_t frames_ = 0;  // in the present tracks
     double last_time_ = 0.0, step_ = 0.0, breaks_ = 0.0;
-    // The last 15 positions of every disc, frame by frame in a ring.
+    // The positions of every disc in the window, frame by frame in a ring.
     std::vector<double> past_x_, past_y_;
     // Over those: Σ r and Σ k r.
     std::vector<double> sum_x_, sum_y_, slope_x_, slope_y_;
@@ -144,6 +170,8 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
 
 class PinnedByCollisions {
   public:
+    static constexpr double min_frames_per_period = min_rate_of_turns;
+
     void sample_event(const Event& event, const Snapshot& after);
     /// At the end of every period: now the longest flights are known.
     void close_block();

@@ -15,7 +15,7 @@ void add_pair(BlockMean& correlation, double product, double square) {
 }  // namespace
 
 void Rolling::sample_in_lab(const Snapshot& lab) {
-    if (!lab.are_spheres() || lab.size() == 0 || samples_++ % every_ != 0) return;
+    if (!lab.are_spheres() || lab.size() == 0 || skips_next()) return;
     for (std::size_t i = 0; i < lab.size(); ++i) {
         const Disc d = lab.disc(i);
         const bool rolls = lab.rolls(i);

@@ -33,6 +33,7 @@
 
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/measure/touching_pairs.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
@@ -40,7 +41,7 @@
 
 namespace swirl {
 
-class Rolling : public ReportedAverages<Rolling> {
+class Rolling : public ReportedAverages<Rolling>, public Strided {
   public:
     static constexpr bool any_path = true;
 
@@ -60,7 +61,7 @@ class Rolling : public ReportedAverages<Rolling> {
                        s.contacts_}};
     }
 
-    explicit Rolling(double gap = 0.1, int every = 7) : gap_(gap), every_(every) {}
+    explicit Rolling(double gap = 0.1, int every = 7) : Strided(every), gap_(gap) {}
 
     void sample_in_lab(const Snapshot& lab);
     void sample_event(const Event& event, const Snapshot& after);
@@ -113,8 +114,6 @@ class Rolling : public ReportedAverages<Rolling> {
     };
 
     double gap_;
-    int every_;
-    std::int64_t samples_ = 0;
     BlockMean rolls_, rolls_at_wall_, slip_, axes_, contacts_;
     VerticalFriction between_, at_wall_;
     MFrameView view_;

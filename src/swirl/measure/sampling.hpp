@@ -12,7 +12,7 @@
 //   - report(visitor) or report(visitor, pinned_loose): see measurement_report.hpp.
 //
 // It may have `static constexpr bool any_path = true` (AnyPath); otherwise it is rejected on paths
-// without an M-frame.
+// without an M-frame. It may have `min_frames_per_period` (NeedsFrameRate).
 //
 // Each name stands for one function; none of them is overloaded. SamplingContract rejects a class
 // that has a function of one of these names with another signature, and a class without a sampling
@@ -31,7 +31,7 @@
 
 namespace swirl {
 
-/// sample(view, cells, pinned): at every 100th sample, with the Voronoi cells of that frame. If
+/// sample(view, cells, pinned): at every 100th of 511 samples per period, with the Voronoi cells of that frame. If
 /// pinned discs are followed, the frame is that of seven samples ago.
 template <class M>
 concept SamplesCells = requires(M& m, const MFrameView& view, const Voronoi& cells,
@@ -66,7 +66,7 @@ concept SamplesLab = requires(M& m, const Snapshot& lab) {
     m.sample_in_lab(lab);
 };
 
-/// sample_within_period(snapshot): at every 7th sample, in the lab frame.
+/// sample_within_period(snapshot): at every 7th of 511 samples per period, in the lab frame.
 template <class M>
 concept SamplesWithinPeriod = requires(M& m, const Snapshot& lab) {
     m.sample_within_period(lab);
@@ -152,6 +152,12 @@ concept ReportsTracks = requires(const M& m, Report& report, const PinnedLoose& 
 template <class M>
 concept AnyPath = requires {
     requires M::any_path;
+};
+
+/// min_frames_per_period: with fewer samples its definition fails, so it receives none.
+template <class M>
+concept NeedsFrameRate = requires {
+    M::min_frames_per_period;
 };
 
 /// Measurements that need frames: positions and velocities at equal time steps.

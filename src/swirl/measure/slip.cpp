@@ -38,7 +38,7 @@ double cluster_perimeter(const MFrameView& view) {
 }
 
 void Slip::sample(const MFrameView& view, PinnedFlags pinned) {
-    if (samples_++ % every_ != 0) return;
+    if (skips_next()) return;
     const double P = perimeter_of(view, centres_);
     if (!(P == P)) return;
     const double P_container = 2.0 * pi * view.container_radius;

@@ -36,6 +36,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/statistics/block_average.hpp"
 
 namespace swirl {
@@ -45,7 +46,7 @@ inline double pancake_rotation(double cluster_perimeter, double container_perime
     return 1.0 - container_perimeter / cluster_perimeter;
 }
 
-class Slip : public ReportedAverages<Slip> {
+class Slip : public ReportedAverages<Slip>, public Strided {
   public:
     static auto rows(auto& s) {
         return std::tuple{
@@ -58,7 +59,7 @@ class Slip : public ReportedAverages<Slip> {
                        s.pancake_}};
     }
 
-    explicit Slip(int every = 64) : every_(every) {}
+    explicit Slip(int every = 64) : Strided(every) {}
 
     /// `pinned`: for each disc whether it is pinned; empty if that is unknown.
     void sample(const MFrameView& view, PinnedFlags pinned = {});
@@ -77,8 +78,6 @@ class Slip : public ReportedAverages<Slip> {
     };
 
   private:
-    int every_;
-    std::int64_t samples_ = 0;
     BlockMean cluster_, pinned_, resident_, perimeter_, pancake_;
     std::vector<Vec2> centres_;
     // Rates of the discs in the wall layer, until it is known which of them were resident then.

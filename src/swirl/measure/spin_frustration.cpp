@@ -6,7 +6,7 @@
 namespace swirl {
 
 void SpinFrustration::sample(const MFrameView& view, PinnedFlags pinned) {
-    if (samples_++ % every_ != 0) return;
+    if (skips_next()) return;
     const std::size_t n = view.size();
     if (n == 0) return;
 

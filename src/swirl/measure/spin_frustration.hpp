@@ -36,13 +36,14 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/measure/touching_pairs.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/statistics/block_average.hpp"
 
 namespace swirl {
 
-class SpinFrustration : public ReportedAverages<SpinFrustration> {
+class SpinFrustration : public ReportedAverages<SpinFrustration>, public Strided {
   public:
     static auto rows(auto& s) {
         return std::tuple{
@@ -77,7 +78,7 @@ class SpinFrustration : public ReportedAverages<SpinFrustration> {
                        s.wall_sticking_}};
     }
 
-    explicit SpinFrustration(double gap = 0.1, int every = 64) : gap_(gap), every_(every) {}
+    explicit SpinFrustration(double gap = 0.1, int every = 64) : Strided(every), gap_(gap) {}
 
     /// `pinned`: for each disc whether it is pinned; empty if that is unknown.
     void sample(const MFrameView& view, PinnedFlags pinned = {});
@@ -119,8 +120,6 @@ class SpinFrustration : public ReportedAverages<SpinFrustration> {
     }
 
     double gap_;
-    int every_;
-    std::int64_t samples_ = 0;
     BlockMean wall_spin_, pinned_wall_spin_, resident_spin_, correlation_, pinned_correlation_,
         resident_correlation_, along_wall_, in_triangle_, in_chain_, by_impulse_, triangles_,
         coordination_, disc_sticking_, wall_sticking_;

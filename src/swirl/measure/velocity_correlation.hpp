@@ -25,10 +25,11 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pair_distances.hpp"
+#include "swirl/measure/strided.hpp"
 
 namespace swirl {
 
-class VelocityCorrelation : public BlockAverages<VelocityCorrelation> {
+class VelocityCorrelation : public BlockAverages<VelocityCorrelation>, public Strided {
   public:
     static constexpr bool any_path = true;  // no axis of the M-frame matters
     static auto averages(auto& s) {
@@ -36,7 +37,7 @@ class VelocityCorrelation : public BlockAverages<VelocityCorrelation> {
     }
 
     explicit VelocityCorrelation(double container_radius, int every = 64)
-        : every_(every),
+        : Strided(every),
           bins_(container_radius),
           along_(bins_.count),
           across_(bins_.count),
@@ -46,7 +47,7 @@ class VelocityCorrelation : public BlockAverages<VelocityCorrelation> {
           near_spin_(1) {}
 
     void sample(const MFrameView& view) {
-        if (samples_++ % every_ != 0 || view.size() < 2) return;
+        if (skips_next() || view.size() < 2) return;
         const Vec2 mean = view.centre_of_mass().velocity;
         const double near = 0.5 * view.mean_radius();
         for_each_close_pair(
@@ -97,9 +98,7 @@ class VelocityCorrelation : public BlockAverages<VelocityCorrelation> {
     }
 
   private:
-    int every_;
     DistanceBins bins_;
-    std::int64_t samples_ = 0;
     CellMeans<1> along_, across_, spin_, near_along_, near_across_, near_spin_;
     std::vector<std::uint32_t> order_;
 };

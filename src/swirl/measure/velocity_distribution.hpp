@@ -26,10 +26,11 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/strided.hpp"
 
 namespace swirl {
 
-class VelocityDistribution : public BlockAverages<VelocityDistribution> {
+class VelocityDistribution : public BlockAverages<VelocityDistribution>, public Strided {
   public:
     static auto averages(auto& s) {
         return std::tie(s.square_, s.kurtosis_, s.spin_square_, s.spin_kurtosis_, s.speeds_,
@@ -38,10 +39,10 @@ class VelocityDistribution : public BlockAverages<VelocityDistribution> {
     static constexpr double width = 0.1, largest = 4.0;  // of the tables, in units of s and w
     static constexpr std::size_t speed_bins = 40, spin_bins = 80;
 
-    explicit VelocityDistribution(int every = 8) : every_(every) {}
+    explicit VelocityDistribution(int every = 8) : Strided(every) {}
 
     void sample(const MFrameView& view) {
-        if (samples_++ % every_ != 0) return;
+        if (skips_next()) return;
         if (view.size() > 1) add_velocities(view);
         if (view.size() > 2) add_spins(view);
     }
@@ -138,8 +139,6 @@ class VelocityDistribution : public BlockAverages<VelocityDistribution> {
             add_to(spins_, spin_bins, scale * (spin - mean) + largest);
     }
 
-    int every_;
-    std::int64_t samples_ = 0;
     BlockMean square_, kurtosis_, spin_square_, spin_kurtosis_;
     CellRates speeds_{speed_bins + 1}, spins_{spin_bins + 1};
 };

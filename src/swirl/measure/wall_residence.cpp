@@ -46,6 +46,11 @@ void WallResidences::end(std::size_t layer, const Residence& residence, double p
     // From its first sample to its last; the present sample is one step later.
     const double step = (last_time_ - residence.begin_time) / residence.samples;
     const double length = (residence.samples - 1.0) * step;
+    if (layer == standard && residence.knows_begin != 0.0) {
+        const double bin = std::floor(length / (length_bin * period));
+        lengths_.add(static_cast<std::size_t>(smaller(bin, length_bins - 1.0)));
+        lengths_.add_weight();
+    }
     for (std::size_t d = 0; d < minimum.size(); ++d) {
         if (length < minimum[d] * period - 0.5 * step) continue;
         Averages& a = averages_[layer][d];
@@ -62,6 +67,7 @@ void WallResidences::close_block() {
     for (auto& layer : averages_)
         for (Averages& a : layer) a.close_block();
     length_.close_block();
+    lengths_.close_block();
 }
 
 void WallResidences::merge(const WallResidences& other) {
@@ -69,6 +75,7 @@ void WallResidences::merge(const WallResidences& other) {
         for (std::size_t d = 0; d < minimum.size(); ++d)
             averages_[l][d].merge(other.averages_[l][d]);
     length_.merge(other.length_);
+    lengths_.merge(other.lengths_);
     begins_.merge(other.begins_);
     ends_.merge(other.ends_);
 }

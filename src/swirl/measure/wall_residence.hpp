@@ -15,6 +15,11 @@
 //   becoming pinned  where such a residence begins
 //   becoming free    where it ends
 //
+//   length           from the first sample of a residence to its last. The average is over the
+//                    pinned residences that have ended, also those of which the beginning was not
+//                    seen. The table `lengths` has the distribution of all residences of which it
+//                    was seen, also of the shorter ones
+//
 // Both thresholds are arbitrary. The table `sensitivity` has the averages for layers of 1.3, 1.5
 // and 1.7 radii and minimum lengths of 20, 40 and 80 samples; `positions` has the distribution of
 // the angles.
@@ -22,7 +27,8 @@
 // Units: radians inside, degrees in the report; lengths of residences in periods. Normalisation:
 // the share is that of all discs and samples; positions are those of all residences. Errors: from
 // blocks of periods. Limits: a residence that had begun before the first sample has no known
-// beginning, and its length is what was seen of it. If the times of samples do not ascend, or the
+// beginning, and its length is what was seen of it. One that has not ended does not count, so a
+// run should be much longer than a residence. If the times of samples do not ascend, or the
 // number of discs changes, all residences restart.
 #pragma once
 
@@ -44,6 +50,7 @@ namespace swirl {
 
 class WallResidences {
   public:
+    static constexpr double min_frames_per_period = min_rate_of_resident;
     static constexpr std::array layers{1.3, wall_layer, 1.7};  // radii between centre and wall
     static constexpr std::array minimum{0.5 * long_residence, long_residence,
                                         2.0 * long_residence};  // periods
@@ -67,6 +74,11 @@ class WallResidences {
     }
     /// The mean duration of the residences that have ended, in periods.
     Estimate length() const { return length_.estimate(); }
+    /// The lengths of residences in this many bins; the last also has all longer ones.
+    static constexpr std::size_t length_bins = 41;
+    static constexpr double length_bin = 0.05;  // periods
+    /// The share of the residences with a length in the bin.
+    Estimate length_share(std::size_t bin) const { return lengths_.estimate(bin); }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
@@ -92,6 +104,16 @@ class WallResidences {
                                 a.end.concentration(), a.share.estimate());
             }
         visit(std::move(sensitivity));
+        ReportTable lengths{"lengths",
+                            "distribution of the lengths of all residences; the last row also "
+                            "counts longer ones",
+                            {{"from", "T"}, {"to", "T"}, {"share", "1", with_error_column}}};
+        for (std::size_t bin = 0; bin < length_bins; ++bin) {
+            const double from = static_cast<double>(bin) * length_bin;
+            lengths.add(from, bin + 1 < length_bins ? from + length_bin : not_available,
+                        length_share(bin));
+        }
+        visit(std::move(lengths));
         visit(positions_table("distribution over θ of pinning and depinning", begins_, ends_));
     }
     void merge(const WallResidences& other);
@@ -100,7 +122,7 @@ class WallResidences {
         visit(last_time_, discs_, residences_);
         for (auto& layer : averages_)
             for (Averages& a : layer) visit(a);
-        visit(length_, begins_, ends_);
+        visit(length_, lengths_, begins_, ends_);
     }
     bool is_consistent() const {
         return residences_.size() % layers.size() == 0 &&
@@ -133,6 +155,7 @@ class WallResidences {
     std::vector<Residence> residences_;  // of every disc, layer by layer
     std::array<std::array<Averages, minimum.size()>, layers.size()> averages_;
     BlockMean length_;
+    CellRates lengths_{length_bins};
     DirectionHistogram begins_, ends_;
 };
 

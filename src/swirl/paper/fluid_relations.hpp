@@ -80,9 +80,11 @@ inline constexpr FluidRelation fluid_relations[] = {
          const auto stress = [&](const std::string& ab) {
              return f.at("kinetic_" + ab)[p] + f.at("collisional_" + ab)[p];
          };
+         const double symmetric =
+             0.5 * (stress("xy") + f.at("kinetic_xy")[p] + f.at("collisional_yx")[p]);
          const double rate = 2.0 * thermal_speed(f, p);
          return RelationSides{{rate * f.at("strain_xx")[p], rate * f.at("strain_xy")[p]},
-                              {0.5 * (stress("xx") - stress("yy")), stress("xy")}};
+                              {0.5 * (stress("xx") - stress("yy")), symmetric}};
      }},
     {"spin_diffusion", "spin diffusion D", "couple stress",
      [](const FieldColumns& f, std::size_t p) {

@@ -25,20 +25,6 @@ std::string name_of(const Friction& friction, std::int64_t discs) {
     return fmt::format("{}_N{}", friction.name, discs);
 }
 
-/// Without friction at the wall a period has many events, so a quick run of fixed events covers
-/// a few periods only. Such runs get a length in periods, so that there is something to average.
-RunConfig config_of_a_point(const PaperSettings& settings, const Friction& friction,
-                            std::int64_t discs) {
-    constexpr std::int64_t warmup = 10, periods = 25;
-    RunConfig config = paper_config(settings, friction, discs);
-    if (!settings.quick || settings.events || friction.mu_wall > 0.0) return config;
-    if (expected_events_per_period(config) * double(periods) < static_cast<double>(config.events))
-        return config;
-    config.warmup = warmup;
-    config.periods = periods;
-    return config;
-}
-
 }  // namespace
 
 PaperPoint::PaperPoint(const PaperSettings& settings, std::string point, int seeds,
@@ -53,7 +39,7 @@ std::vector<std::int64_t> numbers_of_discs(const PaperSettings& settings) {
     // The curves with equal friction coefficients cross where this list has no gaps, so that their
     // N_c is known and not only bracketed.
     if (settings.quick)
-        return {5, 8, 12, 16, 20, 24, 28, 31, 34, 36, 37, 38, 39, 40, 42, 43, 44, 45, 46, 48};
+        return {5, 8, 12, 16, 20, 24, 28, 32, 34, 36, 37, 38, 39, 40, 42, 43, 44, 45, 46, 48};
     std::vector<std::int64_t> all;
     for (std::int64_t n = first_n; n <= last_n; ++n) all.push_back(n);
     return all;
@@ -65,14 +51,14 @@ std::vector<std::int64_t> sparse_numbers(const PaperSettings& settings) {
 }
 
 std::vector<std::int64_t> numbers_beyond(const PaperSettings& settings) {
-    if (settings.quick) return {51, 54};
+    if (settings.quick) return {52, 55};
     std::vector<std::int64_t> all;
     for (std::int64_t n = last_n + 1; n <= densest_n; ++n) all.push_back(n);
     return all;
 }
 
 std::vector<std::int64_t> numbers_of_spheres(const PaperSettings& settings) {
-    if (settings.quick) return {24, 28, 32, 36, 40, 44, 48, 54};
+    if (settings.quick) return {24, 28, 32, 36, 40, 44, 48, 52, 55};
     return {24, 25, 26, 28, 30, 32, 34, 35, 36, 37, 38, 40, 42, 44, 46, 48, 50, 52, 54, 55};
 }
 
@@ -110,12 +96,11 @@ RunConfig paper_config(const PaperSettings& settings, const Friction& friction,
     return config;
 }
 
-CrossingSettings search_for_crossing(const PaperSettings& settings) {
+CrossingSettings search_for_crossing() {
     CrossingSettings search;
     search.min_periods = 100;
     search.from = 20;
-    search.tolerance = settings.quick ? 0.5 : 0.2;
-    if (settings.quick) search.rounds = 1;
+    search.tolerance = 0.2;
     return search;
 }
 
@@ -134,6 +119,7 @@ PaperTask crossing_task(const std::string& key, const CrossingSettings& search) 
                 const Crossing& c = found.crossing();
                 return Json{{"crosses", c.verdict == Crossing::Verdict::crosses},
                             {"not_steady", found.not_steady},
+                            {"too_short", found.too_short},
                             {"discs", c.discs},
                             {"error", c.error},
                             {"lower", c.lower},
@@ -156,7 +142,9 @@ void add_search(std::vector<Table::Cell>& row, const Json& found) {
     for (const char* name : {"discs", "error", "lower", "upper"})
         row.emplace_back(number(found[name]));
     for (const char* name : {"runs", "events", "not_steady"}) row.push_back(whole(found[name]));
-    row.emplace_back(std::string(found["not_steady"] == 0 ? "steady" : "not steady"));
+    row.emplace_back(std::string(found["not_steady"] > 0        ? "not steady"
+                                 : at(found, {"too_short"}) > 0 ? "too short to tell"
+                                                                : "steady"));
     for (const Json& value : found["by_rate"]) row.emplace_back(number(value));
 }
 
@@ -186,7 +174,7 @@ static PaperPoint seeded_point(const PaperSettings& settings, const std::string&
 PaperPoint point(const PaperSettings& settings, const Friction& friction, std::int64_t discs) {
     const std::string name = name_of(friction, discs);
     PaperPoint point =
-        seeded_point(settings, name, "run_" + name, config_of_a_point(settings, friction, discs));
+        seeded_point(settings, name, "run_" + name, paper_config(settings, friction, discs));
     for (PaperTask& task : point.runs)
         task.served_by = "measured_" + task.key.substr(std::string_view("run_").size());
     return point;
@@ -195,14 +183,13 @@ PaperPoint point(const PaperSettings& settings, const Friction& friction, std::i
 PaperPoint measured_point(const PaperSettings& settings, const Friction& friction,
                           std::int64_t discs) {
     const std::string name = name_of(friction, discs);
-    return seeded_point(settings, name, "measured_" + name,
-                        config_of_a_point(settings, friction, discs),
+    return seeded_point(settings, name, "measured_" + name, paper_config(settings, friction, discs),
                         measurements_of_the_paper(friction, discs));
 }
 
 void set_dense_length(RunConfig& config, const PaperSettings& settings) {
-    config.warmup = settings.periods(settings.quick ? 20 : 40, 1);
-    config.periods = *config.warmup + settings.periods(settings.quick ? 60 : 200, 3);
+    config.warmup = settings.periods(40, 1);
+    config.periods = *config.warmup + settings.periods(200, 3);
 }
 
 PaperPoint dense_point(const PaperSettings& settings, const Friction& friction,
@@ -217,11 +204,9 @@ RunConfig settled_config(const PaperSettings& settings, const Friction& friction
                          std::int64_t discs) {
     RunConfig config = paper_config(settings, friction, discs);
     const std::int64_t warmup = friction.mu_disc == 0.0 ? 300 : 100;
-    config.warmup = settings.periods(settings.quick ? warmup / 2 : warmup, 2);
-    const auto measured = static_cast<std::int64_t>((settings.quick ? 1e5 : 1e6) /
-                                                    expected_events_per_period(config));
-    const std::int64_t minimum = settings.quick ? 50 : 200;
-    config.periods = *config.warmup + settings.periods(std::max(minimum, measured), 3);
+    config.warmup = settings.periods(warmup, 2);
+    const auto measured = static_cast<std::int64_t>(1e6 / expected_events_per_period(config));
+    config.periods = *config.warmup + settings.periods(std::max<std::int64_t>(200, measured), 3);
     return config;
 }
 

@@ -22,7 +22,7 @@ PinnedPlayback::PinnedPlayback(const FrameSource& source, double first)
 
 const std::vector<std::uint8_t>& PinnedPlayback::at(double periods) {
     const auto last = static_cast<std::int64_t>(std::floor(periods * frames_per_period + 1e-9)) +
-                      PinnedLoose::half_width;
+                      FrameWindow().half_width;
     for (; next_ <= last; ++next_) {
         const double time = static_cast<double>(next_) / frames_per_period;
         if (to_ && time > *to_) break;

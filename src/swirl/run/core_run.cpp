@@ -8,6 +8,7 @@
 
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/budget.hpp"
+#include "swirl/run/collapse_guard.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/period_series.hpp"
 #include "swirl/run/ramp.hpp"
@@ -208,22 +209,10 @@ std::optional<std::string> CoreRun::overlap_problem() const {
 }
 
 std::string CoreRun::collapse_sentence(const Collapse& collapse) const {
-    return fmt::format("{} (collapse after {:.3f} periods): {}", duration_text(collapse), periods(),
-                       reason_for_collapse());
+    return swirl::collapse_sentence(collapse, periods(), reason_for_collapse());
 }
 
-std::string CoreRun::reason_for_collapse() const {
-    if (config_.restitution < 1.0)
-        return fmt::format(
-            "with restitution {} the {}s collide ever faster (inelastic collapse).\nhint: use a "
-            "--contact-duration longer than {}.",
-            config_.restitution, body_word(config_), config_.contact_duration);
-    return fmt::format(
-        "friction has dissipated the relative motion of {}s that are pressed together, and they "
-        "collide ever faster (frictional collapse; docs/explanation/physics.md). The model has no "
-        "state after it.\nhint: another --seed than {} may avoid it.",
-        body_word(config_), config_.seed);
-}
+std::string CoreRun::reason_for_collapse() const { return swirl::reason_for_collapse(config_); }
 
 /// Takes the sample by event of the current state, if it is due. It is taken as late as possible,
 /// so that the processor need not wait for the snapshot to be written (cluster_rotation.hpp).
@@ -302,7 +291,7 @@ bool CoreRun::is_warmup_detected() {
 
 SteadyState CoreRun::steady_state_of(const BlockSeries& series) const {
     SteadyState state = find_steady_state(series.block_means());
-    if (state.verdict != SteadyState::Verdict::too_short)
+    if (!std::isnan(state.change.size))
         state.period = static_cast<double>(result_.warmup) +
                        static_cast<double>(state.change.at * series.periods_per_block());
     return state;

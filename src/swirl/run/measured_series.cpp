@@ -1,6 +1,7 @@
 #include "swirl/run/measured_series.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -13,6 +14,43 @@
 
 namespace swirl {
 
+namespace {
+
+/// The measurements whose values this rate does not allow, and the rate that they need.
+std::string rate_remark(const std::vector<std::string>& names, double rate) {
+    std::vector<std::string> missing, pinned, resident;
+    for (const std::string& name : names) {
+        const MeasurementKind& kind = *find_measurement(name);
+        if (rate < kind.min_rate)
+            missing.push_back(fmt::format("{} ({:.0f})", name, kind.min_rate));
+        else if (kind.has_pinned && rate < min_rate_of_pinned)
+            pinned.push_back(name);
+        if (kind.has_resident && rate < min_rate_of_resident) resident.push_back(name);
+    }
+    const auto add = [&](const char* which, const std::vector<std::string>& in, double needed) {
+        if (!in.empty())
+            missing.push_back(
+                fmt::format("{} discs in {} ({:.0f})", which, fmt::join(in, ", "), needed));
+    };
+    add("pinned", pinned, min_rate_of_pinned);
+    add("resident", resident, min_rate_of_resident);
+    if (missing.empty()) return "";
+    return fmt::format(
+        "{} too few for these values, which are n/a (in brackets the rate that they need): {}.\n"
+        "hint: record {} frames per period, or use `swirl run --measure`.",
+        rate > 0.0 ? fmt::format("{:.3g} frames per period are", rate) : "a single frame is",
+        fmt::join(missing, "; "), samples_per_period);
+}
+
+}  // namespace
+
+double frames_per_period(const SnapshotSeries& series) {
+    if (series.frames < 2) return 0.0;
+    const Snapshot first = series.frame(0), last = series.frame(series.frames - 1);
+    const double periods = last.periods_passed() - first.periods_passed();
+    return periods > 0.0 ? static_cast<double>(series.frames - 1) / periods : 0.0;
+}
+
 bool holds_tracks(const SnapshotSeries& series) {
     std::uint64_t begin = 0, longest = 0;
     for (const std::uint64_t end : series.breaks) {
@@ -20,7 +58,7 @@ bool holds_tracks(const SnapshotSeries& series) {
         begin = end;
     }
     longest = std::max(longest, series.frames - begin);
-    return series.same_discs() || longest > std::uint64_t(PinnedLoose::width);
+    return series.same_discs() || longest > std::uint64_t(FrameWindow().width());
 }
 
 SnapshotSeries series_of_run(const std::shared_ptr<TrajectoryReader>& reader) {
@@ -50,10 +88,12 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
                               double skip, const MeasuringControl& control) {
     if (series.frames == 0) throw Failure("there are no frames.");
     const Snapshot first = series.frame(0);
-    Observation observation(first.container_radius, first.period, names,
-                            series.has_m_frame && holds_tracks(series));
-    ClusterRotation rotation(selected_width());
     MeasuredSeries measured;
+    measured.frames_per_period = frames_per_period(series);
+    measured.remark = rate_remark(names, measured.frames_per_period);
+    Observation observation(first.container_radius, first.period, names,
+                            series.has_m_frame && holds_tracks(series), measured.frames_per_period);
+    ClusterRotation rotation(selected_width());
     std::int64_t period = first.periods;
     auto next_break = series.breaks.begin();
     for (std::uint64_t k = 0; k < series.frames; ++k) {
@@ -84,11 +124,6 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     measured.reports = observation.report();
     measured.periods = series.frame(series.frames - 1).time() / first.period - skip;
     return measured;
-}
-
-bool fits_criteria(double frames_per_period) {
-    return frames_per_period >= 0.8 * samples_per_period &&
-           frames_per_period <= 1.25 * samples_per_period;
 }
 
 }  // namespace swirl

@@ -20,17 +20,18 @@ struct MeasuredSeries {
     std::uint64_t frames = 0;  // after the skipped periods
     std::size_t discs = 0;     // maximum over the frames
     double periods = 0.0;
-
-    /// 0 for a single frame.
-    double frames_per_period() const {
-        return periods > 0.0 && frames > 1 ? double(frames - 1) / periods : 0.0;
-    }
+    double frames_per_period = 0.0;
+    /// Values that are missing because of the frame rate. A warning without "warning:"; "" if none.
+    std::string remark;
 };
 
 struct MeasuringControl {
     const std::atomic<bool>* stop = nullptr;
     std::function<void(std::uint64_t frame, std::uint64_t frames)> progress;
 };
+
+/// 0 for a single frame.
+double frames_per_period(const SnapshotSeries& series);
 
 /// True if the same discs are seen in enough frames in a row to determine which are pinned.
 bool holds_tracks(const SnapshotSeries& series);
@@ -47,8 +48,5 @@ std::vector<std::string> measurable(const std::vector<std::string>& names, bool 
 /// frame remains, and Interrupted.
 MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<std::string>& names,
                               double skip = 0.0, const MeasuringControl& control = {});
-
-/// True if the frame rate is near that for which the criteria for pinned discs were made.
-bool fits_criteria(double frames_per_period);
 
 }  // namespace swirl

@@ -81,7 +81,7 @@ Estimate estimate_in(const Json& value) {
             .blocks = value.value("blocks", std::size_t{0})};
 }
 
-bool has_value(const ReportRow& row) { return !std::isnan(row.estimate.mean); }
+bool has_value(const ReportRow& row) { return std::isfinite(row.estimate.mean); }
 
 fs::path write_table(const ReportTable& table, const fs::path& file) {
     std::vector<std::string> heads;

@@ -5,18 +5,18 @@
 #include <cmath>
 
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/table.hpp"
 #include "swirl/run/budget.hpp"
 
 namespace swirl {
 namespace {
 
-/// A whole number without a decimal point; "" for NaN.
-std::string cell_text(double value) {
-    if (std::isnan(value)) return "";
+/// cell_text(), but a whole number without a decimal point or an exponent.
+std::string series_cell(double value) {
     constexpr double exact_integers = 0x1p53;
     if (value == std::floor(value) && std::fabs(value) < exact_integers)
         return fmt::format("{}", static_cast<std::int64_t>(value));
-    return fmt::format("{}", value);
+    return cell_text(value);
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ void PeriodSeries::sample(const Snapshot& snapshot) {
 }
 
 void PeriodSeries::add_period(const PeriodAverages& averages) {
-    const auto add = [&](double value) { values_.push_back(value); };
+    const auto add = [&](double value) { values_.push_back(finite_or_missing(value)); };
     add(static_cast<double>(averages.period));
     add(averages.is_counted ? 1.0 : 0.0);
     for (const double rate : averages.rotation) add(rate);
@@ -104,19 +104,24 @@ std::vector<SeriesAverage> PeriodSeries::averages() const {
     return all;
 }
 
-void PeriodSeries::write(const std::filesystem::path& file) const {
-    remove_leftovers_of(file);
-    AtomicFile csv(file);
+std::string PeriodSeries::header() const {
     std::string line;
     for (const SeriesColumn& column : columns_) line += (line.empty() ? "" : ",") + column.name;
-    csv.append(line + "\n");
-    for (std::size_t k = 0; k < periods(); ++k) {
-        line.clear();
+    return line + "\n";
+}
+
+std::string PeriodSeries::rows(std::size_t first) const {
+    std::string lines;
+    for (std::size_t k = first; k < periods(); ++k) {
         for (std::size_t c = 0; c < columns_.size(); ++c)
-            line += (c > 0 ? "," : "") + cell_text(at(k, c));
-        csv.append(line + "\n");
+            lines += (c > 0 ? "," : "") + series_cell(at(k, c));
+        lines += '\n';
     }
-    csv.finish();
+    return lines;
+}
+
+void PeriodSeries::write(const std::filesystem::path& file) const {
+    write_file_and_clean_up(file, header() + rows());
 }
 
 }  // namespace swirl

@@ -85,6 +85,9 @@ class PeriodSeries {
 
     /// Writes the table as CSV, atomically. Throws FileError.
     void write(const std::filesystem::path& file) const;
+    /// Its parts: the names of the columns, and the rows from this period on.
+    std::string header() const;
+    std::string rows(std::size_t first = 0) const;
 
     template <class Visitor>
     void fields(Visitor&& visit) {

@@ -93,9 +93,16 @@ std::string no_period_warning(const RunResult& r) {
 }
 
 std::string too_short_warning(const RunResult& r) {
-    return fmt::format("steady state not verified: {} after the warm-up; the test needs {}.",
-                       counted(std::int64_t(r.rotation.by_event.blocks), "period"),
-                       min_blocks_of_a_steady_state);
+    const auto blocks = r.rotation.by_event.blocks;
+    const std::string length = counted(std::int64_t(blocks), "period");
+    if (blocks < min_blocks_of_a_steady_state)
+        return fmt::format("steady state not verified: {} after the warm-up; the test needs {}.",
+                           length, min_blocks_of_a_steady_state);
+    return fmt::format(
+        "steady state not verified: {} after the warm-up, but so few independent ones that the "
+        "test "
+        "cannot distinguish a change from chance.\nhint: use --warmup auto and a longer run.",
+        length);
 }
 
 /// In disc radii. Rounding errors of positions are about 10⁻¹⁴ in the experiment's container and at
@@ -180,9 +187,9 @@ std::string with_commas(std::uint64_t number) {
 }
 
 std::string with_error(double mean, double error) {
-    if (std::isnan(mean)) return "n/a";
+    if (!std::isfinite(mean)) return "n/a";
     // A constant has an error of rounding only.
-    if (std::isnan(error) || error <= 1e-14 * std::fabs(mean))
+    if (!std::isfinite(error) || error <= 1e-14 * std::fabs(mean))
         return with_minus(fmt::format("{:.3g}", mean));
     if (error < 1e-9) return with_minus(fmt::format("{:.2g} ± {:.1g}", mean, error));
     // Two digits for an error that begins with 1, one for any other.
@@ -275,6 +282,12 @@ std::string steady_state_found(const RunResult& r) {
     return text;
 }
 
+std::string rounded_share_text(const RunConfig& c) {
+    if (!c.mixture || !c.mixture->percent) return "";
+    return fmt::format("{} of {} {}s have radius {}: {} %, rounded to whole {}s", c.mixture->count,
+                       c.discs, body_word(c), c.mixture->radius, *c.mixture->percent, body_word(c));
+}
+
 std::string report(const RunResult& r, bool verbose) {
     std::string text = headline(r) + "\n";
     const auto line = [&](std::string_view name, const std::string& value) {
@@ -292,6 +305,8 @@ std::string report(const RunResult& r, bool verbose) {
                              r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
     }
     const char* const body = body_word(r.config);
+    if (const std::string rounded = rounded_share_text(r.config); !rounded.empty())
+        line("mixture", rounded);
     line("events",
          fmt::format("{}: {} {}–{}, {} {}–wall, {} {} of the path{}", with_commas(r.events.total()),
                      with_commas(r.events.disc_disc), body, body, with_commas(r.events.disc_wall),
@@ -328,7 +343,7 @@ std::vector<std::string> warnings(const RunResult& r) {
         all.push_back(energy_warning(r));
     else if (!steady_state_found(r).empty())
         all.push_back(not_steady_warning(r));
-    else if (r.steady.verdict == SteadyState::Verdict::too_short && r.config.discs > 1 &&
+    else if (r.steady_state() == SteadyState::Verdict::too_short && r.config.discs > 1 &&
              r.has_whole_period())
         all.push_back(too_short_warning(r));
     if (sinks_into_the_wall(r)) all.push_back(sinking_warning(r));

@@ -141,13 +141,13 @@ class BlockSeries {
         e.blocks = size();
         e.mean = total.weight != 0.0 ? total.sum / total.weight : not_available;
         if (e.blocks == 0 || std::isnan(e.mean)) return e;
-        const double n = static_cast<double>(e.blocks);
-        e.effective_samples = n;
-        if (e.blocks < 2) return e;
+        const double n = static_cast<double>(e.blocks), used = blocks_with_weight();
+        e.effective_samples = used;
+        if (used < 2.0) return e;
         const double variance = autocovariance(e.mean, 0);
         const double tau = autocorrelation_time(e.mean);
-        e.effective_samples = n / tau;
-        e.error = std::sqrt(tau * variance * n * n / (n - 1.0)) / std::abs(total.weight);
+        e.effective_samples = used / tau;
+        e.error = std::sqrt(tau * variance * n * used / (used - 1.0)) / std::abs(total.weight);
         return e;
     }
 
@@ -212,6 +212,13 @@ class BlockSeries {
             for (const Block& b : run.blocks) total = {total.sum + b.sum, total.weight + b.weight};
         }
         return total;
+    }
+    /// Those without say nothing about the mean.
+    double blocks_with_weight() const {
+        double n = 0.0;
+        for (const Run& run : runs_)
+            for (const Block& b : run.blocks) n += b.weight != 0.0 ? 1.0 : 0.0;
+        return n;
     }
     std::size_t longest_run() const {
         std::size_t n = 0;

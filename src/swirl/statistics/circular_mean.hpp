@@ -10,6 +10,8 @@
 //
 //     error² = n_b/(n_b − 1) Σ d_b² / (C² + S²)
 //
+// with the n_b blocks that have an angle.
+//
 // Units: radians, 0 ≤ θ̄ < 2π. Limits: no angles, or a sum of 0: NaN. Fewer than two blocks: the
 // error is NaN. An error of more than about 1 means that there is no preferred direction.
 #pragma once
@@ -36,6 +38,7 @@ class CircularMean {
     }
     void close_block() {
         ++blocks_;
+        used_ += n_ > 0.0 ? 1.0 : 0.0;
         C_ += c_;
         S_ += s_;
         CC_ += c_ * c_;
@@ -49,14 +52,13 @@ class CircularMean {
     Estimate angle() const {
         Estimate e;
         e.blocks = blocks_;
-        e.effective_samples = static_cast<double>(blocks_);
+        e.effective_samples = used_;
         const double square = C_ * C_ + S_ * S_;
         if (!(square > 0.0)) return e;
         e.mean = 2.0 * pi * turns_of({C_, S_});
-        if (blocks_ < 2) return e;
-        const double n = static_cast<double>(blocks_);
+        if (used_ < 2.0) return e;
         const double across = (CC_ * S_ * S_ - 2.0 * CS_ * C_ * S_ + SS_ * C_ * C_) / square;
-        e.error = std::sqrt((across > 0.0 ? across : 0.0) * n / (n - 1.0) / square);
+        e.error = std::sqrt((across > 0.0 ? across : 0.0) * used_ / (used_ - 1.0) / square);
         return e;
     }
     /// R̄.
@@ -67,6 +69,7 @@ class CircularMean {
 
     void merge(const CircularMean& o) {
         blocks_ += o.blocks_;
+        used_ += o.used_;
         C_ += o.C_;
         S_ += o.S_;
         CC_ += o.CC_;
@@ -76,12 +79,13 @@ class CircularMean {
     }
     template <class Visitor>
     void fields(Visitor&& visit) {
-        visit(c_, s_, n_, C_, S_, CC_, CS_, SS_, N_, blocks_);
+        visit(c_, s_, n_, C_, S_, CC_, CS_, SS_, N_, used_, blocks_);
     }
 
   private:
     double c_ = 0.0, s_ = 0.0, n_ = 0.0;  // the open block
     double C_ = 0.0, S_ = 0.0, CC_ = 0.0, CS_ = 0.0, SS_ = 0.0, N_ = 0.0;
+    double used_ = 0.0;  // blocks with an angle
     std::size_t blocks_ = 0;
 };
 

@@ -9,7 +9,10 @@
 // both formed, and the larger counts. The limit is the quantile of Student's t that `max_change`
 // is for a normal deviate, with Welch's degrees of freedom from the effective samples. The change
 // is a jump if the step describes it well: better than a straight line, and nearly as well as two
-// lines. Otherwise it is a drift.
+// lines. Otherwise it is a drift. Few effective samples make the limit large: with 26, that of a
+// change in the middle is 10 errors. A smaller change may then still be real, so the test decides
+// nothing with fewer, nor if there is a change of more than 10 errors below its limit. Such a run is
+// too short to tell.
 //
 // Transient. The mean of the first fifth is compared with that of the last half. (Geweke 1992,
 // doi:10.21034/sr.148, takes a tenth; a fifth keeps more blocks in a short run.) The last half
@@ -57,6 +60,15 @@ namespace swirl {
 inline constexpr std::size_t min_blocks_of_a_steady_state = 50;
 /// Limit of the change test, as a normal deviate.
 inline constexpr double max_change = 4.5;
+/// A change of more standard errors is never random enough for a steady series.
+inline constexpr double max_steady_change = 10.0;
+
+/// The largest change that chance explains. The autocorrelation time is estimated from the same
+/// blocks, which makes the error less certain: a third of the degrees of freedom remain (Error
+/// rates, above).
+inline double limit_of_change(double freedom) {
+    return student_quantile(max_change, freedom >= 3.0 ? freedom / 3.0 : 1.0);
+}
 
 /// A change of the mean.
 struct MeanChange {
@@ -68,6 +80,12 @@ struct MeanChange {
     double effective_samples = 0.0;   // of the blocks, without the change
 
     bool found() const { return std::abs(size) > max_size; }
+    /// Whether the test says something if it finds nothing.
+    bool decides() const {
+        if (size == 0.0) return true;  // a constant; its residuals are rounding errors
+        return !(std::abs(size) > max_steady_change) &&
+               limit_of_change(effective_samples - 4.0) <= max_steady_change;
+    }
 };
 
 /// Two levels between which a series switches.
@@ -91,12 +109,15 @@ struct SteadyState {
         drifting,   // the mean changes gradually
         jumping,    // the mean changes in one step
         switching,  // between two states
-        too_short,  // fewer than 50 blocks: unknown
+        too_short,  // fewer than 50 blocks, or too few effective samples: unknown
     };
     Verdict verdict = Verdict::too_short;
     MeanChange change;
     TwoStates states;
     double period = not_available;  // of the change, from the beginning of the run
+
+    /// True if a test found a change.
+    bool has_changed() const { return verdict != Verdict::steady && verdict != Verdict::too_short; }
 };
 
 /// The residuals of a series about its straight-line fit.
@@ -164,13 +185,10 @@ inline DifferenceError error_of_difference(std::span<const double> residuals, st
     return {a + b, freedom, all.effective_samples};
 }
 
-/// Sets the size of a change. The autocorrelation time is estimated from the same blocks, which
-/// makes the error less certain: a third of the degrees of freedom remain (Error rates, above).
 inline void set_size(MeanChange& change, const DifferenceError& error) {
     const double difference = change.after - change.before;
     change.size = difference == 0.0 ? 0.0 : difference / std::sqrt(error.variance);
-    const double freedom = error.freedom / 3.0;
-    change.max_size = student_quantile(max_change, freedom >= 1.0 ? freedom : 1.0);
+    change.max_size = limit_of_change(error.freedom);
     change.effective_samples = error.effective_samples;
 }
 
@@ -274,10 +292,11 @@ inline SteadyState find_steady_state(std::span<const double> blocks) {
     state.change = most_likely_change(blocks);
     if (const MeanChange slow = transient(blocks); slow.found() && !state.change.found())
         state.change = slow;
-    state.verdict = state.states.found()    ? Verdict::switching
-                    : !state.change.found() ? Verdict::steady
-                    : state.change.is_jump  ? Verdict::jumping
-                                            : Verdict::drifting;
+    state.verdict = state.states.found() ? Verdict::switching
+                    : state.change.found()
+                        ? state.change.is_jump ? Verdict::jumping : Verdict::drifting
+                    : state.change.decides() ? Verdict::steady
+                                             : Verdict::too_short;
     return state;
 }
 
