@@ -115,6 +115,7 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
         throw UsageError(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
     ParameterTexts texts = texts_of(given);
     texts.try_emplace("events", default_search_events);
+    reject_listed_sizes(texts);
     texts["discs"] = std::to_string(maximum);  // the largest number must fit into the container
     CrossingSettings settings;
     settings.rate = rate_named(rate);

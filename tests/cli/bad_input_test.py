@@ -230,6 +230,14 @@ class BadCalls(unittest.TestCase):
                               capture_output=True, timeout=150)
         self.assertEqual(done.returncode, 2)
 
+    def test_an_option_is_not_the_value_of_the_one_before_it(self):
+        done = swirl("run", "--discs", 5, "--ramp", ";", "--quiet")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--ramp is ''", done.stderr)
+        done = swirl("run", "--discs", 5, "--ramp", "mu=0.1:1@1..3", "--ramp", "restitution=1:0.9@1..3", "--dry-run")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("mu=0.1:1@1..3;restitution=1:0.9@1..3", done.stdout)
+
     def test_very_long_values(self):
         self.assertEqual(swirl("run", "--discs", "9" * 100000).returncode, 2)
         self.assertEqual(swirl("run", "--mu", "0." + "3" * 100000, "--events", 10).returncode, 0)

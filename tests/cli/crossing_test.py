@@ -3,9 +3,13 @@
 import csv
 import io
 import json
+import os
+import signal
+import subprocess
+import time
 import unittest
 
-from program import InFolder, swirl
+from program import SWIRL, InFolder, swirl
 
 SHORT = ["--events", "2e4", "--tolerance", 5, "--quiet"]
 FEW = ["--from", 5, "--to", 7]
@@ -86,6 +90,87 @@ class Crossing(InFolder):
         self.assertEqual(alone["N_c"], alone["by_rate"]["by_time"]["N_c"])
         rigid = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--rate", "rigid_by_time", "--json", "-"))
         self.assertEqual(rigid["N_c"], rigid["by_rate"]["rigid_by_time"]["N_c"])
+
+    def points_of(self, *arguments):
+        return {point["discs"]: point for point in json.loads(self.good(*arguments, "--json", "-"))["points"]}
+
+    def test_every_number_of_discs_is_validated(self):
+        # 45 of 5 discs cannot be small; with equal discs instead, the answer would be wrong.
+        done = swirl("crossing", "--mixture", "45:0.8", *SHORT)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertEqual(done.stderr, swirl("run", "--discs", 5, "--mixture", "45:0.8").stderr)
+        self.assertIn("a share, such as --mixture 50%:0.8", done.stderr)
+
+    def test_a_share_of_a_mixture_gives_the_runs_of_its_counts(self):
+        call = ["--from", 6, "--to", 7, "--seed", 3]
+        points = self.points_of(*call, "--mixture", "50%:0.8")
+        for discs, count in ((6, 3), (7, 4)):
+            runs = [json.loads(swirl("run", "--discs", discs, "--mixture", f"{count}:0.8", "--events", "2e4",
+                                     "--seed", seed, "--json", "-", "--quiet").stdout) for seed in (3, 4, 5)]
+            # The search weights its runs with their periods, which differ by less than a hundredth.
+            mean = sum(run["rotation"]["by_time"]["mean"] for run in runs) / 3
+            self.assertAlmostEqual(points[discs]["by_time"], mean, delta=1e-3)
+        said = swirl("crossing", *call, "--mixture", "50%:0.8", "--events", "2e4", "--tolerance", 5)
+        self.assertIn("4 of 7 discs have radius 0.8: 50 %, rounded to whole discs", said.stdout)
+
+    def test_listed_sizes_have_no_crossing(self):
+        with open(self.path("radii.csv"), "w", encoding="utf-8") as opened:
+            opened.write("radius\n1\n0.8\n1\n")
+        for call in (["crossing"], ["map", "--x", "mu=0:1", "--of", "N_c", "--out", self.path("map")]):
+            done = swirl(*call, "--sizes", "file:" + self.path("radii.csv"))
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("a search for N_c varies their number", done.stderr)
+            self.assertNotIn("--discs", done.stderr)
+
+    def test_a_clockwise_path_has_the_crossing_of_its_mirror_image(self):
+        # Both searches are short: they agree within five of their errors.
+        found = [json.loads(self.good("--from", 34, "--to", 43, "--direction", direction, "--json", "-"))
+                 for direction in ("counter-clockwise", "clockwise")]
+        for direction in found:
+            self.assertEqual(direction["verdict"], "crosses")
+        self.assertLess(abs(found[0]["N_c"] - found[1]["N_c"]),
+                        5 * (found[0]["N_c_error"] + found[1]["N_c_error"]))
+
+    def test_distributed_sizes_get_more_seeds(self):
+        # Each seed draws other sizes, so longer runs would not end the search.
+        done = swirl("crossing", "--sizes", "normal:1:0.2", "--from", 30, "--to", 45, "--tolerance", 2, "--quiet",
+                     "--json", self.path("a.json"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("a.json"), encoding="utf-8") as opened:
+            self.assertTrue(json.load(opened)["within_tolerance"])
+
+    def test_a_stopped_search_prints_its_points_and_continues(self):
+        call = ["crossing", "--mu", "1", "--from", 30, "--to", 44, "--tolerance", 0.8]
+        folder = ["--out", self.path("N_c")]
+        whole = swirl(*call, "--json", "-", "--quiet")
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        process = subprocess.Popen([SWIRL, *map(str, call + folder)], text=True, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        results = self.path("N_c/results")
+        while process.poll() is None and not (os.path.isdir(results) and len(os.listdir(results)) > 4):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        said, errors = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertRegex(said, r"N = \d+ +ϖ/Ω = ")
+        self.assertIn("repeat the call to continue", errors)
+        done = swirl(*call, *folder, "--json", "-", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        ours, others = json.loads(done.stdout), json.loads(whole.stdout)
+        for key in ("N_c", "N_c_error", "points", "runs", "events", "sign_changes"):
+            self.assertEqual(ours[key], others[key])
+        # The folder is that of a sweep; each run is repeated by its command.
+        self.assertEqual(swirl("collect", self.path("N_c"), "--csv", "-").returncode, 0)
+        with open(os.path.join(results, sorted(os.listdir(results))[0]), encoding="utf-8") as opened:
+            run = json.load(opened)
+        alone = swirl(*run["command"].split()[1:], "--json", "-", "--quiet")
+        self.assertEqual(json.loads(alone.stdout)["state_hash"], run["state_hash"])
+        other = swirl(*call, *folder, "--mu", "0.9", "--quiet")
+        self.assertEqual(other.returncode, 2, other.stderr)  # --mu twice
+        other = swirl("crossing", "--mu", "0.9", *folder, "--quiet")
+        self.assertEqual(other.returncode, 1, other.stderr)
+        self.assertIn("holds another search for N_c", other.stderr)
+        self.assertEqual(swirl("sweep", "--out", self.path("N_c")).returncode, 2)
 
     def test_invalid_options_are_rejected(self):
         for wrong, says in ((["--mu", "0.5,0.5"], "the same run"), (["--mu", "1,"], "empty"),

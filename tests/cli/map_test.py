@@ -86,6 +86,33 @@ class Map(InFolder):
         self.good("map", "--out", self.path("whole"), "--no-figure", "--quiet")
         self.assertEqual((self.table(self.path("whole")), self.results(self.path("whole"))), (table, results))
 
+    def test_a_result_that_is_not_whole_is_made_again(self):
+        table, results = self.whole()
+        with open(self.path(f"whole/results/{results[3]}"), "r+b") as opened:
+            opened.truncate(200)
+        status = self.good("map", "--out", self.path("whole"), "--status").stdout
+        self.assertRegex(status, r"1 runs to do")
+        self.good("map", "--out", self.path("whole"), "--no-figure", "--quiet")
+        self.assertEqual((self.table(self.path("whole")), self.results(self.path("whole"))), (table, results))
+
+    def test_messages_speak_of_maps(self):
+        self.whole()
+        for call in (["map", "--out", self.path("whole"), "--grow", "--seeds", 2],
+                     ["collect", self.path("whole"), "--csv", self.path("whole/results/a.csv")]):
+            done = swirl(*call)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("the map", done.stderr)
+            self.assertNotIn("sweep", done.stderr)
+        with open(self.path("whole/plan.json"), encoding="utf-8") as opened:
+            plan = json.load(opened)
+        plan["map"]["x"] = "restitution"  # names no axis
+        with open(self.path("whole/plan.json"), "w", encoding="utf-8") as opened:
+            json.dump(plan, opened)
+        for call in (["--status"], []):
+            done = swirl("map", "--out", self.path("whole"), *call)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("is damaged: restitution is not a parameter of this map", done.stderr)
+
     def test_the_folder_is_that_of_a_sweep(self):
         table, results = self.whole()
         collected = self.good("collect", self.path("whole"), "--csv", "-")

@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import re
 import resource
 import shutil
 import subprocess
@@ -362,11 +363,43 @@ class Sweep(InFolder):
         done = swirl("collect", self.path("whole"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("000007.json' is in format 0", done.stderr)
-        with open(file, "w") as opened:
-            opened.write('{"format": 1, "rot')
-        done = swirl("collect", self.path("whole"))
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("000007.json' is damaged", done.stderr)
+
+    def test_results_that_are_not_whole_are_made_again(self):
+        whole = self.whole()
+        file = self.path("whole/results/000007.json")
+        with open(file, "rb") as opened:
+            bytes_of_result = opened.read()
+        runs = len(os.listdir(self.path("whole/results")))
+        for damaged in (b"", b'{"format": 1, "rot', bytes_of_result[:-3], bytes(len(bytes_of_result)), b"null\n"):
+            with open(file, "wb") as opened:
+                opened.write(damaged)
+            for call in (["sweep", "--out", self.path("whole"), "--status"], ["collect", self.path("whole")]):
+                done = swirl(*call)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(f"{runs - 1} of {runs} runs", done.stdout)
+                self.assertIn("1 result file is not whole", done.stderr)
+                self.assertIn("000007.json'", done.stderr)
+            done = swirl("sweep", "--out", self.path("whole"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("(1 by this call)", done.stdout)
+            self.assertEqual(self.table(self.path("whole")), whole)
+
+    def test_a_damaged_state_of_a_chain_says_what_to_remove(self):
+        call = ["sweep", "--discs", 5, "--mu", "0.1,0.5,1", "--periods", 3, "--warmup", 1, "--chain", "mu", "--out",
+                self.path("chain"), "--quiet"]
+        self.assertEqual(swirl(*call).returncode, 0)
+        whole = self.table(self.path("chain"))
+        with open(self.path("chain/states/000000.state"), "r+b") as opened:
+            opened.truncate(100)
+        for point in ("000002", "000004"):  # rising and falling, after point 0
+            os.remove(self.path(f"chain/results/{point}.json"))
+        done = swirl(*call)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        remove = re.search(r"hint: remove '(.*?)' and run `swirl (.*?)` again", done.stderr)
+        self.assertTrue(remove, done.stderr)
+        os.remove(remove[1])
+        self.assertEqual(swirl(*remove[2].split(), "--quiet").returncode, 0)
+        self.assertEqual(self.table(self.path("chain")), whole)
 
     def test_results_of_other_points_and_wrong_types_are_reported(self):
         self.whole()

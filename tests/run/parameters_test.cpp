@@ -224,6 +224,17 @@ TEST(RunParameters, OnlyDiscsWithoutAFloorLackFrictionInOneKindOfContact) {
     }
     // Then nothing dissipates energy.
     EXPECT_TRUE(resolve({{"frictionless", "wall"}, {"mu_disc", "0"}}).conserves_energy());
+    EXPECT_THAT(error_of({{"frictionless", "wall"}, {"mu_wall", "0.5"}}),
+                testing::HasSubstr("--frictionless is wall, but --mu-wall is 0.5"));
+    for (const ParameterTexts& texts : {ParameterTexts{{"mu", "0.5"}}, {{"mu_wall", "0"}}, {}}) {
+        ParameterTexts smooth = texts;
+        smooth["frictionless"] = "wall";
+        const RunConfig config = resolve(smooth);
+        EXPECT_EQ(config.mu_wall, 0.0);
+        EXPECT_EQ(config_text(resolve(texts_of(config))), config_text(config));
+    }
+    const ParameterTexts file{{"mu_wall", "0.5"}};
+    EXPECT_EQ(resolve(overridden(file, {{"frictionless", "wall"}})).mu_wall, 0.0);
     EXPECT_FALSE(resolve({{"frictionless", "bulk"}, {"mu_disc", "0"}}).conserves_energy());
 }
 TEST(RunParameters, RollingResistanceNeedsSpheresOnAFloorAndIsBounded) {

@@ -19,7 +19,7 @@ std::vector<double> radii_of(const char* law, const char* seed = "1") {
     const RunConfig config = resolve(
         {{"sizes", law}, {"discs", "100000"}, {"container_radius", "2000"}, {"seed", seed}});
     std::vector<double> radii;
-    for (const Particle& p : particles_of(config)) radii.push_back(p.radius);
+    for (const ParticleProperties& p : particles_of(config)) radii.push_back(p.radius);
     return radii;
 }
 double mean_power(const std::vector<double>& values, int n) {
@@ -76,7 +76,7 @@ TEST(ParticleSizes, MassesAreThoseOfOneMaterial) {
                                           {"radius", "2"},
                                           {"mass", "3"},
                                           {"body", body}});
-        for (const Particle& p : particles_of(config)) {
+        for (const ParticleProperties& p : particles_of(config)) {
             const double ratio = p.radius / 2.0;
             const double expected =
                 3.0 * ratio * ratio * (config.body == Shape::sphere ? ratio : 1.0);
@@ -113,6 +113,33 @@ TEST(ParticleSizes, SurviveTheJson) {
     EXPECT_FALSE(resolve(overridden(texts_of(sizes), {{"mixture", "2:0.5"}})).sizes);
 }
 
+TEST(ParticleSizes, AShareOfAMixtureIsRoundedToWholeDiscs) {
+    const auto count = [](const char* discs, const char* mixture) {
+        return resolve({{"discs", discs}, {"mixture", mixture}}).mixture->count;
+    };
+    EXPECT_EQ(count("48", "50%:0.8"), 24);
+    EXPECT_EQ(count("45", "50%:0.8"), 23);
+    EXPECT_EQ(count("7", "33.3%:0.8"), 2);
+    EXPECT_EQ(count("5", "100%:0.8"), 5);
+    const RunConfig share = resolve({{"discs", "6"}, {"mixture", "33%:0.5"}, {"events", "3000"}});
+    const RunConfig whole = resolve({{"discs", "6"}, {"mixture", "2:0.5"}, {"events", "3000"}});
+    EXPECT_EQ(run(share).state_hash, run(whole).state_hash);
+    // The share stays in the configuration, so that it holds for other numbers of discs.
+    EXPECT_EQ(texts_of(share).at("mixture"), "33%:0.5");
+    EXPECT_EQ(config_text(resolve(texts_of(share))), config_text(share));
+    EXPECT_EQ(config_text(resolve(parameters_in(config_text(share)))), config_text(share));
+    EXPECT_EQ(with_discs(share, 30).mixture->count, 10);
+    EXPECT_EQ(with_discs(whole, 30).mixture->count, 2);
+}
+
+// A configuration that was changed after it was read is validated before it runs.
+TEST(ParticleSizes, AMixtureOfMoreDiscsThanThereAreDoesNotRun) {
+    RunConfig config = resolve({{"mixture", "45:0.8"}, {"events", "3000"}});
+    EXPECT_THROW(with_discs(config, 44), UsageError);
+    config.discs = 44;
+    EXPECT_THROW(run(config), UsageError);
+}
+
 TEST(ParticleSizes, ListsAreValidated) {
     const auto expect = [](const ParameterTexts& texts, const char* says) {
         try {
@@ -122,6 +149,11 @@ TEST(ParticleSizes, ListsAreValidated) {
             EXPECT_THAT(error.what(), testing::HasSubstr(says));
         }
     };
+    for (const char* share : {"0%:0.8", "-1%:0.8", "101%:0.8"})
+        expect({{"mixture", share}}, "the share in --mixture is");
+    expect({{"mixture", "1%:0.8"}, {"discs", "20"}}, "rounds to none of 20 discs");
+    for (const char* text : {"%:0.8", "x%:0.8", "50%", "50%:", "5 %:0.8", "50%%:0.8"})
+        expect({{"mixture", text}}, "COUNT:RADIUS");
     expect({{"sizes", "list 1 x"}}, "entry 2");
     expect({{"sizes", "list 1 1:2:3"}}, "entry 2");
     expect({{"sizes", "list 1 nan"}}, "entry 2");

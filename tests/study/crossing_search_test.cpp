@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <mutex>
+#include <set>
 
 #include "swirl/math/random.hpp"
 #include "swirl/run/failure.hpp"
@@ -309,6 +311,95 @@ TEST(CrossingSearch, RejectsInvalidSettings) {
     CrossingSettings certain = short_search(1.0);
     certain.tolerance = 0.0;
     EXPECT_THROW(search_crossing(certain), UsageError);
+}
+
+/// The report of a search with a known curve.
+std::string report_on(const std::function<double(double)>& curve) {
+    const CrossingSettings settings;
+    return crossing_report(settings, search_crossing(settings, planted(curve, 0.001)));
+}
+
+TEST(CrossingSearch, TheRateNearestToZeroIsTheEvidence) {
+    EXPECT_THAT(report_on([](double n) { return -0.02 - 0.001 * n; }),
+                HasSubstr("always counterrotate; between N = 5 and 48 the highest is ϖ/Ω = −0.02"));
+    EXPECT_THAT(report_on([](double n) { return 0.02 + 0.001 * n; }),
+                HasSubstr("always rotate; between N = 5 and 48 the lowest is ϖ/Ω = 0.02"));
+}
+
+TEST(CrossingSearch, WithoutACrossingNoRunsDecideOnIt) {
+    CrossingSearch search;
+    search.not_steady = search.too_short = search.disagreeing = 2;
+    for (const std::string& warning : warnings(search)) EXPECT_THAT(warning, Not(HasSubstr("N_c")));
+    search.crossings[search.rate].changes.push_back({38.0, 39.0, true});
+    for (const std::string& warning : warnings(search))
+        EXPECT_THAT(warning, HasSubstr("that N_c depends on"));
+}
+
+// Each seed has another rate, as if it had drawn other sizes. Longer runs do not help.
+TEST(CrossingSearch, ScatteringReplicatesGetMoreSeedsAndNotLongerRuns) {
+    std::mutex mutex;
+    std::set<std::int64_t> lengths;
+    CrossingControl control = planted([](double n) { return -0.01 * (n - 38.3); }, 0.001);
+    control.make_run = [&, make = control.make_run](const RunConfig& c, const RunControl& inner) {
+        RunResult r = make(c, inner);
+        const double shift =
+            0.06 * (Random(c.seed * 7919 + std::uint64_t(c.discs)).uniform() - 0.5);
+        for (Estimate* rate : {&r.rotation.by_event, &r.rotation.by_time,
+                               &r.rotation.rigid_by_event, &r.rotation.rigid_by_time})
+            rate->mean += shift;
+        const std::lock_guard lock(mutex);
+        if (c.discs >= 37 && c.discs <= 40) lengths.insert(c.periods.value_or(0));
+        return r;
+    };
+    const CrossingSettings settings;  // tolerance 0.3
+    const CrossingSearch search = search_crossing(settings, control);
+    EXPECT_TRUE(search.within_tolerance);
+    EXPECT_NEAR(search.crossing().discs, 38.3, 3.0 * settings.tolerance);
+    // Chance may hide the scatter of the first three seeds once, but not twice.
+    EXPECT_LE(lengths.size(), 2u);
+    EXPECT_GT(*std::max_element(search.runs_made.begin(), search.runs_made.end()), 6);
+    EXPECT_LT(search.runs, 500u);
+}
+
+// The mirror image of a run has the opposite rate.
+TEST(CrossingSearch, AClockwisePathHasTheCrossingOfItsMirrorImage) {
+    CrossingSettings settings;
+    const CrossingControl forward = planted(bent, 0.002);
+    CrossingControl backward;
+    backward.make_run = [&](const RunConfig& c, const RunControl& inner) {
+        RunResult r = forward.make_run(c, inner);
+        for (Estimate* rate : {&r.rotation.by_event, &r.rotation.by_time,
+                               &r.rotation.rigid_by_event, &r.rotation.rigid_by_time})
+            rate->mean = -rate->mean;
+        return r;
+    };
+    const Crossing expected = search_crossing(settings, forward).crossing();
+    settings.config.clockwise = true;
+    const Crossing found = search_crossing(settings, backward).crossing();
+    EXPECT_EQ(found.discs, expected.discs);
+    EXPECT_EQ(found.error, expected.error);
+    settings.config.path = PathShape::line;  // no swirl
+    EXPECT_THROW(search_crossing(settings, backward), UsageError);
+}
+
+TEST(CrossingSearch, AStoppedSearchHasItsPoints) {
+    CrossingControl control = planted(bent, 0.002);
+    std::atomic<int> runs = 0;
+    control.make_run = [&, make = control.make_run](const RunConfig& c, const RunControl& inner) {
+        RunResult r = make(c, inner);
+        r.complete = ++runs <= 10;
+        return r;
+    };
+    control.threads = 1;
+    const CrossingSettings settings;
+    try {
+        search_crossing(settings, control);
+        FAIL() << "the search was not stopped";
+    } catch (const StoppedSearch& stopped) {
+        EXPECT_EQ(stopped.search.runs, 10u);
+        EXPECT_EQ(stopped.search.points().size(), 4u);  // three runs each, and one more
+        EXPECT_THAT(crossing_report(settings, stopped.search), HasSubstr("was stopped before"));
+    }
 }
 
 TEST(CrossingSearch, StopsOnRequest) {

@@ -89,6 +89,26 @@ TEST_F(PlanFile, InvalidPlansAreRejected) {
     EXPECT_THAT(error_of(R"({"format":1)"), testing::HasSubstr("is not the plan of a sweep"));
 }
 
+// A stored map is validated as a map of the command line is.
+TEST_F(PlanFile, ForgedMapsAreRejected) {
+    const auto map = [](const std::string& changes, const std::string& axes = R"("mu":["0","1"])") {
+        return R"({"format":1,"axes":{"discs":["6"],)" + axes +
+               R"(,"periods":["4"],"warmup":["1"]},"replicas":4,"map":{"x":"mu","y":"","of":)"
+               R"("by_time","rate":"by_time","level":0.0,"change":0.0,"tolerance":0.5)" +
+               changes + "}}";
+    };
+    EXPECT_EQ(error_of(map("")), "");
+    // A later key replaces an earlier one.
+    for (const char* change : {R"(,"x":"mu_wall")", R"(,"x":"")", R"(,"x":"seed")", R"(,"y":"mu")",
+                               R"(,"y":"amplitude")", R"(,"of":"N_c")", R"(,"of":"slip.nothing")",
+                               R"(,"of":"")", R"(,"of":"slip.cluster")", R"(,"rate":"rigid")",
+                               R"(,"tolerance":0)", R"(,"tolerance":-1)", R"(,"change":-1)"})
+        EXPECT_THAT(error_of(map(change)), testing::HasSubstr("is damaged: ")) << change;
+    for (const char* axes : {R"("mu":["0","x"])", R"("mu":["0","0"])", R"("mu":["0","-1"])",
+                             R"("mu":["0","1"],"amplitude":["1","2"])", R"("path":["circle"])"})
+        EXPECT_THAT(error_of(map("", axes)), testing::HasSubstr("is damaged: ")) << axes;
+}
+
 TEST_F(PlanFile, HyphensInNamesAreAccepted) {
     EXPECT_EQ(error_of(R"({"format":1,"axes":{"mu-disc":["0.5","1"]},"replicas":1})"), "");
     EXPECT_EQ(read_plan(scratch_.folder()).axes.at(0).name, "mu_disc");

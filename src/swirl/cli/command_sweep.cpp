@@ -101,13 +101,27 @@ PlanOfCall plan_of(SweepCall& call) {
     return {plan};
 }
 
+void warn_of_damaged_results(const SweepStatus& status, const std::string& folder) {
+    if (status.damaged == 0) return;
+    print_warning(
+        fmt::format("{} not whole and count{} as not done; the first is '{}'.\nhint: run `swirl "
+                    "sweep --out {}` "
+                    "to repeat {}.",
+                    status.damaged == 1 ? "1 result file is"
+                                        : fmt::format("{} result files are", status.damaged),
+                    status.damaged == 1 ? "s" : "", status.first_damaged, shell_word(folder),
+                    status.damaged == 1 ? "its run" : "their runs"));
+}
+
 void print_status(const SweepCall& call, const SweepPlan& plan) {
+    require_sweep(call.out, plan);
     const SweepStatus s = sweep_status(call.out, plan);
     std::string text =
         fmt::format("{} of {} runs done, {} running, {} failed, {} to do\n", s.done, s.points,
                     s.running, s.failed, s.points - s.done - s.running - s.failed);
     if (const auto job = slurm_status(call.out)) text += *job + "\n";
     print_all(text);
+    warn_of_damaged_results(s, call.out);
 }
 
 void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutcome& outcome) {
@@ -251,12 +265,12 @@ void add_sweep_command(Subcommand& subcommand) {
 }
 
 /// The table must not overwrite the files of the sweep.
-void reject_part_of_sweep(const fs::path& folder, const fs::path& output) {
+void reject_part_of_sweep(const fs::path& folder, const SweepPlan& plan, const fs::path& output) {
     if (output.empty() || output == "-" || !belongs_to_sweep(folder, canonical_name(output)))
         return;
     throw UsageError(fmt::format(
-        "'{}' belongs to the sweep itself.\nhint: use another name, such as '{}'.", output.string(),
-        (folder / output.filename().replace_extension(".csv")).string()));
+        "'{}' belongs to the {} itself.\nhint: use another name, such as '{}'.", output.string(),
+        plan.kind(), (folder / output.filename().replace_extension(".csv")).string()));
 }
 
 void write_or_print(const std::string& file, const std::string& table) {
@@ -302,8 +316,8 @@ void draw_table(const CollectCall& call) {
 
 /// "11 of 12 runs"; "102 runs" of a map, which does not need all of its points.
 std::string runs_text(const SweepStatus& status, const SweepPlan& plan) {
-    return plan.map ? fmt::format("{} runs", status.done)
-                    : fmt::format("{} of {} runs", status.done, status.points);
+    return plan.needs_all_points() ? fmt::format("{} of {} runs", status.done, status.points)
+                                   : counted(std::int64_t(status.done), "run");
 }
 
 void collect(const CollectCall& call) {
@@ -311,9 +325,9 @@ void collect(const CollectCall& call) {
     const std::string file = call.table_file();
     reject_same_files({file, call.crossings, call.loops});
     reject_plot_options(call);
-    for (const std::string& output : {file, call.crossings, call.loops})
-        reject_part_of_sweep(folder, output);
     const SweepPlan plan = read_plan(folder);
+    for (const std::string& output : {file, call.crossings, call.loops})
+        reject_part_of_sweep(folder, plan, output);
     if (!call.loops.empty() && plan.chain.empty())
         throw UsageError(
             "--loops is given, but this sweep is not a chain with rising and falling values.\n"
@@ -332,7 +346,8 @@ void collect(const CollectCall& call) {
                               call.loops.empty() ? "" : ", " + call.loops + " (areas of loops)") +
                   loops_text(call, plan, collected));
     if (call.plot) draw_table(call);
-    if (s.done < s.points && !plan.map)  // a map does not need all points
+    warn_of_damaged_results(s, call.folder);
+    if (s.done < s.points && plan.needs_all_points())
         print_warning(fmt::format("the table is incomplete: no result yet for {} of {} runs.",
                                   s.points - s.done, s.points));
     for (const std::string& warning : warnings(collected)) print_warning(warning);

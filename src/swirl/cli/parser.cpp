@@ -1,6 +1,7 @@
 #include "swirl/cli/parser.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -170,8 +171,16 @@ struct OptionAdder {
         return app.add_option(option.name, *values, option.description)->expected(1, max_values);
     }
     CLI::Option* operator()(const std::function<void(const std::string&)>& take) const {
-        CLI::Option* const added = app.add_option_function(option.name, take, option.description);
-        return option.joined_by == '\0' ? added : added->join(option.joined_by);
+        if (option.joined_by == '\0')
+            return app.add_option_function(option.name, take, option.description);
+        // The parser's own join() drops empty parts, and then takes the next option as the value.
+        const auto take_joined = [take, separator = std::string(1, option.joined_by)](
+                                     const std::vector<std::string>& values) {
+            take(fmt::format("{}", fmt::join(values, separator)));
+            return true;
+        };
+        return app.add_option(option.name, take_joined, option.description)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
     CLI::Option* operator()(auto* value) const {
         return app.add_option(option.name, *value, option.description);

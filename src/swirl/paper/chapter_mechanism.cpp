@@ -20,7 +20,7 @@ namespace {
 RunConfig mechanism_config(const PaperSettings& settings, std::int64_t discs, double mu) {
     RunConfig config = paper_config(settings, {"", "", mu, mu}, discs);
     config.warmup = settings.periods(20, 2);
-    config.periods = *config.warmup + settings.periods(settings.quick ? 30 : 80, 4);
+    config.periods = *config.warmup + settings.periods(80, 4);
     return config;
 }
 
@@ -169,7 +169,7 @@ FigurePlan plan_figure_gears(const PaperSettings& settings) {
     for (const auto& [quantity, words] : predictors) figure.measured.emplace_back(quantity);
     for (const double mu : settings.quick ? Values{0.1, 1.0} : Values{0.05, 0.1, 0.3, 1.0, 3.0})
         figure.curves.push_back({"", {mu}, fmt::format("μ = {}", mu)});
-    figure.add_points(settings.quick ? std::vector<std::int64_t>{20, 34, 46}
+    figure.add_points(settings.quick ? std::vector<std::int64_t>{22, 34, 46}
                                      : std::vector<std::int64_t>{16, 22, 28, 34, 40, 46});
     for (const CurveFigure::Point& p : figure.points) {
         const double mu = std::get<double>(figure.curves[p.curve].cells[0]);
@@ -208,6 +208,7 @@ FigurePlan plan_figure_contacts(const PaperSettings& settings) {
     for (const CurveFigure::Point& p : figure.points) {
         RunConfig config = mechanism_config(settings, p.discs, 1.0);
         config.frictionless = smooth_contacts[p.curve].kind;
+        if (config.frictionless == Frictionless::wall) config.mu_wall = 0.0;
         plan.points.push_back(
             varied_point(settings,
                          fmt::format("contacts_{}_N{}_{}", smooth_contacts[p.curve].name, p.discs,

@@ -39,10 +39,22 @@ std::optional<std::string> contact_longer_than_period(const RunConfig& c) {
 std::optional<std::string> problem_with_ratios(const RunConfig& c) {
     if (auto message = contact_longer_than_period(c)) return message;
     if (!c.mixture) return {};
+    if (const auto& percent = c.mixture->percent) {
+        if (!(*percent > 0.0 && *percent <= 100.0))
+            return fmt::format(
+                "the share in --mixture is {} %, but it must be above 0 and at most 100 %.",
+                *percent);
+        if (c.mixture->count < 1)
+            return fmt::format(
+                "the share in --mixture is {} %, which rounds to none of {}.\nhint: use a larger "
+                "share or more {}s.",
+                *percent, counted(c.discs, body_word(c)), body_word(c));
+    }
     if (c.mixture->count < 1 || c.mixture->count > c.discs)
         return fmt::format(
-            "the count in --mixture is {}, but it must be a whole number from 1 to {}.",
-            c.mixture->count, c.discs);
+            "the count in --mixture is {}, but it must be a whole number from 1 to {}.\nhint: a "
+            "share, such as --mixture 50%:{}, is possible for any number of {}s.",
+            c.mixture->count, c.discs, c.mixture->radius, body_word(c));
     if (auto message = out_of_interval("the radius in --mixture", c.mixture->radius, smallest_value,
                                        largest_value))
         return message;
@@ -63,7 +75,8 @@ std::optional<std::string> problem_with_area(const RunConfig& c) {
         area = (static_cast<double>(c.discs) - count) * c.radius * c.radius +
                count * c.mixture->radius * c.mixture->radius;
     } else {
-        for (const Particle& particle : particles_of(c)) area += particle.radius * particle.radius;
+        for (const ParticleProperties& particle : particles_of(c))
+            area += particle.radius * particle.radius;
     }
     if (area <= R * R) return {};
     return fmt::format(
@@ -249,10 +262,12 @@ std::string no_placement_message(const RunConfig& c) {
 }  // namespace
 
 InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* stop) {
-    const std::vector<Particle> particles = particles_of(c);
+    // A configuration may have been changed since resolve() validated it.
+    if (const auto message = problem(c)) throw_usage_error(*message);
+    const std::vector<ParticleProperties> particles = particles_of(c);
     std::vector<double> radii;
     radii.reserve(particles.size());
-    for (const Particle& particle : particles) radii.push_back(particle.radius);
+    for (const ParticleProperties& particle : particles) radii.push_back(particle.radius);
 
     const auto centres =
         place_discs(radii, c.container_radius, c.seed, stopped_by(stop).is_stopped);

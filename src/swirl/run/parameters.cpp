@@ -90,13 +90,19 @@ void read_parameter(const Parameter& p, std::string_view text, const ParameterTe
         read_member(p, text, config);
 }
 
+std::string count_text(const Mixture& m) {
+    return m.percent ? fmt::format("{}%", *m.percent) : std::to_string(m.count);
+}
+
 std::string as_text(const ParameterValue& value) {
-    return std::visit(
-        Overloaded{
-            [](std::monostate) { return std::string(); }, [](const std::string& s) { return s; },
-            [](const Mixture& m) { return fmt::format("{}:{}:{}", m.count, m.radius, m.mass); },
-            [](auto number) { return fmt::format("{}", number); }},
-        value);
+    return std::visit(Overloaded{[](std::monostate) { return std::string(); },
+                                 [](const std::string& s) { return s; },
+                                 [](const Mixture& m) {
+                                     return fmt::format("{}:{}:{}", count_text(m), m.radius,
+                                                        m.mass);
+                                 },
+                                 [](auto number) { return fmt::format("{}", number); }},
+                      value);
 }
 
 /// 1e6 for 1000000.
@@ -175,14 +181,18 @@ void read_mu(std::string_view text, const ParameterTexts&, RunConfig& config) {
 /// In the order of Frictionless.
 static constexpr std::array frictionless_names{"none", "wall", "boundary", "bulk"};
 
-void read_frictionless(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    for (std::size_t k = 0; k < frictionless_names.size(); ++k)
-        if (text == frictionless_names[k]) {
-            config.frictionless = static_cast<Frictionless>(k);
-            return;
-        }
-    reject_choice("frictionless", text, {frictionless_names.begin(), frictionless_names.end()},
-                  "none, wall, boundary or bulk");
+void read_frictionless(std::string_view text, const ParameterTexts& given, RunConfig& config) {
+    const auto found = std::find(frictionless_names.begin(), frictionless_names.end(), text);
+    if (found == frictionless_names.end())
+        reject_choice("frictionless", text, {frictionless_names.begin(), frictionless_names.end()},
+                      "none, wall, boundary or bulk");
+    config.frictionless = static_cast<Frictionless>(found - frictionless_names.begin());
+    if (config.frictionless != Frictionless::wall) return;
+    if (given.contains("mu_wall") && config.mu_wall != 0.0)
+        throw_usage_error(
+            fmt::format("--frictionless is wall, but --mu-wall is {}.\nhint: omit one of the two.",
+                        config.mu_wall));
+    config.mu_wall = 0.0;
 }
 ParameterValue write_frictionless(const RunConfig& config) {
     if (config.frictionless == Frictionless::none) return {};
@@ -264,19 +274,22 @@ std::string format_inertia(const RunConfig& config) {
 
 void read_mixture(std::string_view text, const ParameterTexts&, RunConfig& config) {
     constexpr auto allowed =
-        "COUNT:RADIUS or COUNT:RADIUS:MASS, for example 12:1.4 for twelve discs of radius 1.4";
-    const auto first = text.find(':');
-    if (first == text.npos) reject_text("mixture", text, allowed);
-    const auto second = text.find(':', first + 1);
-    const auto count = read_whole_number(text.substr(0, first));
-    const auto radius =
-        read_number(text.substr(first + 1, second == text.npos ? second : second - first - 1));
-    if (!count || !radius) reject_text("mixture", text, allowed);
-    config.mixture = Mixture{*count, *radius, mass_of_same_material(*radius, config)};
-    if (second == text.npos) return;
-    const auto mass = read_number(text.substr(second + 1));
+        "COUNT:RADIUS or COUNT:RADIUS:MASS, for example 12:1.4 for twelve discs of radius 1.4 or "
+        "25%:1.4 for a quarter of the discs";
+    const auto parts = split(text, ":");
+    if (parts.size() < 2 || parts.size() > 3) reject_text("mixture", text, allowed);
+    const bool is_share = parts[0].ends_with('%');
+    const auto percent =
+        is_share ? read_number(parts[0].substr(0, parts[0].size() - 1)) : std::nullopt;
+    const auto count = is_share ? std::nullopt : read_whole_number(parts[0]);
+    const auto radius = read_number(parts[1]);
+    if ((!count && !percent) || !radius) reject_text("mixture", text, allowed);
+    const auto mass =
+        parts.size() == 3 ? read_number(parts[2]) : mass_of_same_material(*radius, config);
     if (!mass) reject_text("mixture", text, allowed);
-    config.mixture->mass = *mass;
+    config.mixture = Mixture{count.value_or(0), *radius, *mass, percent};
+    if (percent && *percent >= 0.0 && *percent <= 100.0)  // others are rejected (config.cpp)
+        config.mixture->count = std::llround(*percent * double(config.discs) / 100.0);
 }
 
 ParameterValue write_mixture(const RunConfig& config) {
@@ -287,7 +300,7 @@ ParameterValue write_mixture(const RunConfig& config) {
 std::string format_mixture(const RunConfig& config) {
     const Mixture& m = *config.mixture;
     if (m.mass == mass_of_same_material(m.radius, config))
-        return fmt::format("{}:{}", m.count, m.radius);
+        return fmt::format("{}:{}", count_text(m), m.radius);
     return as_text(m);
 }
 
@@ -421,6 +434,12 @@ ParameterTexts texts_of(const RunConfig& config) {
     return texts;
 }
 
+RunConfig with_discs(const RunConfig& config, std::int64_t discs) {
+    ParameterTexts texts = texts_of(config);
+    texts["discs"] = std::to_string(discs);
+    return resolve(texts);
+}
+
 ParameterTexts overridden(ParameterTexts file, const ParameterTexts& command_line) {
     // A preset replaces all parameters that it sets, and those that follow from them.
     if (command_line.contains("preset"))
@@ -431,6 +450,9 @@ ParameterTexts overridden(ParameterTexts file, const ParameterTexts& command_lin
     // A ramp replaces the file's values of its parameters.
     if (const auto ramp = command_line.find("ramp"); ramp != command_line.end())
         for (const std::string& name : parameters_set_by_ramps(ramp->second)) file.erase(name);
+    if (const auto smooth = command_line.find("frictionless");
+        smooth != command_line.end() && smooth->second == "wall")
+        file.erase("mu_wall");
     for (const auto& [name, text] : command_line)
         if (const Parameter* const p = find_parameter(name))
             for (const char* other : p->overrides)

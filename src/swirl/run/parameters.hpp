@@ -69,6 +69,7 @@ constexpr double experiment_gravity(double amplitude_mm) {
 struct Mixture {
     std::int64_t count;
     double radius, mass;
+    std::optional<double> percent = {};  // if given: `count` is this share, rounded (with_discs())
     bool operator==(const Mixture&) const = default;
 };
 
@@ -260,7 +261,7 @@ inline constexpr const char *particles = "Particles", *container = "Container", 
 /// In the order of `swirl run --help`, of the JSON and of the axes of a sweep.
 inline constexpr auto run_parameters = std::to_array<Parameter>({
     {.name = "preset",
-     .form = "experiment[-rough|-half]",
+     .form = "experiment|experiment-rough|experiment-half",
      .description = "The paper's experiment as defaults: smooth spheres",
      .details =
          "Spheres of r = 3 mm on a floor, R = 25.5 mm, Ω = 11.81 /s, e = 0.9. experiment: A = "
@@ -364,10 +365,12 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .range = parameter_range::positive,
      .slider = {0.1, 2, 0.05}},
     {.name = "mixture",
-     .form = "COUNT:RADIUS[:MASS]",
+     .form = "N|P%:RADIUS[:MASS]",
      .description = "Second species: number, radius and mass of its particles",
-     .details = "They are part of --discs. The default mass is that of the same material: m ~ r^2 "
-                "for discs, r^3 for spheres.",
+     .details = "They are part of --discs. A share in percent, such as 50%, is rounded to whole "
+                "particles. "
+                "The default mass is that of the same material: m ~ r^2 for discs, r^3 for "
+                "spheres.",
      .group = parameter_group::particles,
      .range = parameter_range::positive,
      .read = read_mixture,
@@ -653,6 +656,10 @@ RunConfig resolve(const ParameterTexts& given);
 
 /// Texts from which resolve() makes the same configuration.
 ParameterTexts texts_of(const RunConfig& config);
+
+/// The configuration with another number of discs, made by resolve(): a share of a mixture gets its
+/// number of discs again, and a number that cannot be run is rejected. Throws UsageError.
+RunConfig with_discs(const RunConfig& config, std::int64_t discs);
 
 /// The parameters of a file, overridden by those of the command line. An option also removes the
 /// file's parameters that it replaces: --mu removes mu_disc, --periods removes events.

@@ -39,6 +39,10 @@ std::string steady_state_found(const RunResult& result);
 /// energy, overlap and computing time.
 std::string report(const RunResult& result, bool verbose);
 
+/// "24 of 48 discs have radius 0.8: 50 %, rounded to whole discs" for a mixture given as a share;
+/// otherwise empty.
+std::string rounded_share_text(const RunConfig& config);
+
 /// Reasons to distrust the numbers: stopped early, not steady, energy growing without bound. A
 /// warning may have a second line "hint: …". Empty if there are none.
 std::vector<std::string> warnings(const RunResult& result);

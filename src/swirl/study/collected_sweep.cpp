@@ -224,16 +224,25 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
             "the crossings are sign changes with the number of discs, but --discs is not a "
             "parameter of this sweep.");
     if (!plan.chain.empty()) others.emplace_back("direction");
+    const auto config_of = [&](const CollectedRow& row) {
+        ParameterTexts texts = row.parameters;
+        if (!plan.chain.empty()) texts.erase("direction");  // up or down
+        return resolve(texts);
+    };
     std::vector<ParameterTexts> groups;  // in the order of the rows
     std::map<ParameterTexts, RotationCurves> curves;
     for (const CollectedRow& row : collected.rows) {
         ParameterTexts group = row.parameters;
         group.erase("discs");
         RotationCurves& all = curves[group];
-        if (all.front().empty()) groups.push_back(group);
+        if (all.front().empty()) {
+            groups.push_back(group);
+            require_crossing(config_of(row));
+        }
+        const double sign = swirl_sign(config_of(row));
         const double discs = read_number(row.parameters.at("discs")).value_or(not_available);
         for (std::size_t r = 0; r < all.size(); ++r)
-            all[r].push_back({discs, row.rotation[r].mean, row.rotation[r].error});
+            all[r].push_back({discs, sign * row.rotation[r].mean, row.rotation[r].error});
     }
     std::vector<std::string> columns = others;
     for (const std::string& name : crossing_columns()) columns.push_back(name);

@@ -73,10 +73,19 @@ Json points_json(const CrossingSearch& s) {
 /// Why the search stopped with an error above the tolerance.
 std::string stop_reason(const CrossingSettings& settings, const CrossingSearch& search) {
     if (search.within_tolerance) return {};
+    if (search.stopped)
+        return fmt::format(" The search was stopped before --tolerance {} was reached.",
+                           settings.tolerance);
     if (!search.crossing().last()->resolved())
         return fmt::format(
             " The search stopped here because every run in between failed; --tolerance {} was not "
             "reached.",
+            settings.tolerance);
+    if (search.disagreeing > 0)
+        return fmt::format(
+            " The search stopped before --tolerance {} was reached: seeds differ by more than "
+            "their "
+            "errors, and the number of runs is limited.",
             settings.tolerance);
     return fmt::format(
         " The search stopped before --tolerance {} was reached, after {} rounds of runs twice as "
@@ -93,10 +102,10 @@ std::string later_change_note(const Crossing& c) {
 }
 
 /// "between N = 8 and 20 the lowest is ϖ/Ω = 0.21 ± 0.01 at N = 20"
-std::string evidence(const CrossingSearch& search, const RotationPoint& lowest) {
-    return fmt::format("between N = {:.0f} and {:.0f} the lowest is ϖ/Ω = {} at N = {:.0f}",
-                       search.points().front().discs, search.points().back().discs,
-                       with_error(lowest.mean, lowest.error), lowest.discs);
+std::string evidence(const CrossingSearch& search, const char* which, const RotationPoint& point) {
+    return fmt::format("between N = {:.0f} and {:.0f} the {} is ϖ/Ω = {} at N = {:.0f}",
+                       search.points().front().discs, search.points().back().discs, which,
+                       with_error(point.mean, point.error), point.discs);
 }
 
 std::string crossing_sentence(const CrossingSettings& settings, const CrossingSearch& search) {
@@ -114,7 +123,10 @@ std::string verdict_report(const CrossingSettings& settings, const CrossingSearc
         return fmt::format("Undecided: every run between N = {} and {} failed.", settings.from,
                            settings.to);
     const Crossing& c = search.crossing();
-    const RotationPoint& lowest = *std::min_element(
+    if (search.stopped && c.verdict != Crossing::Verdict::crosses)
+        return "Undecided: the search was stopped before it found a change of direction.";
+    // The rate nearest to zero decides.
+    const auto [lowest, highest] = std::minmax_element(
         search.points().begin(), search.points().end(),
         [](const RotationPoint& a, const RotationPoint& b) { return a.mean < b.mean; });
     const char* const body = body_word(settings.config);
@@ -124,15 +136,16 @@ std::string verdict_report(const CrossingSettings& settings, const CrossingSearc
         case Crossing::Verdict::always_rotates:
             return fmt::format(
                 "No crossing: the {}s always rotate; {}, {:.0f} standard errors above zero.", body,
-                evidence(search, lowest), lowest.mean / lowest.error);
+                evidence(search, "lowest", *lowest), lowest->mean / lowest->error);
         case Crossing::Verdict::always_counterrotates:
-            return fmt::format("No crossing: the {}s always counterrotate; {}.", body,
-                               evidence(search, lowest));
+            return fmt::format(
+                "No crossing: the {}s always counterrotate; {}, {:.0f} standard errors below zero.",
+                body, evidence(search, "highest", *highest), -highest->mean / highest->error);
         case Crossing::Verdict::undecided:
             break;
     }
     return fmt::format("Undecided: {}; the sign is undetermined at N = {}. Use more --events.",
-                       evidence(search, lowest), listed(c.undetermined));
+                       evidence(search, "lowest", *lowest), listed(c.undetermined));
 }
 
 }  // namespace
@@ -268,19 +281,19 @@ std::string other_crossings_report(const CrossingSearch& search) {
 
 std::vector<std::string> warnings(const CrossingSearch& search) {
     std::vector<std::string> all;
+    const char* const decisive = search.crossing().last() ? " that N_c depends on" : "";
     if (search.not_steady > 0)
         all.push_back(
-            fmt::format("{} of the runs that N_c depends on {} not steady after the warm-up."
-                        "\nhint: use a longer --warmup, or --warmup auto.",
-                        search.not_steady, search.not_steady == 1 ? "was" : "were"));
+            fmt::format("{} of the runs{} {} not steady after the warm-up.\nhint: use a "
+                        "longer --warmup, or --warmup auto.",
+                        search.not_steady, decisive, search.not_steady == 1 ? "was" : "were"));
     if (search.too_short > 0)
-        all.push_back(fmt::format(
-            "steady state not verified for {} of the runs that N_c depends on: too short.",
-            search.too_short));
+        all.push_back(fmt::format("steady state not verified for {} of the runs{}: too short.",
+                                  search.too_short, decisive));
     if (search.disagreeing > 0)
         all.push_back(disagreement_warning(
             search.disagreeing,
-            fmt::format("{} numbers of discs that N_c depends on", search.decisive_numbers)));
+            fmt::format("{} numbers of discs{}", search.decisive_numbers, decisive)));
     return all;
 }
 

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/statistics/replicates.hpp"
@@ -23,36 +24,30 @@ constexpr int max_sign_rounds = 4;  // step 3: rounds of further runs at one num
 
 using Numbers = std::set<std::int64_t>;  // of discs
 
-/// What the search stores of a run.
-struct FinishedRun {
-    std::array<Estimate, rotation_rates.size()> rotation;
-    double periods;  // after the warm-up
-    SteadyState::Verdict verdict;
-};
-
 /// The runs at one number of discs.
 struct RunGroup {
-    std::vector<FinishedRun> finished;
+    std::vector<SearchRun> finished;
     std::int64_t failed = 0;
-    int rounds = 0;  // of further runs, each twice as long as all before
+    int rounds = 0;         // of further runs
+    int doublings = 0;      // of the length, by these rounds
+    bool scatters = false;  // the replicates disagree, so further runs are no longer
     std::int64_t attempted() const { return std::int64_t(finished.size()) + failed; }
 };
 
 struct RunTask {
-    std::int64_t discs;
-    std::uint64_t seed;
-    int round;
+    std::int64_t discs, replica;
+    int doublings;
 };
 
 struct RunOutcome {
-    std::optional<FinishedRun> run;
+    std::optional<SearchRun> run;
     std::string failure;
 };
 
-Ensemble combined(const std::vector<FinishedRun>& runs, std::size_t rate) {
+Ensemble combined(const std::vector<SearchRun>& runs, std::size_t rate) {
     std::vector<Estimate> estimates;
     std::vector<double> periods;
-    for (const FinishedRun& run : runs) {
+    for (const SearchRun& run : runs) {
         estimates.push_back(run.rotation[rate]);
         periods.push_back(run.periods);
     }
@@ -65,13 +60,19 @@ class Searcher {
         : settings_(settings), control_(control) {}
 
     CrossingSearch search() {
-        make_runs(coarse_numbers(), "coarse scan");
-        fill_brackets();
-        for (Numbers more = numbers_for_more_runs(); !more.empty();
-             more = numbers_for_more_runs()) {
-            for (const std::int64_t n : more) ++groups_[n].rounds;
-            make_runs(more, "longer runs");
+        try {
+            make_runs(coarse_numbers(), "coarse scan");
             fill_brackets();
+            for (Numbers more = numbers_for_more_runs(); !more.empty();
+                 more = numbers_for_more_runs()) {
+                for (const std::int64_t n : more) begin_round(groups_[n]);
+                make_runs(more, "more runs");
+                fill_brackets();
+            }
+        } catch (const Interrupted& stopped) {
+            CrossingSearch so_far = result();
+            so_far.stopped = true;
+            throw StoppedSearch(stopped.what(), std::move(so_far));
         }
         return result();
     }
@@ -135,7 +136,9 @@ class Searcher {
     }
 
     bool has_rounds_left(std::int64_t n, int max_rounds) const {
-        return groups_.at(n).rounds < std::min(max_rounds, settings_.rounds);
+        const RunGroup& group = groups_.at(n);
+        return group.rounds < std::min(max_rounds, settings_.rounds) &&
+               2 * group.attempted() <= max_search_runs;
     }
 
     bool is_within_tolerance(const Crossing& crossing) const {
@@ -167,40 +170,55 @@ class Searcher {
         return all;
     }
 
-    /// Makes `seeds` new runs at each of these numbers, with the length of its round.
+    void begin_round(RunGroup& group) const {
+        ++group.rounds;
+        group.scatters = group.scatters || combined(group.finished, settings_.rate).disagree;
+        if (!group.scatters) ++group.doublings;
+    }
+
+    /// Makes new runs at each of these numbers. If stopped, the finished ones count.
     void make_runs(const Numbers& numbers, const char* stage) {
         const std::vector<RunTask> tasks = tasks_at(numbers);
-        std::vector<RunOutcome> outcomes(tasks.size());
-        parallel_for(
-            tasks.size(), [&](std::size_t k) { outcomes[k] = outcome_of(tasks[k], stage); },
-            control_.threads);
-        for (std::size_t k = 0; k < tasks.size(); ++k) record(groups_[tasks[k].discs], outcomes[k]);
+        std::vector<std::optional<RunOutcome>> outcomes(tasks.size());
+        std::exception_ptr stopped;
+        try {
+            parallel_for(
+                tasks.size(), [&](std::size_t k) { outcomes[k] = outcome_of(tasks[k], stage); },
+                control_.threads);
+        } catch (const Interrupted&) {
+            stopped = std::current_exception();
+        }
+        for (std::size_t k = 0; k < tasks.size(); ++k)
+            if (outcomes[k]) record(groups_[tasks[k].discs], *outcomes[k]);
+        if (stopped) std::rethrow_exception(stopped);
     }
 
     std::vector<RunTask> tasks_at(const Numbers& numbers) {
         std::vector<RunTask> tasks;
         for (auto n = numbers.rbegin(); n != numbers.rend(); ++n) {  // long runs first
             const RunGroup& group = groups_[*n];
-            const std::uint64_t first_seed =
-                settings_.config.seed + static_cast<std::uint64_t>(group.attempted());
-            for (int s = 0; s < settings_.seeds; ++s)
-                tasks.push_back({*n, first_seed + static_cast<std::uint64_t>(s), group.rounds});
+            const std::int64_t before = group.attempted(),
+                               count = group.scatters ? before : settings_.seeds;
+            for (std::int64_t k = before; k < before + count; ++k)
+                tasks.push_back({*n, k, group.doublings});
         }
         return tasks;
     }
 
     RunOutcome outcome_of(const RunTask& task, const char* stage) {
-        RunConfig config = settings_.config;
-        config.discs = task.discs;
-        config.events = settings_.config.events << task.round;
-        config.seed = task.seed;
         try {
-            const RunResult r = long_enough_run(config, settings_.min_periods << task.round, stage);
-            return {FinishedRun{r.rotation.all(), r.periods - static_cast<double>(r.warmup),
-                                r.steady_state()},
-                    ""};
+            RunConfig config = with_discs(settings_.config, task.discs);
+            config.periods.reset();
+            config.events = settings_.config.events << task.doublings;
+            config.seed = search_seed(config, task.replica);
+            SearchRun run = long_enough_run(config, task);
+            for (Estimate& rate : run.rotation) rate.mean *= swirl_sign(config);
+            report_progress(stage, run.events);
+            return {run, ""};
         } catch (const Failure& failure) {
             return {std::nullopt, failure.what()};
+        } catch (const UsageError& error) {  // with this seed, the discs do not fit
+            return {std::nullopt, error.what()};
         }
     }
 
@@ -214,21 +232,28 @@ class Searcher {
         if (first_failure_.empty()) first_failure_ = outcome.failure;
     }
 
-    /// A run of at least config.events events and at least `periods` periods after the warm-up.
-    RunResult long_enough_run(RunConfig config, std::int64_t periods, const char* stage) {
+    /// A run of at least config.events events and at least as many periods as its round requires.
+    SearchRun long_enough_run(const RunConfig& by_events, const RunTask& task) {
+        RunConfig by_periods = by_events;
+        by_periods.periods =
+            by_events.warmup.value_or(default_warmup) + (settings_.min_periods << task.doublings);
+        const auto has_enough_events = [&](std::uint64_t events) {
+            return events >= static_cast<std::uint64_t>(by_events.events);
+        };
+        if (control_.stored)
+            if (const auto run = control_.stored->find(
+                    task.discs, task.replica, {config_text(by_periods), config_text(by_events)});
+                run && has_enough_events(run->events))
+                return *run;
         RunControl run_control;
         run_control.stop = control_.stop;
-        config.periods = config.warmup.value_or(default_warmup) + periods;
-        RunResult result = control_.make_run(config, run_control);
-        const bool has_too_few_events =
-            result.events.total() < static_cast<std::uint64_t>(config.events);
-        if (result.complete && has_too_few_events) {
-            config.periods.reset();
-            result = control_.make_run(config, run_control);
-        }
-        if (!result.complete) throw Interrupted("stopped before the crossing was found.");
-        report_progress(stage, result.events.total());
-        return result;
+        RunResult r = control_.make_run(by_periods, run_control);
+        if (r.complete && !has_enough_events(r.events.total()))
+            r = control_.make_run(by_events, run_control);
+        if (!r.complete) throw Interrupted("stopped before the crossing was found.");
+        if (control_.stored) control_.stored->store(task.discs, task.replica, r);
+        return {r.rotation.all(), r.periods - static_cast<double>(r.warmup), r.steady_state(),
+                r.events.total()};
     }
 
     double seconds() const {
@@ -261,8 +286,8 @@ class Searcher {
         return search;
     }
 
-    void count_doubtful(const std::vector<FinishedRun>& runs, CrossingSearch& search) const {
-        for (const FinishedRun& run : runs) {
+    void count_doubtful(const std::vector<SearchRun>& runs, CrossingSearch& search) const {
+        for (const SearchRun& run : runs) {
             const bool too_short = run.verdict == SteadyState::Verdict::too_short;
             search.too_short += too_short ? 1 : 0;
             search.not_steady += !too_short && run.verdict != SteadyState::Verdict::steady ? 1 : 0;
@@ -299,9 +324,7 @@ void validate(const CrossingSettings& settings) {
         throw UsageError(fmt::format(
             "--step is {}, but it must be 1 or more, or 0 for about {} numbers of discs.",
             settings.step, coarse_points));
-    RunConfig largest = settings.config;
-    largest.discs = settings.to;
-    if (const auto message = problem(largest)) throw UsageError(*message);
+    for (std::int64_t n = settings.from; n <= settings.to; ++n) with_discs(settings.config, n);
     if (!(settings.tolerance > 0.0))
         throw UsageError(
             fmt::format("--tolerance, the target standard error of N_c, is {}, but it must be "
@@ -310,13 +333,23 @@ void validate(const CrossingSettings& settings) {
 }
 
 void require_crossing(const RunConfig& config) {
-    if (!has_m_frame(config))
+    RunConfig mirrored = config;
+    mirrored.clockwise = false;
+    if (!has_m_frame(mirrored))
         throw UsageError(
             "on this path there is no swirl with which the discs could rotate or counterrotate, so "
-            "there is no N_c.\nhint: use a counter-clockwise path that is nearly a circle.");
+            "there is no N_c.\nhint: use a path that is nearly a circle.");
     if (!config.ramps.empty())
         throw UsageError(
             "ramp is given, but a search for N_c needs a steady state.\nhint: omit it.");
+}
+
+void reject_listed_sizes(const ParameterTexts& given) {
+    const auto sizes = given.find("sizes");
+    if (sizes != given.end() && sizes->second.find("list ") != std::string::npos)
+        throw UsageError(
+            "--sizes lists every particle, but a search for N_c varies their number.\nhint: give a "
+            "distribution, such as --sizes normal:1:0.1.");
 }
 
 CrossingSearch search_crossing(const CrossingSettings& settings, const CrossingControl& control) {

@@ -6,12 +6,15 @@
 //    a few periods of a dense container do not show its mean.
 // 2. Narrowing: runs of the same length at the middle of each bracket, until every number in it has
 //    runs. This is done for all four rotation rates.
-// 3. Signs: numbers outside every bracket with an undetermined sign get `seeds` more runs, twice as
-//    long as the ones before, until the sign is certain, at most four times. Those that stay
-//    undetermined are reported.
-// 4. Tolerance: the numbers in the bracket of N_c get `seeds` more runs, twice as long as the ones
-//    before, until the error of N_c is below the tolerance. A number gets more runs at most
-//    `rounds` times. Then the search stops, and its report says so.
+// 3. Signs: numbers outside every bracket with an undetermined sign get more runs until the sign is
+//    certain, at most four times. Those that stay undetermined are reported.
+// 4. Tolerance: the numbers in the bracket of N_c get more runs until the error of N_c is below the
+//    tolerance. A number gets more runs at most `rounds` times. Then the search stops, and its
+//    report says so.
+//
+// More runs are `seeds` runs twice as long as the ones before. If the replicates at a number scatter
+// more than their errors explain, longer runs do not help, for example because each seed draws
+// other sizes. From then on, more runs there are as many as before, of the same length.
 //
 // After each step the search narrows again. One rotation rate controls steps 3 and 4; the other
 // three are evaluated from the same runs. The runs at a number near N_c depend on the runs made
@@ -26,21 +29,27 @@
 // Runs at one number of discs are combined with their periods as weights. The error is the one
 // within and between them (statistics/replicates.hpp). The runs made depend on their results and
 // the seed, never on the number of threads.
+//
+// Rates count in the direction of the swirl, so a clockwise path has the N_c of its mirror image.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "swirl/io/table.hpp"
 #include "swirl/measure/rotation_crossings.hpp"
+#include "swirl/run/failure.hpp"
 #include "swirl/run/run.hpp"
 
 namespace swirl {
 
 /// Default number of events of the first runs: fewer than for a single run.
 inline constexpr const char* default_search_events = "2e4";
+/// Maximum number of runs at one number of discs.
+inline constexpr std::int64_t max_search_runs = 1000;
 
 struct CrossingSettings {
     RunConfig config;  // events: those of the first runs; the number of discs is ignored
@@ -72,6 +81,7 @@ struct CrossingSearch {
     /// Runs at these numbers that are not steady after their warm-up, or too short to test.
     std::int64_t not_steady = 0, too_short = 0;
     bool within_tolerance = false;
+    bool stopped = false;  // before its end, by CrossingControl::stop
     double seconds = 0.0;
 
     const Crossing& crossing() const { return crossings[rate]; }
@@ -85,10 +95,44 @@ struct CrossingSearch {
     }
 };
 
+/// Replicas have consecutive seeds. Random sizes follow from the seed, so each number of discs then
+/// has its own seeds: otherwise neighbours would deviate together, and N_c by more than its error.
+inline std::uint64_t search_seed(const RunConfig& config, std::int64_t replica) {
+    const std::int64_t first = config.sizes ? config.discs * max_search_runs : 0;
+    return config.seed + static_cast<std::uint64_t>(first + replica);
+}
+
+/// What a search uses of a run.
+struct SearchRun {
+    std::array<Estimate, rotation_rates.size()> rotation;
+    double periods;  // after the warm-up
+    SteadyState::Verdict verdict;
+    std::uint64_t events;
+};
+
+/// The runs of earlier calls.
+class StoredRuns {
+  public:
+    virtual ~StoredRuns() = default;
+    /// The stored run, if its configuration has one of these texts.
+    virtual std::optional<SearchRun> find(std::int64_t discs, std::int64_t replica,
+                                          const std::vector<std::string>& config_texts) = 0;
+    virtual void store(std::int64_t discs, std::int64_t replica, const RunResult& result) = 0;
+};
+
+/// The search was stopped. Holds what it has found so far.
+class StoppedSearch : public Interrupted {
+  public:
+    StoppedSearch(const std::string& message, CrossingSearch so_far)
+        : Interrupted(message), search(std::move(so_far)) {}
+    CrossingSearch search;
+};
+
 struct CrossingControl {
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string& stage, double events_per_second)> progress;
     unsigned threads = 0;  // 0: all cores
+    StoredRuns* stored = nullptr;
     /// Makes a run; tests replace it by a known curve.
     std::function<RunResult(const RunConfig&, const RunControl&)> make_run =
         [](const RunConfig& config, const RunControl& control) { return run(config, control); };
@@ -96,14 +140,22 @@ struct CrossingControl {
 
 /// Throws UsageError if the range is empty.
 void validate_range(const CrossingSettings& settings);
-/// Throws UsageError if the range is empty, the discs do not fit, or another setting is invalid.
+/// Throws UsageError if the range is empty, a number of discs in it cannot be run, or another
+/// setting is invalid.
 void validate(const CrossingSettings& settings);
 
-/// Throws UsageError if runs of this configuration have no N_c: on a path without an M-frame there
-/// is no swirl to rotate with, and in a ramp there is no steady state.
+/// Throws UsageError if runs of this configuration have no N_c: on a path that is not nearly a
+/// circle there is no swirl to rotate with, and in a ramp there is no steady state.
 void require_crossing(const RunConfig& config);
 
-/// Validates the settings and searches. Throws Interrupted when stopped. The result has no points
+/// Throws UsageError if the parameters list the sizes of all particles: a search varies their
+/// number.
+void reject_listed_sizes(const ParameterTexts& given);
+
+/// The sign of a rotation with the swirl: −1 on a clockwise path.
+inline double swirl_sign(const RunConfig& config) { return config.clockwise ? -1.0 : 1.0; }
+
+/// Validates the settings and searches. Throws StoppedSearch when stopped. The result has no points
 /// if every run failed.
 CrossingSearch search_crossing(const CrossingSettings& settings,
                                const CrossingControl& control = {});

@@ -13,6 +13,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/study/collected_sweep.hpp"
+#include "swirl/study/crossing_search.hpp"
 #include "swirl/study/point_result.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
@@ -50,9 +51,14 @@ class MapResults {
         MapRun run;
         if (done_[point]) {
             const PointResult result = read_result(folder_, plan_, point);
+            if (!result.exists) {  // a damaged file
+                done_[point] = false;
+                return nullptr;
+            }
             const MapTarget& target = *plan_.map;
             const std::string& name = target.is_of_crossing() ? target.rate : target.of;
             run.value = result.quantity(0, name);
+            if (target.is_of_crossing()) run.value.mean *= swirl_sign(plan_.config(point));
             run.periods = result.periods;
             for (const MeasuredNumber& number : result.quantities)
                 if (number.name == name) run.direction = number.direction;

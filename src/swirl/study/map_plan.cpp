@@ -105,32 +105,88 @@ void validate_runs(std::int64_t runs) {
     validate_whole_number("--seeds", runs, 1, max_runs_at_a_point);
 }
 
-void validate_settings(const MapSettings& s) {
+/// Checks that need only the target and the maximum of runs at a point.
+void validate_target(const MapTarget& m, std::int64_t max_runs) {
     const auto reject = [](const char* name, auto value, const std::string& must) {
         throw UsageError(fmt::format("{} is {}, but it must be {}.", name, value, must));
     };
-    if (s.x.name.empty()) throw UsageError("missing required option --x NAME=VALUES.");
-    if (s.x.name == s.y.name) throw UsageError(fmt::format("--x and --y are both {}.", s.x.name));
-    validate_steps(s.steps);
-    validate_runs(s.max_runs);
-    if (!std::isfinite(s.level)) reject("--level", s.level, "a finite number");
-    if (s.change && !(*s.change >= 0.0)) reject("--change", *s.change, "0 or above");
-    if (!(s.tolerance > 0.0)) reject("--tolerance", s.tolerance, "above 0");
-    for (const std::string& axis : {s.x.name, s.y.name}) {
+    if (m.x.empty()) throw UsageError("missing required option --x NAME=VALUES.");
+    if (m.x == m.y) throw UsageError(fmt::format("--x and --y are both {}.", m.x));
+    validate_runs(max_runs);
+    if (!std::isfinite(m.level)) reject("--level", m.level, "a finite number");
+    if (!(m.change >= 0.0)) reject("--change", m.change, "0 or above");
+    if (!(m.tolerance > 0.0)) reject("--tolerance", m.tolerance, "above 0");
+    rate_named(m.rate);  // throws for an unknown name
+    for (const std::string& axis : {m.x, m.y}) {
         if (axis == "seed")
             throw UsageError("the seed cannot be an axis of a map: each run has its own seed.");
+        if (m.is_of_crossing() && axis == "discs")
+            throw UsageError("the number of discs cannot be an axis of a map of N_c.");
+    }
+    if (m.is_of_crossing() && m.level != 0.0)
+        throw UsageError("--level cannot be used with --of N_c.");
+}
+
+MapTarget target_of(const MapSettings& s) {
+    MapTarget target{.x = s.x.name, .y = s.y.name, .of = s.of, .rate = s.rate, .level = s.level};
+    target.tolerance = s.tolerance;
+    target.change = s.change.value_or(target.is_of_crossing() ? 2.0 : 0.0);
+    return target;
+}
+
+void validate_settings(const MapSettings& s) {
+    validate_target(target_of(s), s.max_runs);
+    validate_steps(s.steps);
+    for (const std::string& axis : {s.x.name, s.y.name})
         if (s.parameters.contains(axis))
             throw UsageError(fmt::format(
                 "{} is an axis of the map, so it cannot have another value.", option_name(axis)));
-        if (s.of == "N_c" && axis == "discs")
-            throw UsageError("the number of discs cannot be an axis of a map of N_c.");
-    }
     if (s.of != "N_c") return;
     if (s.parameters.contains("discs"))
         throw UsageError(
             "--discs is given, but the search for N_c varies it.\nhint: use --from and --to.");
-    if (s.level != 0.0) throw UsageError("--level cannot be used with --of N_c.");
     validate_range({.config = {}, .from = s.from, .to = s.to});
+}
+
+/// The axes x and y have numbers. Every other parameter has one value, and the numbers of discs of
+/// a map of N_c have no gap.
+void validate_axes(const SweepPlan& plan) {
+    const MapTarget& m = *plan.map;
+    for (const std::string& name : {m.x, m.y}) {
+        if (name.empty()) continue;
+        const SweepAxis* const axis = plan.axis(name);
+        if (!axis) throw UsageError(fmt::format("{} is not a parameter of this map.", name));
+        for (const std::string& value : axis->values)
+            if (!read_number(value))
+                throw UsageError(fmt::format("{} is '{}', but the axis of a map needs numbers.",
+                                             option_name(name), value));
+    }
+    for (const SweepAxis& axis : plan.axes) {
+        if (axis.name == m.x || axis.name == m.y || axis.values.size() == 1) continue;
+        if (!m.is_of_crossing() || axis.name != "discs")
+            throw UsageError(
+                fmt::format("{} is a list, but only the axes of a map may have several "
+                            "values.",
+                            option_name(axis.name)));
+    }
+    if (!m.is_of_crossing()) return;
+    const SweepAxis* const discs = plan.axis("discs");
+    if (!discs) throw UsageError("a map of N_c needs numbers of discs.");
+    std::vector<std::int64_t> numbers;
+    for (const std::string& value : discs->values)
+        numbers.push_back(read_whole_number(value).value_or(0));
+    std::sort(numbers.begin(), numbers.end());
+    validate_range({.config = {}, .from = numbers.front(), .to = numbers.back()});
+    for (std::size_t k = 0; k + 1 < numbers.size(); ++k)
+        if (numbers[k + 1] != numbers[k] + 1)
+            throw UsageError(fmt::format("the numbers of discs jump from {} to {}.", numbers[k],
+                                         numbers[k + 1]));
+}
+
+/// The measurements that the runs of a map need.
+std::vector<std::string> measurements_for(const MapTarget& target) {
+    if (target.is_of_crossing() || is_rotation_rate(target.of)) return {};
+    return {measurement_of(target.of)};
 }
 
 /// The values that an axis of the map does not have yet.
@@ -206,11 +262,7 @@ SweepPlan grown_map(const SweepPlan& plan, const MapGrowth& growth) {
 
 SweepPlan make_map_plan(const MapSettings& s) {
     validate_settings(s);
-    MapTarget target{.x = s.x.name, .y = s.y.name, .of = s.of, .rate = s.rate, .level = s.level};
-    target.tolerance = s.tolerance;
-    rate_named(s.rate);  // throws for an unknown name
-    target.change = s.change.value_or(target.is_of_crossing() ? 2.0 : 0.0);
-
+    const MapTarget target = target_of(s);
     ParameterTexts given = overridden({{"periods", default_map_periods}}, s.parameters);
     for (const MapAxisText& axis : {s.x, s.y})
         if (!axis.name.empty()) {
@@ -218,20 +270,24 @@ SweepPlan make_map_plan(const MapSettings& s) {
             given[axis.name] = comma_list(values_of(axis, s.steps));
         }
     if (given.contains("events")) given.erase("periods");
-    if (target.is_of_crossing()) given["discs"] = fmt::format("{}:{}", s.from, s.to);
+    if (target.is_of_crossing()) {
+        reject_listed_sizes(given);
+        given["discs"] = fmt::format("{}:{}", s.from, s.to);
+    }
     SweepPlan plan = make_plan(given, s.max_runs);
-    for (const SweepAxis& axis : plan.axes)
-        if (axis.values.size() > 1 && axis.name != s.x.name && axis.name != s.y.name &&
-            !(target.is_of_crossing() && axis.name == "discs"))
-            throw UsageError(
-                fmt::format("{} is a list, but only the axes of a map may have several "
-                            "values.",
-                            option_name(axis.name)));
-    if (!target.is_of_crossing() && !is_rotation_rate(target.of))
-        plan.measure = {measurement_of(target.of)};
-    if (target.is_of_crossing()) require_crossing(plan.config(0));
+    plan.measure = measurements_for(target);
     plan.map = target;
+    validate_map(plan);
     return plan;
+}
+
+void validate_map(const SweepPlan& plan) {
+    validate_target(*plan.map, plan.replicas);
+    validate_axes(plan);
+    if (plan.measure != measurements_for(*plan.map) || plan.frames > 0 || plan.series ||
+        !plan.chain.empty() || plan.generation != 1)
+        throw UsageError("a map measures only its quantity and has no recordings or chains.");
+    if (plan.map->is_of_crossing()) require_crossing(plan.config(0));
 }
 
 }  // namespace swirl

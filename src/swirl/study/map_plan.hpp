@@ -51,4 +51,8 @@ SweepPlan grown_map(const SweepPlan& plan, const MapGrowth& growth);
 /// Throws UsageError for an invalid range, a value that cannot be run, or an unknown quantity.
 SweepPlan make_map_plan(const MapSettings& settings);
 
+/// Throws UsageError if a plan with a MapTarget is not a map that make_map_plan() or grown_map()
+/// could have made.
+void validate_map(const SweepPlan& plan);
+
 }  // namespace swirl

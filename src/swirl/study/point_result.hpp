@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/result.hpp"
 #include "swirl/statistics/block_average.hpp"
 #include "swirl/study/sweep_plan.hpp"
 
@@ -29,9 +32,25 @@ struct PointResult {
     }
 };
 
-/// Reads DIR/results/NUMBER.json. Throws FileError if the file is damaged, in another format, or
-/// the result of another point.
+/// A result file that was cut off, or that cannot be read, counts as missing: its run is repeated
+/// and replaces it.
+bool has_whole_result(const std::filesystem::path& folder, const SweepPlan& plan,
+                      std::size_t point);
+/// The same for all points that matter, on all cores; false for the others.
+std::vector<bool> whole_results(const std::filesystem::path& folder, const SweepPlan& plan,
+                                const std::function<bool(std::size_t point)>& matters);
+
+/// Reads DIR/results/NUMBER.json; the result does not exist if the file is not whole. Throws
+/// FileError if the file is in another format, lacks a part, or is the result of another point.
 PointResult read_result(const std::filesystem::path& folder, const SweepPlan& plan,
                         std::size_t point);
+
+/// "swirl run --discs 5 --seed 1" with `more` options before the seed.
+std::string command_of_run(const ParameterTexts& parameters, const std::string& more,
+                           std::uint64_t seed);
+
+/// The content of a result file without measurements. `started_from` of a chain is null.
+nlohmann::ordered_json point_json(const SweepPlan& plan, std::size_t point, const RunResult& result,
+                                  const std::string& command);
 
 }  // namespace swirl

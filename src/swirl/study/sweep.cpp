@@ -20,6 +20,7 @@
 #include "swirl/run/period_series.hpp"
 #include "swirl/run/recorded_run.hpp"
 #include "swirl/run/shell_word.hpp"
+#include "swirl/study/point_result.hpp"
 #include "swirl/study/sweep_chain.hpp"
 #include "swirl/study/sweep_folder.hpp"
 #include "swirl/study/sweep_locks.hpp"
@@ -33,21 +34,15 @@ using Json = nlohmann::ordered_json;
 /// The command that runs one point on its own; for a chain, the sweep, of which no point runs
 /// alone.
 std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t seed) {
-    if (!plan.chain.empty()) {
-        std::string sweep = "swirl sweep";
-        for (const SweepAxis& axis : plan.axes)
-            sweep += fmt::format(" {} {}", option_name(axis.name),
-                                 shell_word(fmt::format("{}", fmt::join(axis.values, ","))));
-        if (!plan.measure.empty())
-            sweep += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
-        return sweep + fmt::format(" --seeds {} --chain {} --out DIR", plan.replicas, plan.chain);
-    }
-    std::string command = "swirl run";
-    for (const auto& [name, value] : plan.parameters(point))
-        if (name != "seed") command += fmt::format(" {} {}", option_name(name), shell_word(value));
-    if (!plan.measure.empty())
-        command += fmt::format(" --measure {}", fmt::join(plan.measure, ","));
-    return command + fmt::format(" --seed {}", seed);
+    const std::string measure =
+        plan.measure.empty() ? "" : fmt::format(" --measure {}", fmt::join(plan.measure, ","));
+    if (plan.chain.empty()) return command_of_run(plan.parameters(point), measure, seed);
+    std::string sweep = "swirl sweep";
+    for (const SweepAxis& axis : plan.axes)
+        sweep += fmt::format(" {} {}", option_name(axis.name),
+                             shell_word(fmt::format("{}", fmt::join(axis.values, ","))));
+    return sweep +
+           fmt::format("{} --seeds {} --chain {} --out DIR", measure, plan.replicas, plan.chain);
 }
 
 /// The relative time that a point takes. A run of N discs in the paper's container has about N^2.5
@@ -106,6 +101,17 @@ class SweepWorker {
     }
 
   private:
+    /// The points with a whole result. Those that this call surely does not run are not checked.
+    std::vector<bool> results_before() const {
+        std::vector<bool> listed(share_.only ? plan_.points() : 0);
+        if (share_.only)
+            for (const std::size_t point : *share_.only) listed[point] = true;
+        return whole_results(folder_, plan_, [&](std::size_t point) {
+            if (share_.only) return bool(listed[point]);
+            return share_.rest || !plan_.chain.empty() || point % share_.parts == share_.part - 1;
+        });
+    }
+
     void work_on(const std::vector<std::vector<std::size_t>>& chains) {
         parallel_for(
             chains.size(), [&](std::size_t k) { run_chain(chains[k]); }, share_.threads);
@@ -145,7 +151,7 @@ class SweepWorker {
             return false;
         }
         // Another process may have finished it in the meantime.
-        if (::access(result_file(folder_, plan_, point).c_str(), F_OK) == 0) {
+        if (has_whole_result(folder_, plan_, point)) {
             count(point, 1.0, 0);
             return true;
         }
@@ -181,19 +187,8 @@ class SweepWorker {
         const RunResult result = run_point(point, config, files, command, observation, link);
         if (!result.complete) return false;
         if (!plan_.chain.empty()) write_final_state(folder_, plan_, point, link.end);
-        Json results = result_json(result);
-        Json::object_t all;
-        all.reserve(results.size() + 6);
-        Json json = std::move(all);
-        json["format"] = result_format;
-        json["point"] = point;
-        json["replica"] = plan_.replica(point);
-        if (!plan_.chain.empty()) {
-            json["direction"] = plan_.direction(point);
-            json["started_from"] = link.from ? Json(*link.from) : Json();
-        }
-        for (auto& [name, value] : results.items()) json[name] = std::move(value);
-        json["command"] = command;
+        Json json = point_json(plan_, point, result, command);
+        if (!plan_.chain.empty()) json["started_from"] = link.from ? Json(*link.from) : Json();
         if (!plan_.measure.empty()) json["measured"] = measured_json(observation.report());
         writer_.write(number_of_point(point) + ".json", json.dump() + "\n",
                       [files, point_lock] { remove_checkpoint(files); });
@@ -255,8 +250,7 @@ class SweepWorker {
     const std::shared_ptr<SweepLocks> locks_;
     const std::vector<bool> failed_before_ =
         numbered_files(folder_ / "failures", ".txt", plan_.points());
-    const std::vector<bool> done_before_ =
-        numbered_files(part_of_sweep(folder_, "results", plan_), ".json", plan_.points());
+    const std::vector<bool> done_before_ = results_before();
     ResultWriter writer_;
     std::mutex mutex_;
     SweepOutcome outcome_;
@@ -269,11 +263,14 @@ class SweepWorker {
 SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
     SweepStatus status;
     status.points = plan.points();
-    const std::vector<bool> done =
-        numbered_files(part_of_sweep(folder, "results", plan), ".json", status.points);
+    const std::vector<bool> exists = numbered_files(part_of_sweep(folder, "results", plan), ".json",
+                                                    status.points),
+                            done = whole_results(folder, plan, [](std::size_t) { return true; });
     const std::vector<bool> failed = numbered_files(folder / "failures", ".txt", status.points);
     const std::vector<bool> locked = SweepLocks::locked(folder, status.points);
     for (std::size_t point = 0; point < status.points; ++point) {
+        if (exists[point] && !done[point] && status.damaged++ == 0)
+            status.first_damaged = result_file(folder, plan, point).string();
         if (done[point])
             ++status.done;
         else if (locked[point])
@@ -284,13 +281,18 @@ SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
     return status;
 }
 
+void require_sweep(const fs::path& folder, const SweepPlan& plan) {
+    if (!plan.needs_all_points())
+        throw UsageError(
+            fmt::format("'{}' holds a {}, which does not need all points.\nhint: run `swirl {} "
+                        "--out {}`{}.",
+                        folder.string(), plan.kind(), plan.command(), shell_word(folder.string()),
+                        plan.search ? " with the options of the search" : ""));
+}
+
 SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
                        const SweepControl& control) {
-    if (plan.map && !share.only)
-        throw UsageError(
-            fmt::format("'{0}' holds a map, which does not need all points.\nhint: "
-                        "run `swirl map --out {1}`.",
-                        folder.string(), shell_word(folder.string())));
+    if (!share.only) require_sweep(folder, plan);
     for (const fs::path& part : {folder, part_of_sweep(folder, "results", plan),
                                  folder / "failures", part_of_sweep(folder, "checkpoints", plan)})
         remove_leftovers(part);

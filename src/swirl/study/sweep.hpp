@@ -27,6 +27,8 @@ namespace swirl {
 
 struct SweepStatus {
     std::size_t points = 0, done = 0, running = 0, failed = 0;
+    std::size_t damaged = 0;  // result files that are not whole (point_result.hpp)
+    std::string first_damaged = {};
 };
 SweepStatus sweep_status(const std::filesystem::path& folder, const SweepPlan& plan);
 
@@ -54,6 +56,9 @@ struct SweepControl {
     /// the events so far.
     std::function<void(double done, double all, std::uint64_t events)> progress;
 };
+
+/// Throws UsageError if the plan does not need all its points, as a map.
+void require_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
 
 SweepOutcome run_sweep(const std::filesystem::path& folder, const SweepPlan& plan,
                        const SweepShare& share, const SweepControl& control);

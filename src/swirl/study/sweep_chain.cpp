@@ -11,6 +11,7 @@
 #include "swirl/io/state_archive.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/reading.hpp"
+#include "swirl/run/shell_word.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
@@ -66,17 +67,23 @@ void write_final_state(const fs::path& folder, const SweepPlan& plan, std::size_
 
 FinalState read_final_state(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
     const fs::path file = state_file(folder, plan, point);
-    const Checkpoint saved = read_checkpoint(file);
-    if (saved.about != identity_of_state(plan, point))
-        throw FileError(
-            fmt::format("'{}' is not the final state of point {} of this sweep.\nhint: remove the "
-                        "results of its chain and run `swirl sweep` again.",
-                        file.string(), point));
-    FinalState state;
-    StateReader bytes(saved.state);
-    bytes(state);
-    bytes.expect_end();
-    return state;
+    try {
+        const Checkpoint saved = read_checkpoint(file);
+        if (saved.about != identity_of_state(plan, point))
+            throw FileError(fmt::format("'{}' is not the final state of point {} of this sweep.",
+                                        file.string(), point));
+        FinalState state;
+        StateReader bytes(saved.state);
+        bytes(state);
+        bytes.expect_end();
+        return state;
+    } catch (const FileError& error) {
+        throw FileError(fmt::format(
+            "{}\nhint: remove '{}' and run `swirl sweep --out {}` again, which repeats the run "
+            "that "
+            "ends in this state.",
+            error.what(), result_file(folder, plan, point).string(), shell_word(folder.string())));
+    }
 }
 
 }  // namespace swirl

@@ -64,10 +64,16 @@ struct SweepPlan {
     int generation = 1;  // increases with every addition of measurements
     std::vector<SweepStage> before = {};
     std::optional<MapTarget> map = {};  // only for an adaptive map
+    /// Only for a search for N_c (search_folder.hpp), which chooses points, seeds and lengths of runs.
+    bool search = false;
     /// For each point, its index in the product of the axes, with the replica varying fastest.
     /// Empty if the index is the number of the point. Follows from the other members.
     std::vector<std::size_t> product_indices = {};
 
+    const char* kind() const { return map ? "map" : search ? "search for N_c" : "sweep"; }
+    /// The command that works on the plan.
+    const char* command() const { return map ? "map" : search ? "crossing" : "sweep"; }
+    bool needs_all_points() const { return !map && !search; }
     /// The axis of this name, or null.
     const SweepAxis* axis(std::string_view name) const;
     std::size_t points() const;

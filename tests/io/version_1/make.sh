@@ -3,7 +3,7 @@
 # They were made once, by swirl 0.1.0 (1ee2817), and must not be made again: tests/cli/versions_test.py
 # checks that every later program reads them. A new format gets its own folder.
 set -eu
-swirl=$1
+swirl=$(readlink -f "$1")
 mkdir -p "$2"
 cd "$2"
 
