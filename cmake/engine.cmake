@@ -7,7 +7,8 @@ add_library(swirl_physics INTERFACE)
 target_compile_features(swirl_physics INTERFACE cxx_std_20)
 target_compile_options(swirl_physics INTERFACE -ffp-contract=off)
 target_include_directories(swirl_physics INTERFACE
-  $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+  $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>
+  $<INSTALL_INTERFACE:include/swirl/detail>)
 
 # The event loop and the averages by event are compiled once for each vector width; the program picks
 # the widest that the processor has. swirl_vector_sources(VARIABLE) gives NAME_avx2.cpp and

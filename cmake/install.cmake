@@ -14,9 +14,21 @@ install(TARGETS swirl_physics swirl_engine swirl_statistics swirl_measure EXPORT
 install(EXPORT swirl NAMESPACE swirl:: FILE swirlConfig.cmake DESTINATION ${package_folder})
 write_basic_package_version_file(swirlConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/swirlConfigVersion.cmake DESTINATION ${package_folder})
+# The public headers (docs/reference/cpp.md) have the names that they have in the source tree. All others are
+# below swirl/detail, the second include folder, where the public ones find them.
+set(public_headers
+  swirl/physics/container_path.hpp swirl/physics/event.hpp swirl/physics/initial_state.hpp swirl/physics/snapshot.hpp
+  swirl/engine/paper_scene.hpp swirl/engine/placement.hpp swirl/engine/simulation.hpp swirl/engine/validate.hpp
+  swirl/statistics/block_average.hpp swirl/measure/cluster_rotation.hpp swirl/measure/measurement_list.hpp)
 foreach(layer math physics engine statistics measure)
-  install(DIRECTORY src/swirl/${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/swirl
-          FILES_MATCHING PATTERN *.hpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src src/swirl/${layer}/*.hpp)
+  foreach(header ${headers})
+    get_filename_component(folder ${header} DIRECTORY)
+    if(NOT header IN_LIST public_headers)
+      set(folder swirl/detail/${folder})
+    endif()
+    install(FILES src/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
+  endforeach()
 endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libswirl-dev RENAME copyright)
 

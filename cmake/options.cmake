@@ -57,7 +57,7 @@ else()
   set(batch 6)
 endif()
 function(swirl_compiled_at_once target)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  if(SWIRL_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
     # A local name may equal the name of a constant in another file of the batch.
     target_compile_options(${target} PRIVATE -Wno-shadow -Wshadow=local)

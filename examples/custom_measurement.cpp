@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "paper_scene.hpp"
+#include "swirl/engine/paper_scene.hpp"
 #include "swirl/engine/simulation.hpp"
 
 class MeanDistance {
@@ -23,7 +23,7 @@ class MeanDistance {
 };
 
 int main() {
-    swirl::Simulation simulation(paper_scene(48, 1.0, 1));
+    swirl::Simulation simulation(swirl::paper_scene(48, 1.0, 1));
     MeanDistance distance;
     // Sampling does not alter the trajectory.
     const int warmup = 20, end = 120, samples = 64;  // in periods; samples per period

@@ -1,11 +1,11 @@
 // Events one by one: step() returns what happened.
 #include <cstdio>
 
-#include "paper_scene.hpp"
+#include "swirl/engine/paper_scene.hpp"
 #include "swirl/engine/simulation.hpp"
 
 int main() {
-    swirl::Simulation simulation(paper_scene(28, 0.5, 7));
+    swirl::Simulation simulation(swirl::paper_scene(28, 0.5, 7));
     std::puts("       t  what");
     for (int shown = 0; shown < 10; ++shown) {
         const swirl::Event e = simulation.step();

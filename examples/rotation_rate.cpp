@@ -2,12 +2,12 @@
 // `swirl run --discs 48` computes the same from another initial state.
 #include <cstdio>
 
-#include "paper_scene.hpp"
+#include "swirl/engine/paper_scene.hpp"
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 
 int main() {
-    swirl::Simulation simulation(paper_scene(48, 1.0, 1));
+    swirl::Simulation simulation(swirl::paper_scene(48, 1.0, 1));
     const std::int64_t warmup = 20, end = 220;  // periods
     simulation.advance_to(warmup, 0.0);
 

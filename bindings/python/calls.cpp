@@ -22,6 +22,17 @@ bool is_truth_value(const py::handle& value) {
            std::string_view(Py_TYPE(value.ptr())->tp_name) == "numpy.bool_";
 }
 
+/// A text in UTF-8. Python allows halves of surrogate pairs, which UTF-8 does not.
+std::string utf8_text(const std::string& name, const py::handle& value) {
+    py::ssize_t size = 0;
+    const char* const text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+    if (text != nullptr) return {text, static_cast<std::size_t>(size)};
+    PyErr_Clear();
+    throw UsageError(
+        fmt::format("{} is {}, but half of a surrogate pair is not a character.", name,
+                    std::string(py::str(py::module_::import("builtins").attr("ascii")(value)))));
+}
+
 /// As many digits as are needed to read the same number back.
 std::string number_text(const std::string& name, const py::handle& value) {
     constexpr auto expected = "a number or a text";
@@ -77,15 +88,14 @@ std::string array_text(const std::string& name, const py::handle& value) {
 
 /// A tuple is one value with several parts: mixture=(12, 1.3), or several ramps.
 std::string value_text(const std::string& name, const py::handle& value) {
-    if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
+    if (py::isinstance<py::str>(value)) return utf8_text(name, value);
     if (takes_array(name) && is_list(value)) return array_text(name, value);
     if (!py::isinstance<py::tuple>(value)) return number_text(name, value);
     std::string text;
     const char* const separator = name == "ramp" ? ";" : ":";
     for (const py::handle part : value)
-        text +=
-            (text.empty() ? "" : separator) +
-            (py::isinstance<py::str>(part) ? py::cast<std::string>(part) : number_text(name, part));
+        text += (text.empty() ? "" : separator) +
+                (py::isinstance<py::str>(part) ? utf8_text(name, part) : number_text(name, part));
     return text;
 }
 
@@ -104,7 +114,7 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
     ParameterTexts texts;
     for (const auto& [key, value] : given) {
         if (value.is_none()) continue;
-        const auto name = py::cast<std::string>(key);
+        const std::string name = utf8_text("the name of a parameter", key);
         const Parameter* const row = find_parameter(name);
         if (row == nullptr || !row->is_settable() || name != row->name) {
             const auto similar = nearest_name(plain_name(name), parameter_names());

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
+#include "swirl/engine/validate.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/particle_sizes.hpp"
@@ -73,38 +73,7 @@ void require_sizes_in_range(const std::vector<double>& radius, const std::vector
 }
 
 void require_no_overlap(const InitialState& scene, const Vec2& centre, double tolerance) {
-    const std::vector<Disc>& discs = scene.discs;
-    double largest = 0.0;
-    for (std::size_t i = 0; i < discs.size(); ++i) {
-        const Disc& d = discs[i];
-        largest = std::max(largest, d.radius);
-        const double out = std::hypot(d.position.x - centre.x, d.position.y - centre.y) + d.radius -
-                           scene.container_radius;
-        if (out > tolerance * d.radius)
-            throw UsageError(fmt::format(
-                "disc {} at ({}, {}) extends {:.3g} beyond the container, whose centre is ({}, {}) "
-                "and whose radius is {}.",
-                i, d.position.x, d.position.y, out, centre.x, centre.y, scene.container_radius));
-    }
-    // In order of x, only discs within two radii in x need to be compared.
-    std::vector<std::size_t> order(discs.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return discs[a].position.x < discs[b].position.x;
-    });
-    for (std::size_t a = 0; a < order.size(); ++a)
-        for (std::size_t b = a + 1; b < order.size(); ++b) {
-            const Disc &p = discs[order[a]], &q = discs[order[b]];
-            if (q.position.x - p.position.x > p.radius + largest) break;
-            const double distance =
-                std::hypot(p.position.x - q.position.x, p.position.y - q.position.y);
-            const double contact = p.radius + q.radius;
-            if (distance < contact * (1.0 - tolerance))
-                throw UsageError(fmt::format(
-                    "discs {} and {} overlap: their distance is {:.6g}, but their radii add up to "
-                    "{:.6g}.",
-                    std::min(order[a], order[b]), std::max(order[a], order[b]), distance, contact));
-        }
+    if (const auto problem = overlap_in(scene, centre, tolerance)) throw UsageError(*problem);
 }
 
 std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -13,6 +15,7 @@
 #include "custom_scene.hpp"
 #include "frames.hpp"
 #include "simulation_archive.hpp"
+#include "swirl/run/collapse_guard.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/ramp.hpp"
@@ -56,6 +59,7 @@ class InteractiveSimulation {
           is_custom_(is_custom),
           scene_(std::move(scene)),
           simulation_(scene_, progress, selected_tuning(stop)),
+          guard_(simulation_, scene_.path.period),
           since_(last_period_change(config_, progress.periods)) {
         scene_.discs.clear();
         scene_.discs.shrink_to_fit();
@@ -72,9 +76,15 @@ class InteractiveSimulation {
     auto exclusively(Work&& work) {
         std::unique_lock lock(mutex_, std::try_to_lock);
         if (!lock) {
+            if (process_ != getpid())
+                throw Failure(
+                    "another thread was advancing this simulation when the process was forked, so "
+                    "the copy in the child is unusable.\nhint: fork between two calls, or load a "
+                    "saved simulation in the child.");
             const WithoutInterpreter without;
             lock.lock();
         }
+        process_ = getpid();
         return work(simulation_);
     }
 
@@ -102,6 +112,7 @@ class InteractiveSimulation {
         return exclusively([&](Simulation& s) {
             const Event event = s.step();
             follow_ramps(event.periods);
+            throw_if_collapsed();
             return event;
         });
     }
@@ -215,6 +226,7 @@ class InteractiveSimulation {
             bool receives_signals = true;
             auto last = std::chrono::steady_clock::now();
             while (step()) {
+                throw_if_collapsed();
                 const auto now = std::chrono::steady_clock::now();
                 if (!receives_signals || now - last < interval) continue;
                 last = now;
@@ -223,6 +235,12 @@ class InteractiveSimulation {
             }
         });
         error.rethrow();
+    }
+
+    /// In a collapse time does not advance, and a call that waits for a time would never return.
+    void throw_if_collapsed() {
+        if (auto sentence = guard_.problem(simulation_, scene_.path.period, config_))
+            throw Failure(*sentence);
     }
 
     /// To be called after each event with the period before it: at the start of a period, ramps
@@ -234,7 +252,7 @@ class InteractiveSimulation {
         InitialState next = surroundings_in(config_, period);
         if (!ramps_change_path(config_)) next.path = scene_.path;  // it may be custom
         simulation_.change_surroundings(next, selected_tuning(nullptr));
-        since_ = last_period_change(config_, period);
+        if (period_in(period) != scene_.path.period) since_ = {period, time_at(period, 0.0)};
         scene_ = std::move(next);
     }
     /// Executes all events of the present period but its last, at most `maximum`. Returns whether
@@ -323,7 +341,10 @@ class InteractiveSimulation {
     InitialState scene_;    // without discs
     // A signal handler may use the simulation that it interrupts.
     std::recursive_mutex mutex_;
+    // The last one that locked the mutex. A fork copies the lock of a thread that the child lacks.
+    std::atomic<pid_t> process_ = getpid();
     Simulation simulation_;
+    CollapseGuard guard_;
     PeriodChange since_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "custom_scene.hpp"
 #include "swirl/engine/continuation.hpp"
+#include "swirl/engine/validate.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/state_archive.hpp"
@@ -67,7 +68,7 @@ void require_discs(const InitialState& scene, const RunConfig& config, bool is_c
         constexpr double tolerance = 1e-3;
         return require_no_overlap(now, scene.path.segment_at(clock).position_at(clock), tolerance);
     }
-    const std::vector<Particle> particles = particles_of(config);
+    const std::vector<ParticleProperties> particles = particles_of(config);
     bool same = radius.size() == particles.size();
     for (std::size_t i = 0; same && i < particles.size(); ++i)
         same = radius[i] == particles[i].radius && mass[i] == particles[i].mass &&
@@ -120,6 +121,8 @@ ArchivedSimulation read_archive(std::string_view bytes) {
         if (const char* const reason = impossible_to_continue(archived.scene, progress))
             reject_archive(reason);
         require_discs(archived.scene, config, archived.is_custom, progress.clock);
+        if (const auto problem = validate(archived.scene, progress))
+            reject_archive(std::string_view(*problem).substr(0, problem->size() - 1));
         return archived;
     } catch (const UsageError& error) {
         reject_archive(error.what());

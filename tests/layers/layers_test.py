@@ -30,7 +30,8 @@ FORBIDDEN_HEADERS = {
 FORBIDDEN_WORDS = {"virtual", "throw", "try", "catch", "thread_local", "getenv", "rand"}
 
 # docs/explanation/architecture.md: what the engine may ask of the system.
-EXCEPTIONS = {("src/swirl/engine/aligned_memory.hpp", "sys/mman.h")}
+EXCEPTIONS = {("src/swirl/engine/aligned_memory.hpp", "sys/mman.h"),
+              ("src/swirl/engine/validate.cpp", "cstdio")}
 STANDARD = {
     "algorithm", "array", "bit", "bitset", "cfloat", "charconv", "climits", "cmath", "compare",
     "complex", "concepts", "cstddef", "cstdint", "cstdlib", "cstring", "deque", "functional",
@@ -88,6 +89,38 @@ def names_of_its_own(text):
     return {name
             for own in re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", code, re.S | re.M)
             for definition in DEFINITIONS for name in re.findall(definition, own, re.M)}
+
+
+SCOPES = re.compile(
+    r"[{}]|\bnamespace\s*([\w:]*)\s*\{"
+    r"|\b(?:struct|class|union|enum(?:\s+class|\s+struct)?)\s+(?:alignas\([^)]*\)\s*)?([\w:]+)\s*"
+    r"(?:final\s*)?(?::[^:;{}()][^;{}]*)?\{")
+
+
+def types_in(code):
+    """The qualified names of the types that a file defines, except in unnamed namespaces and functions.
+
+    A specialisation of a template is not a type of its own.
+    """
+    scopes = []
+    for found in SCOPES.finditer(code):
+        text, space, name = found.group(0), found.group(1), found.group(2)
+        if text == "}":
+            if scopes:
+                scopes.pop()
+        elif text == "{":
+            scopes.append(None)
+        elif space is not None:
+            scopes.append(space or None)
+        else:
+            scopes.append(name)
+            if all(scopes):
+                yield "::".join(scopes)
+
+
+def bindings_sources():
+    for folder, _, names in os.walk(os.path.join(SOURCE, "bindings")):
+        yield from (os.path.join(folder, name) for name in names if name.endswith((".hpp", ".cpp")))
 
 
 class Layers(unittest.TestCase):
@@ -157,6 +190,15 @@ class Layers(unittest.TestCase):
                     for name in names_of_its_own(text_of(file)):
                         where.setdefault(name, set()).add(os.path.basename(file))
             self.assertEqual({n: f for n, f in where.items() if len(f) > 1}, {}, layer)
+
+    def test_no_type_is_defined_twice_in_one_namespace(self):
+        # The linker would keep the functions of one of them, and use them for both.
+        where = {}
+        for file in [*all_sources(), *bindings_sources()]:
+            for name in types_in(code_of(file)):
+                where.setdefault(name, set()).add(os.path.relpath(file, SOURCE))
+        self.assertIn("swirl::Simulation::Storage", where)
+        self.assertEqual({name: files for name, files in where.items() if len(files) > 1}, {})
 
     def test_headers_have_pragma_once_and_open_with_a_comment(self):
         for layer in LAYERS:

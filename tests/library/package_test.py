@@ -58,8 +58,14 @@ class Installed(unittest.TestCase):
                          {"-ffp-contract=off"})
         self.assertNotIn("INTERFACE_COMPILE_DEFINITIONS", text)
 
-    def test_installs_only_headers_of_the_engine(self):
-        self.assertEqual(sorted(os.listdir(os.path.join(self.prefix, "include", "swirl"))),
+    def test_the_headers_outside_detail_are_those_of_the_reference(self):
+        include = os.path.join(self.prefix, "include")
+        headers = {os.path.relpath(file, include) for file in files_below(include)}
+        public = {header for header in headers if not header.startswith("swirl/detail/")}
+        with open(os.path.join(SOURCE, "docs", "reference", "cpp.md"), encoding="utf-8") as page:
+            documented = set(re.findall(r"\.\./\.\./src/(swirl/[\w/]+\.hpp)", page.read()))
+        self.assertEqual(public, documented)
+        self.assertEqual(sorted(os.listdir(os.path.join(include, "swirl/detail/swirl"))),
                          ["engine", "math", "measure", "physics", "statistics"])
 
     def build_examples(self, compiler):
@@ -137,7 +143,7 @@ class DebianPackages(unittest.TestCase):
         self.assertEqual(self.field(package, "Depends"), ["libstdc++-dev"])
         self.assertEqual(self.field(package, "Recommends"), [""])
         files = output_of("dpkg-deb", "--contents", package)
-        for path in ("usr/include/swirl/physics/disc.hpp", "swirlConfig.cmake",
+        for path in ("usr/include/swirl/engine/simulation.hpp", "swirlConfig.cmake",
                      "usr/share/doc/libswirl-dev/copyright"):
             self.assertIn(path, files)
         self.assertNotIn("usr/bin", files)

@@ -13,17 +13,16 @@ project(other LANGUAGES CXX)
 enable_testing()
 add_subdirectory({source} swirl EXCLUDE_FROM_ALL)
 add_executable(other other.cpp)
-target_include_directories(other PRIVATE {source}/examples)
 target_link_libraries(other PRIVATE swirl::engine swirl::measure)
 """
 # The warning flags of this project would reject the unused variable.
 PROGRAM = """#include <cstdio>
-#include "paper_scene.hpp"
+#include "swirl/engine/paper_scene.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/engine/simulation.hpp"
 int main() {
     int unused;
-    swirl::Simulation simulation(paper_scene(28, 0.5, 7));
+    swirl::Simulation simulation(swirl::paper_scene(28, 0.5, 7));
     simulation.run(1000);
     std::printf("%d", swirl::cluster_rotation(simulation.snapshot()).rigid != 0.0);
 }

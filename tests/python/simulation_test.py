@@ -5,6 +5,7 @@ import copy
 import gc
 import math
 import multiprocessing
+import os
 import pickle
 import random
 import resource
@@ -12,6 +13,7 @@ import struct
 import subprocess
 import sys
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -630,3 +632,54 @@ def test_snapshots_and_frames_can_be_pickled():
 def test_simulation_has_an_svg():
     svg = swirl.Simulation(discs=7)._repr_svg_()
     assert svg.startswith("<svg") and svg.count("<circle") == 8
+
+
+def test_a_collapse_ends_every_call_with_the_reason():
+    """Without friction and restitution, discs collide ever faster; no call may wait for a time then."""
+    def new():
+        return swirl.Simulation(discs=48, mu=0, restitution=0, period=10)
+
+    calls = (lambda s: s.advance(periods=30), lambda s: s.advance(time=300.5), lambda s: s.advance(events=10**8),
+             lambda s: s.advance_to(30), lambda s: s.sample(periods=30), lambda s: s.step(10**6),
+             lambda s: [None for _ in s.events(10**6)])
+    for call in calls:
+        simulation = new()
+        with pytest.raises(swirl.Failure, match="inelastic collapse.*\nhint: use a contact_duration"):
+            call(simulation)
+        # Later calls fail, too.
+        with pytest.raises(swirl.Failure, match="inelastic collapse"):
+            simulation.advance(periods=30)
+
+
+def test_half_of_a_surrogate_pair_is_rejected():
+    for given in ({"mu": "\ud800"}, {"ramp": ("mu=0:1@1..2", "\ud800")}, {"path": "\ud800"}):
+        with pytest.raises(ValueError, match=r"is '\\ud800', but half of a surrogate pair"):
+            swirl.Simulation(**given)
+    with pytest.raises(ValueError, match="the name of a parameter"):
+        swirl.Simulation(**{"\ud800": 1})
+
+
+@pytest.mark.filterwarnings("ignore:.*fork")
+def test_a_fork_during_a_call_is_reported_in_the_child():
+    simulation = swirl.Simulation()
+    thread = threading.Thread(target=simulation.advance, kwargs={"events": 10**7})
+    thread.start()
+    time.sleep(0.05)  # the thread needs far more time for its events
+    child = os.fork()
+    if child == 0:
+        try:
+            simulation.advance(events=1)
+        except swirl.Failure as failure:
+            os._exit(0 if "forked" in str(failure) else 1)
+        os._exit(2)
+    assert os.waitpid(child, 0)[1] == 0
+    thread.join()
+    simulation.advance(events=1)  # the parent is not affected
+
+
+def test_time_with_a_ramp_of_the_period_is_that_of_a_loaded_simulation():
+    """A loaded simulation computes the time from the ramp, an advanced one from period to period."""
+    simulation = swirl.Simulation(discs=5, ramp="period=10:12:9@2..40")
+    for _ in range(45):
+        simulation.advance(periods=1)
+        assert pickle.loads(pickle.dumps(simulation)).time == simulation.time

@@ -236,3 +236,13 @@ def test_map_takes_custom_measurements_and_raises_their_errors():
 
     with pytest.raises(LookupError):
         swirl.map(discs=[5, 6], events=[5000, 10**10], measure=[broken])
+
+
+@pytest.mark.parametrize("call", (
+    lambda folder: swirl.sweep(folder, mu=[0, 1], events=1000), lambda folder: swirl.collect(folder),
+    lambda folder: swirl.parameter_map(folder, x="mu=0:1")))
+def test_a_missing_package_is_reported_before_the_first_run(tmp_path, monkeypatch, call):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match="needs the package pandas.*\nhint: pip install pandas"):
+        call(tmp_path / "study")
+    assert not list(tmp_path.iterdir())

@@ -10,7 +10,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/tracking/circles.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 constexpr int width = 400, height = 320;
@@ -105,4 +105,4 @@ TEST(CameraMotion, ShakeIsTheScatterFromFrameToFrame) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

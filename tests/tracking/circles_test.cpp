@@ -7,7 +7,7 @@
 #include "math/deviate.hpp"
 #include "swirl/math/random.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 /// A ball, shaded towards its edge, textured, antialiased, with noise: bright on a dark floor, or
@@ -68,4 +68,4 @@ TEST(CircleFit, FindsCentreToATenthOfAPixel) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 double exponential(Random& random, double mean) { return -mean * std::log(1.0 - random.uniform()); }
@@ -94,4 +94,4 @@ TEST(ContactDistance, DeterminesTheLensDistortion) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 TEST(ContainerPath, IsFoundWithItsErrors) {
@@ -51,4 +51,4 @@ TEST(ContainerPath, ContainerAtRestHasNoPath) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -9,7 +9,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 constexpr int side = 260;           // pixels
@@ -130,4 +130,4 @@ TEST(FloorPattern, FrameWithoutARimStaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 /// Jumps in a video that consists of the frames `shown` of another one.
@@ -123,4 +123,4 @@ TEST(FrameJumps, NoiseAndUnevenSwirlingAreNoJumps) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -7,7 +7,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 constexpr Vec2 image_centre{319.5, 239.5};
@@ -123,4 +123,4 @@ TEST(Lens, StrongDistortionIsAWeightedMean) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -11,7 +11,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 TEST(BestAssignment, MatchesTheBestPermutation) {
@@ -319,4 +319,4 @@ TEST(Linking, StopsOnRequest) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

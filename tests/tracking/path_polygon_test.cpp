@@ -9,7 +9,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/container_path_fit.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 /// Positions on a polygon with a vertex at angle 0; 0 sides: a circle.
@@ -82,4 +82,4 @@ TEST(PathPolygon, FewFramesGiveNoWrongNumberOfSides) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

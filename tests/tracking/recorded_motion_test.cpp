@@ -12,7 +12,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 /// The position at a share of the period, in pixels from the mean.
@@ -181,4 +181,4 @@ TEST(RecordedMotion, IsRejectedIfItCannotBeAveraged) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -11,7 +11,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 constexpr double ball_radius = 15.0;
@@ -87,7 +87,7 @@ TEST(ShadingDetection, FindsNumberRadiusAndPositionsOfBallsOfLowContrast) {
             ASSERT_EQ(discs.size(), balls) << seed;
             for (const Vec2& p : scene.positions[k]) {
                 Vec2 nearest{1e9, 0.0};
-                for (const Particle& d : discs)
+                for (const DetectedParticle& d : discs)
                     if (length(d.centre - p) < length(nearest)) nearest = d.centre - p;
                 EXPECT_LT(length(nearest), 0.5 * ball_radius) << seed;
                 sum = sum + nearest;
@@ -108,4 +108,4 @@ TEST(ShadingDetection, FindsNoBallsInNoise) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

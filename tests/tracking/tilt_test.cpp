@@ -7,7 +7,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 constexpr int side = 320;
@@ -144,4 +144,4 @@ TEST(Tilt, OvalContainerContradictsThePerspective) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

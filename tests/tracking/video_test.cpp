@@ -13,7 +13,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/run/failure.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -140,4 +140,4 @@ TEST_F(Fields, FramesShowTheTimeOfTheFirstField) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

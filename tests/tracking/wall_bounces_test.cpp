@@ -7,7 +7,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 namespace {
 
 /// A disc of radius 15 pixels that flies freely in a swirled container and bounces off its wall,
@@ -72,4 +72,4 @@ TEST(WallBounces, ScatterByTheErrorOfAPosition) {
 }
 
 }  // namespace
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _engine
+from ._optional import optional
 
 FloatArray = npt.NDArray[np.float64]
 ReportRow = tuple[str, str, str, float, float, float, int, dict[str, float], bool]
@@ -123,12 +124,12 @@ class Table:
 
     def to_pandas(self) -> Any:
         """The table as a pandas DataFrame."""
-        import pandas
+        pandas = optional("pandas", "to_pandas()")
         return pandas.DataFrame(np.array(self._values), columns=self._columns)
 
     def to_xarray(self) -> Any:
         """The table as an xarray Dataset: each column that is not an axis is a variable with its unit."""
-        import xarray
+        xarray = optional("xarray", "to_xarray()")
         axes = self.axes
         variables = {
             name: (list(axes), np.array(self[name]), {"units": self.units[name]})
@@ -243,7 +244,7 @@ class Series(Mapping[str, FloatArray]):
 
     def to_pandas(self) -> Any:
         """The series as a pandas DataFrame, one row per period."""
-        import pandas
+        pandas = optional("pandas", "to_pandas()")
         return pandas.DataFrame(np.array(self._values), columns=self._names)
 
     def __repr__(self) -> str:

@@ -289,6 +289,7 @@ ramp: "mu=0.1:1@20..220" changes parameters at the start of periods, as in swirl
 
 A simulation can be copied, pickled and saved; copies continue independently and bitwise identically.
 Several threads may use different simulations at the same time. Calls of several threads to one
-simulation wait for each other. A value out of range, or an overlap of discs, raises ValueError.
+simulation wait for each other. After a fork during a call, the child cannot use the simulation: it raises
+swirl.Failure. A value out of range, or an overlap of discs, raises ValueError, and a collapse swirl.Failure.
 """)
 Simulation.__doc__ = Simulation.__init__.__doc__

@@ -15,6 +15,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Optional, Union
 
 from . import _engine
+from ._optional import optional
 from ._results import Result
 from ._runs import (Measure, PathName, Progress, call_text, run, split_measure, with_parameters)
 
@@ -47,6 +48,7 @@ def sweep(out: Optional[PathName] = None, *, seeds: int = 1, measure: Optional[M
           progress: Union[bool, Callable[[float, float, int], object], None] = None,
           chain: Optional[str] = None, series: bool = False,
           **parameters: Values) -> Any:
+    optional("pandas", "swirl.sweep()")
     _count("threads", threads, 0)
     if out is None:
         if grow or frames or series:
@@ -94,7 +96,7 @@ def collect(out: PathName) -> Any:
     planned, done, running and failed runs. For a chain, `table.attrs["loops"]` has the areas of the
     hysteresis loops and their errors.
     """
-    import pandas
+    pandas = optional("pandas", "swirl.collect()")
     csv, points, done, running, failed, disagreeing, not_steady, without, loops = _engine.collect(
         os.fspath(out))
     # As text: a hash such as 12345678e9012345 looks like a number.
@@ -194,7 +196,7 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
                   max_discs: Optional[int] = None, threads: int = 0,
                   progress: Optional[Callable[[int, int, int], object]] = None,
                   **parameters: Any) -> Any:
-    import pandas
+    pandas = optional("pandas", "swirl.parameter_map()")
     if out is None:
         if grow:
             raise ValueError("grow is given, but out, the folder of the map, is not.")

@@ -15,6 +15,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _engine
+from ._optional import optional
 from ._results import Estimate, Measured, Result, Table
 from ._simulation import Simulation
 
@@ -24,8 +25,7 @@ Axes = Any  # matplotlib has no types in Debian 12
 def _axes(axes: Optional[Axes]) -> Axes:
     if axes is not None:
         return axes
-    import matplotlib.pyplot
-    return matplotlib.pyplot.subplots(constrained_layout=True)[1]
+    return optional("matplotlib.pyplot", "swirl.plot").subplots(constrained_layout=True)[1]
 
 
 def snapshot(source: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes] = None,
@@ -36,8 +36,8 @@ def snapshot(source: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes
     speed) with a colour bar, or one number per disc. velocities: draw arrows of the distance that a
     disc moves in a tenth of the period.
     """
-    from matplotlib.collections import EllipseCollection
-    from matplotlib.patches import Circle
+    EllipseCollection = optional("matplotlib.collections", "swirl.plot").EllipseCollection
+    Circle = optional("matplotlib.patches", "swirl.plot").Circle
     s = source.snapshot() if isinstance(source, Simulation) else source
     if m_frame:
         s = s.m_frame()
@@ -117,7 +117,7 @@ def flow(found: Any, *, axes: Optional[Axes] = None) -> Axes:
 
 
 def _round(axes: Axes, x: Any, y: Any) -> None:
-    from matplotlib.patches import Circle
+    Circle = optional("matplotlib.patches", "swirl.plot").Circle
     # The cells cover the container's bounding square.
     radius = x[-1] + 0.5 * (x[1] - x[0])
     axes.add_patch(Circle((0, 0), radius, facecolor="none", edgecolor="0.5"))

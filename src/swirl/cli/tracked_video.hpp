@@ -8,12 +8,15 @@
 #include <optional>
 #include <string>
 
-namespace swirl {
-
-class ProgressLine;
+namespace swirl::tracking {
 struct TrackedVideo;
 struct TrackingSettings;
 struct VideoSpins;
+}  // namespace swirl::tracking
+
+namespace swirl {
+
+class ProgressLine;
 
 /// The video, and known lengths in it.
 struct VideoSource {
@@ -26,12 +29,14 @@ void check_video_options(const std::optional<double>& fps,
                          const std::optional<std::int64_t>& frames);
 
 /// Settings with a stop signal; `line` shows the progress and must outlive them.
-TrackingSettings tracking_settings(const std::string& video, const std::optional<double>& fps,
-                                   const std::optional<std::int64_t>& frames, ProgressLine& line);
+tracking::TrackingSettings tracking_settings(const std::string& video,
+                                             const std::optional<double>& fps,
+                                             const std::optional<std::int64_t>& frames,
+                                             ProgressLine& line);
 
 /// Writes the first frame of the video with the discs drawn over it to `image`.
-void draw_found(const TrackedVideo& tracked, const std::string& video, const std::string& caption,
-                const std::filesystem::path& image);
+void draw_found(const tracking::TrackedVideo& tracked, const std::string& video,
+                const std::string& caption, const std::filesystem::path& image);
 
 /// Files of the report of one video.
 inline constexpr const char* video_report_files[] = {
@@ -39,22 +44,23 @@ inline constexpr const char* video_report_files[] = {
     "video.png",   "figure_found.png", "figure_found.pdf"};
 
 /// Writes video_report_files into `folder`; returns the path of report.html.
-std::filesystem::path write_video_report(const TrackedVideo& video, const VideoSource& source,
+std::filesystem::path write_video_report(const tracking::TrackedVideo& video,
+                                         const VideoSource& source,
                                          const nlohmann::ordered_json& found,
                                          const std::filesystem::path& folder);
 
 /// Shape of the path: circle or polygon, or "n/a: " and the reason.
-std::string path_shape_text(const TrackedVideo& video);
+std::string path_shape_text(const tracking::TrackedVideo& video);
 
 /// Tilt of the camera with its error, or its upper bound.
-std::string tilt_text(const TrackedVideo& video);
+std::string tilt_text(const tracking::TrackedVideo& video);
 
 /// Phase of the container in the first frame: 0 to 360 degrees, counter-clockwise from +x.
-double first_phase(const TrackedVideo& video);
+double first_phase(const tracking::TrackedVideo& video);
 
 /// Writes the tracks and the calibration (camera_file()), each atomically; returns the latter.
-nlohmann::ordered_json write_tracks(const TrackedVideo& video, const VideoSource& source,
+nlohmann::ordered_json write_tracks(const tracking::TrackedVideo& video, const VideoSource& source,
                                     const std::filesystem::path& out,
-                                    const VideoSpins* spins = nullptr);
+                                    const tracking::VideoSpins* spins = nullptr);
 
 }  // namespace swirl

@@ -1,5 +1,5 @@
 // Validates discs and progress that were read from a file, before a simulation continues from them.
-// The engine itself does not check its input.
+// The engine itself would stop the program (validate.hpp).
 #pragma once
 
 #include "swirl/engine/simulation.hpp"

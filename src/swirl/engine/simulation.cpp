@@ -7,11 +7,33 @@
 #include <utility>
 
 #include "swirl/engine/simulation_storage.hpp"
+#include "swirl/engine/validate.hpp"
 
 namespace swirl {
+namespace {
+
+/// The browser page makes scenes from validated parameters only, and moves the container by hand on
+/// paths that do not close. Its program is small without the messages.
+#ifdef __wasm__
+constexpr bool is_validated = false;
+#else
+constexpr bool is_validated = true;
+#endif
+
+/// The scene, if it is valid or the caller has stopped its construction.
+const InitialState& required(const InitialState& scene, const Progress& progress,
+                             const Tuning& tuning) {
+    if constexpr (is_validated) {
+        const auto problem = validate(scene, progress);
+        if (problem && !(tuning.is_stopped && tuning.is_stopped())) stop_if(problem);
+    }
+    return scene;
+}
+
+}  // namespace
 
 Simulation::Simulation(const InitialState& scene, const Progress& progress, const Tuning& tuning)
-    : storage_(std::make_unique<Storage>(scene, progress, tuning)) {
+    : storage_(std::make_unique<Storage>(required(scene, progress, tuning), progress, tuning)) {
     while (storage_->state->should_switch_search)
         storage_ = std::make_unique<Storage>(scene, progress, tuning, storage_.get());
 }

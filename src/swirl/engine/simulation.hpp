@@ -62,7 +62,7 @@ struct LoopCounts {
 
 class Simulation {
   public:
-    /// Spheres require a path of straight segments.
+    /// Stops the program with a message if validate(scene) reports a problem (validate.hpp).
     explicit Simulation(const InitialState& scene, const Progress& progress = {},
                         const Tuning& tuning = {});
     ~Simulation();

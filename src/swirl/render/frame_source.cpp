@@ -15,6 +15,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/render/label.hpp"
 #include "swirl/render/numbered_frames.hpp"
+#include "swirl/run/collapse_guard.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/particle_sizes.hpp"
@@ -87,8 +88,8 @@ class SimulatedPlayback {
         : stop_(stop),
           path_(make_path(config)),
           simulation_(make_initial_state(config, stop), Progress{}, selected_tuning(stop)),
-          // In periods; this is a few hundred thousand events.
-          step_(3000.0 / static_cast<double>(config.discs)) {
+          config_(config),
+          guard_(simulation_, path_.period) {
         throw_if_stopped();
         if (config.shape() == Shape::disc) return;
         spheres_ = simulation_.snapshot();
@@ -99,27 +100,25 @@ class SimulatedPlayback {
     Snapshot at(double periods) { return spheres_ ? spheres_at(periods) : discs_at(periods); }
 
   private:
-    void throw_if_stopped() const {
+    static constexpr int events_between_checks = 4096;
+
+    void throw_if_stopped() {
         if (stop_ && stop_->load(std::memory_order_relaxed))
             throw Interrupted("stopped before the time that was to be shown.");
+        if (auto sentence = guard_.problem(simulation_, path_.period, config_))
+            throw Failure(*sentence);
     }
 
     Snapshot discs_at(double periods) {
-        const auto advance_to = [&](double target) {
-            const Time time(target, path_.period);
-            simulation_.advance_to(time.periods, time.clock);
+        const Time time(periods, path_.period);
+        while (!simulation_.advance_to(time.periods, time.clock, events_between_checks))
             throw_if_stopped();
-        };
-        const double now =
-            static_cast<double>(simulation_.periods()) + simulation_.clock() / path_.period;
-        for (double k = 1.0; now + k * step_ < periods; ++k) advance_to(now + k * step_);
-        advance_to(periods);
+        throw_if_stopped();
         return simulation_.snapshot();
     }
 
     /// Follows spheres from event to event, because their orientations must be integrated.
     Snapshot spheres_at(double periods) {
-        constexpr int events_between_checks = 4096;
         const Time time(periods, path_.period);
         for (int k = 0; next_.periods < time.periods ||
                         (next_.periods == time.periods && next_.clock <= time.clock);
@@ -139,7 +138,8 @@ class SimulatedPlayback {
     const std::atomic<bool>* stop_;
     ContainerPath path_;
     Simulation simulation_;
-    double step_;                      // between checks of `stop_`
+    RunConfig config_;
+    CollapseGuard guard_;
     std::optional<Snapshot> spheres_;  // the state before next_; empty for discs
     Event next_{};
 };

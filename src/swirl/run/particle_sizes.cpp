@@ -197,9 +197,9 @@ std::string radii_text(const RunConfig& c) {
     return fmt::format("radii from {} to {}", bounds.smallest, bounds.largest);
 }
 
-std::vector<Particle> particles_of(const RunConfig& c) {
+std::vector<ParticleProperties> particles_of(const RunConfig& c) {
     const auto n = static_cast<std::size_t>(c.discs);
-    std::vector<Particle> particles(n, {c.radius, c.mass, c.inertia});
+    std::vector<ParticleProperties> particles(n, {c.radius, c.mass, c.inertia});
     const double inertia_factor = c.inertia / (c.mass * c.radius * c.radius);
     if (c.mixture)
         for (std::size_t i = n - static_cast<std::size_t>(c.mixture->count); i < n; ++i)

@@ -24,12 +24,12 @@ namespace swirl {
 
 inline constexpr std::size_t max_listed_sizes = 100'000;
 
-struct Particle {
+struct ParticleProperties {
     double radius, mass, inertia;
 };
 
 /// All particles, in order of their numbers. Radii of a distribution follow from the seed.
-std::vector<Particle> particles_of(const RunConfig& config);
+std::vector<ParticleProperties> particles_of(const RunConfig& config);
 
 /// Mass of a particle of this radius that consists of the material of --radius and --mass.
 double mass_of_same_material(double radius, const RunConfig& config);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "swirl/engine/continuation.hpp"
+#include "swirl/engine/validate.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/state_archive.hpp"
 #include "swirl/measure/observation.hpp"
@@ -75,6 +76,9 @@ CoreRun begin(const RunConfig& config, const RunControl& control) {
         if (const char* const what = impossible_to_continue(initial, saved.progress))
             throw FileError(fmt::format("the saved state is inconsistent: it says that {}.", what));
     }
+    if (control.begin_from || control.resume)
+        if (const auto problem = validate(initial, saved.progress))
+            throw FileError("the state to continue from is inconsistent: " + *problem);
     CoreRun run(config, initial, control.observation, saved.progress,
                 selected_tuning(control.stop));
     run.add_periods_to(control.series);

@@ -9,7 +9,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/parallel_for.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -87,8 +87,8 @@ bool solve_system(std::array<std::array<double, n>, n>& a, std::array<double, n>
     return true;
 }
 
-std::vector<Particle> with_positions(std::vector<Particle> particles,
-                                     const std::vector<Vec2>& positions) {
+std::vector<DetectedParticle> with_positions(std::vector<DetectedParticle> particles,
+                                             const std::vector<Vec2>& positions) {
     for (std::size_t i = 0; i < particles.size(); ++i) particles[i].centre = positions[i];
     return particles;
 }
@@ -104,7 +104,7 @@ double overlap(const std::vector<AppearanceTemplate::Example>& examples,
     double square = 0.0;
     std::size_t pairs = 0;
     for (std::size_t k = 0; k < examples.size(); ++k) {
-        const std::vector<Particle>& particles = examples[k].particles;
+        const std::vector<DetectedParticle>& particles = examples[k].particles;
         std::vector<Vec2> positions;
         for (std::size_t i = 0; i < particles.size(); ++i)
             positions.push_back(
@@ -128,13 +128,14 @@ double overlap(const std::vector<AppearanceTemplate::Example>& examples,
 
 }  // namespace
 
-std::vector<NearCircle> sure_others(const std::vector<Particle>& all, const Particle& self,
+std::vector<NearCircle> sure_others(const std::vector<DetectedParticle>& all,
+                                    const DetectedParticle& self,
                                     const ParticleAppearance& appearance) {
     constexpr double margin = 7.0;  // pixels: two rings of `beyond`
     std::vector<NearCircle> others;
     const double own =
         appearance.lens.seen_radius(self.centre, appearance.species[self.species].radius);
-    for (const Particle& b : all) {
+    for (const DetectedParticle& b : all) {
         if (&b == &self || !b.sure) continue;
         const double radius =
             appearance.lens.seen_radius(b.centre, appearance.species[b.species].radius);
@@ -146,20 +147,20 @@ std::vector<NearCircle> sure_others(const std::vector<Particle>& all, const Part
 
 /// Mask: 255 where no particle covers the floor.
 cv::Mat AppearanceTemplate::free_floor(const cv::Size& size, const CircleFit& rim,
-                                       const std::vector<Particle>& particles) const {
+                                       const std::vector<DetectedParticle>& particles) const {
     cv::Mat mask = cv::Mat::zeros(size, CV_8U);
     const auto fill = [&](const Vec2& centre, double radius, int level) {
         cv::circle(mask, {cvRound(centre.x), cvRound(centre.y)}, static_cast<int>(radius), level,
                    cv::FILLED);
     };
     fill(rim.centre, reach_ - 3.0, 255);
-    for (const Particle& b : particles)
+    for (const DetectedParticle& b : particles)
         fill(b.centre, appearance_.species[b.species].radius + 4.0, 0);
     return mask;
 }
 
 double AppearanceTemplate::illumination(const cv::Mat& sharp, const CircleFit& rim,
-                                        const std::vector<Particle>& particles) const {
+                                        const std::vector<DetectedParticle>& particles) const {
     if (floor_.empty()) return 1.0;
     const cv::Mat open = free_floor(sharp.size(), rim, particles);
     std::vector<double> ratios;
@@ -239,7 +240,8 @@ void AppearanceTemplate::learn_floor(const std::vector<Example>& examples, unsig
 }
 
 AppearanceTemplate::Excess AppearanceTemplate::excess(
-    const cv::Mat& sharp, const CircleFit& rim, const std::vector<Particle>& particles) const {
+    const cv::Mat& sharp, const CircleFit& rim,
+    const std::vector<DetectedParticle>& particles) const {
     Excess result;
     result.container = rim.centre;
     result.level = cv::Mat(sharp.size(), CV_32F, cv::Scalar(double(nowhere)));
@@ -489,8 +491,9 @@ void AppearanceTemplate::learn_template(const std::vector<Example>& examples,
     std::vector<Sums> sums(examples.size());  // added in a fixed order, so results are reproducible
     const auto add_example = [&](std::size_t k) {
         sums[k] = {cv::Mat::zeros(side, side, CV_32F), cv::Mat::zeros(side, side, CV_32F)};
-        const std::vector<Particle> moved = with_positions(examples[k].particles, positions[k]);
-        for (const Particle& particle : moved) {
+        const std::vector<DetectedParticle> moved =
+            with_positions(examples[k].particles, positions[k]);
+        for (const DetectedParticle& particle : moved) {
             if (particle.species != species || !particle.sure) continue;
             const Vec2 centre = particle.centre;
             each_pixel(excesses[k], centre, species, sure_others(moved, particle, appearance_), 1,
@@ -537,7 +540,7 @@ AppearanceTemplate::Moved AppearanceTemplate::moved(const Example& example, cons
                                                     const std::vector<Vec2>& positions) const {
     constexpr double max_from_edge = 0.3;  // radii
     Moved result{positions, {}, {}};
-    const std::vector<Particle> particles = with_positions(example.particles, positions);
+    const std::vector<DetectedParticle> particles = with_positions(example.particles, positions);
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (!particles[i].sure) continue;
         const auto others = sure_others(particles, particles[i], appearance_);
@@ -567,7 +570,7 @@ bool AppearanceTemplate::set_reach(const std::vector<Example>& examples) {
     std::vector<std::size_t> number(appearance_.species.size(), 0);
     for (const Example& e : examples) {
         double reach = 0.0;
-        for (const Particle& b : e.particles) {
+        for (const DetectedParticle& b : e.particles) {
             if (!b.sure) continue;
             ++number[b.species];
             reach = std::max(
@@ -589,7 +592,7 @@ bool AppearanceTemplate::learn_contrast(const std::vector<Example>& examples) {
     std::vector<double> contrasts;
     for (const Example& e : examples) {
         const double of_illumination = 1.0 / illumination(e.sharp, e.rim, e.particles);
-        for (const Particle& b : e.particles) {
+        for (const DetectedParticle& b : e.particles) {
             if (!b.sure) continue;
             const int column = cvRound(b.centre.x), row = cvRound(b.centre.y);
             const int near = static_cast<int>(inner * appearance_.species[b.species].radius);
@@ -661,7 +664,7 @@ std::optional<AppearanceTemplate> AppearanceTemplate::learned(const std::vector<
     Positions edges;
     for (const Example& e : examples) {
         edges.emplace_back();
-        for (const Particle& b : e.particles) edges.back().push_back(b.centre);
+        for (const DetectedParticle& b : e.particles) edges.back().push_back(b.centre);
     }
     const double edges_alone = overlap(examples, edges, edges, 0.0, appearance);
     if (!appearance.shading && edges_alone < good_edges * good_edges) return std::nullopt;
@@ -697,4 +700,4 @@ std::optional<AppearanceTemplate> AppearanceTemplate::learned(const std::vector<
     return result;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -29,10 +29,11 @@
 #include "swirl/math/vec2.hpp"
 #include "swirl/tracking/particle_detection.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// The sure particles other than `self` that may cover pixels of it or of its surroundings.
-std::vector<NearCircle> sure_others(const std::vector<Particle>& all, const Particle& self,
+std::vector<NearCircle> sure_others(const std::vector<DetectedParticle>& all,
+                                    const DetectedParticle& self,
                                     const ParticleAppearance& appearance);
 
 class AppearanceTemplate {
@@ -41,7 +42,7 @@ class AppearanceTemplate {
     struct Example {
         cv::Mat sharp;
         CircleFit rim;
-        std::vector<Particle> particles;
+        std::vector<DetectedParticle> particles;
     };
     /// None if there are too few examples, or if edges alone are about as good.
     static std::optional<AppearanceTemplate> learned(const std::vector<Example>& examples,
@@ -59,7 +60,7 @@ class AppearanceTemplate {
         Vec2 container;
     };
     Excess excess(const cv::Mat& sharp, const CircleFit& rim,
-                  const std::vector<Particle>& particles) const;
+                  const std::vector<DetectedParticle>& particles) const;
 
     struct Fit {
         Vec2 centre;
@@ -100,9 +101,9 @@ class AppearanceTemplate {
     Moved moved(const Example& example, const Excess& seen, const std::vector<Vec2>& edges,
                 const std::vector<Vec2>& positions) const;
     double illumination(const cv::Mat& sharp, const CircleFit& rim,
-                        const std::vector<Particle>& particles) const;
+                        const std::vector<DetectedParticle>& particles) const;
     cv::Mat free_floor(const cv::Size& size, const CircleFit& rim,
-                       const std::vector<Particle>& particles) const;
+                       const std::vector<DetectedParticle>& particles) const;
 
     /// The pixels of a disc in one row, from column `from` to `to`. `hidden` starts at `from`,
     /// `level` at the image's edge.
@@ -132,4 +133,4 @@ class AppearanceTemplate {
     double reach_ = 0.0, soft_ = 0.0, variance_ = 0.0, weight_ = 0.0, error_ = 0.0;
 };
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/tracking/circles.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 Vec2 CameraPose::seen(const Vec2& fixed) const {
     const Vec2 d = fixed - about;
@@ -248,4 +248,4 @@ void measure_camera_motion(CameraMotion& motion) {
     }
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -15,7 +15,7 @@
 
 #include "swirl/math/vec2.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// Maps positions of the reference frame (`fixed`) to those of another frame (`seen`).
 struct CameraPose {
@@ -70,4 +70,4 @@ struct CameraMotion {
 /// Sets the sizes from the poses.
 void measure_camera_motion(CameraMotion& motion);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

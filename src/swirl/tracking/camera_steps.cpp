@@ -6,7 +6,7 @@
 #include "swirl/tracking/robust_statistics.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 void collect_camera_motion(Detections& all, TrackedVideo& tracked) {
     std::optional<CameraPose> last;
@@ -37,8 +37,8 @@ std::optional<Bend> bend_at(const Detections& all, std::size_t k) {
     const FrameDetections &before = all[k - 1], &now = all[k], &after = all[k + 1];
     if (!before.rim.good || !now.rim.good || !after.rim.good) return std::nullopt;
     const auto nearest = [](const FrameDetections& found, const Vec2& to, double closest) {
-        const Particle* best = nullptr;
-        for (const Particle& p : found.particles)
+        const DetectedParticle* best = nullptr;
+        for (const DetectedParticle& p : found.particles)
             if (p.sure && length(p.centre - to) < closest) {
                 best = &p;
                 closest = length(p.centre - to);
@@ -46,16 +46,18 @@ std::optional<Bend> bend_at(const Detections& all, std::size_t k) {
         return best;
     };
     std::vector<double> x, y;
-    for (const Particle& p : now.particles) {
+    for (const DetectedParticle& p : now.particles) {
         if (!p.sure) continue;
         double spacing = 1e300;
-        for (const Particle& other : now.particles)
+        for (const DetectedParticle& other : now.particles)
             if (&other != &p && other.sure)
                 spacing = std::min(spacing, length(other.centre - p.centre));
         if (spacing == 1e300) continue;
         const Vec2 relative = p.centre - now.rim.centre;
-        const Particle* one = nearest(before, before.rim.centre + relative, max_distance * spacing);
-        const Particle* other = nearest(after, after.rim.centre + relative, max_distance * spacing);
+        const DetectedParticle* one =
+            nearest(before, before.rim.centre + relative, max_distance * spacing);
+        const DetectedParticle* other =
+            nearest(after, after.rim.centre + relative, max_distance * spacing);
         if (!one || !other) continue;
         const Vec2 bend = one->centre - 2.0 * p.centre + other->centre;
         x.push_back(bend.x);
@@ -88,11 +90,11 @@ bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked) {
         pose.shift = last;
         tracked.camera.poses.push_back(pose);
         found.rim.centre = found.rim.centre - last;
-        for (Particle& p : found.particles) p.centre = p.centre - last;
+        for (DetectedParticle& p : found.particles) p.centre = p.centre - last;
     }
     tracked.camera.from_rim = true;
     measure_camera_motion(tracked.camera);
     return true;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

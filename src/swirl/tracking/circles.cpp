@@ -10,7 +10,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -505,4 +505,4 @@ CircleFit fit_circle(const cv::Mat& image, Vec2 centre, double radius, Polarity 
     return fit;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -22,7 +22,7 @@
 #include "swirl/math/vec2.hpp"
 #include "swirl/tracking/edge_profile.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 inline double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
 /// The value at which `values` become dense, counted in windows of twice `width`.
@@ -84,4 +84,4 @@ struct CircleFit {
 CircleFit fit_circle(const cv::Mat& image, Vec2 centre, double radius, Polarity polarity,
                      const RaySettings& settings);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -6,7 +6,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -239,4 +239,4 @@ void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& contai
     }
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -23,7 +23,7 @@
 #include "swirl/math/vec2.hpp"
 #include "swirl/tracking/lens.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct Contact {
     double at = 0.0;              // the contact distance
@@ -64,4 +64,4 @@ struct HardDisc {
 /// radii.
 void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& container);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -11,7 +11,7 @@
 #include "swirl/tracking/robust_statistics.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -124,4 +124,4 @@ RecordedMotion record_motion(const TrackedVideo& tracked) {
     return motion;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

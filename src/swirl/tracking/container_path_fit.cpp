@@ -8,7 +8,7 @@
 #include "swirl/tracking/circles.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 PathCircle circle_through(const std::vector<Vec2>& points) {
     constexpr int passes = 8;          // of reweighting
@@ -197,4 +197,4 @@ std::optional<TrackedPath> fit_container_path(const std::vector<Vec2>& centres,
     return start ? PathRefinement(centres, times, *start).run() : std::nullopt;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

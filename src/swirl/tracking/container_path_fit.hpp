@@ -12,7 +12,7 @@
 #include "swirl/math/vec2.hpp"
 #include "swirl/tracking/tracked_path.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// Least amplitude of a container that moves, pixels: noise and vibrations stay below it.
 inline constexpr double min_path_amplitude = 1.0;
@@ -31,4 +31,4 @@ PathCircle circle_through(const std::vector<Vec2>& points);
 std::optional<TrackedPath> fit_container_path(const std::vector<Vec2>& centres,
                                               const std::vector<double>& times);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

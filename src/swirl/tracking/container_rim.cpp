@@ -9,7 +9,7 @@
 #include "swirl/tracking/container_path_fit.hpp"
 #include "swirl/tracking/outline.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -295,4 +295,4 @@ CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim
     return best;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -14,7 +14,7 @@
 #include "swirl/tracking/lens.hpp"
 #include "swirl/tracking/prepared_frame.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// For errors about a container whose centre does not go round a circle.
 inline constexpr const char* no_circle_hint =
@@ -45,4 +45,4 @@ ContainerRim find_rim_on_any_path(const std::vector<PreparedFrame>& frames);
 /// The rim in one frame; `good` is false if it was not found.
 CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

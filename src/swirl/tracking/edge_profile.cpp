@@ -5,7 +5,7 @@
 
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 EdgeProfile::Columns EdgeProfile::terms(double e, bool bent) const {
     constexpr double kernel_step = 0.05;  // pixels: resolves the cusp of the square root
@@ -113,4 +113,4 @@ EdgeProfile::Edge EdgeProfile::find(const float* profile) const {
     return edge;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -15,7 +15,7 @@
 #include <array>
 #include <vector>
 
-namespace swirl {
+namespace swirl::tracking {
 
 class EdgeProfile {
   public:
@@ -58,4 +58,4 @@ class EdgeProfile {
     Columns contrast_;
 };
 
-}  // namespace swirl
+}  // namespace swirl::tracking

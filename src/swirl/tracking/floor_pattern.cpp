@@ -10,7 +10,7 @@
 #include "swirl/tracking/prepared_frame.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -246,4 +246,4 @@ void FloorPattern::remove(cv::Mat& image) const {
     image.setTo(cv::Scalar(plain_level_), floor);
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -17,7 +17,7 @@
 
 #include "swirl/tracking/container_rim.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 class FloorPattern {
   public:
@@ -57,4 +57,4 @@ class FloorPattern {
     double plain_level_ = 0.0;
 };
 
-}  // namespace swirl
+}  // namespace swirl::tracking

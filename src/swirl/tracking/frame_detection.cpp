@@ -12,7 +12,7 @@
 #include "swirl/tracking/robust_statistics.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -125,7 +125,7 @@ void add_contact_distortion(const Detections& all, const ParticleAppearance& app
     std::vector<DiscPair> pairs;
     const std::size_t stride = all.size() / enough + 1;
     for (std::size_t k = 0; k < all.size(); k += stride) {
-        const std::vector<Particle>& particles = all[k].particles;
+        const std::vector<DetectedParticle>& particles = all[k].particles;
         for (std::size_t a = 0; a < particles.size(); ++a)
             for (std::size_t b = a + 1; b < particles.size(); ++b) {
                 if (!particles[a].sure || !particles[b].sure) continue;
@@ -154,11 +154,11 @@ void correct_lens(const VideoSurvey& survey, Detections& all, TrackedVideo& trac
         const Lens::Circle rim = tracked.lens.ideal({found.rim.centre, found.rim.radius});
         found.rim.centre = rim.centre;
         radii.push_back(rim.radius);
-        for (Particle& p : found.particles)
+        for (DetectedParticle& p : found.particles)
             p.centre =
                 tracked.lens.ideal({p.centre, survey.appearance.species[p.species].radius}).centre;
     }
     tracked.rim_radius = quantile(radii, 0.5);
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/tracking/container_path_fit.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 double camera_shake(const std::vector<Vec2>& centres, const std::vector<std::size_t>& frames,
                     const TrackedPath& path) {
@@ -135,4 +135,4 @@ std::vector<FrameJump> find_frame_jumps(const std::vector<Vec2>& centres,
     return jumps;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

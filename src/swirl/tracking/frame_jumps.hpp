@@ -6,7 +6,7 @@
 #include "swirl/math/vec2.hpp"
 #include "swirl/tracking/tracked_path.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// Two successive frames between which the container moved by an unusual angle.
 struct FrameJump {
@@ -32,4 +32,4 @@ std::vector<FrameJump> find_frame_jumps(const std::vector<Vec2>& centres,
 double camera_shake(const std::vector<Vec2>& centres, const std::vector<std::size_t>& frames,
                     const TrackedPath& path);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -9,7 +9,7 @@
 #include "swirl/tracking/frame_jumps.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 bool set_frame_times(const TrackingSettings& settings, const VideoTimes& times, Detections& all,
                      TrackedVideo& tracked) {
@@ -192,4 +192,4 @@ bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims,
     return false;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -189,4 +189,4 @@ Lens fit_lens(const std::vector<ApparentSize>& sizes, const Vec2& image_centre,
     return lens;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -34,7 +34,7 @@
 
 #include "swirl/math/vec2.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct Lens {
     Vec2 image_centre{0.0, 0.0};
@@ -76,4 +76,4 @@ struct ApparentSize {
 /// Determines size_k, size_perspective and their errors, and k from them.
 Lens fit_lens(const std::vector<ApparentSize>& sizes, const Vec2& image_centre, double half_height);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

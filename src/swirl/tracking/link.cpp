@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -407,4 +407,4 @@ Links link_discs(const std::vector<std::vector<DetectedDisc>>& frames,
     return links;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

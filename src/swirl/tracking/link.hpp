@@ -24,7 +24,7 @@
 #include "swirl/math/vec2.hpp"
 #include "swirl/tracking/tracked_path.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct DetectedDisc {
     Vec2 position{0.0, 0.0};
@@ -58,4 +58,4 @@ Links link_discs(const std::vector<std::vector<DetectedDisc>>& frames,
 std::vector<int> best_assignment(const std::vector<std::vector<double>>& cost,
                                  const std::function<void()>& throw_if_stopped = {});
 
-}  // namespace swirl
+}  // namespace swirl::tracking

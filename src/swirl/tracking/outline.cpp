@@ -7,7 +7,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -108,4 +108,4 @@ CircleFit fit_outline(const cv::Mat& image, const Lens& lens, Lens::Circle circl
     return fit;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

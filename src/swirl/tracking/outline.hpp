@@ -11,7 +11,7 @@
 #include "swirl/tracking/circles.hpp"
 #include "swirl/tracking/lens.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct OutlineSettings {
     Polarity polarity = 1;
@@ -29,4 +29,4 @@ std::vector<Vec2> outline_edge(const cv::Mat& image, const Lens& lens, const Len
 CircleFit fit_outline(const cv::Mat& image, const Lens& lens, Lens::Circle circle,
                       const OutlineSettings& settings);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -5,7 +5,7 @@
 #include "swirl/tracking/contact_distance.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -16,8 +16,9 @@ struct Contacts {
     std::optional<Contact> wall;
 };
 
-std::vector<Particle*> linked_particles(const Links& links, Detections& all, std::size_t frame) {
-    std::vector<Particle*> here;
+std::vector<DetectedParticle*> linked_particles(const Links& links, Detections& all,
+                                                std::size_t frame) {
+    std::vector<DetectedParticle*> here;
     for (std::size_t d = 0; d < all[frame].particles.size(); ++d)
         if (links.track[frame][d] >= 0) here.push_back(&all[frame].particles[d]);
     return here;
@@ -28,10 +29,12 @@ Contacts find_contacts(const Links& links, Detections& all, TrackedVideo& tracke
                               0.004};       // if distances do not determine it; error: of the radii
     constexpr double wall_range = 0.4;      // radii inwards from the outermost disc
     constexpr double max_wall_error = 1.3;  // times that of a distance: the wall is a circle
-    const auto radius = [&](const Particle* p) { return tracked.species[p->species].radius; };
+    const auto radius = [&](const DetectedParticle* p) {
+        return tracked.species[p->species].radius;
+    };
     std::vector<double> distances, reaches;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const std::vector<Particle*> here = linked_particles(links, all, k);
+        const std::vector<DetectedParticle*> here = linked_particles(links, all, k);
         const Vec2 container = tracked.container(k);
         for (std::size_t a = 0; a < here.size(); ++a) {
             reaches.push_back(-(length(here[a]->centre - container) + radius(here[a])));
@@ -75,10 +78,10 @@ void separate_overlaps(const Links& links, Detections& all, TrackedVideo& tracke
     const auto [contact, wall] = find_contacts(links, all, tracked);
     const double error = contact.error * tracked.radius * std::sqrt(2.0 * free_share);
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const std::vector<Particle*> here = linked_particles(links, all, k);
+        const std::vector<DetectedParticle*> here = linked_particles(links, all, k);
         std::vector<HardDisc> discs;
         std::vector<double> variances;
-        for (const Particle* p : here) {
+        for (const DetectedParticle* p : here) {
             // The error of a fit is too small for a disc of which little is visible. The cube of
             // the support was found by trial.
             const double share = std::max(p->support, min_support),
@@ -97,4 +100,4 @@ void separate_overlaps(const Links& links, Detections& all, TrackedVideo& tracke
     }
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -11,7 +11,7 @@
 #include "swirl/tracking/particle_size.hpp"
 #include "swirl/tracking/shading_detection.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -322,7 +322,7 @@ ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
 namespace {
 
 /// Refines the position of a disc that is known to a pixel or two.
-void refine_position(Particle& particle, const std::vector<Particle>& all,
+void refine_position(DetectedParticle& particle, const std::vector<DetectedParticle>& all,
                      const PreparedFrame& frame, const ParticleAppearance& appearance) {
     const double radius = appearance.species[particle.species].radius;
     const double seen = appearance.lens.seen_radius(particle.centre, radius);
@@ -335,7 +335,7 @@ void refine_position(Particle& particle, const std::vector<Particle>& all,
         particle.centre = whole.centre;
     rays.edge_profile = &appearance.edge_profiles[particle.species];
     rays.edge_profile_alone = true;
-    for (const Particle& other : all) {
+    for (const DetectedParticle& other : all) {
         if (&other == &particle || !other.sure) continue;
         const double size =
             appearance.lens.seen_radius(other.centre, appearance.species[other.species].radius);
@@ -353,8 +353,9 @@ void refine_position(Particle& particle, const std::vector<Particle>& all,
 }
 
 /// Sets the weighted mean of the positions by edge and by template.
-void combine_positions(Particle& particle, const Vec2& by_edge,
-                       const AppearanceTemplate::Excess& excess, const std::vector<Particle>& all,
+void combine_positions(DetectedParticle& particle, const Vec2& by_edge,
+                       const AppearanceTemplate::Excess& excess,
+                       const std::vector<DetectedParticle>& all,
                        const ParticleAppearance& appearance) {
     const AppearanceTemplate& by_template = *appearance.appearance_template;
     const auto others = sure_others(all, particle, appearance);
@@ -369,12 +370,13 @@ class TemplateSearch {
   public:
     /// `particles` were found by their edges.
     TemplateSearch(const PreparedFrame& frame, const CircleFit& rim,
-                   const ParticleAppearance& appearance, const std::vector<Particle>& particles)
+                   const ParticleAppearance& appearance,
+                   const std::vector<DetectedParticle>& particles)
         : appearance_(appearance),
           template_(*appearance.appearance_template),
           rim_(rim),
           excess_(template_.excess(frame.sharp, rim, particles)) {
-        for (const Particle& b : particles)
+        for (const DetectedParticle& b : particles)
             if (template_.inside(excess_, b.centre, b.species))
                 open_.push_back(
                     {b, b.centre, template_.score(excess_, b.centre, b.species, {}, 2)});
@@ -398,7 +400,7 @@ class TemplateSearch {
         }
     }
     /// The accepted particles at their final positions; the others remain as candidates.
-    std::vector<Particle> found() {
+    std::vector<DetectedParticle> found() {
         for (std::size_t k = 0; k < accepted_.size(); ++k)
             combine_positions(accepted_[k], edges_[k], excess_, accepted_, appearance_);
         for (Candidate& c : open_) {
@@ -412,22 +414,22 @@ class TemplateSearch {
 
   private:
     struct Candidate {
-        Particle particle;
+        DetectedParticle particle;
         Vec2 by_edge;
         double score;
     };
 
-    double sum_of_radii(const Particle& a, const Particle& b) const {
+    double sum_of_radii(const DetectedParticle& a, const DetectedParticle& b) const {
         return appearance_.spacing *
                (appearance_.species[a.species].radius + appearance_.species[b.species].radius);
     }
     /// True if an accepted particle is nearer than this fraction of the sum of radii.
-    bool overlaps(const Particle& particle, double distance) const {
-        return std::any_of(accepted_.begin(), accepted_.end(), [&](const Particle& t) {
+    bool overlaps(const DetectedParticle& particle, double distance) const {
+        return std::any_of(accepted_.begin(), accepted_.end(), [&](const DetectedParticle& t) {
             return length(t.centre - particle.centre) < distance * sum_of_radii(t, particle);
         });
     }
-    double score(const Particle& particle) const {
+    double score(const DetectedParticle& particle) const {
         return template_.score(excess_, particle.centre, particle.species,
                                sure_others(accepted_, particle, appearance_), 2);
     }
@@ -487,13 +489,13 @@ class TemplateSearch {
     const CircleFit& rim_;
     AppearanceTemplate::Excess excess_;
     std::vector<Candidate> open_;
-    std::vector<Particle> accepted_;
+    std::vector<DetectedParticle> accepted_;
     std::vector<Vec2> edges_;  // positions by edge of the accepted particles
 };
 
-std::vector<Particle> search_with_template(const std::vector<Particle>& particles,
-                                           const PreparedFrame& frame, const CircleFit& rim,
-                                           const ParticleAppearance& appearance) {
+std::vector<DetectedParticle> search_with_template(const std::vector<DetectedParticle>& particles,
+                                                   const PreparedFrame& frame, const CircleFit& rim,
+                                                   const ParticleAppearance& appearance) {
     TemplateSearch search(frame, rim, appearance, particles);
     search.accept_with_edges();
     search.accept_without_edges();
@@ -502,19 +504,18 @@ std::vector<Particle> search_with_template(const std::vector<Particle>& particle
 
 constexpr double search_step = 0.15, search_reach = 0.45;  // radii
 
-std::optional<Particle> find_near_with_template(const PreparedFrame& frame, const CircleFit& rim,
-                                                const ParticleAppearance& appearance,
-                                                const Vec2& expected, std::size_t species,
-                                                const std::vector<Particle>& others) {
+std::optional<DetectedParticle> find_near_with_template(
+    const PreparedFrame& frame, const CircleFit& rim, const ParticleAppearance& appearance,
+    const Vec2& expected, std::size_t species, const std::vector<DetectedParticle>& others) {
     constexpr double reach = 2.0 * search_reach + 1e-9;
     const double radius = appearance.species[species].radius;
     const AppearanceTemplate& by_template = *appearance.appearance_template;
     const AppearanceTemplate::Excess excess = by_template.excess(frame.sharp, rim, others);
-    Particle best;
+    DetectedParticle best;
     best.species = species;
     for (double x = -2.0 * search_reach; x <= reach; x += search_step)
         for (double y = -2.0 * search_reach; y <= reach; y += search_step) {
-            Particle trial = best;
+            DetectedParticle trial = best;
             trial.centre = expected + radius * Vec2{x, y};
             trial.support = by_template.score(excess, trial.centre, species,
                                               sure_others(others, trial, appearance), 2);
@@ -524,7 +525,7 @@ std::optional<Particle> find_near_with_template(const PreparedFrame& frame, cons
     const auto fit =
         by_template.fit(excess, best.centre, species, sure_others(others, best, appearance));
     if (fit.good) best.centre = fit.centre;
-    for (const Particle& other : others)
+    for (const DetectedParticle& other : others)
         if (length(other.centre - best.centre) <
             free_distance * appearance.spacing *
                 (radius + appearance.species[other.species].radius))
@@ -535,16 +536,16 @@ std::optional<Particle> find_near_with_template(const PreparedFrame& frame, cons
 
 }  // namespace
 
-std::optional<Particle> find_particle_near(const PreparedFrame& frame, const CircleFit& rim,
-                                           const ParticleAppearance& appearance,
-                                           const Vec2& expected, std::size_t species,
-                                           const std::vector<Particle>& others) {
+std::optional<DetectedParticle> find_particle_near(const PreparedFrame& frame, const CircleFit& rim,
+                                                   const ParticleAppearance& appearance,
+                                                   const Vec2& expected, std::size_t species,
+                                                   const std::vector<DetectedParticle>& others) {
     if (appearance.appearance_template)
         return find_near_with_template(frame, rim, appearance, expected, species, others);
     constexpr double min_gap = 0.88;  // of the sum of radii
     const double radius = appearance.species[species].radius;
     const RaySettings rays = rays_for(frame, appearance.steepest * radius);
-    Particle best;
+    DetectedParticle best;
     best.species = species;
     for (double x = -search_reach; x <= search_reach + 1e-9; x += search_step)
         for (double y = -search_reach; y <= search_reach + 1e-9; y += search_step) {
@@ -554,7 +555,7 @@ std::optional<Particle> find_particle_near(const PreparedFrame& frame, const Cir
                 appearance.polarity, rays);
             if (!fit.good || length(fit.centre - expected) > search_reach * radius) continue;
             const bool overlaps_other =
-                std::any_of(others.begin(), others.end(), [&](const Particle& other) {
+                std::any_of(others.begin(), others.end(), [&](const DetectedParticle& other) {
                     return length(other.centre - fit.centre) <
                            min_gap * appearance.spacing *
                                (radius + appearance.species[other.species].radius);
@@ -573,13 +574,13 @@ namespace {
 
 /// Repeats a fit of low support from several starting points around it. Patches of the texture
 /// mislead votes, and a fit that starts there may end on the patch.
-Particle refit_from_around(const Particle& particle, const PreparedFrame& frame,
-                           const ParticleAppearance& appearance) {
+DetectedParticle refit_from_around(const DetectedParticle& particle, const PreparedFrame& frame,
+                                   const ParticleAppearance& appearance) {
     constexpr double distance = 0.2;  // radii
     constexpr int starts = 8;
     const double radius = appearance.steepest * appearance.species[particle.species].radius;
     RaySettings rays = rays_for(frame, radius);
-    Particle best = particle;
+    DetectedParticle best = particle;
     for (int k = 0; k < starts; ++k) {
         const Vec2 seed = particle.centre + distance * radius * unit_circle(double(k) / starts);
         const CircleFit fit =
@@ -597,16 +598,16 @@ Particle refit_from_around(const Particle& particle, const PreparedFrame& frame,
 
 }  // namespace
 
-std::vector<Particle> find_particles(const PreparedFrame& frame, const CircleFit& rim,
-                                     const ParticleAppearance& appearance) {
+std::vector<DetectedParticle> find_particles(const PreparedFrame& frame, const CircleFit& rim,
+                                             const ParticleAppearance& appearance) {
     if (appearance.shading) {
-        const std::vector<Particle> found =
+        const std::vector<DetectedParticle> found =
             find_by_shading(frame.sharp, rim, *appearance.shading, appearance.number);
         return appearance.appearance_template ? search_with_template(found, frame, rim, appearance)
                                               : found;
     }
     const std::vector<EdgePixel> edges = edges_inside(frame, rim);
-    std::vector<Particle> all;
+    std::vector<DetectedParticle> all;
     for (std::size_t species = 0; species < appearance.species.size(); ++species) {
         const double radius = appearance.steepest * appearance.species[species].radius;
         const double area = rim.radius * rim.radius / (radius * radius);
@@ -626,18 +627,19 @@ std::vector<Particle> find_particles(const PreparedFrame& frame, const CircleFit
             all.push_back({fit.centre, species, fit.support, fit.error, false});
         }
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Particle& a, const Particle& b) { return a.support > b.support; });
-    std::vector<Particle> accepted;
-    const auto overlaps = [&](const Particle& particle, bool sure_ones, double distance) {
-        return std::any_of(accepted.begin(), accepted.end(), [&](const Particle& k) {
+    std::stable_sort(
+        all.begin(), all.end(),
+        [](const DetectedParticle& a, const DetectedParticle& b) { return a.support > b.support; });
+    std::vector<DetectedParticle> accepted;
+    const auto overlaps = [&](const DetectedParticle& particle, bool sure_ones, double distance) {
+        return std::any_of(accepted.begin(), accepted.end(), [&](const DetectedParticle& k) {
             return (k.sure || !sure_ones) && length(k.centre - particle.centre) <
                                                  distance * appearance.spacing *
                                                      (appearance.species[k.species].radius +
                                                       appearance.species[particle.species].radius);
         });
     };
-    for (Particle particle : all) {
+    for (DetectedParticle particle : all) {
         if (overlaps(particle, false, same_distance)) continue;
         bool is_covered = overlaps(particle, true, min_distance);
         if (!is_covered && particle.support < appearance.sure) {
@@ -647,9 +649,10 @@ std::vector<Particle> find_particles(const PreparedFrame& frame, const CircleFit
         particle.sure = !is_covered && particle.support >= appearance.sure;
         accepted.push_back(particle);
     }
-    for (Particle& particle : accepted) refine_position(particle, accepted, frame, appearance);
+    for (DetectedParticle& particle : accepted)
+        refine_position(particle, accepted, frame, appearance);
     return appearance.appearance_template ? search_with_template(accepted, frame, rim, appearance)
                                           : accepted;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -21,7 +21,7 @@
 #include "swirl/tracking/container_rim.hpp"
 #include "swirl/tracking/lens.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 class AppearanceTemplate;
 
@@ -59,7 +59,7 @@ struct ParticleAppearance {
     double radius() const { return species.front().radius; }
 };
 
-struct Particle {
+struct DetectedParticle {
     Vec2 centre{0.0, 0.0};
     std::size_t species = 0;
     double support = 0.0, error = 0.0;
@@ -86,14 +86,14 @@ ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
 /// Blur of the survey frames, pixels.
 inline constexpr double survey_blur = 0.6;
 
-std::vector<Particle> find_particles(const PreparedFrame& frame, const CircleFit& rim,
-                                     const ParticleAppearance& appearance);
+std::vector<DetectedParticle> find_particles(const PreparedFrame& frame, const CircleFit& rim,
+                                             const ParticleAppearance& appearance);
 
 /// Finds a disc that must be near `expected` but was not detected: the circle with most support
 /// within half a radius that does not overlap `others`, or the best match of the template.
-std::optional<Particle> find_particle_near(const PreparedFrame& frame, const CircleFit& rim,
-                                           const ParticleAppearance& appearance,
-                                           const Vec2& expected, std::size_t species,
-                                           const std::vector<Particle>& others);
+std::optional<DetectedParticle> find_particle_near(const PreparedFrame& frame, const CircleFit& rim,
+                                                   const ParticleAppearance& appearance,
+                                                   const Vec2& expected, std::size_t species,
+                                                   const std::vector<DetectedParticle>& others);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/tracking/contact_distance.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 std::vector<CircleCandidate> best_candidates(std::vector<CircleCandidate> all, double spacing) {
     std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
@@ -198,4 +198,4 @@ CommonCircle find_common_circle(const ParticleSurvey& survey, const KnownDiscs& 
         radius_of_reason, reason));
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -20,7 +20,7 @@
 
 #include "swirl/tracking/particle_detection.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// Two circles nearer than this fraction of the sum of radii overlap.
 inline constexpr double min_distance = 0.8;
@@ -61,4 +61,4 @@ struct CommonCircle {
 /// contradicted.
 CommonCircle find_common_circle(const ParticleSurvey& survey, const KnownDiscs& known);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

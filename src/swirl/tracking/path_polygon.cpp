@@ -7,7 +7,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/circles.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -121,4 +121,4 @@ PathPolygon find_path_polygon(const std::vector<Vec2>& centres, const std::vecto
     return polygon;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -14,7 +14,7 @@
 #include "swirl/math/vec2.hpp"
 #include "swirl/tracking/tracked_path.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct PathPolygon {
     int sides = 0;  // 0: not a polygon of up to max_sides
@@ -27,4 +27,4 @@ struct PathPolygon {
 PathPolygon find_path_polygon(const std::vector<Vec2>& centres, const std::vector<double>& times,
                               const TrackedPath& path);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -49,4 +49,4 @@ Vec2 PreparedFrame::to_small(const Vec2& p) const {
     return {(p.x + 0.5) * shrink - 0.5, (p.y + 0.5) * shrink - 0.5};
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

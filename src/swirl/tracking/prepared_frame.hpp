@@ -6,7 +6,7 @@
 
 #include "swirl/tracking/circles.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct PreparedFrame {
     /// `grey` has 8 bits a pixel. `reduction` (at most 1) is the target for `shrink`; `blur` is the
@@ -22,4 +22,4 @@ struct PreparedFrame {
     Vec2 to_small(const Vec2& p) const;
 };
 
-}  // namespace swirl
+}  // namespace swirl::tracking

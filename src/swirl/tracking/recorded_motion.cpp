@@ -14,7 +14,7 @@
 #include "swirl/tracking/container_path_fit.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 double RecordedMotion::period() const { return 2.0 * pi / omega; }
 double RecordedMotion::period_error() const { return period() * omega_error / omega; }
@@ -356,4 +356,4 @@ RecordedMotion average_motion(const std::vector<Vec2>& centres, const std::vecto
     return motion;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

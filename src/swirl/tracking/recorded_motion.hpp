@@ -17,7 +17,7 @@
 
 #include "swirl/math/vec2.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct RecordedMotion {
     Vec2 centre{0.0, 0.0};           // S, the mean over a period
@@ -46,4 +46,4 @@ struct RecordedMotion {
 RecordedMotion average_motion(const std::vector<Vec2>& centres, const std::vector<double>& times,
                               std::size_t frames);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/math/median.hpp"
 #include "swirl/math/vec2.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// Standard deviation of normal deviates, relative to their median absolute deviation.
 inline constexpr double mad_to_sigma = 1.4826;
@@ -45,4 +45,4 @@ inline Vec2 median_point(const std::vector<Vec2>& points) {
     return {median(xs), median(ys)};
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

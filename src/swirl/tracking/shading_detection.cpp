@@ -9,7 +9,7 @@
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -226,10 +226,10 @@ std::optional<ParticleAppearance> survey_shading(const std::vector<PreparedFrame
     return appearance;
 }
 
-std::vector<Particle> find_by_shading(const cv::Mat& sharp, const CircleFit& rim,
-                                      const ShadingFilter& filter, std::size_t max_count) {
+std::vector<DetectedParticle> find_by_shading(const cv::Mat& sharp, const CircleFit& rim,
+                                              const ShadingFilter& filter, std::size_t max_count) {
     constexpr double error = 0.1;  // radii
-    std::vector<Particle> found;
+    std::vector<DetectedParticle> found;
     for (const Maximum& m :
          maxima_of(slopes_of(sharp, rim, filter.radius), filter.towards, filter.radius)) {
         if (m.height < filter.min_height || found.size() == max_count) break;
@@ -238,4 +238,4 @@ std::vector<Particle> find_by_shading(const cv::Mat& sharp, const CircleFit& rim
     return found;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -25,7 +25,7 @@
 
 #include "swirl/tracking/particle_detection.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// The appearance of balls of one size in these frames; none if their number is not consistent.
 std::optional<ParticleAppearance> survey_shading(const std::vector<PreparedFrame>& frames,
@@ -33,7 +33,7 @@ std::optional<ParticleAppearance> survey_shading(const std::vector<PreparedFrame
                                                  const KnownDiscs& known, unsigned threads);
 
 /// The maxima of the response in one frame, the highest first, as sure particles.
-std::vector<Particle> find_by_shading(const cv::Mat& sharp, const CircleFit& rim,
-                                      const ShadingFilter& filter, std::size_t max_count);
+std::vector<DetectedParticle> find_by_shading(const cv::Mat& sharp, const CircleFit& rim,
+                                              const ShadingFilter& filter, std::size_t max_count);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -14,7 +14,7 @@
 #include "swirl/tracking/circles.hpp"
 #include "swirl/tracking/video.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -518,4 +518,4 @@ VideoSpins measure_spins(const TrackedVideo& tracked, const TrackingSettings& se
     return spins;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

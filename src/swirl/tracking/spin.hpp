@@ -1,6 +1,6 @@
 // The rotation of each disc from its texture, by two estimators.
 //
-// PIV, as in the paper (SI, "Particle spin"): 16 interrogation windows on a 4 × 4 grid within the
+// PIV, as in the paper (SI, "DetectedParticle spin"): 16 interrogation windows on a 4 × 4 grid within the
 // disc. v_i is the velocity of the texture in window i relative to the disc's centre. It starts
 // from the peak of the normalised correlation, in whole pixels, and a least-squares shift refines
 // it (as in iterative PIV), so peaks are not locked to pixels. With ρ_i the position of window i
@@ -30,7 +30,7 @@
 
 #include "swirl/tracking/tracking.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct DiscSpin {
     std::array<double, 3> turn{};  // registration: radians per frame
@@ -51,4 +51,4 @@ struct VideoSpins {
 /// Reads the video again. Throws Failure and Interrupted.
 VideoSpins measure_spins(const TrackedVideo& video, const TrackingSettings& settings);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

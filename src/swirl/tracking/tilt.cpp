@@ -10,7 +10,7 @@
 #include "swirl/tracking/outline.hpp"
 #include "swirl/tracking/robust_statistics.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -353,4 +353,4 @@ Tilt find_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& know
     return tilt;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

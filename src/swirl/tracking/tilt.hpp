@@ -29,7 +29,7 @@
 #include "swirl/tracking/container_rim.hpp"
 #include "swirl/tracking/lens.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// Angles in radians; directions as phases, counter-clockwise from the right.
 struct Tilt {
@@ -51,4 +51,4 @@ struct KnownCamera {
 Tilt find_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known,
                ContainerRim& rim, Lens& lens);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -3,7 +3,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 void assemble_tracks(const Detections& all, const Links& links, std::int64_t first_frame,
                      TrackedVideo& tracked) {
@@ -13,7 +13,7 @@ void assemble_tracks(const Detections& all, const Links& links, std::int64_t fir
     constexpr double filled_error = 0.1;    // radii
     struct Point {
         std::size_t frame;
-        const Particle* particle;
+        const DetectedParticle* particle;
     };
     std::vector<std::vector<Point>> points(links.species.size());
     for_each_linked(links, [&](std::size_t k, std::size_t track, std::size_t d) {
@@ -64,4 +64,4 @@ void assemble_tracks(const Detections& all, const Links& links, std::int64_t fir
     tracked.number = static_cast<std::size_t>(id);
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

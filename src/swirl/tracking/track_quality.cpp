@@ -7,7 +7,7 @@
 #include "swirl/tracking/robust_statistics.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -142,7 +142,7 @@ double error_from_fits(const Detections& all) {
     double square = 0.0;
     std::size_t count = 0;
     for (const FrameDetections& frame : all)
-        for (const Particle& p : frame.particles)
+        for (const DetectedParticle& p : frame.particles)
             if (p.sure && p.disagreement > 0.0) {
                 square += 0.5 * p.disagreement * p.disagreement;
                 ++count;
@@ -221,4 +221,4 @@ void set_radii(TrackedVideo& tracked) {
     tracked.container_radius = agree || too_few ? tracked.rim_radius : tracked.reach;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -5,7 +5,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -15,7 +15,7 @@ void drop_overlapping(const Detections& all, const std::vector<double>& radii, d
                       Links& links) {
     const double min_distance = 0.84 * spacing;  // sums of radii
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const std::vector<Particle>& particles = all[k].particles;
+        const std::vector<DetectedParticle>& particles = all[k].particles;
         for (std::size_t a = 0; a < particles.size(); ++a)
             for (std::size_t b = a + 1; b < particles.size(); ++b) {
                 int &first = links.track[k][a], &second = links.track[k][b];
@@ -98,7 +98,7 @@ bool all_detected(const Links& links) {
 
 /// The sure particle without a track that may be this disc, although it is no continuation of its
 /// track: a disc that is hit twice between two frames. −1 if there is none.
-int unlinked_near(const MissingDisc& disc, const std::vector<Particle>& particles,
+int unlinked_near(const MissingDisc& disc, const std::vector<DetectedParticle>& particles,
                   const std::vector<int>& tracks, double radius) {
     int nearest = -1;
     double distance = 1.2 * radius;
@@ -127,13 +127,13 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
         if (k % progress_interval == 0)
             settings.report_progress("finding missing discs", double(k) / double(all.size()));
         const Vec2 container = tracked.container(k);
-        std::vector<Particle>& particles = all[k].particles;
+        std::vector<DetectedParticle>& particles = all[k].particles;
         std::vector<int>& tracks = links.track[k];
         std::vector<MissingDisc> here = missing[k];
         for (std::size_t t = 0; t < last.size(); ++t)
             if (k > last_frame[t] && last[t])
                 here.push_back({t, links.species[t], container + *last[t]});
-        std::vector<Particle> others;  // as seen
+        std::vector<DetectedParticle> others;  // as seen
         for (std::size_t d = 0; d < particles.size(); ++d) {
             if (tracks[d] < 0) continue;
             last[static_cast<std::size_t>(tracks[d])] = particles[d].centre - container;
@@ -154,7 +154,7 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
                                             tracked.lens.seen(disc.position), disc.species, others);
             if (const int d = unlinked_near(disc, particles, tracks, radius);
                 d >= 0 && !survey.appearance.appearance_template) {
-                const Particle& sure = particles[std::size_t(d)];
+                const DetectedParticle& sure = particles[std::size_t(d)];
                 if (!found || sure.support > clearer * found->support) {
                     tracks[std::size_t(d)] = static_cast<int>(disc.track);
                     others.push_back(sure);
@@ -181,7 +181,7 @@ Links link_detections(const TrackingSettings& settings, const VideoSurvey& surve
     std::vector<std::vector<DetectedDisc>> discs;
     for (const FrameDetections& found : all) {
         discs.emplace_back();
-        for (const Particle& p : found.particles)
+        for (const DetectedParticle& p : found.particles)
             discs.back().push_back({p.centre, p.species, p.sure});
     }
     LinkSettings link;
@@ -199,4 +199,4 @@ Links link_detections(const TrackingSettings& settings, const VideoSurvey& surve
     return links;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

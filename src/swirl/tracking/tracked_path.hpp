@@ -6,7 +6,7 @@
 
 #include "swirl/math/vec2.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 struct TrackedPath {
     Vec2 centre{0.0, 0.0};
@@ -22,4 +22,4 @@ struct TrackedPath {
     Vec2 at(double time) const;
 };
 
-}  // namespace swirl
+}  // namespace swirl::tracking

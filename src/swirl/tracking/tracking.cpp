@@ -14,7 +14,7 @@
 #include "swirl/tracking/robust_statistics.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 void TrackingSettings::throw_if_stopped() const {
     if (stop && stop->load())
@@ -58,7 +58,7 @@ std::size_t count_discs(const Detections& all, Counts&& counts) {
         ++frames;
         ++frames_with[static_cast<std::size_t>(
             std::count_if(found.particles.begin(), found.particles.end(),
-                          [&](const Particle& p) { return p.sure && counts(p.species); }))];
+                          [&](const DetectedParticle& p) { return p.sure && counts(p.species); }))];
     }
     std::size_t so_far = 0;
     for (const auto& [number, count] : frames_with) {
@@ -74,7 +74,7 @@ std::optional<std::array<std::size_t, 2>> common_composition(const Detections& a
     std::map<std::size_t, std::size_t> frames_with;  // number of the second species
     for (const FrameDetections& found : all) {
         std::array<std::size_t, 2> number{};
-        for (const Particle& p : found.particles)
+        for (const DetectedParticle& p : found.particles)
             if (p.sure) ++number[p.species];
         if (number[0] + number[1] == total) ++frames_with[number[1]];
     }
@@ -249,4 +249,4 @@ TrackedVideo track_video(const TrackingSettings& settings) {
     }
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

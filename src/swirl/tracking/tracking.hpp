@@ -25,7 +25,7 @@
 #include "swirl/tracking/tracked_path.hpp"
 #include "swirl/tracking/video.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// Numbers of frames of the video, both included.
 struct FrameRange {
@@ -134,7 +134,7 @@ struct TrackedVideo {
     }
     /// Removes the camera's motion from a frame as it was read.
     void stabilise(std::size_t frame, cv::Mat& grey) const {
-        if (!camera.poses.empty()) swirl::stabilise(grey, camera.poses[frame]);
+        if (!camera.poses.empty()) tracking::stabilise(grey, camera.poses[frame]);
     }
     TrackScale scale() const;  // for series_of()
 };
@@ -149,4 +149,4 @@ TrackedVideo track_container(const TrackingSettings& settings);
 /// discs were tracked. The errors include that of the lens. Throws Failure.
 RecordedMotion record_motion(const TrackedVideo& tracked);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -17,7 +17,7 @@
 #include "swirl/tracking/tracking.hpp"
 #include "swirl/tracking/video.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 unsigned thread_count(const TrackingSettings& settings);
 
@@ -46,7 +46,7 @@ VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_co
 
 struct FrameDetections {
     CircleFit rim;
-    std::vector<Particle> particles;
+    std::vector<DetectedParticle> particles;
     /// False for a frame without a time of its own, a duplicate, and one to be skipped.
     bool used = true;
     std::optional<CameraPose> pose;  // of the frame, if the camera moves
@@ -142,4 +142,4 @@ void reject_contradicted_discs(const TrackedVideo& tracked);
 /// Adds warnings about what looks wrong, with the likely cause.
 void add_warnings(TrackedVideo& tracked);
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -230,4 +230,4 @@ void add_warnings(TrackedVideo& tracked) {
              tracked.contact_ratio);
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -18,7 +18,7 @@
 #include "swirl/render/numbered_frames.hpp"
 #include "swirl/run/failure.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -298,4 +298,4 @@ bool Video::next(cv::Mat& grey) {
     return false;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -12,7 +12,7 @@
 
 #include "swirl/render/ffmpeg.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 /// When the frames were taken, according to the file.
 struct VideoTimes {
@@ -76,4 +76,4 @@ class Video {
     std::int64_t count_ = 0;
 };
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -11,7 +11,7 @@
 #include "swirl/tracking/shading_detection.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -113,7 +113,7 @@ bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& 
                                 ParticleAppearance& appearance) {
     std::vector<double> ratios;
     for (const AppearanceTemplate::Example& example : examples) {
-        const std::vector<Particle>& discs = example.particles;
+        const std::vector<DetectedParticle>& discs = example.particles;
         for (std::size_t a = 0; a < discs.size(); ++a)
             for (std::size_t b = a + 1; b < discs.size(); ++b) {
                 if (!discs[a].sure || !discs[b].sure) continue;
@@ -140,7 +140,7 @@ Vec2 mean_gradient(const std::vector<AppearanceTemplate::Example>& examples,
     Vec2 sum{0.0, 0.0};
     double weight = 0.0;
     for (const AppearanceTemplate::Example& example : examples)
-        for (const Particle& p : example.particles) {
+        for (const DetectedParticle& p : example.particles) {
             if (!p.sure) continue;
             const double radius = appearance.species[p.species].radius, reach = inner * radius;
             const int top = std::max(0, int(p.centre.y - reach) + 1),
@@ -277,4 +277,4 @@ VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_co
     return survey;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking

@@ -18,7 +18,7 @@
 #include "swirl/tracking/robust_statistics.hpp"
 #include "swirl/tracking/tracking_steps.hpp"
 
-namespace swirl {
+namespace swirl::tracking {
 
 namespace {
 
@@ -108,7 +108,7 @@ void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& 
     if (tracked.lens.tilted()) return;
     WallRows wall;
     for_each_linked(links, [&](std::size_t k, std::size_t, std::size_t d) {
-        const Particle& p = all[k].particles[d];
+        const DetectedParticle& p = all[k].particles[d];
         const double radius = tracked.species[p.species].radius;
         const Vec2 apart = p.centre - tracked.container(k);
         const double distance = length(apart);
@@ -134,8 +134,8 @@ void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& 
     tracked.shading_shift = shift;
     tracked.shading_shift_error = error;
     for (FrameDetections& frame : all)
-        for (Particle& p : frame.particles)
+        for (DetectedParticle& p : frame.particles)
             p.centre = p.centre - (tracked.species[p.species].radius / tracked.radius) * shift;
 }
 
-}  // namespace swirl
+}  // namespace swirl::tracking
