@@ -9,6 +9,10 @@ CONTRADICTIONS = [
     ("Amplitude of the path", "The main text has A = 0.96. The SI has A = 1.892 and A/R = 0.22.",
      "The first value is in disc diameters, the second in disc radii. This program uses 1.892, which gives the "
      "container the speed 1 that the SI states."),
+    ("Amplitude of the experiment", "The main text has 1.15 cm and forces of up to 460 and 200 cm/s². The SI's A/R = 0.22 "
+     "implies 0.575 cm.", "A = 1.15 cm, since then one friction coefficient reproduces N_c, the slip and the single change "
+     "of direction. The force of 460 cm/s² needs 1.05 cm. A Coriolis force of at most 200 cm/s² fits neither value. "
+     "“Half the amplitude” shows 0.575 cm."),
     ("Moment of inertia", "The table has I = 10 for m = r = 1. A rigid plane disc cannot exceed 1 (a ring); a "
      "solid disc has ½.", "The paper's 10 is the default. Figure “inertia” shows 1 and ½."),
     ("Minimal time between collisions", "The paper discards predicted contacts that are less than 10⁻¹³ ahead, since "
@@ -30,8 +34,9 @@ CONTRADICTIONS = [
      "body without torque has no direction of rotation.",
      "Without torque its spin in the lab stays 0, so γ = 1 and s = R_ball/R_container: figure “ball” simulates it. "
      "Rotation also needs a torque."),
-    ("Amplitude of the experiment", "1.15 cm in a dish of 5.1 cm diameter is 0.45 R as an amplitude and 0.225 R "
-     "from peak to peak.", "The SI's A/R = 0.22 fits half of it, so 1.15 cm must be the diameter of the path."),
+    ("Amplitude of the experiment", "1.15 cm in a dish of 5.1 cm diameter is 0.45 R. The SI's A/R = 0.22 fits half of "
+     "it.", "Claims about the experiment are judged at the stated A = 11.5 mm, which has its single change of direction "
+     "and its slip. For comparison the report has A = 5.75 mm. Coriolis forces of at most 200 cm/s² fit neither."),
     ("Coriolis force", "The paper states 0–200 cm/s². A disc that moves with the wall has about 720 cm/s² in the "
                        "M-frame.",
      "This program computes it from the velocities in the M-frame (measurement “centre”)."),
@@ -54,8 +59,6 @@ QUESTIONS = {
     "spheres_ingredients_rough": "Does the answer depend on the friction coefficient? This figure has roughened spheres.",
     "spheres_friction": "Which friction coefficients have the N_c of the experiment, and how do they depend on what the "
                         "paper does not state?",
-    "spheres_flat_discs": "The paper's simulation has discs and shows counterrotation with a moment of inertia that "
-                          "no disc has. Do solid discs (I = 1/2) that lie flat and slide on a floor counterrotate?",
     "averages": "The paper averages over events, but an observer averages over time. Does the result differ?",
     "transient": "Without disc friction only the wall changes the discs' spins. How long does that take, and does "
                  "the paper's average include the end of it?",
@@ -180,12 +183,9 @@ CAPTIONS = {
                            "acts on the vertical slip of rolling spheres.",
     "spheres_ingredients_rough": "Rotation with all ingredients (black), and with one of them removed, at the N near "
                                  "which the direction of rotation changes.",
-    "spheres_flat_discs": "Rotation against the number of solid discs that lie flat on the floor, with three "
-                          "coefficients of friction against the floor, and without it.",
     "spheres_friction": "N_c of spheres against the friction coefficient of all contacts. Black: A = 11.5 mm, e = 0.9, "
                         "floor as the contacts. Colours: one of these changed. Dashed: N_c of the experiment, 36 for "
                         "smooth and 28 for roughened spheres.",
-    "spheres_restitution": "Rotation of spheres against their number, for the restitution e of their contacts.",
     "spheres_few": "A few spheres after a long warm-up: ϖ (in units of Ω), and the share of them that resides at the "
                    "wall. Both are 1 for a row that rolls along the wall with the swirl.",
     "size": "Left: rotation of the cluster against the packing fraction φ = N r²/R² in containers of different "
@@ -235,8 +235,6 @@ CAPTIONS = {
     "instability": "Layers of rolling spheres in a container of R/r = 17 against the amplitude. Distance between the centre of mass and "
                    "its position in a layer that moves freely; the part of this distance that rotates with the swirl; and "
                    "the rotation of the core and of the layer at the wall.",
-    "spheres_map": "Rotation of the cluster as colour and as number. Positive values rotate with the swirl, negative "
-                   "values against it.",
 }
 
 # Sections of the report: headings, and how the description of their figures begins.

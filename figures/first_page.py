@@ -4,10 +4,11 @@ its numbers come from the tables."""
 import math
 
 import tables
-from claims import contacts, profiles, rotation, spheres
+from claims import contacts, rotation, spheres
+from claims.settings import SPHERES, WORDS
 from claims.study import Study, crossing_sentence, crossing_value, crossing_words
-from claims.thresholds import DENSE_SPHERES, PLASTIC
 from claims.wording import ends, known, number, value_at
+from paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
 from verdicts import HOLDS, IN_PART, UNDECIDED, measured
 
 NO_TABLE = (FileNotFoundError, IndexError, KeyError)
@@ -42,7 +43,7 @@ def change_of(crossing):
 
 
 def transition_found(study):
-    judgement, _ = rotation.transition(study)
+    judgement, _ = rotation.transition(study, "high")
     rows = known(study.curve("5b", setting="high"), "by_event")
     values = f"{rotation_at(rows[0])}, {rotation_at(rows[-1])}"
     change = change_of(study.crossing("5b", "high"))
@@ -81,20 +82,6 @@ def both_frictions_found(study):
         for judgement, words, lowest in cases)
 
 
-def pinned_found(study):
-    moves, _ = profiles.pinned_reach_wall(study)
-    rolls, _ = contacts.slip_rises(study)
-    speeds = ends(profiles.pinned_means(study, "3b", "normalised"), "mean")
-    slips = ends(study.curve("4a", setting="high"), "slip_resident")
-    text = f"angular velocity relative to that of the wall: {speeds}; slip parameter: {slips}"
-    if moves.verdict == rolls.verdict == HOLDS:
-        return f"With more discs, the pinned discs approach the motion of the wall and hardly slip on it ({text})."
-    words = {HOLDS: "is confirmed", UNDECIDED: "is undecided", IN_PART: "is confirmed in part"}
-    return ("The claim that with more discs the pinned discs approach the motion of the wall "
-            f"{words.get(moves.verdict, 'is not confirmed')}. The claim that they hardly slip on it "
-            f"{words.get(rolls.verdict, 'is not confirmed')} ({text}).")
-
-
 def condensation_found(study):
     """Not a claim of the paper: what follows the gas."""
     every_row = study.table("condensation")
@@ -110,38 +97,57 @@ def condensation_found(study):
             (f" Runs that did not condense: {', '.join(late)}." if late else ""))
 
 
-def spheres_found(study):
-    transition, _ = spheres.spheres_transition(study)
-    frustration, _ = spheres.spheres_frustration(study)
-    discs = DENSE_SPHERES[-1]
-    numbers = ", ".join(f"{number(spheres.spheres_at(study, 'spheres_ingredients', curve, discs))} {words}"
-                        for curve, words in ((f"{PLASTIC:g}", "with it"), ("no-vertical", "without")))
-    numbers = f"(ϖ/Ω at N = {discs}, μ = {PLASTIC:g}: {numbers})"
-    force = "vertical friction of the contacts, which opposes their rolling,"
-    cause = statement(frustration, f"{force} causes this", f"{force} does not cause this",
-                      f"whether {force} causes this is undecided")
-    try:
-        changes = ", ".join(f"{at.words} (μ = {mu:g})" for mu, at in sorted(spheres.last_changes(study).items()))
-    except FileNotFoundError:
-        changes = ""
-    where = f" Their direction changes for the last time at these N: {changes}." if changes else ""
-    # The paper's discs do not roll, so that frustration is not the same for them.
-    inertia = spheres.inertia_sentence(study)
-    inertia = (f" Discs do not roll; where they change their direction depends on their inertia{inertia}."
-               if inertia else "")
-    return statement(
-        transition, f"Many spheres that roll on a floor also counterrotate; {cause} {numbers}.{where}{inertia}",
-        f"That many spheres that roll on a floor counterrotate is not confirmed {numbers}.{where}",
-        f"Whether many spheres that roll on a floor counterrotate is undecided {numbers}.{where}")
+def experiment_found(study):
+    """What spheres at the amplitude of the experiment do, next to the numbers of the paper."""
+    judgement, _ = rotation.transition(study, "smooth")
+    known_changes = []
+    for setting in SPHERES:
+        try:
+            known_changes.append(f"that of {WORDS[setting]} {change_of(study.crossing('spheres', setting))}")
+        except NO_TABLE:
+            continue
+    changes = (f"their direction changes: {'; '.join(known_changes)} (paper: {SMOOTH_CHANGE_N} for smooth, "
+               f"{ROUGH_CHANGE_N} for roughened spheres; each friction coefficient is fitted to it)")
+    few_many = "few spheres that roll on a floor rotate with the swirl and many against it, as in the experiment"
+    return statement(judgement, f"{few_many[0].upper()}{few_many[1:]}; {changes}.",
+                     f"That {few_many}, is not confirmed; {changes}.",
+                     f"Whether {few_many}, is undecided; {changes}.")
+
+
+def predictions_found(study):
+    """No parameter is fitted to these."""
+    slip, _ = contacts.slip_rises(study, "smooth")
+    spin, _ = contacts.wall_spin(study, "smooth")
+    slips = ends(study.curve("4a", setting="smooth"), "slip_resident")
+    spins = ends(study.curve("4b", setting="smooth"), "resident_spin")
+    words = {HOLDS: "is confirmed", UNDECIDED: "is undecided", IN_PART: "is confirmed in part"}
+    return (f"Without a further parameter: that the slip parameter of pinned spheres rises from about 0.5 to nearly 1 "
+            f"{words.get(slip.verdict, 'is not confirmed')} ({slips}); that their spin at the wall falls "
+            f"{words.get(spin.verdict, 'is not confirmed')} ({spins}, in Ω).")
+
+
+def frustration_found(study):
+    """The title of the paper, by its parts."""
+    title, _ = spheres.frustration(study)
+    rows = {setting: study.curve("4b", setting=setting) for setting in ("smooth", "high")}
+    words = "; ".join(
+        f"{name}: {ends(rows[setting], 'chain_correlation')} for pairs in no triangle, "
+        f"{ends(rows[setting], 'triangle_correlation')} in triangles"
+        for setting, name in (("smooth", "smooth spheres"), ("high", "discs")))
+    claim = "geometric frustration induces counterrotation"
+    return statement(title, f"The title holds: {claim}. Correlation of the spins of particles that touch, {words}.",
+                     f"The title, {claim}, is not confirmed. Correlation of the spins of particles that touch, {words}.",
+                     f"Whether {claim} is undecided. Correlation of the spins of particles that touch, {words}.")
 
 
 def main_results(path):
     """Sentences; one whose tables do not exist is left out."""
     sentences = []
-    for find in (transition_found, order_found, both_frictions_found, condensation_found, pinned_found,
-                 spheres_found):
+    study = Study(path)
+    for find in (experiment_found, predictions_found, frustration_found, transition_found, order_found,
+                 both_frictions_found, condensation_found):
         try:
-            sentences.append(find(Study(path)))
+            sentences.append(find(study))
         except (*NO_TABLE, ValueError, ZeroDivisionError):
             continue
     return [sentence for sentence in sentences if sentence]

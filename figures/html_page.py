@@ -45,7 +45,8 @@ figcaption li { margin-bottom: .25rem; }
 table.claims { table-layout: fixed; }
 .claims th:nth-child(1) { width: 2.2em; }
 .claims th:nth-child(2) { width: 26%; }
-.claims th:nth-child(4) { width: 18%; }
+.claims th:nth-child(3) { width: 4.5em; }
+.claims th:nth-child(5) { width: 18%; }
 .question { color: #333; font-style: italic; margin: 0 0 .3rem; }
 @media screen and (max-width: 50rem) { .figures, figure.split { grid-template-columns: 1fr; } }
 @page { size: A4; margin: 16mm 15mm; }

@@ -22,8 +22,12 @@ ROTATING_N, COUNTERROTATING_N = 28, 48
 # Main text, the experiment: "N (ranging from 24 to 48)"; Figure 4c: N of the change of direction.
 EXPERIMENT_N = (24, 48)
 SMOOTH_CHANGE_N, ROUGH_CHANGE_N = 36, 28
+# Amplitude by setting of a figure: 1.15 cm of the experiment in radii of 3 mm, and half of it.
+AMPLITUDES = {"smooth": 11.5 / 3, "rough": 11.5 / 3, "half": 5.75 / 3}
 # Figure 4a: N, and the slip parameter of the pinned spheres there.
 SLIP_AT_25 = (25, 0.5)
+# "Amplitude 1.15 cm", "5.1 cm in diameter": R and A, in radii of its spheres of 3 mm.
+EXPERIMENT_DISH = (25.5 / 3, 11.5 / 3)
 # r Ω² in cm/s², with discs of 3 mm radius and Ω = 11.81 rad/s.
 EXPERIMENT_R_OMEGA_SQUARED = 0.3 * 11.81 ** 2
 # Main text: centrifugal force "0–460", Coriolis force "0–200", in cm/s².

@@ -10,21 +10,22 @@ import os
 import atomic_file
 import verdicts
 from captions import CONTRADICTIONS, by_section, figure_texts, image_of, question_of, title_of
-from claims import CLAIMS
+from claims import all_judged
+from claims.claim import UNTESTED
 from first_page import crossings_of_one_setting, main_results
 from html_page import bullets, described_folder, opening, pairs, rich, table, td, write
 from page_layout import figures_html
 from point_names import in_words
 from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
 
-ORDER = [HOLDS, IN_PART, FAILS, UNDECIDED, UNTESTABLE, MISSING]
-MARK = {HOLDS: "✓", IN_PART: "◐", FAILS: "✗", UNDECIDED: "±", UNTESTABLE: "–", MISSING: "?"}
+ORDER = [HOLDS, IN_PART, FAILS, UNDECIDED, UNTESTABLE, UNTESTED, MISSING]
+MARK = {HOLDS: "✓", IN_PART: "◐", FAILS: "✗", UNDECIDED: "±", UNTESTABLE: "–", UNTESTED: "–", MISSING: "?"}
 CLASS = {HOLDS: "holds", IN_PART: "part", FAILS: "fails"}
 # For counts: (one claim, several claims).
 WORDS = {HOLDS: ("holds", "hold"), IN_PART: ("holds in part", "hold in part"),
          FAILS: ("does not hold", "do not hold"), UNDECIDED: ("is undecided", "are undecided"),
          UNTESTABLE: ("is not testable by simulation", "are not testable by simulation"),
-         MISSING: ("was not made", "were not made")}
+         UNTESTED: ("is not tested", "are not tested"), MISSING: ("was not made", "were not made")}
 
 TITLE = "Rotation and counterrotation of swirled discs"
 INTRODUCTION = (
@@ -32,8 +33,8 @@ INTRODUCTION = (
     "many against it. L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon and S. M. Rubinstein, “Geometric frustration "
     "induces the transition between rotation and counterrotation in swirled granular media” (Phys. Rev. E 100, "
     "012903, 2019), explain it by friction at the wall and between the discs. This report answers which of their "
-    "claims are confirmed by an exact event-driven simulation of their model, and of spheres that roll on a floor as "
-    "in their experiment.")
+    "claims are confirmed by exact event-driven simulations: claims about their experiment by spheres that roll on a "
+    "floor, claims about their simulation by their discs.")
 
 
 def duration(seconds):
@@ -44,24 +45,39 @@ def duration(seconds):
 
 
 def judge(folder):
-    """[(claim, verdict, what was found)]"""
-    return [(claim, verdict, in_words(found))
-            for claim, (verdict, found) in ((claim, claim.verdict(folder)) for claim in CLAIMS)]
+    """[claims.claim.Judged], with the names of points in words."""
+    judged = all_judged(folder)
+    for j in judged:
+        j.found = in_words(j.found)
+    return judged
+
+
+def with_sizes(j):
+    """How the verdict depends on the sizes that our reading of the paper's words requires."""
+    if not j.scaled or j.verdict in (MISSING, UNTESTED, UNTESTABLE):
+        return ""
+    if not j.depends_on_size:
+        return "the same at half and twice the size"
+    return "depends on the size: " + ", ".join(
+        f"{j.scaled[factor]} at {words}" for factor, words in ((0.5, "half"), (2, "twice")))
 
 
 def counts(judged):
     """"Of 26 claims 19 hold, 6 hold in part, 1 does not hold." """
-    found = [verdict for _, verdict, _ in judged]
+    found = [j.verdict for j in judged]
     numbers = [(found.count(verdict), WORDS[verdict]) for verdict in ORDER if verdict in found]
+    changing = sum(j.depends_on_size for j in judged)
     return (f"Of {len(found)} claims " +
-            ", ".join(f"{n} {one if n == 1 else several}" for n, (one, several) in numbers) + ".")
+            ", ".join(f"{n} {one if n == 1 else several}" for n, (one, several) in numbers) + "." +
+            (f" The verdicts on {changing} depend on the required sizes: they change at half or twice of them."
+             if changing else ""))
 
 
 def disagreements(judged):
     """[(heading, [(statement, found)])] of the claims that do not hold. For undecided claims the table has more."""
     groups = ((FAILS, "Does not hold"), (IN_PART, "Holds in part"), (UNDECIDED, "Undecided"))
-    result = [(heading, [(claim.statement, "" if kind == UNDECIDED else found)
-                         for claim, verdict, found in judged if verdict == kind]) for kind, heading in groups]
+    result = [(heading, [(f"{j.claim.statement} (judged on {j.claim.on})", "" if kind == UNDECIDED else j.found)
+                         for j in judged if j.verdict == kind]) for kind, heading in groups]
     return [(heading, claims) for heading, claims in result if claims]
 
 
@@ -80,8 +96,8 @@ def parameter_rows(about):
 
 def how_to_read(about):
     seeds = about.get("seeds_of_a_point", 8)
-    quick = (" This is the quick version, with shorter runs and fewer points than the full study. So errors are larger, and "
-             "verdicts may differ from those of the full study." if about["quick"] else "")
+    quick = (" This is the quick version, with fewer points and seeds than the full study. So errors are larger. A claim "
+             "whose points are missing is undecided." if about["quick"] else "")
     return ("ϖ is the rotation rate of the cluster, Ω that of the swirl, N the number of discs, and μ the friction "
             "coefficient (μ_d between discs, μ_w at the wall). ± is one standard error: the larger of the errors from "
             "within the runs and from between the seeds. A claim is decided with a probability of 99.73 %, that of "
@@ -90,7 +106,8 @@ def how_to_read(about):
             "size. An undecided claim gets up to "
             f"{about.get('max_seeds_of_a_point', 32)} seeds at the points that could decide it. Verdicts are computed "
             "from the tables by the rules in figures/verdicts.py. Every other number on which a verdict depends is a "
-            "named constant in figures/claims/thresholds.py or figures/paper_parameters.py." + quick)
+            "named constant in figures/claims/thresholds.py or figures/paper_parameters.py. The sizes that our reading "
+            "of the paper's words requires are also halved and doubled; verdicts that change are marked." + quick)
 
 
 # --- Markdown -----------------------------------------------------------------------------------
@@ -109,11 +126,13 @@ def markdown(about, judged, crossings="", results=()):
     for heading, group in disagreements(judged):
         lines += [f"{heading}:", "", *(f"- {statement}" + (f" — {found}" if found else "")
                                        for statement, found in group), ""]
-    lines += ["## Claim by claim", "", "| # | the paper says | found | verdict | command |", "|---|---|---|---|---|"]
-    for k, (claim, verdict, found) in enumerate(judged, 1):
+    lines += ["## Claim by claim", "", "| # | the paper says | judged on | found | verdict | command |",
+              "|---|---|---|---|---|---|"]
+    for k, j in enumerate(judged, 1):
+        claim, sizes = j.claim, with_sizes(j)
         command = f"`{claim.command}`" if claim.command else ""
-        lines.append(f"| {k} | {cell(claim.statement)} ({claim.source}) | {cell(found)} | {MARK[verdict]} {verdict} | "
-                     f"{command} |")
+        lines.append(f"| {k} | {cell(claim.statement)} ({claim.source}) | {claim.on} | {cell(j.found)} | "
+                     f"{MARK[j.verdict]} {j.verdict}{sizes and f' ({sizes})'} | {command} |")
     texts = figure_texts(about)
     for heading, figures in by_section(about["figures"]):
         lines += ["", f"## {heading}"]
@@ -137,10 +156,13 @@ def figure_markdown(figure, caption, findings, remarks):
 
 # --- HTML ---------------------------------------------------------------------------------------
 
-def claim_row(k, claim, verdict, found):
+def claim_row(k, j):
+    claim, sizes = j.claim, with_sizes(j)
     command = f"<br><code>{html.escape(claim.command)}</code>" if claim.command else ""
-    return (td(k), f"<td>{rich(claim.statement)} <span class=small>({html.escape(claim.source)})</span></td>", td(found),
-            f"<td><span class='verdict {CLASS.get(verdict, 'other')}'>{MARK[verdict]} {verdict}</span>{command}</td>")
+    words = f"<br><span class=small>{html.escape(sizes)}</span>" if sizes else ""
+    return (td(k), f"<td>{rich(claim.statement)} <span class=small>({html.escape(claim.source)})</span></td>",
+            td(claim.on), td(j.found), f"<td><span class='verdict {CLASS.get(j.verdict, 'other')}'>{MARK[j.verdict]} "
+            f"{j.verdict}</span>{words}{command}</td>")
 
 
 def page(folder, about, judged):
@@ -157,8 +179,8 @@ def page(folder, about, judged):
                         for statement, found in group)
         parts.append(f"<p class=heading>{heading}:</p><ul>{items}</ul>\n")
     parts += ["<h2>Claim by claim</h2>\n",
-              table(["", "the paper says", "found", "verdict, and how to reproduce it"],
-                    [claim_row(k, *row) for k, row in enumerate(judged, 1)], "claims")]
+              table(["", "the paper says", "judged on", "found", "verdict, and how to reproduce it"],
+                    [claim_row(k, j) for k, j in enumerate(judged, 1)], "claims")]
     for heading, figures in by_section(about["figures"]):
         parts += [f"<h2>{heading}</h2>\n", figures_html(folder, figures, texts)]
     parts += ["<h2>Contradictions in the paper, and the choices of this program</h2>\n",
@@ -183,9 +205,10 @@ def pdf(folder, about, judged):
     for heading, group in disagreements(judged):
         opening.append((heading + ":", [f"{statement} {found}" for statement, found in group]))
     claims = []
-    for k, (claim, verdict, found) in enumerate(judged, 1):
-        claims += [("text", f"{k}. {claim.statement} ({claim.source})"),
-                   ("bullet", f"{verdict}: {found}"), *([("small", claim.command)] if claim.command else [])]
+    for k, j in enumerate(judged, 1):
+        small = "; ".join(filter(None, (f"judged on {j.claim.on}", with_sizes(j), j.claim.command)))
+        claims += [("text", f"{k}. {j.claim.statement} ({j.claim.source})"),
+                   ("bullet", f"{j.verdict}: {j.found}"), ("small", small)]
     texts = figure_texts(about)
     sections = [("Claim by claim", claims)]
     for heading, figures in by_section(about["figures"]):

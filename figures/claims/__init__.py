@@ -2,29 +2,39 @@
 
 How a claim is judged:
 
-1. catalogue.py lists every claim: its source, its statement, the figure whose table is used, and a
-   function that judges it.
+1. catalogue.py lists every claim: its source, its statement, the figure whose table is used, a function that
+   judges it, and on what: the spheres of the experiment (settings.py), the discs of the paper's simulation, or
+   both. It also names the points that must have been run.
 2. That function (rotation.py, profiles.py, residence.py, contacts.py, motion.py, spheres.py) reads the
    tables (study.py) and compares the measured values with bounds. Each bound is a named constant with a
    reason: the paper's numbers are in ../paper_parameters.py, all others in thresholds.py.
 3. ../verdicts.py turns each comparison into "holds", "does not hold" or "undecided". It has one threshold:
    the probability of three standard deviations, by Student's t.
 4. The function returns the judgement and a sentence with the numbers behind it (wording.py).
+5. The claim is judged again with all sizes of thresholds.py halved and doubled. A verdict that changes depends
+   on our reading of the paper's words, and is marked.
 
-Claims not made by the paper are not judged. A fact of the experiment is not judged by the simulated discs,
-since the friction of the real particles is unknown. Spheres that roll on a floor are that experiment,
-except for their friction. A claim about them must hold for at least one of the friction coefficients that
-were run, and all parts of it for the same one. Only a claim about several friction coefficients must hold
-for all of them.
+The experiment's two friction coefficients are fitted to its N_c, 36 for smooth and 28 for roughened spheres.
+Every other claim about it is a prediction without a further parameter. A statement that no table decides is
+listed as "not tested", with the reason.
 """
 
 from .catalogue import CLAIMS
+from .study import Study
+
+
+def all_judged(folder):
+    """[Judged] of all claims, in the order of the catalogue."""
+    study = Study(folder)
+    return [claim.judged_with_sizes(study) for claim in CLAIMS]
 
 
 def all_verdicts(folder):
     """The content of verdicts.json: every verdict, and the points that need more seeds (`swirl paper`
     reads these)."""
-    judged = [(claim, *claim.judged(folder)) for claim in CLAIMS]
-    return {"verdicts": [{"statement": claim.statement, "verdict": judgement.verdict, "found": found,
-                          "points": sorted(judgement.points)} for claim, judgement, found in judged],
-            "points_to_decide": sorted(set().union(*(judgement.points for _, judgement, _ in judged)))}
+    judged = all_judged(folder)
+    return {"verdicts": [{"statement": j.claim.statement, "judged_on": j.claim.on, "verdict": j.verdict,
+                          "at_half_the_sizes": j.scaled[0.5], "at_twice_the_sizes": j.scaled[2],
+                          "depends_on_size": j.depends_on_size, "found": j.found,
+                          "points": sorted(j.judgement.points)} for j in judged],
+            "points_to_decide": sorted(set().union(*(j.judgement.points for j in judged)))}

@@ -1,22 +1,29 @@
-"""Claims on ϖ(N): Figures 1b, 4c and 5b, and the minimal model's transition."""
+"""Claims on ϖ(N): Figures 1b, 4c and 5b. Judges of claims on Figures 1 to 4 get the setting of the runs
+(settings.py)."""
 
 import math
 
-from paper_parameters import EVENTS, LAST_N
-from verdicts import (FAILS, HOLDS, UNDECIDED, UNTESTABLE, Judgement, Value, above, below, combined, either,
+from paper_parameters import EVENTS, EXPERIMENT_N, LAST_N
+from verdicts import (FAILS, HOLDS, UNDECIDED, Judgement, Value, above, below, combined, either,
                       every, fact, mean_of, measured, within)
 
-from .thresholds import (CLOSE_TO_OMEGA, DRIFT_BY_CHANCE, HIGH_N, LEAST_CHANGE, LEAST_ROTATION, LEVEL_FROM,
-                         MOST_RUNS, NEAR_OMEGA, NEAR_PANCAKE, ONE_DISC, SLIGHT_DROP)
+from . import thresholds as size
+from .settings import SPHERES, rotation_rows
+from .thresholds import HIGH_N, LEVEL_FROM, MOST_RUNS
 from .wording import count, ends, known, number, value_at, values
 
 
-def transition(study):
-    crossing = study.crossing("5b", "high")
-    rows = study.curve("5b", setting="high")
-    return (combined(above(measured(rows[0], "by_event"), LEAST_ROTATION), crossing.crosses,
-                     below(measured(rows[-1], "by_event"), -LEAST_ROTATION)),
-            f"{crossing.text}; ϖ/Ω = {ends(rows, 'by_event')} (μ = 1; rotation: more than {LEAST_ROTATION} Ω).")
+def transition(study, setting):
+    rows, rate = rotation_rows(study, setting, LAST_N)
+    crossing = study.crossing("spheres" if setting in SPHERES else "5b", setting)
+    return (combined(above(measured(rows[0], rate), size.LEAST_ROTATION), crossing.crosses,
+                     below(measured(rows[-1], rate), -size.LEAST_ROTATION)),
+            f"{crossing.text}; ϖ/Ω = {ends(rows, rate)}")
+
+
+def simulated_transition(study):
+    judgement, text = transition(study, "high")
+    return judgement, f"{text} (μ = 1; rotation: more than {size.LEAST_ROTATION} Ω)."
 
 
 def after_minimum(rows, name):
@@ -27,39 +34,68 @@ def after_minimum(rows, name):
     return lowest, last, measured(last, name) - measured(lowest, name)
 
 
-def minimum(study):
-    """The paper's mean over the discs is judged. In it every disc has the same weight, and discs near the
-    centre of mass have the highest angular velocities."""
-    rows = study.curve("5b", last=math.inf, setting="high")
-    lowest, last, rise = after_minimum(rows, "by_event")
-    text = (f"The lowest point before the last is at N = {lowest['discs']:.0f}, ϖ/Ω = "
-            f"{number(measured(lowest, 'by_event'))}. At the last N that was run, {last['discs']:.0f}, ϖ/Ω = "
-            f"{number(measured(last, 'by_event'))}, a rise of {number(rise)} (μ = 1).")
-    if all("rigid_by_event" in row for row in rows):
-        rigid_lowest, rigid_last, rigid_rise = after_minimum(rows, "rigid_by_event")
+def minimum(study, setting):
+    """The paper's mean over the particles is judged. In it every particle has the same weight, and those near the
+    centre of mass have the highest angular velocities. N beyond the paper's last one count."""
+    rows, rate = rotation_rows(study, setting)
+    lowest, last, rise = after_minimum(rows, rate)
+    text = (f"ϖ/Ω is lowest before the end with {value_at(lowest, rate)}, and at the end {value_at(last, rate)}, "
+            f"higher by {number(rise)}")
+    rigid = f"rigid_{rate}"
+    if all(rigid in row for row in rows):
+        rigid_lowest, rigid_last, rigid_rise = after_minimum(rows, rigid)
         trend = {HOLDS: "also rises", FAILS: "falls to the end",
                  UNDECIDED: "neither certainly rises nor certainly falls"}[above(rigid_rise, 0).verdict]
-        text += (" This is the paper's mean over the discs of their angular velocities. The angular velocity "
-                 f"of a rigid body, Σ r × v / Σ r², {trend}: from {value_at(rigid_lowest, 'rigid_by_event')} "
-                 f"to {value_at(rigid_last, 'rigid_by_event')}.")
-    return above(rise, SLIGHT_DROP), f"{text} (A rise is more than {SLIGHT_DROP} Ω.)"
+        text += (f"; that of a rigid body, Σ r × v / Σ r², {trend}, from {value_at(rigid_lowest, rigid)} to "
+                 f"{value_at(rigid_last, rigid)}")
+    return every([below(measured(lowest, rate), -size.LEAST_ROTATION), above(rise, size.SLIGHT_DROP)]), text
 
 
 def one_passage(found):
-    """From rotation to counterrotation once: below some number of discs none counterrotates, and from it on
+    """From rotation to counterrotation once: below some number of particles none counterrotates, and from it on
     none rotates."""
-    return either(every([above(v, -LEAST_ROTATION) for v in found[:k]] +
-                        [below(v, LEAST_ROTATION) for v in found[k:]]) for k in range(1, len(found)))
+    return either(every([above(v, -size.LEAST_ROTATION) for v in found[:k]] +
+                        [below(v, size.LEAST_ROTATION) for v in found[k:]]) for k in range(1, len(found)))
 
 
-def passage(study):
-    rows = known(study.curve("5b", last=math.inf, setting="high"), "by_event")
-    rotating = [row for row in rows if above(measured(row, "by_event"), LEAST_ROTATION).verdict == HOLDS]
-    against = [row for row in rows if below(measured(row, "by_event"), -LEAST_ROTATION).verdict == HOLDS]
-    return one_passage(values(rows, "by_event")), (
-        f"μ = 1: certainly above {LEAST_ROTATION} Ω at {len(rotating)} N, the last of them "
-        f"{rotating[-1]['discs']:.0f}, and certainly below −{LEAST_ROTATION} Ω at {len(against)} N, the first of "
-        f"them {against[0]['discs']:.0f}.")
+def stalls(value):
+    """ϖ is zero within its error, and this error is small: such a cluster does not rotate."""
+    if abs(value.mean) <= value.margin and value.error < size.LEAST_ROTATION:
+        return fact(True)
+    return within(value, -size.LEAST_ROTATION, size.LEAST_ROTATION)
+
+
+def passage(study, setting):
+    """In the range of the experiment: one passage, and an N in it where the cluster stalls."""
+    rows, rate = rotation_rows(study, setting, LAST_N)
+    rows = [row for row in rows if row["discs"] >= EXPERIMENT_N[0]]
+    found = values(rows, rate)
+    rotating = [row for row in rows if above(measured(row, rate), size.LEAST_ROTATION).verdict == HOLDS]
+    against = [row for row in rows if below(measured(row, rate), -size.LEAST_ROTATION).verdict == HOLDS]
+    still = [row for row in rows if stalls(measured(row, rate)).verdict == HOLDS]
+    return combined(one_passage(found), either(stalls(v) for v in found)), (
+        f"certainly rotating at {len(rotating)} N, the last of them {last_of(rotating)}, certainly counterrotating at "
+        f"{len(against)}, the first of them {last_of(against[:1])}; stalling at "
+        f"{', '.join(value_at(row, rate) for row in still) or 'none'}")
+
+
+def last_of(rows):
+    return f"{rows[-1]['discs']:.0f}" if rows else "n/a"
+
+
+def couple(study, setting):
+    """"Changes sign with the addition of a couple of marbles": from certain rotation to certain counterrotation."""
+    rows, rate = rotation_rows(study, setting)
+    rotating = [row["discs"] for row in rows if above(measured(row, rate), size.LEAST_ROTATION).verdict == HOLDS]
+    against = [row["discs"] for row in rows if below(measured(row, rate), -size.LEAST_ROTATION).verdict == HOLDS]
+    pairs = [(m - n, n, m) for n in rotating for m in against if m > n]
+    if not pairs:
+        return Judgement(UNDECIDED, [row["point"] for row in rows if "point" in row]), "no change of sign is certain"
+    added, few, many = min(pairs)
+    points = [row["point"] for row in rows if few < row["discs"] < many and "point" in row]
+    # Points in between whose sign is not yet certain could make the change quicker.
+    judgement = fact(added <= size.COUPLE) if added <= size.COUPLE or not points else Judgement(UNDECIDED, points)
+    return judgement, f"certainly rotating at N = {few:.0f}, certainly counterrotating at N = {many:.0f}"
 
 
 def friction_order(study):
@@ -67,7 +103,7 @@ def friction_order(study):
     steps = []
     for rougher, smoother in zip(found, found[1:]):
         if smoother.verdict == "crosses":
-            steps.append(above(smoother.at - rougher.at, ONE_DISC))
+            steps.append(above(smoother.at - rougher.at, size.ONE_DISC))
         else:
             # A curve that rotates at every N that was run crosses later, if at all.
             steps.append(every([rougher.crosses, fact(smoother.verdict == "always rotates")
@@ -93,14 +129,17 @@ def drifts(row):
     return "seeds" in row and runs_not_steady(row) > MOST_RUNS * row["seeds"]
 
 
-def steady(study):
-    rows = [row for row in study.table("5b")
-            if row["setting"] in ("high", "medium", "low") and row["discs"] <= LAST_N]
+def steady(study, setting):
+    """The experiment's range of N; all frictional curves of Figure 5b for discs."""
+    rows = (study.curve("spheres", setting=setting) if setting in SPHERES else
+            [row for row in study.table("5b")
+             if row["setting"] in ("high", "medium", "low") and row["discs"] <= LAST_N])
+    rows = [row for row in rows if setting not in SPHERES or row["discs"] >= EXPERIMENT_N[0]]
     judged = [row for row in rows if row["steady_runs"] + runs_not_steady(row) > 0]
     in_question = [row for row in rows if row["steady_runs"] < row["seeds"]] or rows
     points = {row["point"] for row in in_question if isinstance(row.get("point"), str)}
     if not judged:
-        return Judgement(UNDECIDED, points), "All runs are too short for the test."
+        return Judgement(UNDECIDED, points), "all runs are too short for the test"
     runs = [row["steady_runs"] + runs_not_steady(row) for row in judged]
     # Every point has the same weight, whatever its number of seeds: seeds are added where runs drift.
     share = sum(runs_not_steady(row) / n for row, n in zip(judged, runs)) / len(judged)
@@ -109,17 +148,16 @@ def steady(study):
     estimated = [(runs_not_steady(row) + share) / (n + 1) for row, n in zip(judged, runs)]
     error = math.sqrt(sum(p * (1 - p) / n for p, n in zip(estimated, runs))) / len(judged)
     found = Value(share, max(error, 1 / sum(runs)), points)
-    overall = below(found, DRIFT_BY_CHANCE)
+    overall = below(found, size.DRIFT_BY_CHANCE)
     # A point whose runs mostly drift has no steady state, however steady the others are.
     exceptions = [row for row in judged if drifts(row)]
     counts = [f"{sum(row.get(column, 0) for row in judged):.0f} {word}" for column, word in NOT_STEADY.items()]
     return combined(overall, fact(False)) if exceptions else overall, (
-        f"Of {sum(runs):.0f} runs with both kinds of friction after 20 periods, {', '.join(counts)} "
-        f"({sum(row['seeds'] for row in rows) - sum(runs):.0f} more are too short for the test). This is a share of "
-        f"{number(found)} if every N and friction coefficient has the same weight; "
-        f"{100 * DRIFT_BY_CHANCE:.0f} % are allowed for chance and slow states." +
-        (f" Most runs are not steady at {', '.join(str(row.get('point', row['discs'])) for row in exceptions)}. These "
-         "have no steady state within the paper's run." if exceptions else ""))
+        f"of {sum(runs):.0f} runs {', '.join(counts)} "
+        f"({sum(row['seeds'] for row in rows) - sum(runs):.0f} more are too short for the test), a share of "
+        f"{number(found)} if every point has the same weight" +
+        (f"; most runs are not steady at {', '.join(str(row.get('point', row['discs'])) for row in exceptions)}"
+         if exceptions else ""))
 
 
 # --- One friction absent ------------------------------------------------------------------------
@@ -137,12 +175,12 @@ def near_omega(rows, bound, where):
 
 
 def no_wall_at_omega(study):
-    return near_omega(study.curve("5b", setting="no-wall"), NEAR_OMEGA, "W")
+    return near_omega(study.curve("5b", setting="no-wall"), size.NEAR_OMEGA, "W")
 
 
 def no_disc_close(study):
     rows = [row for row in study.curve("5b", setting="no-disc") if row["discs"] < HIGH_N]
-    return near_omega(rows, CLOSE_TO_OMEGA, f"Below N = {HIGH_N} w")
+    return near_omega(rows, size.CLOSE_TO_OMEGA, f"Below N = {HIGH_N} w")
 
 
 def never_crosses(setting):
@@ -150,9 +188,9 @@ def never_crosses(setting):
     def judge(study):
         rows = known(study.curve("5b", last=math.inf, setting=setting), "by_event")
         lowest = min(rows, key=lambda row: row["by_event"])
-        rotating = [above(v, -LEAST_ROTATION) for v in values(rows, "by_event")]
+        rotating = [above(v, -size.LEAST_ROTATION) for v in values(rows, "by_event")]
         return every(rotating), (
-            f"ϖ/Ω is certainly not below −{LEAST_ROTATION} at {count(rotating)} of {len(rows)} N from "
+            f"ϖ/Ω is certainly not below −{size.LEAST_ROTATION} at {count(rotating)} of {len(rows)} N from "
             f"{rows[0]['discs']:.0f} to {rows[-1]['discs']:.0f}; the lowest is {value_at(lowest, 'by_event')}.")
     return judge
 
@@ -162,7 +200,7 @@ def no_disc_drop(study):
     level = mean_of(values([row for row in rows if LEVEL_FROM <= row["discs"] < HIGH_N], "by_event"))
     drop = level - measured(rows[-1], "by_event")
     text = (f"Mean over N = {LEVEL_FROM} … {HIGH_N - 1}: {number(level)}; {value_at(rows[-1], 'by_event')}, lower "
-            f"by {number(drop)} (a drop is more than {SLIGHT_DROP}).")
+            f"by {number(drop)} (a drop is more than {size.SLIGHT_DROP}).")
     try:
         last = study.curve("5b-steady", setting="no-disc")[-1]
         text += (f" The drop is part of the transient: after a long warm-up ϖ/Ω = {value_at(last, 'by_event')}.")
@@ -173,28 +211,10 @@ def no_disc_drop(study):
         return Judgement(UNDECIDED), (
             f"{text} Runs of {rows[-1]['events']:,.0f} events cover less of the transient than the paper's of "
             f"{EVENTS:,.0f}, and decide nothing.")
-    return above(drop, SLIGHT_DROP), text
+    return above(drop, size.SLIGHT_DROP), text
 
 
 # --- Comparisons --------------------------------------------------------------------------------
-
-def pancake(study):
-    rows = study.curve("1b", setting="high")
-    gap = [abs(measured(row, "by_time") - measured(row, "pancake")) for row in rows]
-    return combined(below(gap[-1] - gap[0], -LEAST_CHANGE * gap[0].mean), below(gap[-1], NEAR_PANCAKE)), (
-        f"Distance from the line of the pancake: {number(gap[0])} Ω at N = {rows[0]['discs']:.0f}, "
-        f"{number(gap[-1])} Ω at N = {rows[-1]['discs']:.0f}.")
-
-
-def rough_earlier(study):
-    rough, smooth = study.crossing("4c", "high"), study.crossing("4c", "low")
-    text = f"μ = 1: {rough.text}; μ = 0.1: {smooth.text}."
-    if smooth.verdict == "crosses":
-        return above(smooth.at - rough.at, ONE_DISC), text
-    later = (Judgement(UNDECIDED, smooth.points) if smooth.verdict == "undecided"
-             else fact(smooth.verdict == "always rotates"))
-    return every([rough.crosses, later]), text
-
 
 def elastic(study):
     """All runs of Figure 5b are elastic. Curves with damping have fewer seeds; they are reported only."""
@@ -208,7 +228,9 @@ def elastic(study):
     return found.crosses, text + "."
 
 
-def near_36(study):
-    return Judgement(UNTESTABLE), (
-        "The friction coefficient of the real spheres is unknown. The simulation with μ = 1, I = 10 has "
-        f"{study.crossing('5b', 'high').text}.")
+def pancake(study, setting):
+    rows = study.curve("1b", setting=setting)
+    gap = [abs(measured(row, "by_time") - measured(row, "pancake")) for row in rows]
+    return combined(below(gap[-1] - gap[0], -size.LEAST_CHANGE * gap[0].mean), below(gap[-1], size.NEAR_PANCAKE)), (
+        f"distance from the line of the pancake {number(gap[0])} Ω at N = {rows[0]['discs']:.0f}, "
+        f"{number(gap[-1])} Ω at N = {rows[-1]['discs']:.0f}")

@@ -15,10 +15,12 @@ class Study:
     """The tables in one folder."""
 
     def __init__(self, path):
-        self.path = path
+        self.path, self._tables = path, {}
 
     def table(self, name):
-        return tables.read(os.path.join(self.path, f"figure_{name}.csv"))
+        if name not in self._tables:
+            self._tables[name] = tables.read(os.path.join(self.path, f"figure_{name}.csv"))
+        return self._tables[name]
 
     def curve(self, name, last=LAST_N, **selected):
         """Rows in order of N, up to `last`; failed points are left out."""

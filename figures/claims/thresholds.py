@@ -1,8 +1,11 @@
 """The sizes by which claims are judged: where the paper leaves a size open ("roughly", "slightly"), a
 constant here states it, with the reason. Frequencies are in units of Ω, lengths in disc radii, angles in
 degrees. The paper's own numbers are in paper_parameters.py.
+
+Every claim is also judged at half and at twice its sizes (scaled()). So judges read a size as thresholds.NAME.
 """
 
+import contextlib
 import math
 
 # --- Sizes that matter --------------------------------------------------------------------------
@@ -39,7 +42,6 @@ INDUCED = 0.5
 
 NEAR_OMEGA = 0.05           # "remains at that of the container"
 CLOSE_TO_OMEGA = 0.1        # "remains close to the container velocity"
-HIGH_N = 41                 # "very high N" starts here; from here on a curve may drop
 SLIGHT_DROP = LEAST_ROTATION  # the smallest drop, or rise after a minimum
 NEAR_PANCAKE = 0.05         # "increasingly similarly to a model particle with no slip"
 SAME_ANGLE = 20.0           # "at the same location"
@@ -48,23 +50,51 @@ NEARLY_ONE = 0.9            # "nearly 1", of the slip parameter
 ABOUT_HALF = 0.1            # "approximately 0.5" of the slip parameter, either way
 AT_THE_WALL = 0.05          # "approaches 1", of the normalised angular velocity
 ALMOST_ALL = 0.9            # share of the spheres: "they form a line that rolls along the container wall"
-FEW = 8                     # "only a few marbles"
-# Range of the gap between a disc's centre and the wall in the first and the second layer of a packing at
-# the wall (rows are √3 to 2 apart), and between these layers.
-FIRST_LAYER, BETWEEN_LAYERS, SECOND_LAYER = (1.0, 1.4), (1.6, 2.4), (2.6, 3.2)
-RANDOM_SIX = 0.29           # share of six-sided Voronoi cells of random points (Brakke 1986: 0.2947)
 DRIFT_BY_CHANCE = 0.05      # share of the runs that may drift in a steady state
 GROWTH = 0.2                # relative to its mean: larger growth of the energy is "blows up"
 LITTLE_MOTION = 0.1         # of ΩR, in the M-frame: "very little internal movement"
 FORCE_DIGIT = 10.0          # cm/s²: the last digit given in "0–460" and "0–200"
 TIMES_AROUND = 10.0         # factor either way: "around" a time
 ROUGHLY = 2.0               # spheres either way: "at roughly N = 36"
-JUMP = 2 * ROUGHLY          # a larger change between neighbouring friction coefficients is not continuous
+COUPLE = 2.0                # spheres: "with the addition of a couple of marbles"
+NO_SPIN = 0.1               # relative to the discs with both kinds of friction: "without ... spinning"
+
+# --- Half and twice the sizes -------------------------------------------------------------------
+
+# Every constant above is a size. A share of one half is doubled as odds (1/3 to 2/3). These sizes are
+# distances from a value that is not 0; all others are multiplied.
+SIZES = tuple(name for name in dict(globals()) if name.isupper())
+SHARES = ("MAJORITY", "INDUCED")
+COUNTED_FROM = {"NEARLY_ONE": 1.0, "ALMOST_ALL": 1.0, "LEFT_SHARE": 0.5}
+
+
+@contextlib.contextmanager
+def scaled(factor):
+    """In this context all sizes are multiplied by the factor."""
+    def times(name, size):
+        if name in SHARES:
+            return factor * size / (1 + (factor - 1) * size)
+        start = COUNTED_FROM.get(name, 0.0)
+        return start + factor * (size - start)
+    sizes = {name: globals()[name] for name in SIZES}
+    globals().update({name: times(name, size) for name, size in sizes.items()})
+    try:
+        yield
+    finally:
+        globals().update(sizes)
+
 
 # --- Choices of the analysis --------------------------------------------------------------------
 
-PLASTIC, ROUGHER = 0.2, 0.3  # friction coefficients of plastic spheres where only one or two are run
-DENSE_SPHERES = (44, 48)     # at these N spheres counterrotate for every friction coefficient
+HIGH_N = 41                  # "very high N" starts here; from here on a curve may drop
+FEW = 8                      # "only a few marbles"
+JUMP = 4.0                   # a larger change of N_c between neighbouring friction coefficients is not continuous
+DENSE_SPHERES = (44, 48)     # at these N smooth and roughened spheres counterrotate
+PEAK_WINDOW = 45.0           # degrees on either side of a peak whose shape is compared
+RANDOM_SIX = 0.29            # share of six-sided Voronoi cells of random points (Brakke 1986: 0.2947)
+# Range of the gap between a disc's centre and the wall in the first and the second layer of a packing at
+# the wall (rows are √3 to 2 apart), and between these layers.
+FIRST_LAYER, BETWEEN_LAYERS, SECOND_LAYER = (1.0, 1.4), (1.6, 2.4), (2.6, 3.2)
 IDENTICAL = 0.01             # two means of the same runs, sampled at different times
 LEAST_VISITS = 200           # a slice of θ with fewer visits is not used
 LEVEL_FROM = 30              # the level before a drop is the mean from this N up to HIGH_N

@@ -4,7 +4,7 @@ import math
 
 from verdicts import HOLDS, Value, largest_reversal, measured, rises
 
-from .thresholds import LEAST_CHANGE
+from . import thresholds as size
 
 
 def number(mean, error=math.nan):
@@ -46,13 +46,13 @@ def lowest_to_highest(rows, name):
 
 
 def monotonic(rows, name, falling=False, least=None):
-    """Judges if a curve rises (or falls) with N by `least`, by default LEAST_CHANGE of its first value. Returns
+    """Judges if a curve rises (or falls) with N by `least`, by default size.LEAST_CHANGE of its first value. Returns
     the judgement and a text on the largest reversal."""
     rows = known(rows, name)
     found = values(rows, name)
     rising = [-v for v in found] if falling else found
     if least is None:
-        least = LEAST_CHANGE * abs(found[0].mean)
+        least = size.LEAST_CHANGE * abs(found[0].mean)
     judgement, reversal = rises(rising, least), largest_reversal(rising)
     if reversal is None or judgement.verdict == HOLDS:
         return judgement, ""

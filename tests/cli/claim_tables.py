@@ -14,7 +14,7 @@ from claims.study import Study  # noqa: E402
 
 
 class HandMadeTables(unittest.TestCase):
-    """`self.study` reads the tables in `self.folder`."""
+    """`self.study` reads the tables in `self.folder`, each of them once."""
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -23,6 +23,7 @@ class HandMadeTables(unittest.TestCase):
         self.study = Study(self.folder)
 
     def table(self, name, rows):
+        self.study = Study(self.folder)
         with open(os.path.join(self.folder, f"figure_{name}.csv"), "w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, fieldnames=list(dict.fromkeys(c for row in rows for c in row)))
             writer.writeheader()
@@ -37,7 +38,7 @@ class HandMadeTables(unittest.TestCase):
             for curve, (at, error) in curves.items()])
 
     def rotation(self, name, setting, values, error=0.01):
-        """A curve ϖ(N) by event; `values` are (N, ϖ/Ω)."""
-        self.table(name, [{"setting": setting, "discs": n, "by_event": v, "by_event_error": error,
-                           "point": f"{setting}_N{n}"}
+        """A curve ϖ(N), the same by event and by time; `values` are (N, ϖ/Ω)."""
+        self.table(name, [{"setting": setting, "discs": n, "by_event": v, "by_event_error": error, "by_time": v,
+                           "by_time_error": error, "point": f"{setting}_N{n}"}
                           for n, v in values])

@@ -7,7 +7,7 @@ from claim_tables import HandMadeTables
 
 import paper_parameters
 from claims import motion
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
+from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, UNTESTABLE
 
 
 class Motion(HandMadeTables):
@@ -17,7 +17,7 @@ class Motion(HandMadeTables):
                                "centre_x": x * (-1 if turned and n == 48 else 1),
                                "centre_x_error": error, "centre_theta": 180,
                                "point": f"high_N{n}"} for n, share in zip((24, 48), left)])
-            return motion.left_of_M(self.study)
+            return motion.left_of_M(self.study, "high")
         verdict, found = judged((0.7, 0.6), -1.0)
         self.assertEqual(verdict, HOLDS)
         self.assertIn("lags behind the swirl by 90°", found)
@@ -28,19 +28,23 @@ class Motion(HandMadeTables):
         self.assertEqual(judged((0.7, 0.56), -1.0)[0].points, {"high_N48"})
         self.assertEqual(judged((0.7, 0.51), -0.05, error=0.001)[0], FAILS)  # both are too small
 
-    def test_ball_without_torque_does_not_rotate(self):
-        def judged(slipping, rolling, error=0):
-            self.table("ball", [{"mu": mu, "restitution": 0.5, "gamma": g, "gamma_error": error,
-                                 "slip": g / 1.72}
-                                for mu, found in ((0, slipping), (1, rolling)) for g in found])
-            return motion.ball(self.study)[0]
-        self.assertEqual(judged([0.9], [1.7]), HOLDS)
-        self.assertEqual(judged([1.0], [1.7]), IN_PART)
-        self.assertEqual(judged([1.0], [0.9]), FAILS)
-        self.assertEqual(judged([0.9], [1.7], error=0.1), UNDECIDED)
-        # For every radius.
-        self.assertEqual(judged([0.9, 1.1], [1.7, 1.2]), IN_PART)
-        self.assertEqual(judged([0.9, 0.8], [1.7, 0.9]), IN_PART)
+    def test_rolling_ball_counterrotates_for_every_radius(self):
+        def judged(*rolling, error=0):
+            self.table("ball", [{"mu": mu, "restitution": 0.5, "gamma": g, "gamma_error": error, "slip": g / 1.72}
+                                for mu, found in ((0, [1.0]), (1, rolling)) for g in found])
+            return motion.rolling_ball(self.study)[0]
+        self.assertEqual(judged(1.7, 1.2), HOLDS)
+        self.assertEqual(judged(1.7, 0.9), FAILS)
+        self.assertEqual(judged(1.0), FAILS)  # it does not rotate
+        self.assertEqual(judged(1.7, error=1), UNDECIDED)
+
+    def test_ball_without_torque_is_no_result(self):
+        """Whatever γ the table has, it is the start of the run."""
+        for gamma in (0.0, 0.9, 1.0, 1.1):
+            self.table("ball", [{"mu": 0, "restitution": 0.5, "gamma": gamma, "gamma_error": 0, "slip": 0}])
+            verdict, found = motion.slipping_ball(self.study)
+            self.assertEqual(verdict, UNTESTABLE)
+            self.assertIn(f"γ = {gamma:.3f}", found)
 
     def test_little_motion_is_below_a_tenth_of_the_walls_speed(self):
         def judged(speed, error):
@@ -52,6 +56,15 @@ class Motion(HandMadeTables):
         self.assertEqual(judged(0.05, 0.01), HOLDS)
         self.assertEqual(judged(0.2, 0.01), FAILS)
         self.assertEqual(judged(0.08, 0.01), UNDECIDED)
+
+    def test_discs_that_turn_with_the_cluster_do_not_spin(self):
+        def judged(few, many, error=0.001):
+            self.table("states", [{"setting": s, "discs": n, "of_the_spin": v, "of_the_spin_error": error}
+                                  for n, free in ((28, few), (48, many)) for s, v in (("high", 0.5), ("no-wall", free))])
+            return motion.no_spinning(self.study)[0]
+        self.assertEqual(judged(0.01, 0.02), HOLDS)
+        self.assertEqual(judged(0.01, 0.2), FAILS)  # at both N
+        self.assertEqual(judged(0.01, 0.049), UNDECIDED)
 
     def test_shortest_times_are_compared_by_order_of_magnitude(self):
         def judged(rough, smooth, events=1e6, seeds=32):
@@ -91,25 +104,24 @@ class Motion(HandMadeTables):
         self.assertEqual(judged(lambda t, seed: 1 + 0.1 * t, seeds=1)[0], UNDECIDED)
         self.assertNotEqual(judged(lambda t, seed: 1 + 0.1 * t if t < 50 else float("inf"))[0], IN_PART)
 
-    def test_force_beyond_the_kinematic_limit_does_not_occur(self):
-        unit = paper_parameters.EXPERIMENT_R_OMEGA_SQUARED / (2 * math.pi / paper_parameters.PERIOD) ** 2
-
-        def judged(coriolis, centrifugal=(390, 395, 396)):
-            self.table("1b", [{"setting": "high", "discs": n, "point": f"high_N{n}",
+    def test_forces_are_those_of_the_experiment(self):
+        """In the tables Ω of the spheres is 1/A, with A = 11.5 mm and r = 3 mm."""
+        def judged(centrifugal, coriolis, setting="smooth", amplitude=11.5):
+            unit = paper_parameters.EXPERIMENT_R_OMEGA_SQUARED / (3 / amplitude) ** 2
+            self.table("1b", [{"setting": setting, "discs": n, "point": f"{setting}_N{n}",
                                "max_centrifugal": a / unit, "max_coriolis": b / unit,
                                "coriolis": 100 / unit, "coriolis_error": 1}
                               for n, a, b in zip((24, 36, 48), centrifugal, coriolis)])
-            return motion.forces(self.study)
-        verdict, found = judged((990, 1000, 1010))
-        self.assertEqual(verdict, FAILS)
-        self.assertIn("(R − r + A)Ω² = 397.2 cm/s²", found)  # (8.6 − 1 + 1.892) · 0.3 cm · (11.81/s)²
-        self.assertIn("460 cannot occur", found)
-        # The limit is kinematic, independent of the measured maximum.
-        self.assertEqual(judged((990, 1000, 1010), (460, 460, 460))[0], FAILS)
-        self.assertEqual(judged((199.7, 200, 200.3))[0], IN_PART)
-        doubtful = judged((100, 200, 300))[0]
+            return motion.forces(self.study, setting)
+        verdict, found = judged((459.7, 460, 460.3), (199.7, 200, 200.3))
+        self.assertEqual(verdict, HOLDS)
+        self.assertIn("(R − r + A)Ω² = 474.2", found)  # (8.5 − 1 + 3.833) · 0.3 cm · (11.81/s)²
+        self.assertEqual(judged((459.7, 460, 460.3), (990, 1000, 1010))[0], IN_PART)
+        self.assertEqual(judged((473.9, 474, 474.1), (990, 1000, 1010))[0], FAILS)
+        self.assertIn("= 394.0", judged((390, 391, 392), (990, 1000, 1010), "half", 5.75)[1])
+        doubtful = judged((459.7, 460, 460.3), (100, 200, 300))[0]
         self.assertEqual(doubtful, UNDECIDED)
-        self.assertEqual(doubtful.points, {"high_N24", "high_N36", "high_N48"})
+        self.assertEqual(doubtful.points, {"smooth_N24", "smooth_N36", "smooth_N48"})
 
     def condensed(self, before, after, n=(28, 48), waiting=40.0, condensed=8, error=0.01, **more):
         """(temperature, contacts) before and after; with friction at wall and discs it is (0.3, 2.0)."""

@@ -1,4 +1,4 @@
-"""All claims: missing tables, numbers, and the file of verdicts."""
+"""All claims: missing tables and points, required sizes, numbers, and the file of verdicts."""
 
 import json
 import os
@@ -8,27 +8,61 @@ import unittest
 from claim_tables import HandMadeTables, SOURCE
 
 import claims
-from claims import rotation
+import claims_page
+from claims import rotation, thresholds
+from claims.claim import BOTH, DISCS, NOTHING, SPHERES, UNTESTED, Claim
 from claims.wording import number
-from verdicts import MISSING, UNTESTABLE, Value
+from verdicts import FAILS, HOLDS, MISSING, UNDECIDED, Value, above
+
+
+def claim_that(words):
+    return next(claim for claim in claims.CLAIMS if words in claim.statement)
 
 
 class Catalogue(HandMadeTables):
     def test_missing_table_is_reported(self):
         for claim in claims.CLAIMS:
-            verdict, found = claim.verdict(self.folder)
+            judgement, found = claim.judged(self.study)
             if claim.figure:
-                self.assertEqual(verdict, MISSING, claim.statement)
+                self.assertEqual(judgement, MISSING, claim.statement)
                 self.assertIn("does not exist", found)
             else:
-                self.assertEqual(verdict, UNTESTABLE)
+                self.assertEqual(judgement, UNTESTED)
+                self.assertEqual(claim.on, NOTHING)
+
+    def test_every_claim_names_what_it_is_judged_on_and_is_listed_once(self):
+        self.assertLessEqual({claim.on for claim in claims.CLAIMS}, {SPHERES, DISCS, BOTH, NOTHING})
+        statements = [claim.statement for claim in claims.CLAIMS]
+        self.assertEqual(len(statements), len(set(statements)))
+        # Figures 1 to 4 are about the experiment, Figure 5 is about the simulation.
+        for claim in claims.CLAIMS:
+            if any(f"Fig. {n}" in claim.source for n in (1, 2, 3, 4)):
+                self.assertEqual(claim.on, SPHERES, claim.statement)
+            if "Fig. 5b" in claim.source or claim.source == "SI":
+                self.assertEqual(claim.on, DISCS, claim.statement)
 
     def test_page_about_the_paper_lists_every_claim(self):
         with open(os.path.join(SOURCE, "docs", "explanation", "paper.md"), encoding="utf-8") as file:
             section = file.read().split("## The claims")[1].split("\n## ")[0]
-        rows = [row.split(" | ")[:3] for row in section.splitlines() if row[:3].strip("| ").isdigit()]
-        self.assertEqual(rows, [[f"| {k}", claim.statement.replace("|", "\\|"), f"`{claim.figure}`"]
+        rows = [row.split(" | ")[:4] for row in section.splitlines() if row[:3].strip("| ").isdigit()]
+        self.assertEqual(rows, [[f"| {k}", claim.statement.replace("|", "\\|"), claim.on,
+                                 f"`{claim.figure}`" if claim.figure else "–"]
                                 for k, claim in enumerate(claims.CLAIMS, 1)])
+
+    def test_page_gets_its_tables_from_the_verdicts(self):
+        with open(os.path.join(SOURCE, "docs", "explanation", "paper.md"), encoding="utf-8") as file:
+            page = file.read()
+        self.rotation("5b", "no-wall", [(n, -0.2) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)])
+        judged = claims.all_judged(self.folder)
+        found = claims_page.written(page, judged)
+        at = claims.CLAIMS.index(claim_that("Without wall friction there is never")) + 1
+        section = found.split("### Claims that do not hold")[1].split("\n#")[0]
+        self.assertIn(f"| {at}: Without wall friction there is never a transition. | ϖ/Ω is certainly not below", section)
+        self.assertIn("| does not hold | 2 |", found)
+        self.assertEqual(claims_page.written(found, judged), found)
+        # Only tables change.
+        self.assertEqual([line for line in page.splitlines() if line[:1] != "|"],
+                         [line for line in found.splitlines() if line[:1] != "|"])
 
     def test_numbers_have_the_digits_of_their_errors(self):
         self.assertEqual(number(-0.03621, 0.0009), "−0.0362 ± 0.0009")
@@ -36,14 +70,39 @@ class Catalogue(HandMadeTables):
         self.assertEqual(number(Value(36.42, 0.3)), "36.4 ± 0.3")
 
     def test_table_without_runs_gives_no_verdict(self):
-        self.table("5b", [{"setting": "high", "discs": 5, "by_event": "", "by_event_error": "",
+        self.table("5b", [{"setting": "no-wall", "discs": 5, "by_event": "", "by_event_error": "",
                            "steady_state": "failed"}])
         for claim in claims.CLAIMS:
-            if claim.judge is rotation.minimum:
-                self.assertEqual(claim.verdict(self.folder)[0], MISSING)
+            if claim.judge is rotation.no_wall_at_omega:
+                self.assertEqual(claim.judged(self.study)[0], MISSING)
+
+    def test_claim_without_a_point_that_it_needs_is_undecided(self):
+        def judged(numbers, failed=None):
+            self.table("5b", [{"setting": "no-wall", "discs": n, "by_event": 1.0, "by_event_error": 0.001,
+                               "steady_state": "failed" if n == failed else "steady"} for n in numbers])
+            return claim_that("with the frequency of the swirl at every N").judged(self.study)
+        needed = (8, 16, 24, 28, 32, 36, 40, 44, 48)
+        self.assertEqual(judged(needed)[0], HOLDS)
+        verdict, found = judged(needed[:-2])
+        self.assertEqual(verdict, UNDECIDED)
+        self.assertEqual(verdict.points, frozenset())  # more seeds elsewhere would not decide
+        self.assertIn("without these points: figure 5b, no-wall, N = 44, 48.", found)
+        self.assertEqual(judged(needed, failed=48)[0], UNDECIDED)
+
+    def test_friction_coefficients_that_are_missing_leave_a_claim_undecided(self):
+        def judged(*coefficients):
+            self.table("spheres_friction", [
+                {"curve": "experiment", "mu": mu, "crosses": 1, "crossing": 43 - 22 * mu, "crossing_error": 0.1}
+                for mu in coefficients])
+            return claim_that("The rougher the particles").judged(self.study)
+        self.assertEqual(judged(0.3, 0.4, 0.6, 0.7)[0], HOLDS)
+        verdict, found = judged(0.3, 0.6, 0.7)
+        self.assertEqual(verdict, UNDECIDED)
+        self.assertIn("figure spheres_friction, experiment, μ = 0.4.", found)
 
     def test_verdicts_file_lists_points_that_need_seeds(self):
-        self.rotation("5b", "no-wall", [(20, 0.9), (40, 0.02)])
+        self.rotation("5b", "no-wall", [(n, 0.022 if n == 40 else 0.9)
+                                        for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)])
         done = subprocess.run(["/usr/bin/python3", "-B",
                                os.path.join(SOURCE, "figures", "judge_claims.py"), self.folder],
                               capture_output=True, text=True, timeout=150)
@@ -52,6 +111,42 @@ class Catalogue(HandMadeTables):
             found = json.load(file)
         self.assertEqual(found["points_to_decide"], ["no-wall_N40"])
         self.assertEqual(len(found["verdicts"]), len(claims.CLAIMS))
+        never = found["verdicts"][claims.CLAIMS.index(claim_that("Without wall friction there is never"))]
+        self.assertEqual(never["judged_on"], "discs")
+        self.assertEqual([never[name] for name in ("verdict", "at_half_the_sizes", "at_twice_the_sizes")],
+                         [UNDECIDED, UNDECIDED, HOLDS])
+        self.assertTrue(never["depends_on_size"])
+
+
+class Sizes(HandMadeTables):
+    def test_verdict_at_half_and_twice_the_size(self):
+        def judged(value):
+            claim = Claim("", "", "", lambda study: (above(Value(value, 0.0001), thresholds.LEAST_ROTATION), ""), DISCS)
+            return claim.judged_with_sizes(self.study)
+        large, middle, little = judged(0.02), judged(0.007), judged(0.003)
+        self.assertEqual([(j.verdict, j.scaled, j.depends_on_size) for j in (large, middle, little)], [
+            (HOLDS, {0.5: HOLDS, 2: HOLDS}, False), (HOLDS, {0.5: HOLDS, 2: FAILS}, True),
+            (FAILS, {0.5: HOLDS, 2: FAILS}, True)])
+
+    def test_sizes_that_are_shares_or_distances(self):
+        before = {name: getattr(thresholds, name) for name in thresholds.SIZES}
+        for factor, expected in ((0.5, (1 / 3, 0.95, 0.525, 1.0, -1 / 12)), (2, (2 / 3, 0.8, 0.6, 4.0, -1 / 3))):
+            with thresholds.scaled(factor):
+                found = [getattr(thresholds, name) for name in
+                         ("MAJORITY", "NEARLY_ONE", "LEFT_SHARE", "ROUGHLY", "ANTIFERROMAGNETIC")]
+            for a, b in zip(found, expected):
+                self.assertAlmostEqual(a, b)
+        self.assertEqual(before, {name: getattr(thresholds, name) for name in thresholds.SIZES})
+
+    def test_sizes_are_read_when_a_claim_is_judged(self):
+        """`from .thresholds import SIZE` would keep the value of its import."""
+        folder = os.path.join(SOURCE, "figures", "claims")
+        for name in os.listdir(folder):
+            if name.endswith(".py"):
+                with open(os.path.join(folder, name), encoding="utf-8") as file:
+                    imported = [line for line in file if line.startswith("from .thresholds import")]
+                for size in thresholds.SIZES:
+                    self.assertNotIn(size, " ".join(imported).replace(",", " ").split(), name)
 
 
 if __name__ == "__main__":

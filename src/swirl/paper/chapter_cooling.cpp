@@ -131,7 +131,7 @@ Json cooling_run(const RunConfig& config, const RunControl& control) {
 }
 
 std::vector<std::int64_t> gas_sizes(const PaperSettings& settings) {
-    if (settings.quick) return {250, 1000};
+    if (settings.quick) return {500, 1000};
     return {500, 1000, 2000, 4000, 8000};
 }
 

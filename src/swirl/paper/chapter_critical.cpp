@@ -141,13 +141,10 @@ static FigurePlan plan_figure_critical(const PaperSettings& settings) {
     FigurePlan plan;
     plan.script = "figure_critical.py";
     DishPoints points = dishes_of_sizes(settings);
-    std::vector<double> radii{8.6, 12.0}, fractions{0.46, 0.52};
-    if (!settings.quick) {
-        radii = {6.0, 8.6, 12.0, 17.2, 24.0};
-        fractions = {0.46, 0.49};
-    }
+    std::vector<double> radii{8.6, 12.0};
+    if (!settings.quick) radii = {6.0, 8.6, 12.0, 17.2, 24.0};
     for (const double radius : radii)
-        for (const double fraction : fractions) points.add({radius, large_amplitude}, fraction);
+        for (const double fraction : {0.46, 0.49}) points.add({radius, large_amplitude}, fraction);
     points.plan(plan, settings);
     plan.finish = [points](const std::vector<Json>& results, const fs::path& out) {
         FigureOutcome outcome;
@@ -214,7 +211,7 @@ Json loop_run(const RunConfig& config, const RunControl& control) {
 }
 
 std::vector<std::int64_t> branches(const PaperSettings& settings) {
-    if (settings.quick) return {settings.periods(40, bins)};
+    if (settings.quick) return {settings.periods(80, bins)};
     return {settings.periods(80, bins), settings.periods(160, bins)};
 }
 
@@ -289,12 +286,12 @@ struct TwoStatePoint {
     const char *name, *words, *first, *second;
     std::int64_t discs;
     double mu, threshold;
-    std::int64_t periods, quick_periods;
+    std::int64_t periods;
 };
 constexpr std::int64_t window = 20;  // periods
 constexpr TwoStatePoint two_state_points[] = {
-    {"few", "N = 5, μ = 0.1", "gas", "row that rolls along the wall", 5, 0.1, -5.0, 10'000, 1000},
-    {"dense", "N = 52, μ = 1", "crystal", "rings", 52, 1.0, -0.065, 600, 100}};
+    {"few", "N = 5, μ = 0.1", "gas", "row that rolls along the wall", 5, 0.1, -5.0, 10'000},
+    {"dense", "N = 52, μ = 1", "crystal", "rings", 52, 1.0, -0.065, 600}};
 
 /// Periods and exits of both states, and ϖ in each.
 Json visits_of(const RunConfig& config, const RunControl& control, double threshold) {
@@ -350,7 +347,7 @@ static FigurePlan plan_figure_lifetimes(const PaperSettings& settings) {
     const int seeds = chapter_seeds(settings);
     for (const TwoStatePoint& p : two_state_points) {
         RunConfig config = paper_config(settings, {"", "", p.mu, p.mu}, p.discs);
-        config.periods = settings.periods(settings.quick ? p.quick_periods : p.periods, 2 * window);
+        config.periods = settings.periods(p.periods, 2 * window);
         config.warmup = 0;
         add_seeds(plan, config, seeds,
                   fmt::format("lifetimes_{}_{}periods", p.name, *config.periods),

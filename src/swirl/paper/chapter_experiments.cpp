@@ -58,7 +58,7 @@ RunConfig scherer_config(const PaperSettings& settings, const SchererSetting& s,
     config.period *= s.period;
     config.seed = settings.seed;
     config.warmup = settings.periods(20, 2);
-    config.periods = *config.warmup + settings.periods(settings.quick ? 20 : 60, 8);
+    config.periods = *config.warmup + settings.periods(60, 8);
     return config;
 }
 
@@ -265,8 +265,8 @@ FigurePlan plan_figure_instability(const PaperSettings& settings) {
             config.discs = std::llround(fraction * layer_radius * layer_radius);
             config.amplitude = amplitude;
             config.seed = settings.seed;
-            config.warmup = settings.periods(settings.quick ? 10 : 20, 2);
-            config.periods = *config.warmup + settings.periods(settings.quick ? 10 : 24, 8);
+            config.warmup = settings.periods(20, 2);
+            config.periods = *config.warmup + settings.periods(24, 8);
             configs.push_back(config);
             add_seeds(
                 plan, config, seeds,

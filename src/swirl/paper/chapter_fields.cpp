@@ -66,7 +66,7 @@ FigurePlan plan_of_dishes(const PaperSettings& settings, const std::vector<DishP
     for (const DishPoint& p : dishes) {
         RunConfig config = dish_config(settings, p.dish, p.discs);
         config.warmup = settings.periods(10, 2);
-        config.periods = *config.warmup + settings.periods(settings.quick ? 15 : 30, 5);
+        config.periods = *config.warmup + settings.periods(30, 5);
         add_seeds(plan, config, field_seeds(settings),
                   fmt::format("fields_R{}_N{}_{}", p.dish.radius, p.discs, length_of(config)),
                   2.0 * expected_events_per_period(config) * double(*config.periods), fields_run);

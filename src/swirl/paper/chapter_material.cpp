@@ -73,7 +73,7 @@ FigurePlan plan_material(const PaperSettings& settings, const MaterialMap& map) 
         RunConfig config = paper_config(settings, high_friction, p.discs);
         map.set(config, x, y);
         config.warmup = settings.periods(20, 2);
-        config.periods = *config.warmup + settings.periods(settings.quick ? 30 : 80, 4);
+        config.periods = *config.warmup + settings.periods(80, 4);
         plan.points.push_back(varied_point(
             settings, fmt::format("{}_x{}_y{}_N{}_{}", map.name, x, y, p.discs, length_of(config)),
             config, chapter_seeds(settings)));

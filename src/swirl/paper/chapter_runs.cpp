@@ -123,8 +123,8 @@ void set_length(RunConfig& config, const PaperSettings& settings) {
                                   : radius < 20.0 ? 200
                                   : radius < 40.0 ? 80
                                                   : 60;
-    config.warmup = settings.periods(settings.quick ? 20 : warmup, 2);
-    config.periods = *config.warmup + settings.periods(settings.quick ? 50 : averaged, 5);
+    config.warmup = settings.periods(warmup, 2);
+    config.periods = *config.warmup + settings.periods(averaged, 5);
 }
 
 /// A quantity at the zero of a straight line between two results.

@@ -23,7 +23,7 @@ bool is_run_in(double radius, double fraction) {
 }  // namespace
 
 DishPoints dishes_of_sizes(const PaperSettings& settings) {
-    std::vector<double> radii{8.6, 17.2}, fractions{0.2, 0.3, 0.4, 0.5, 0.6};
+    std::vector<double> radii{8.6, 17.2}, fractions{0.2, 0.3, 0.4, 0.49, 0.6};
     if (!settings.quick) {
         radii = {6.0, 8.6, 12.0, 17.2, 24.0, 34.4, 60.0};
         fractions = {0.05, 0.1, 0.15, 0.2,  0.25, 0.28, 0.3,  0.32, 0.34, 0.36,

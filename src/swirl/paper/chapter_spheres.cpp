@@ -28,8 +28,8 @@ RunConfig experiment_of(const PaperSettings& settings, std::int64_t spheres) {
         resolve({{"preset", "experiment-half"}, {"mu", "0.2"}, {"floor-friction", "0.3"}});
     config.discs = spheres;
     config.seed = settings.seed;
-    config.warmup = settings.periods(settings.quick ? 20 : 50, 2);
-    config.periods = *config.warmup + settings.periods(settings.quick ? 50 : 200, 5);
+    config.warmup = settings.periods(50, 2);
+    config.periods = *config.warmup + settings.periods(200, 5);
     return config;
 }
 
@@ -142,7 +142,7 @@ static FigurePlan plan_figure_spheres_packing(const PaperSettings& settings) {
 // --- Size -----------------------------------------------------------------------------------
 
 static FigurePlan plan_figure_spheres_size(const PaperSettings& settings) {
-    std::vector<double> radii{8.5}, fractions{0.3, 0.5, 0.6};
+    std::vector<double> radii{8.5}, fractions{0.28, 0.46, 0.58};
     if (!settings.quick) {
         radii = {6.0, 8.5, 12.0, 17.0};
         fractions = {0.1, 0.2, 0.28, 0.34, 0.4, 0.46, 0.52, 0.58};

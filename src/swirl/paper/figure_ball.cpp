@@ -32,8 +32,8 @@ RunConfig ball_run(const PaperSettings& settings, const Ball& ball) {
     config.inertia = solid_inertia(config.mass, ball.radius);
     config.mu_disc = config.mu_wall = ball.mu;
     config.restitution = ball.restitution;
-    config.warmup = settings.periods(settings.quick ? 100 : 200, 5);
-    config.periods = *config.warmup + settings.periods(settings.quick ? 100 : 300, 5);
+    config.warmup = settings.periods(200, 5);
+    config.periods = *config.warmup + settings.periods(300, 5);
     return config;
 }
 

@@ -153,7 +153,7 @@ static FigurePlan plan_figure_condensation(const PaperSettings& settings) {
     plan.script = "figure_condensation.py";
     std::vector<std::int64_t> numbers{rotating_n, counterrotating_n};
     if (!settings.quick) numbers = {16, 20, 24, 28, 32, 36, 40, 44, 48};
-    const std::int64_t periods = settings.periods(settings.quick ? 200 : 400, 20);
+    const std::int64_t periods = settings.periods(400, 20);
     const int seeds = settings.seeds();
     for (const std::int64_t n : numbers) {
         RunConfig config = paper_config(settings, no_disc_friction, n);

@@ -33,7 +33,7 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
     for (const CurveFigure::Point& p : figure.points) {
         RunConfig config = paper_config(settings, high_friction, p.discs);
         // Half of the paper's events: there are many curves, and the errors remain small.
-        config.events = settings.events.value_or(settings.default_events() / 2);
+        config.events = settings.events.value_or(settings.default_events / 2);
         if (p.discs > last_n) set_dense_length(config, settings);
         varied[p.curve].change(config);
         plan.points.push_back(
@@ -133,9 +133,9 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
     std::vector<double> coefficients{0.1, 0.5, 1.0};
     if (!settings.quick) coefficients = {0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 2.0};
     for (const double mu : coefficients) {
-        CrossingSettings search = search_for_crossing(settings);
+        CrossingSettings search = search_for_crossing();
         search.config = paper_config(settings, {"", "", mu, mu}, last_n);
-        search.config.events = settings.events.value_or(settings.quick ? 100'000 : 300'000);
+        search.config.events = settings.events.value_or(300'000);
         search.to = numbers_beyond(settings).back();  // μ = 0.2 crosses beyond the paper's last N
         plan.points.push_back(crossing_task(
             fmt::format("N_c_mu{}_{}events_seed{}", mu, search.config.events, settings.seed),
@@ -174,9 +174,7 @@ static FigurePlan plan_figure_polygon(const PaperSettings& settings) {
     for (const CurveFigure::Point& p : figure.points) {
         RunConfig config = paper_config(settings, high_friction, p.discs);
         // Vertices are events, too. A length in periods gives every path the same time.
-        const std::int64_t periods =
-            p.discs == rotating_n ? (settings.quick ? 300 : 2000) : (settings.quick ? 60 : 300);
-        config.periods = settings.periods(periods, 5);
+        config.periods = settings.periods(p.discs == rotating_n ? 2000 : 300, 5);
         set_sides(config, sides[p.curve]);
         plan.points.push_back(varied_point(
             settings,
@@ -211,8 +209,8 @@ static FigurePlan plan_figure_map(const PaperSettings& settings) {
         for (const double mu_wall : coefficients) {
             if (mu_disc == 0.0 && mu_wall == 0.0) continue;  // there is no steady state
             RunConfig config = paper_config(settings, {"", "", mu_disc, mu_wall}, last_n);
-            config.warmup = settings.periods(settings.quick ? 30 : 100, 2);
-            config.periods = *config.warmup + settings.periods(settings.quick ? 60 : 200, 4);
+            config.warmup = settings.periods(100, 2);
+            config.periods = *config.warmup + settings.periods(200, 4);
             figure.curves.push_back(
                 {"", {mu_disc, mu_wall}, fmt::format("μ_d = {}, μ_w = {}", mu_disc, mu_wall)});
             plan.points.push_back(varied_point(

@@ -84,7 +84,7 @@ static FigurePlan plan_figure_transient(const PaperSettings& settings) {
     plan.script = "figure_transient.py";
     std::vector<std::int64_t> numbers{48};
     if (!settings.quick) numbers = {40, 44, 46, 48};
-    const std::int64_t periods = settings.periods(settings.quick ? 200 : 600, 20);
+    const std::int64_t periods = settings.periods(600, 20);
     for (const std::int64_t n : numbers) {
         RunConfig config = paper_config(settings, no_disc_friction, n);
         config.periods = periods;
@@ -139,8 +139,7 @@ static FigurePlan plan_figure_energy(const PaperSettings& settings) {
     constexpr double cost_factor = 3.0;  // frictionless discs become faster and collide more often
     FigurePlan plan;
     plan.script = "figure_energy.py";
-    const std::int64_t discs = rotating_n,
-                       periods = settings.periods(settings.quick ? 100 : 400, 10);
+    const std::int64_t discs = rotating_n, periods = settings.periods(400, 10);
     const std::vector<int> sides{6, 30, 300, 0};  // 0: the circle
     const int seeds = settings.seeds();
     for (const int m : sides) {

@@ -160,7 +160,7 @@ PaperTask run_task(const std::string& key, const RunConfig& config,
 
 std::int64_t PaperSettings::periods(std::int64_t by_default, std::int64_t minimum) const {
     const double share =
-        static_cast<double>(events_of_a_run()) / static_cast<double>(default_events());
+        static_cast<double>(events_of_a_run()) / static_cast<double>(default_events);
     const double periods = std::round(static_cast<double>(by_default) * share);
     return std::max(minimum, static_cast<std::int64_t>(periods));
 }

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 struct PaperSettings {
-    bool quick = false;                  // fewer points and shorter runs
+    bool quick = false;  // fewer points and seeds; all runs are those of the full study
     std::optional<std::int64_t> events;  // of a run; scales all lengths in periods likewise
     fs::path out = "out";
     std::uint64_t seed = 1;
@@ -40,8 +40,8 @@ struct PaperSettings {
     int default_seeds() const { return quick ? 3 : 8; }
 
     /// SI: "10^6 iterations".
-    std::int64_t default_events() const { return quick ? 200'000 : 1'000'000; }
-    std::int64_t events_of_a_run() const { return events.value_or(default_events()); }
+    static constexpr std::int64_t default_events = 1'000'000;
+    std::int64_t events_of_a_run() const { return events.value_or(default_events); }
     /// A length in periods, scaled as `events` scales the other runs.
     std::int64_t periods(std::int64_t by_default, std::int64_t minimum) const;
 };

@@ -53,7 +53,7 @@ PaperPoint dense_point(const PaperSettings& settings, const Friction& friction, 
 
 /// The steady state, which the paper does not show: averages over periods after a long warm-up.
 /// With μ_d = 0 only the wall changes a disc's spin, which takes about 100 periods. So the warm-up
-/// is 300 periods, and 100 with disc friction (half as long if quick).
+/// is 300 periods, and 100 with disc friction.
 RunConfig settled_config(const PaperSettings& settings, const Friction& friction,
                          std::int64_t discs);
 /// With all measurements that the figures need.
@@ -66,7 +66,7 @@ PaperPoint varied_point(const PaperSettings& settings, const std::string& name,
                         const std::vector<std::string>& measurements = {});
 
 /// The effort of a search for N_c in a figure.
-CrossingSettings search_for_crossing(const PaperSettings& settings);
+CrossingSettings search_for_crossing();
 /// A task that searches for N_c, and the columns of its result.
 PaperTask crossing_task(const std::string& key, const CrossingSettings& search);
 std::vector<std::string> search_columns();
