@@ -4,6 +4,7 @@
 """
 
 import style
+from paper_parameters import AMPLITUDES
 
 LEAST_SHARE = 2e-4  # of all visits: cells with fewer have no arrow
 
@@ -24,7 +25,7 @@ def main():
         flow = style.often_visited(style.blocks(cells, style.COARSE), LEAST_SHARE)
         if flow:
             style.arrows(axes, flow, spacing, max(map(style.speed, flow)), color="white")
-        style.container(axes, R, color="white")
+        style.container(axes, R, color="white", amplitude=AMPLITUDES.get(setting, style.AMPLITUDE))
         axes.set_title(f"{style.LOOKS[setting][0]}, $N = {rows[0]['discs']:.0f}$")
         bar = drawing.colorbar(shown, ax=axes, shrink=0.85)
         bar.set_label(r"particles per unit area ($r^{-2}$)")

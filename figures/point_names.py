@@ -6,10 +6,11 @@ CURVES = {"high": "μ = 1", "medium": "μ = 0.5", "low": "μ = 0.1", "no-wall": 
           "no-disc": "μ_d = 0", "no-vertical": "no vertical friction",
           "no-vertical-disc": "no vertical friction between spheres",
           "no-vertical-wall": "no vertical friction at the wall", "no-damping": "e = 1",
-          "shell": "hollow spheres"}
+          "shell": "hollow spheres", "all": "all ingredients", "smooth": "smooth spheres",
+          "rough": "roughened spheres", "half": "half the amplitude"}
 # A point, such as spheres_0.2_N16_25of75periods or run_no-wall_N48_200000events_seed3.
 POINT = re.compile(r"\b(?:(?:run|measured|spheres|settled|steady|dense|varied)_)*"
-                   r"((?:(?:inertia|restitution|tangential)_|e)?[\d.]+|(?:no-)?[a-z][a-z-]*(?:_f[\d.]+)?)"
+                   r"((?:(?:inertia|restitution|tangential)_|e)?[\d.]+|(?:no-)?[a-z][a-z-]*)"
                    r"_N(\d+)(?:_\d+of\d+periods|_\d+events|_\d+periods)?(?:_seed(\d+))?\b")
 FRICTION_PAIR = re.compile(r"\bmap_d([\d.]+)_w([\d.]+)_(?:\d+of\d+periods|\d+events|\d+periods)\b")
 VARIED = re.compile(r"(inertia|restitution|tangential|e)_?(?=[\d.])")
@@ -37,7 +38,7 @@ def powers(text):
 
 def point_in_words(match):
     curve, discs, seed = match.groups()
-    rough = ", μ = 0.3" if curve.endswith("-rough") else ""
+    rough = ", roughened" if curve.endswith("-rough") else ""
     curve = curve.removesuffix("-rough")
     if curve in CURVES:
         curve = CURVES[curve]
@@ -46,7 +47,7 @@ def point_in_words(match):
     elif VARIED.match(curve):
         curve = VARIED.sub(lambda m: f"{SYMBOLS[m.group(1)]} = ", curve, count=1)
     else:
-        curve = curve.replace("_f", ", μ_f = ").replace("-", " ")
+        curve = curve.replace("-", " ")
     return f"{curve}{rough} with N = {discs}" + (f" (seed {seed})" if seed else "")
 
 

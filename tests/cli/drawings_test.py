@@ -102,12 +102,8 @@ TABLES = {
     "polygon": [row for m in (6, 10, 30, 300, 0) for row in rotation((28, 48), sides=m)],
     "restitution": curves("restitution", (1, 0.99, 0.9)),
     "spheres": curves("setting", SPHERES, range(8, 56, 4)),
-    "spheres_flat_discs": curves("curve", ("flat-discs_f0", "flat-discs_f0.01", "flat-discs_f0.02", "flat-discs_f0.03")),
     "spheres_ingredients": curves("curve", INGREDIENTS),
     "spheres_ingredients_rough": curves("curve", [f"{name}-rough" for name in INGREDIENTS]),
-    "spheres_map": [row for a in STEPS[1:8] for b in STEPS[1:6]
-                    for row in rotation([36], high=a - b, mu=a, floor_friction=b)],
-    "spheres_restitution": curves("curve", (1, 0.95, 0.9, 0.8, 0.7, 0.5)),
     "spheres_friction": [{"curve": name, "amplitude_mm": 5.75, "restitution": 0.8, "floor_friction": 0.15,
                           "rolling_resistance": 0.01, "mu": mu, "crosses": 1.0, "crossing": 44 - 20 * mu,
                           "crossing_error": 0.3}

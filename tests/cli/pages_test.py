@@ -134,7 +134,6 @@ OMITTED = (
     ("--slurm", "needs a cluster"),
     ("sbatch ", "needs a cluster"),
     ("/shared/", "the folder of a cluster"),
-    ("/dev/video", "needs a camera"),
     ("--camera-fps", "tracks of the reader's camera"),
     ("--checkpoint long.checkpoint", "continues a run that was stopped"),
     ("--events 1e9", "a run that the reader stops"),

@@ -262,8 +262,8 @@ TEST(Checkpoint, SizePerDiscIsThatOfItsState) {
     StateWriter state;
     state(discs);
     write_checkpoint(scratch / "c", {"", state.bytes()});
-    // The number of discs, the first line of 19 bytes, two lengths, and the checksum.
-    EXPECT_EQ(std::filesystem::file_size(scratch / "c"), 100'000 * sizeof(Disc) + 8 + 19 + 24);
+    // The number of discs, the first line of 20 bytes, two lengths, and the checksum.
+    EXPECT_EQ(std::filesystem::file_size(scratch / "c"), 100'000 * sizeof(Disc) + 8 + 20 + 24);
 }
 
 TEST(EventLog, MoreVerticesThanPathSegmentsAreRejected) {

@@ -77,7 +77,9 @@ TEST(RunOfSpheres, SlowInTenMillionEventsNoTwoOverlapByMoreThanRounding) {
 // 2⁻⁵³ σ in the distance, with σ = R − r. The factor 2 allows for the rounding of positions.
 TEST(RunOfSpheres, WithoutContactDurationSinkingPerBounceIsARoundingError) {
     for (const char* restitution : {"0.9", "0.5", "0"}) {
-        const RunConfig config = resolve({{"preset", "experiment"},
+        const RunConfig config = resolve({{"preset", "experiment-half"},
+                                          {"mu", "0.2"},
+                                          {"floor_friction", "0.3"},
                                           {"discs", "8"},
                                           {"contact_duration", "0"},
                                           {"restitution", restitution}});
