@@ -414,6 +414,6 @@ export const examples: typeof en.examples = [
     {name: "Viele", help: "48 Scheiben, wie in der Veröffentlichung", given: {}},
     {name: "Glatte Wand", help: "48 Scheiben ohne Reibung an der Wand", given: {mu_disc: "1", mu_wall: "0"}},
     {name: "Glatte Scheiben", help: "48 Scheiben ohne Reibung aneinander", given: {mu_disc: "0", mu_wall: "1"}},
-    {name: "Rollende Kugeln", help: "36 Kugeln, wie im Experiment der Veröffentlichung", given: {preset: "experiment", discs: "36"}},
+    {name: "Rollende Kugeln", help: "36 Kugeln mit dem Bahnradius der Veröffentlichung, 1,15 cm. Ihr Anhang legt die Hälfte nahe, aber dann verhalten sich Kugeln anders", given: {preset: "experiment", discs: "36"}},
     {name: "Zwei Größen", help: "20 Scheiben und 20 kleinere", given: {discs: "40", mixture: "20:0.6"}},
 ];

@@ -393,6 +393,6 @@ export const examples: {name: string; help: string; given: Record<string, string
     {name: "Many", help: "48 discs, as in the paper", given: {}},
     {name: "Slippery wall", help: "48 discs without friction at the wall", given: {mu_disc: "1", mu_wall: "0"}},
     {name: "Slippery discs", help: "48 discs without friction between discs", given: {mu_disc: "0", mu_wall: "1"}},
-    {name: "Rolling spheres", help: "36 spheres, as in the paper's experiment", given: {preset: "experiment", discs: "36"}},
+    {name: "Rolling spheres", help: "36 spheres with the amplitude that the paper states, 1.15 cm. Its supplement implies half of it, but then spheres behave differently", given: {preset: "experiment", discs: "36"}},
     {name: "Two sizes", help: "20 discs and 20 smaller ones", given: {discs: "40", mixture: "20:0.6"}},
 ];
