@@ -24,7 +24,7 @@ const rules: [RegExp, string][] = [
     [/^(.+) is '(.*)', but it must be none or sliding: .*$/, "$1 ist '$2', muss aber none oder sliding sein."],
     [/^(--mixture) is '(.*)', but it must be (\S+) or (\S+), for example (\S+) .* or (\S+) .*\.$/,
      "$1 ist '$2', muss aber die Form $3 oder $4 haben (Anzahl, Radius, Masse), zum Beispiel $5, oder $6 für einen Anteil."],
-    [/^(.+) is '(.*)', but it must be (\S+) or (\S+)\.$/, "$1 ist '$2', muss aber $3 oder $4 sein."],
+    [/^(.+) is '(.*)', but it must be (\S+(?:, \S+)*) or (\S+)\.$/, "$1 ist '$2', muss aber $3 oder $4 sein."],
     [/^(.+) is '(.*)', but it must be (\S+)\.$/, "$1 ist '$2', muss aber $3 sein."],
     [/^--sides is (\S+), but --path circle has no sides\.$/, "--sides ist $1, aber ein Kreis hat keine Ecken."],
     [/^--path is circle, but on it .*$/,
