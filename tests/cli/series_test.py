@@ -92,7 +92,7 @@ class Series(InFolder):
 
     def test_the_series_grows_while_the_run_runs(self):
         call = ("run", "--discs", 48, "--periods", 1000000, "--series", "live.csv", "--trajectory", "live.h5",
-                "--frames", 120, "--quiet")
+                "--frames", 1, "--quiet")
         running = subprocess.Popen([SWIRL, *map(str, call)], cwd=self.folder, stdout=subprocess.DEVNULL)
         try:
             lengths, deadline = [], time.monotonic() + 100
