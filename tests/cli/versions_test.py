@@ -81,8 +81,10 @@ class Version1(OldFiles):
                 json.dump(result, file)
             done = self.run_here("verify", f"{body}.json")
             if done.returncode != 0:
-                self.assertRegex(done.stderr, "differs: .*\nhint: it was made by swirl 0.1.0")
-                self.assertNotEqual(body, "discs")
+                # Discs have the same trajectory, rotation and means. But the error of a value that some periods
+                # lack now counts only the periods that have it.
+                what = "measured" if body == "discs" else ".*"
+                self.assertRegex(done.stderr, f"differs: {what} .*\nhint: it was made by swirl 0.1.0")
 
     def test_a_checkpoint_of_a_finished_run_is_extended_to_the_same_end(self):
         for body in BODIES:
