@@ -16,6 +16,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "swirl/paper/chapter_runs.hpp"
 #include "swirl/paper/chapters.hpp"
 #include "swirl/paper/coarse_zero.hpp"
 #include "swirl/paper/points.hpp"
@@ -49,10 +50,7 @@ constexpr SchererSetting scherer_settings[] = {
     {"discs", "discs, A/R = 0.22", false, 1.0, 1.0}};
 
 RunConfig scherer_config(const PaperSettings& settings, const SchererSetting& s, std::int64_t n) {
-    RunConfig config =
-        s.spheres
-            ? resolve({{"preset", "experiment-half"}, {"mu", "0.2"}, {"floor-friction", "0.3"}})
-            : RunConfig{};
+    RunConfig config = s.spheres ? spheres_of_chapters() : RunConfig{};
     config.discs = n;
     config.amplitude *= s.amplitude;
     config.period *= s.period;
@@ -259,8 +257,7 @@ FigurePlan plan_figure_instability(const PaperSettings& settings) {
     std::vector<RunConfig> configs;
     for (const double fraction : layers_of_spheres)
         for (const double amplitude : layer_amplitudes(settings)) {
-            RunConfig config =
-                resolve({{"preset", "experiment-half"}, {"mu", "0.2"}, {"floor-friction", "0.3"}});
+            RunConfig config = spheres_of_chapters();
             config.container_radius = layer_radius;
             config.discs = std::llround(fraction * layer_radius * layer_radius);
             config.amplitude = amplitude;

@@ -31,17 +31,18 @@ std::int64_t Dish::discs(double packing_fraction) const {
                     std::int64_t(std::llround(packing_fraction * radius * radius)));
 }
 
+RunConfig spheres_of_chapters(ParameterTexts more) {
+    more.merge(
+        ParameterTexts{{"preset", "experiment-half"}, {"mu", "0.2"}, {"floor-friction", "0.3"}});
+    return resolve(more);
+}
+
 RunConfig dish_config(const PaperSettings& settings, const Dish& dish, std::int64_t discs) {
     ParameterTexts texts{{"discs", fmt::format("{}", discs)},
                          {"container-radius", fmt::format("{}", dish.radius)},
                          {"amplitude", fmt::format("{}", dish.amplitude * dish.radius)},
                          {"speed", "1"}};
-    if (dish.spheres) {
-        texts["preset"] = "experiment-half";
-        texts["mu"] = "0.2";
-        texts["floor-friction"] = "0.3";
-    }
-    RunConfig config = resolve(texts);
+    RunConfig config = dish.spheres ? spheres_of_chapters(texts) : resolve(texts);
     config.seed = settings.seed;
     return config;
 }

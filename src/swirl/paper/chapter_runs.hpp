@@ -7,6 +7,7 @@
 
 #include "swirl/measure/rotation_crossings.hpp"
 #include "swirl/paper/paper.hpp"
+#include "swirl/run/parameters.hpp"
 #include "swirl/run/period_series.hpp"
 
 namespace swirl {
@@ -21,6 +22,10 @@ struct Dish {
     std::int64_t discs(double packing_fraction) const;
     bool operator==(const Dish&) const = default;
 };
+
+/// The spheres of the chapters: the experiment at half the amplitude, μ = 0.2, floor friction 0.3;
+/// `more` overrides these.
+RunConfig spheres_of_chapters(ParameterTexts more = {});
 
 /// Discs with μ = 1 and the paper's inertia, or spheres. The container has the speed 1 in every
 /// dish.

@@ -24,8 +24,7 @@ namespace swirl {
 namespace {
 
 RunConfig experiment_of(const PaperSettings& settings, std::int64_t spheres) {
-    RunConfig config =
-        resolve({{"preset", "experiment-half"}, {"mu", "0.2"}, {"floor-friction", "0.3"}});
+    RunConfig config = spheres_of_chapters();
     config.discs = spheres;
     config.seed = settings.seed;
     config.warmup = settings.periods(50, 2);

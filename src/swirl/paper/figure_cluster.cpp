@@ -189,7 +189,7 @@ static FigurePlan plan_figure_states(const PaperSettings& settings) {
 
 namespace {
 
-/// Figures 3: the experiment's smooth spheres at both amplitudes, and discs.
+/// Figures 3a, 3b and pinning: the experiment's smooth spheres at both amplitudes, and discs.
 const std::vector<Friction> settings_of_profiles{high_friction, smooth_spheres, half_amplitude};
 
 /// The cells by which every row of a profile begins.
