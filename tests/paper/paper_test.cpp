@@ -116,6 +116,12 @@ std::vector<std::string> names_of(const std::vector<PaperFigure>& figures) {
     return names;
 }
 
+// A name that a figure shares with a group means the group, so the figure could not be made alone.
+TEST(Figures, NamesAreNotThoseOfGroups) {
+    for (const PaperFigure& figure : paper_figures())
+        EXPECT_EQ(names_of(figures_named({std::string(figure.name)})).size(), 1u) << figure.name;
+}
+
 TEST(Figures, EachBelongsToOneGroup) {
     std::size_t members = 0;
     for (const FigureGroup& group : figure_groups)

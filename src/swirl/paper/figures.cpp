@@ -30,7 +30,7 @@ std::vector<PaperFigure> in_order() {
           figures_of_times(), figures_5b(), figures_of_parameters(), figures_against_time(),
           figures_of_condensation()})
         append(all, figures, "beyond");
-    append(all, figures_of_spheres(), "spheres");
+    append(all, figures_of_spheres(), "rolling");
     append(all, chapter_figures(), "chapters");
     const auto beyond = std::stable_partition(all.begin(), all.end(), is_of_the_paper);
     std::sort(all.begin(), beyond,

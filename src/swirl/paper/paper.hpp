@@ -108,7 +108,7 @@ struct FigureGroup {
 inline constexpr FigureGroup figure_groups[] = {
     {"paper", "the figures of the paper"},
     {"beyond", "parameters, averages and times that the paper does not show"},
-    {"spheres", "spheres that roll on the floor"},
+    {"rolling", "spheres that roll on the floor"},
     {"chapters", "questions that the paper leaves open"},
 };
 
