@@ -58,6 +58,11 @@ def sentences_of(text):
         yield from re.split(r"(?<=[.:;!?])\s+", " ".join(paragraph.split()))
 
 
+def words_of(text):
+    """The words that a reader of the page reads: no code, addresses or alternative texts of pictures."""
+    return re.findall(r"\S*\w\S*", prose_of(re.sub(r"!\[[^\]]*\]\([^)]*\)", "", text)))
+
+
 class Prose(unittest.TestCase):
     def test_pages_use_the_words_of_the_glossary(self):
         for page in PAGES:
@@ -84,6 +89,20 @@ class Prose(unittest.TestCase):
             words = [word for word in sentence.split() if re.search(r"\w", word)]
             with self.subTest(sentence):
                 self.assertLessEqual(len(words), LONGEST)
+
+    def test_the_reason_of_the_effect_is_the_first_link(self):
+        for name, first in (("README.md", "docs/explanation/why.md"), ("docs/index.md", "explanation/why.md")):
+            text = (SOURCE / name).read_text(encoding="utf-8")
+            self.assertEqual(re.search(r"(?<!!)\[[^\]]*\]\(([^)]*)\)", text)[1], first, name)
+        for language in ("en", "de"):
+            text = (SOURCE / f"web/src/texts.{language}.ts").read_text(encoding="utf-8")
+            self.assertRegex(text, r'pages: \{"explanation/why": ')
+
+    def test_the_reason_of_the_effect_is_short_and_has_pictures(self):
+        text = (SOURCE / "docs/explanation/why.md").read_text(encoding="utf-8")
+        self.assertEqual(text.count("!["), 4)
+        words = len(words_of(text))
+        self.assertTrue(400 <= words <= 600, words)
 
     def test_commit_subjects_name_an_area(self):
         done = subprocess.run(["git", "-C", SOURCE, "log", "--format=%s", f"{FIRST_COMMIT}..HEAD"],

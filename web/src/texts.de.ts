@@ -405,7 +405,7 @@ export const team: typeof en.team = {
     commands: ["./swirl track dish.mp4 --out tracks.csv", "./swirl measure tracks.csv",
                "./swirl experiment N24.mp4 N36.mp4 N48.mp4 --out marbles"],
     more: "Ausführlich (englisch):",
-    pages: {"how-to/record_experiment": "ein Experiment filmen", "tutorials/phone_video": "vom Handyvideo zur Drehrate",
+    pages: {"explanation/why": "warum sich die Richtung umkehrt", "how-to/record_experiment": "ein Experiment filmen", "tutorials/phone_video": "vom Handyvideo zur Drehrate",
             "explanation/tracking_accuracy": "Genauigkeit der Auswertung", "explanation/statistics": "Unsicherheiten und stationärer Zustand"},
 };
 

@@ -382,7 +382,7 @@ export const team = {
     commands: ["./swirl track dish.mp4 --out tracks.csv", "./swirl measure tracks.csv",
                "./swirl experiment N24.mp4 N36.mp4 N48.mp4 --out marbles"],
     more: "Details:",
-    pages: {"how-to/record_experiment": "record an experiment", "tutorials/phone_video": "from a phone video to a rotation rate",
+    pages: {"explanation/why": "why it reverses", "how-to/record_experiment": "record an experiment", "tutorials/phone_video": "from a phone video to a rotation rate",
             "explanation/tracking_accuracy": "tracking accuracy", "explanation/statistics": "errors and steady state"} as
         Record<string, string>,
 };
