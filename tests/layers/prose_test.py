@@ -90,6 +90,15 @@ class Prose(unittest.TestCase):
             with self.subTest(sentence):
                 self.assertLessEqual(len(words), LONGEST)
 
+    def test_the_readme_is_short_and_has_the_commands_of_a_new_machine(self):
+        text = (SOURCE / "README.md").read_text(encoding="utf-8")
+        self.assertLessEqual(len(text.splitlines()), 90)
+        self.assertLess(text.index("!["), text.index("./swirl run --discs 48"))
+        self.assertRegex(text, r"\./check  +# .*runs the tests")
+        # One N_c of discs, with the name of its rate.
+        self.assertEqual(len(re.findall(r"N_c = \d+\.\d", text)), 1)
+        self.assertRegex(text, r"N_c = 38\.4 ± 0\.1 \(mean over the discs, by time\)")
+
     def test_the_reason_of_the_effect_is_the_first_link(self):
         for name, first in (("README.md", "docs/explanation/why.md"), ("docs/index.md", "explanation/why.md")):
             text = (SOURCE / name).read_text(encoding="utf-8")
