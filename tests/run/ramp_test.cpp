@@ -274,7 +274,7 @@ TEST(Ramp, TheReportSaysThatTheAveragesMixItsValues) {
     const RunResult result = run(with_ramp("mu=0.1:1@2..9", {{"periods", "6"}}));
     EXPECT_THAT(headline(result), HasSubstr("in a ramp, mu=0.1:1@2..9"));
     ASSERT_FALSE(warnings(result).empty());
-    EXPECT_THAT(warnings(result).front(), HasSubstr("before the last value"));
+    EXPECT_THAT(warnings(result).front(), HasSubstr("which begins after"));
 }
 
 }  // namespace

@@ -151,9 +151,9 @@ std::string ramp_warning(const RunResult& r) {
         "averages of each period.";
     if (r.periods <= static_cast<double>(end_of_ramps(r.config)))
         text = fmt::format(
-            "the run ended after {:.1f} periods, before the last value of its ramp in "
-            "period {}; {}",
-            r.periods, end_of_ramps(r.config), text);
+            "the run ended after {:.1f} periods, but its ramp has its last value in period {}, "
+            "which begins after {} periods; {}",
+            r.periods, end_of_ramps(r.config), end_of_ramps(r.config), text);
     return text;
 }
 

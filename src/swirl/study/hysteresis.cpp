@@ -75,8 +75,10 @@ std::vector<LoopAreas> loop_areas(const SweepPlan& plan, const std::vector<Point
         here.parameters.erase(plan.chain);
         for (std::size_t q = 0; q < quantities.size(); ++q) {
             std::vector<Estimate> areas;
-            for (const LoopOfChain& loop : loops)
+            for (const LoopOfChain& loop : loops) {
                 areas.push_back(loop.area(q, quantities[q], weights));
+                if (loops.size() > 1) areas.back().error = not_available;
+            }
             here.areas.push_back(ensemble(areas).estimate);
         }
         all.push_back(std::move(here));

@@ -3,8 +3,10 @@
 //     ∮ = ∫ (q_down − q_up) dx   over the values x of the parameter, by the trapezoidal rule,
 //
 // for each quantity q of a run. It is positive if the quantity is larger with falling values. Each
-// replica has a loop of its own, with an error from the errors of its runs. The replicas' areas
-// give mean and error like those of runs (statistics/replicates.hpp).
+// replica has a loop of its own. The error is that of the scatter between the replicas' areas
+// (statistics/replicates.hpp). The errors of the runs do not contribute: runs of a chain start from
+// the final state of the run before, and what they share cancels in the difference. A single loop
+// has the errors of its runs, added as if the runs were independent, which is too large.
 #pragma once
 
 #include <cstdint>
