@@ -43,7 +43,7 @@ if(SWIRL_PAPER)
 endif()
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/figures ${PROJECT_BINARY_DIR}/share/swirl/figures SYMBOLIC)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper ${PROJECT_BINARY_DIR}/share/swirl/paper SYMBOLIC)
 # The layer `tracking` is built if OpenCV is found (section [camera] of `packages`). Otherwise `swirl track`
 # reports what is missing. Its report uses the layer `paper`.
 cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON SWIRL_PAPER OFF)

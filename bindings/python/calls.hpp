@@ -84,6 +84,7 @@ void forbid_construction(py::object type);
 void bind_runs(py::module_& module);
 void bind_snapshots(py::module_& module);
 void bind_simulation(py::module_& module);
+void bind_statistics(py::module_& module);
 void bind_studies(py::module_& module);
 void bind_recordings(py::module_& module);
 

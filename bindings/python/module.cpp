@@ -47,6 +47,7 @@ PYBIND11_MODULE(_engine, module) {
     python::bind_snapshots(module);
     python::bind_simulation(module);
     python::bind_runs(module);
+    python::bind_statistics(module);
     python::bind_studies(module);
     python::bind_recordings(module);
 }

@@ -129,8 +129,10 @@ CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
 
 py::tuple crossing(const py::dict& given, std::int64_t minimum, std::int64_t maximum,
                    double tolerance, const std::string& rate, unsigned threads,
-                   const std::string& command, const ProgressCallback& callback) {
-    const CrossingSettings settings = crossing_settings(given, minimum, maximum, tolerance, rate);
+                   const std::string& command, const ProgressCallback& callback,
+                   std::int64_t min_periods) {
+    CrossingSettings settings = crossing_settings(given, minimum, maximum, tolerance, rate);
+    settings.min_periods = min_periods;
     std::atomic<bool> stop = false;
     LatestProgress<std::string, double> latest;
     CrossingControl control;
@@ -236,7 +238,10 @@ void bind_studies(py::module_& module) {
     });
     module.def("sweep", &sweep);
     module.def("collect", &collect);
-    module.def("crossing", &crossing);
+    module.def("crossing", &crossing, py::arg("parameters"), py::arg("min_discs"),
+               py::arg("max_discs"), py::arg("tolerance"), py::arg("rate"), py::arg("threads"),
+               py::arg("command"), py::arg("progress"),
+               py::arg("min_periods") = CrossingSettings{}.min_periods);
     module.def("write_map_plan", &write_map_plan);
     module.def("grow_map", &grow_map);
     module.def("make_map", &make_map);

@@ -104,7 +104,7 @@ class Catalogue(HandMadeTables):
         self.rotation("5b", "no-wall", [(n, 0.022 if n == 40 else 0.9)
                                         for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)])
         done = subprocess.run(["/usr/bin/python3", "-B",
-                               os.path.join(SOURCE, "figures", "judge_claims.py"), self.folder],
+                               os.path.join(SOURCE, "paper", "judge_claims.py"), self.folder],
                               capture_output=True, text=True, timeout=150)
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(os.path.join(self.folder, "verdicts.json"), encoding="utf-8") as file:
@@ -140,7 +140,7 @@ class Sizes(HandMadeTables):
 
     def test_sizes_are_read_when_a_claim_is_judged(self):
         """`from .thresholds import SIZE` would keep the value of its import."""
-        folder = os.path.join(SOURCE, "figures", "claims")
+        folder = os.path.join(SOURCE, "paper", "claims")
         for name in os.listdir(folder):
             if name.endswith(".py"):
                 with open(os.path.join(folder, name), encoding="utf-8") as file:

@@ -1,9 +1,8 @@
-"""Figures drawn by the scripts in figures/ from synthetic tables as large as those of a complete study. Letters
+"""Figures drawn by paper/figures from synthetic tables as large as those of a complete study. Letters
 must be legible, legends must not cover data, points must be inside their axes, and arrows must not touch."""
 
 import csv
 import glob
-import importlib
 import itertools
 import math
 import os
@@ -14,7 +13,9 @@ from unittest import mock
 
 from program import SOURCE
 
-sys.path.insert(0, os.path.join(SOURCE, "figures"))
+sys.path.insert(0, os.path.join(SOURCE, "paper"))
+import catalogue  # noqa: E402
+import draw  # noqa: E402
 import style  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
@@ -126,7 +127,6 @@ CHAPTERS = {"amplitude", "closure", "contacts", "cooling", "critical", "fields",
 class Drawings(unittest.TestCase):
     def drawn(self, name, rows):
         """The figure of the script before it is saved."""
-        module = importlib.import_module(f"figure_{name}")
         with tempfile.TemporaryDirectory() as folder:
             table = os.path.join(folder, f"figure_{name}.csv")
             with open(table, "w", newline="", encoding="utf-8") as file:
@@ -135,22 +135,16 @@ class Drawings(unittest.TestCase):
                 out.writeheader()
                 out.writerows(rows)
             made = []
-            with mock.patch.object(style, "save", lambda drawing, table: made.append(drawing)), \
-                    mock.patch.object(sys, "argv", [f"figure_{name}.py", table]):
-                if hasattr(module, "main"):
-                    module.main()
-                else:
-                    with open(module.__file__, encoding="utf-8") as script:
-                        exec(compile(script.read(), module.__file__, "exec"),
-                             {"__name__": "__main__"})
+            with mock.patch.object(style, "save", lambda drawing, table: made.append(drawing)):
+                catalogue.drawing(name)(table)
         style.plt.close(made[0])  # removes it from pyplot's list; the object remains
         made[0].canvas.draw()
         return made[0]
 
-    def test_every_script_has_a_table(self):
-        scripts = glob.glob(os.path.join(SOURCE, "figures", "figure_*.py"))
-        self.assertEqual({os.path.basename(s)[len("figure_"):-len(".py")] for s in scripts},
-                         set(TABLES) | CHAPTERS)
+    def test_every_figure_has_a_table(self):
+        scripts = glob.glob(os.path.join(SOURCE, "paper", "figures", "figure_*.py"))
+        names = {os.path.basename(s)[len("figure_"):-len(".py")] for s in scripts}
+        self.assertEqual(names | {entry[0] for entry in catalogue.entries()}, set(TABLES) | CHAPTERS)
 
     def test_layout_of_every_figure(self):
         for name, rows in TABLES.items():
@@ -254,12 +248,12 @@ class Drawings(unittest.TestCase):
 
     def test_second_argument_is_the_width_of_slices(self):
         def curve(*more):
-            with mock.patch.object(style, "table_from_arguments", lambda name: "figure_3a.csv"), \
+            with mock.patch.object(os.path, "exists", lambda file: True), \
                     mock.patch.object(style, "read", lambda table: TABLES["3a"]), \
                     mock.patch.object(style, "save", lambda drawing, table: made.append(drawing)), \
-                    mock.patch.object(sys, "argv", ["figure_3a.py", "figure_3a.csv", *more]):
+                    mock.patch.object(sys, "argv", ["draw.py", "figure_3a.csv", *more]):
                 made = []
-                style.profiles("figure_3a", "varpi_m", -1, "")
+                draw.main()
             style.plt.close(made[0])
             return made[0].axes[0].lines[0].get_ydata()
         plain, wide = curve(), curve("90")

@@ -62,7 +62,7 @@ class Figures(InFolder):
         alone = self.path("alone")
         os.mkdir(alone)
         shutil.copy(os.path.join(out, "figure_4c.csv"), alone)
-        subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "figures", "figure_4c.py"),
+        subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "paper", "draw.py"),
                         os.path.join(alone, "figure_4c.csv")], check=True, cwd="/")
         with open(os.path.join(out, "figure_4c.png"), "rb") as one:
             with open(os.path.join(alone, "figure_4c.png"), "rb") as other:

@@ -288,7 +288,7 @@ class Figure(InFolder):
         for name, text in tables.items():
             with open(self.path(f"{name}.csv"), "w", encoding="utf-8") as opened:
                 opened.write(text)
-            subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "figures", "parameter_map.py"),
+            subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "paper", "parameter_map.py"),
                             self.path(f"{name}.csv")], check=True, cwd="/")
             for kind in ("png", "pdf"):
                 self.assertGreater(os.path.getsize(self.path(f"{name}.{kind}")), 4000)

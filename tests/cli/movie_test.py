@@ -161,8 +161,8 @@ class MovieTest(InFolder):
             made |= {os.path.basename(word) for word in words if word.startswith("docs/images/")}
             if "--figure" in words:
                 made |= {f"figure_{word}.png" for word in words}
-            # A script of figures/ that draws on its own.
-            made |= {f"{name}.png" for word in words for name in re.findall(r"^figures/(\w+)\.py$", word)}
+            # A script of paper/ that draws on its own.
+            made |= {f"{name}.png" for word in words for name in re.findall(r"^paper/(\w+)\.py$", word)}
         made |= self.screenshots()
         stored = {name for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
                 if name.endswith((".png", ".gif"))}

@@ -23,7 +23,7 @@ NOT_RUN = (
      "builds, installs or measures; ./check, tests/library and tests/bench do the same"),
     (r"sbatch ", "needs a cluster"),
     (r"python3 tests/mutation/", "takes hours; the suite slow runs it"),
-    (r"/usr/bin/python3 figures/|ffmpeg |'\[0\]trim", "draws from the output of a long command"),
+    (r"/usr/bin/python3 paper/|ffmpeg |'\[0\]trim", "draws from the output of a long command"),
     (r"for |done$|grep ", "the shell around a call"),
 )
 # Subcommands of the launcher script, with tests of their own (launcher, lab, site, python.*).
@@ -236,7 +236,7 @@ class PagesAsShown(InFolder):
         os.makedirs(os.path.join(folder, "build/release"))
         for name in ("swirl", "build/release/swirl"):
             os.symlink(os.path.abspath(SWIRL), os.path.join(folder, name))
-        os.symlink(os.path.join(SOURCE, "figures"), os.path.join(folder, "figures"))
+        os.symlink(os.path.join(SOURCE, "paper"), os.path.join(folder, "paper"))
         os.makedirs(os.path.join(folder, "docs/images"))
         os.makedirs(os.path.join(folder, "rough"))
         write_shown_files(folder, text)

@@ -122,7 +122,7 @@ class Figure5b(InFolder):
     def test_script_alone_draws_the_same_bytes(self):
         self.copy_whole("a")
         shutil.copy(self.path("a/figure_5b.csv"), self.path("figure_5b.csv"))
-        subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "figures", "figure_5b.py"),
+        subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "paper", "draw.py"),
                         self.path("figure_5b.csv")], check=True, timeout=150)
         for kind in ("png", "pdf"):
             self.assertEqual(self.bytes_of("a", f"figure_5b.{kind}"),

@@ -1,4 +1,4 @@
-"""The report as PDF (figures/report_pdf.py): its bookmarks and links refer to objects that exist."""
+"""The report as PDF (paper/report_pdf.py): its bookmarks and links refer to objects that exist."""
 
 import os
 import re
@@ -29,7 +29,7 @@ class ReportPdf(unittest.TestCase):
             sys.exit(77)
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "r.pdf")
-            subprocess.run([PYTHON, "-B", "-c", MAKE, os.path.join(SOURCE, "figures"), file], check=True,
+            subprocess.run([PYTHON, "-B", "-c", MAKE, os.path.join(SOURCE, "paper"), file], check=True,
                            timeout=120)
             with open(file, "rb") as opened:
                 cls.pdf = opened.read()

@@ -199,7 +199,7 @@ class Figures(HandMadeTables):
     def test_threshold_is_that_of_the_verdicts(self):
         for seeds, errors in ((8, "With 8 seeds this needs 4.5 standard errors"), (3, "With 3 seeds this needs 19.2 standard errors")):
             said = report.how_to_read({"quick": False, "seeds_of_a_point": seeds})
-            self.assertIn(errors, said)  # figures/verdicts.py, STUDENT_T
+            self.assertIn(errors, said)  # paper/verdicts.py, STUDENT_T
             self.assertNotIn("three of them decide", said)
 
     def test_bracket_in_a_sentence(self):

@@ -34,22 +34,22 @@ class Scripts(InFolder):
         self.assertIn("set SWIRL_FIGURES", done.stdout)  # the reason is among the findings
 
     def test_copied_program_runs_no_scripts_of_parent_folders(self):
-        self.trap(*(f"{parent}figures/{name}.py" for parent in ("", "a/", "a/b/")
-                    for name in ("style", "figure_5b", "report", "judge_claims")))
+        self.trap(*(f"{parent}paper/{name}.py" for parent in ("", "a/", "a/b/")
+                    for name in ("style", "draw", "report", "judge_claims")))
         self.assert_not_found(self.copied("a/b/swirl"))
 
     def test_scripts_of_another_owner_are_not_run(self):
-        self.trap("share/swirl/figures/style.py", "share/swirl/figures/figure_5b.py")
+        self.trap("share/swirl/paper/style.py", "share/swirl/paper/draw.py")
         if os.getuid() != 0:
             self.skipTest("only root can give a file to another user")
-        for path in ("share/swirl/figures", "share/swirl/figures/style.py"):
+        for path in ("share/swirl/paper", "share/swirl/paper/style.py"):
             os.chown(self.path(path), 65534, 65534)
             with self.subTest(path):
                 self.assert_not_found(self.copied("bin/swirl"))
             os.chown(self.path(path), 0, 0)
 
     def test_installed_program_finds_its_scripts(self):
-        shutil.copytree(os.path.join(SOURCE, "figures"), self.path("share/swirl/figures"))
+        shutil.copytree(os.path.join(SOURCE, "paper"), self.path("share/swirl/paper"))
         done = self.copied("bin/swirl")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(os.path.exists(self.path("out/figure_5b.pdf")))

@@ -105,7 +105,7 @@ class Stop(InFolder):
 
     def test_while_figures_are_drawn(self):
         os.mkdir(self.path("figures"))
-        with open(self.path("figures/figure_5b.py"), "w", encoding="utf-8") as script:
+        with open(self.path("figures/draw.py"), "w", encoding="utf-8") as script:
             script.write("import os, sys, time\n"
                          "open(os.path.join(os.path.dirname(sys.argv[0]), str(os.getpid())), 'w')\n"
                          "time.sleep(3600)\n")  # beyond the time limit of this test

@@ -1,10 +1,10 @@
-"""The rules by which claims are judged (figures/verdicts.py)."""
+"""The rules by which claims are judged (paper/verdicts.py)."""
 
 import math
 import random
 import unittest
 
-import claim_tables  # noqa: F401  (finds figures/)
+import claim_tables  # noqa: F401  (finds paper/)
 from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, Judgement, Value, above, agreed, below, combined, either, every, fact, falls, largest_reversal, mean_of, measured, rises, scattered, threshold, trend, within
 
 

@@ -132,7 +132,7 @@ class DebianPackages(unittest.TestCase):
         names = [name.partition(" ")[0] for name in required + recommended]
         self.assertEqual(sorted(set(names)), sorted(names))
         files = output_of("dpkg-deb", "--contents", package)
-        for path in ("usr/bin/swirl", "usr/share/swirl/figures/figure_5b.py",
+        for path in ("usr/bin/swirl", "usr/share/swirl/paper/figures/figure_5b.py",
                      "usr/share/doc/swirl/copyright"):
             self.assertIn(path, files)
         for path in ("usr/include", ".a\n", "swirlConfig.cmake"):

@@ -1,4 +1,4 @@
-"""Compares runs with the numbers that the authors of the paper published (figures/authors_data.py). Their files are not
+"""Compares runs with the numbers that the authors of the paper published (paper/authors_data.py). Their files are not
 part of this repository. The folder is ../shared/authors_data, or a clone of github.com/jpryan1/rotation-sim that
 the environment variable AUTHORS_DATA names; without it, this test is skipped."""
 
@@ -13,7 +13,7 @@ AUTHORS = os.environ.get("AUTHORS_DATA", os.path.join(SOURCE, "..", "shared", "a
 if not os.path.isdir(AUTHORS):
     print(f"skipped: the authors' data are not at '{AUTHORS}'")
     sys.exit(77)
-sys.path.insert(0, os.path.join(SOURCE, "figures"))
+sys.path.insert(0, os.path.join(SOURCE, "paper"))
 
 import authors_data  # noqa: E402
 

@@ -241,7 +241,6 @@ FigureOutcome finish_cooling(const std::vector<std::int64_t>& sizes, int seeds,
 
 FigurePlan plan_figure_cooling(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_cooling.py";
     const int seeds = chapter_seeds(settings);
     const std::vector<std::int64_t> sizes = gas_sizes(settings);
     for (const std::int64_t discs : sizes) {

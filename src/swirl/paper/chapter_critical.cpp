@@ -139,7 +139,6 @@ Table scaling_table(const std::vector<Transition>& transitions) {
 
 static FigurePlan plan_figure_critical(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_critical.py";
     DishPoints points = dishes_of_sizes(settings);
     std::vector<double> radii{8.6, 12.0};
     if (!settings.quick) radii = {6.0, 8.6, 12.0, 17.2, 24.0};
@@ -219,7 +218,6 @@ std::vector<std::int64_t> branches(const PaperSettings& settings) {
 
 static FigurePlan plan_figure_hysteresis(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_hysteresis.py";
     const int seeds = chapter_seeds(settings);
     for (const Loop& loop : loops)
         for (const std::int64_t branch : branches(settings)) {
@@ -343,7 +341,6 @@ Lifetime lifetime_of(double periods, double exits) {
 
 static FigurePlan plan_figure_lifetimes(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_lifetimes.py";
     const int seeds = chapter_seeds(settings);
     for (const TwoStatePoint& p : two_state_points) {
         RunConfig config = paper_config(settings, {"", "", p.mu, p.mu}, p.discs);

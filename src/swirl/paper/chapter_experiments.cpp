@@ -162,7 +162,6 @@ FigureOutcome finish_scherer(const std::vector<RunConfig>& configs,
 
 FigurePlan plan_figure_scherer(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_scherer.py";
     const int seeds = chapter_seeds(settings);
     const std::vector<std::int64_t> numbers = scherer_numbers(settings);
     std::vector<RunConfig> configs;
@@ -252,7 +251,6 @@ FigureOutcome finish_instability(const std::vector<RunConfig>& configs, int seed
 
 FigurePlan plan_figure_instability(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_instability.py";
     const int seeds = chapter_seeds(settings);
     std::vector<RunConfig> configs;
     for (const double fraction : layers_of_spheres)

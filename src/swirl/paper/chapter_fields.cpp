@@ -144,7 +144,6 @@ FigurePlan plan_figure_fields(const PaperSettings& settings) {
     std::vector<DishPoint> dishes = dishes_with_fields(settings);
     dishes.resize(1);
     FigurePlan plan = plan_of_dishes(settings, dishes);
-    plan.script = "figure_fields.py";
     plan.finish = [p = dishes.front(), seeds = field_seeds(settings)](
                       const std::vector<Json>& results, const fs::path& out) {
         const FieldSeeds fields = fields_of_seeds(results, 0, seeds);
@@ -178,7 +177,6 @@ FigurePlan plan_figure_fields(const PaperSettings& settings) {
 FigurePlan plan_figure_closure(const PaperSettings& settings) {
     const std::vector<DishPoint> dishes = dishes_with_fields(settings);
     FigurePlan plan = plan_of_dishes(settings, dishes);
-    plan.script = "figure_closure.py";
     plan.finish = [dishes, seeds = field_seeds(settings)](const std::vector<Json>& results,
                                                           const fs::path& out) {
         Table table({"container_radius", "discs", "relation", "packing_low", "packing_high",

@@ -61,7 +61,6 @@ FigureOutcome finish_material(const MaterialMap& map, const CurveFigure& figure,
 
 FigurePlan plan_material(const PaperSettings& settings, const MaterialMap& map) {
     FigurePlan plan;
-    plan.script = "figure_" + map.name + ".py";
     CurveFigure figure{map.name + "_points", {map.x_name, map.y_name}, {}};
     for (const double x : map.x)
         for (const double y : map.y)

@@ -56,7 +56,6 @@ const std::vector<std::string> torques{
 
 FigurePlan plan_figure_torque(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_torque.py";
     CurveFigure figure{"torque", {"mu"}, {{"", {1.0}, "μ = 1"}}};
     figure.measured = torques;
     figure.measured.insert(figure.measured.end(),
@@ -164,7 +163,6 @@ FigureOutcome finish_gears(const CurveFigure& figure, const std::vector<Json>& r
 
 FigurePlan plan_figure_gears(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_gears.py";
     CurveFigure figure{"gears", {"mu"}, {}};
     for (const auto& [quantity, words] : predictors) figure.measured.emplace_back(quantity);
     for (const double mu : settings.quick ? Values{0.1, 1.0} : Values{0.05, 0.1, 0.3, 1.0, 3.0})
@@ -198,7 +196,6 @@ constexpr SmoothContacts smooth_contacts[] = {
 
 FigurePlan plan_figure_contacts(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_contacts.py";
     CurveFigure figure{"contacts", {"frictionless"}, {}};
     for (const auto& [kind, name, words] : smooth_contacts)
         figure.curves.push_back({name, {std::string(name)}, words});

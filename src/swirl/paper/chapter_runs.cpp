@@ -317,7 +317,6 @@ std::vector<std::string> change_sentences(const DishPoints& points,
 FigurePlan plan_dishes(const PaperSettings& settings, const std::string& name,
                        const DishPoints& points) {
     FigurePlan plan;
-    plan.script = "figure_" + name + ".py";
     points.plan(plan, settings);
     plan.finish = [points, name](const std::vector<Json>& results, const fs::path& out) {
         FigureOutcome outcome;

@@ -119,7 +119,6 @@ FigureOutcome packing_outcome(const CurveFigure& figure, const std::vector<Json>
 
 static FigurePlan plan_figure_spheres_packing(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_spheres_packing.py";
     CurveFigure figure{"spheres_packing", {"curve"}, {{"0.2", {std::string("0.2")}, "μ = 0.2"}}};
     for (const PackingQuantity& q : packing_quantities)
         figure.measured.push_back(

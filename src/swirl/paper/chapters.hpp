@@ -1,5 +1,5 @@
 // The chapters: questions that the paper leaves open. A chapter is one file with one or more
-// figures. Each has a question and a caption (figures/captions.py), a table, a script in figures/,
+// figures. Each has a question and a caption (paper/captions.py), a table, a drawing in paper/figures/,
 // and findings that are computed from the table. A new chapter needs its file, a line in
 // chapter_figures() and the script.
 #pragma once

@@ -66,7 +66,6 @@ FigureOutcome finish(const CurveFigure& figure, const std::vector<Json>& results
 
 FigurePlan plan_figure_5b(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_5b.py";
     CurveFigure figure = curves_of_5b("5b");
     figure.add_points(numbers_of_discs(settings));
     // Beyond the paper's last N: whether ϖ rises again after its minimum (high friction), and
@@ -86,7 +85,6 @@ FigurePlan plan_figure_5b(const PaperSettings& settings) {
 
 static FigurePlan plan_figure_5b_steady(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_5b.py";
     CurveFigure figure = curves_of_5b("5b-steady");
     figure.add_points(settings.quick ? sparse_numbers(settings) : numbers_of_discs(settings));
     for (const CurveFigure::Point& p : figure.points) {

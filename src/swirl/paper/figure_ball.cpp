@@ -97,7 +97,6 @@ PaperTask task_of(const PaperSettings& settings, const Ball& ball) {
 static FigurePlan plan_figure_ball(const PaperSettings& settings) {
     constexpr double reported_radius = 5.0;
     FigurePlan plan;
-    plan.script = "figure_ball.py";
     std::vector<Ball> balls;
     for (const double radius : {4.3, 5.0, 7.0})
         for (const double restitution : {0.5, 1.0})

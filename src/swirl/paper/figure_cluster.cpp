@@ -65,7 +65,6 @@ FigurePlan plan_against_n(const PaperSettings& settings, const std::string& name
                           const std::vector<Friction>& frictions,
                           const std::vector<Quantity>& quantities, bool with_crossings = false) {
     FigurePlan plan;
-    plan.script = "figure_" + name + ".py";
     const CurveFigure figure =
         curves_with(name, frictions, quantities, points_of(settings, frictions));
     for (const CurveFigure::Point& p : figure.points)
@@ -157,7 +156,6 @@ static FigurePlan plan_figure_4c(const PaperSettings& settings) {
 /// transient. Two numbers of discs do not determine a crossing.
 static FigurePlan plan_figure_states(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_states.py";
     const std::vector<Friction> frictions{high_friction, no_wall_friction, no_disc_friction};
     const std::vector<Quantity> quantities{
         {"temperature.granular", "granular temperature, in m v²"},
@@ -259,10 +257,8 @@ const std::vector<std::string> pinning_angles{"pinned.pinning",
                                               "residence.share=residence_share",
                                               "residence.length=residence_length"};
 
-FigurePlan plan_measured(const PaperSettings& settings, const std::string& name,
-                         const std::vector<SettingPoint>& points) {
+FigurePlan plan_measured(const PaperSettings& settings, const std::vector<SettingPoint>& points) {
     FigurePlan plan;
-    plan.script = "figure_" + name + ".py";
     for (const SettingPoint& p : points)
         plan.points.push_back(measured_point(settings, settings_of_profiles[p.setting], p.discs));
     return plan;
@@ -270,7 +266,7 @@ FigurePlan plan_measured(const PaperSettings& settings, const std::string& name,
 
 FigurePlan plan_profiles(const PaperSettings& settings, const std::string& name) {
     const std::vector<SettingPoint> points = points_of(settings, settings_of_profiles);
-    FigurePlan plan = plan_measured(settings, name, points);
+    FigurePlan plan = plan_measured(settings, points);
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         Table table(
             joined(joined(joined(first_columns, profile_columns), number_columns(pinning_angles)),
@@ -313,7 +309,7 @@ static FigurePlan plan_figure_3b(const PaperSettings& settings) {
 /// in the wall layer. Mean directions alone do not show them.
 static FigurePlan plan_figure_pinning(const PaperSettings& settings) {
     const std::vector<SettingPoint> points = points_of(settings, settings_of_profiles);
-    FigurePlan plan = plan_measured(settings, "pinning", points);
+    FigurePlan plan = plan_measured(settings, points);
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
         std::vector<std::string> columns = joined(first_columns, {"theta"});
         for (const char* name : {"si_pinning", "si_depinning", "residence_begin", "residence_end"})

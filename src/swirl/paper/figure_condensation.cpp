@@ -150,7 +150,6 @@ void add_row(Table& table, std::vector<std::string>& findings, std::int64_t disc
 
 static FigurePlan plan_figure_condensation(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_condensation.py";
     std::vector<std::int64_t> numbers{rotating_n, counterrotating_n};
     if (!settings.quick) numbers = {16, 20, 24, 28, 32, 36, 40, 44, 48};
     const std::int64_t periods = settings.periods(400, 20);

@@ -18,6 +18,7 @@ constexpr double forces_period = 20.13;  // of Figure 1c
 template <class Draw>
 FigurePlan plan_drawing(const std::string& stem, const std::string& finding, Draw draw) {
     FigurePlan plan;
+    plan.is_drawn = false;  // drawn by finish
     plan.finish = [=](const std::vector<Json>&, const fs::path& out) {
         FigureOutcome outcome;
         outcome.findings = {finding};

@@ -14,7 +14,6 @@ const std::vector<Friction> settings_of_2{high_friction, smooth_spheres};
 /// Density and flow in one table: rows of one have no values of the other.
 FigurePlan plan_both(const PaperSettings& settings, const std::string& name, std::int64_t discs) {
     FigurePlan plan;
-    plan.script = "figure_2b.py";
     for (const Friction& friction : settings_of_2)
         plan.points.push_back(measured_point(settings, friction, discs));
     plan.finish = [=](const std::vector<Json>& results, const fs::path& out) {
@@ -50,7 +49,6 @@ FigurePlan plan_both(const PaperSettings& settings, const std::string& name, std
 FigurePlan plan_map(const PaperSettings& settings, const std::string& name,
                     const std::string& measurement, const std::vector<std::string>& columns) {
     FigurePlan plan;
-    plan.script = "figure_" + name + ".py";
     const std::vector<std::int64_t> numbers{rotating_n, counterrotating_n};
     for (const std::int64_t n : numbers)
         plan.points.push_back(measured_point(settings, high_friction, n));

@@ -23,7 +23,6 @@ FigurePlan plan_curves(const PaperSettings& settings, const std::string& name,
                        const std::string& parameter, const std::vector<VariedCurve>& varied,
                        const std::vector<std::int64_t>& numbers) {
     FigurePlan plan;
-    plan.script = "figure_" + name + ".py";
     CurveFigure figure{name, {"curve", parameter}, {}};
     for (const VariedCurve& curve : varied) {
         const std::string value = fmt::format("{}", curve.value);
@@ -108,7 +107,6 @@ static std::string largest_difference(const Friction& friction, std::span<const 
 /// The runs and the table of Figure 5b.
 static FigurePlan plan_figure_averages(const PaperSettings& settings) {
     FigurePlan plan = plan_figure_5b(settings);
-    plan.script = "figure_averages.py";
     const std::size_t numbers = numbers_of_discs(settings).size();
     plan.finish = [finish_5b = plan.finish, numbers](const std::vector<Json>& results,
                                                      const fs::path& out) {
@@ -129,7 +127,6 @@ static FigurePlan plan_figure_averages(const PaperSettings& settings) {
 
 static FigurePlan plan_figure_friction(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_friction.py";
     std::vector<double> coefficients{0.1, 0.5, 1.0};
     if (!settings.quick) coefficients = {0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 2.0};
     for (const double mu : coefficients) {
@@ -162,7 +159,6 @@ static FigurePlan plan_figure_friction(const PaperSettings& settings) {
 
 static FigurePlan plan_figure_polygon(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_polygon.py";
     std::vector<int> sides{6, 30, 300, 0};  // 0: the circle
     if (!settings.quick) sides = {6, 10, 20, 30, 60, 100, 300, 0};
     CurveFigure figure{"polygon", {"sides"}, {}};
@@ -201,7 +197,6 @@ static FigurePlan plan_figure_polygon(const PaperSettings& settings) {
 
 static FigurePlan plan_figure_map(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_map.py";
     std::vector<double> coefficients{0.0, 0.1, 0.3, 1.0};
     if (!settings.quick) coefficients = {0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0};
     CurveFigure figure{"map", {"mu_disc", "mu_wall"}, {}};

@@ -102,7 +102,6 @@ FigurePlan plan_variants(const PaperSettings& settings, const std::string& name,
                          const std::vector<Variant>& variants,
                          const std::vector<std::int64_t>& numbers, int seeds) {
     FigurePlan plan;
-    plan.script = "figure_" + name + ".py";
     const CurveFigure figure = curves_of(name, variants, numbers);
     for (const CurveFigure::Point& p : figure.points) {
         const Variant& variant = variants[p.curve];
@@ -139,7 +138,6 @@ static FigurePlan plan_figure_spheres(const PaperSettings& settings) {
     if (!settings.quick) numbers = {8, 12, 16, 20, 22};
     for (const std::int64_t n : numbers_of_spheres(settings)) numbers.push_back(n);
     FigurePlan plan;
-    plan.script = "figure_spheres.py";
     CurveFigure figure{"spheres", columns_of_friction, {}};
     for (const Friction& friction : frictions) figure.curves.push_back(curve_of(friction));
     figure.add_points(numbers);
@@ -217,7 +215,6 @@ std::optional<Estimate> friction_with(std::int64_t discs, std::span<const Fricti
 /// and with one assumption changed at a time; and the coefficients that have the experiment's N_c.
 static FigurePlan plan_figure_spheres_friction(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_spheres_friction.py";
     std::vector<double> coefficients{0.3, 0.4, 0.6, 0.7};
     if (!settings.quick) coefficients = {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
     std::vector<Assumption> shown(std::begin(assumptions), std::end(assumptions));
@@ -327,6 +324,7 @@ static FigurePlan plan_figure_spheres_ingredients_rough(const PaperSettings& set
 /// wall tens of thousands of times in a period.
 static FigurePlan plan_figure_spheres_few(const PaperSettings& settings) {
     FigurePlan plan;
+    plan.is_drawn = false;  // a table only
     CurveFigure figure{"spheres_few", {}, {{"", {}}}};
     figure.measured = {"residence.share=residence_share"};
     std::vector<std::int64_t> numbers{3, 5};

@@ -35,6 +35,7 @@ static Json shortest_time(const RunConfig& config, const RunControl& control) {
 
 static FigurePlan plan_figure_times(const PaperSettings& settings) {
     FigurePlan plan;
+    plan.is_drawn = false;  // a table only
     const std::vector<double> coefficients{1.0, 0.0};
     const int seeds = settings.seeds();
     for (const double mu : coefficients) {

@@ -81,7 +81,6 @@ std::string add_transient(Table& table, std::int64_t discs, std::int64_t periods
 
 static FigurePlan plan_figure_transient(const PaperSettings& settings) {
     FigurePlan plan;
-    plan.script = "figure_transient.py";
     std::vector<std::int64_t> numbers{48};
     if (!settings.quick) numbers = {40, 44, 46, 48};
     const std::int64_t periods = settings.periods(600, 20);
@@ -138,7 +137,6 @@ Json energy_series(const RunConfig& config, const RunControl& control) {
 static FigurePlan plan_figure_energy(const PaperSettings& settings) {
     constexpr double cost_factor = 3.0;  // frictionless discs become faster and collide more often
     FigurePlan plan;
-    plan.script = "figure_energy.py";
     const std::int64_t discs = rotating_n, periods = settings.periods(400, 10);
     const std::vector<int> sides{6, 30, 300, 0};  // 0: the circle
     const int seeds = settings.seeds();

@@ -1,5 +1,5 @@
 // The figures, grouped by the file of their plans. A new figure needs its plan in one of these
-// files, an entry in the list at the end of that file, and a script in figures/.
+// files, an entry in the list at the end of that file, and a drawing in paper/figures/.
 #pragma once
 
 #include <vector>

@@ -318,10 +318,10 @@ MadeFigure finished(const PaperFigure& figure, const FigurePlan& plan,
 }
 
 void draw(MadeFigure& made, const FigurePlan& plan, const PaperControl& control) {
-    if (plan.script.empty() || !made.problem.empty()) return;
+    if (!plan.is_drawn || !made.problem.empty()) return;
     auto& files = made.outcome.files;
     try {
-        const std::vector<fs::path> drawn = draw_figure(plan.script, files.front(), control.stop);
+        const std::vector<fs::path> drawn = draw_figure(files.front(), control.stop);
         files.insert(files.end(), drawn.begin(), drawn.end());
     } catch (const Failure& failure) {
         made.problem = failure.what();
@@ -469,9 +469,8 @@ std::vector<fs::path> write_report(const PaperResult& result, const PaperSetting
             settings.out / "report.pdf"};
 }
 
-std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table,
-                                  const std::atomic<bool>* stop) {
-    run_python_script(script, {table.string()}, stop);
+std::vector<fs::path> draw_figure(const fs::path& table, const std::atomic<bool>* stop) {
+    run_python_script("draw.py", {table.string()}, stop);
     std::vector<fs::path> drawn;
     for (const char* kind : {".png", ".pdf"})
         drawn.push_back(fs::path(table).replace_extension(kind));

@@ -1,5 +1,5 @@
 // The paper's figures, from simulation. A figure is a set of independent tasks, a table made of
-// their results, and a script in figures/ that draws the table.
+// their results, and a function in paper/figures that draws the table.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -90,8 +90,7 @@ struct FigurePlan {
     /// Gets one result for each point and writes the tables to the folder. The result of a point
     /// whose runs failed is {"failed": reason}; it leaves a gap in the figure.
     std::function<FigureOutcome(const std::vector<Json>& results, const fs::path& out)> finish;
-    /// figures/SCRIPT draws the first file of the outcome; empty if there is nothing to draw.
-    std::string script;
+    bool is_drawn = true;  // paper/draw.py draws the first file of the outcome
 };
 
 struct PaperFigure {
@@ -146,7 +145,7 @@ struct PaperResult {
 };
 
 /// Runs the tasks in parallel, then writes tables and drawings. With `decide`, the seeds of points
-/// on which undecided claims rest (figures/claims/) are doubled until the claims are decided or the
+/// on which undecided claims rest (paper/claims/) are doubled until the claims are decided or the
 /// budget is used. Throws Interrupted when stopped; finished tasks are stored. A run that fails
 /// leaves a gap in its figures. A figure that cannot be made is missing; the findings report it,
 /// and all others are made.
@@ -172,8 +171,7 @@ double expected_events_per_period(const RunConfig& config);
 PaperTask run_task(const std::string& key, const RunConfig& config,
                    const std::vector<std::string>& measurements = {});
 
-/// Runs figures/SCRIPT, which draws `table` to PNG and PDF next to it. Returns these files.
-std::vector<fs::path> draw_figure(const std::string& script, const fs::path& table,
-                                  const std::atomic<bool>* stop = nullptr);
+/// Draws `table` to PNG and PDF next to it. Returns these files.
+std::vector<fs::path> draw_figure(const fs::path& table, const std::atomic<bool>* stop = nullptr);
 
 }  // namespace swirl

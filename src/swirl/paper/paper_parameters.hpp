@@ -1,6 +1,6 @@
 // The paper's numbers that its figures need, each with its source. Defaults of a run (R = 8.6, A =
 // 1.892, the period, 30 sides, I = 10) are in physics/container_path.hpp and run/run.hpp; the 10^6
-// events of a run are PaperSettings::default_events(). For Python: figures/paper_parameters.py.
+// events of a run are PaperSettings::default_events(). For Python: paper/paper_parameters.py.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,7 @@ void add_mean(std::vector<Table::Cell>& row, const Json& average);
 std::vector<std::string> rotation_columns();
 void add_rotation(std::vector<Table::Cell>& row, const Json& result);
 /// Number of runs behind its averages. Their errors have one degree of freedom fewer
-/// (figures/verdicts.py).
+/// (paper/verdicts.py).
 Table::Cell averaged_runs(const Json& result);
 /// The name of its point, by which verdicts ask for more seeds.
 std::string name_of_point(const Json& result);

@@ -144,14 +144,14 @@ fs::path figures_folder() {
     if (const char* const given = std::getenv("SWIRL_FIGURES"); given && *given)
         return fs::absolute(given);
     const fs::path program = system::program_file();
-    for (const char* const where : {"../share/swirl/figures", "share/swirl/figures"})
+    for (const char* const where : {"../share/swirl/paper", "share/swirl/paper"})
         if (const fs::path folder = (program.parent_path() / where).lexically_normal();
             has_scripts_of_owner(folder, program))
             return folder;
     throw Failure(fmt::format(
         "the scripts of the figures are not in '{}', where an installed program has them.\n"
         "hint: set SWIRL_FIGURES to their folder.",
-        (program.parent_path() / "../share/swirl/figures").lexically_normal().string()));
+        (program.parent_path() / "../share/swirl/paper").lexically_normal().string()));
 }
 
 void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
@@ -168,7 +168,7 @@ void run_python_script(const std::string& script, const std::vector<std::string>
             "the figures need matplotlib; the tables are written.\n"
             "hint: install the Debian package python3-matplotlib.");
     throw Failure(
-        fmt::format("figures/{} failed; the tables are written: {}", script,
+        fmt::format("paper/{} failed; the tables are written: {}", script,
                     result.output.empty() ? "no reason given." : last_message(result.output)));
 }
 

@@ -1,4 +1,4 @@
-// Runs the scripts in figures/, with the interpreter that SWIRL_PYTHON names, or else with
+// Runs the scripts in paper/, with the interpreter that SWIRL_PYTHON names, or else with
 // Debian's: another python3 may come first on the PATH and have no matplotlib.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace swirl {
 
-/// The folder in SWIRL_FIGURES, or share/swirl/figures above the program (installed) or next to it
+/// The folder in SWIRL_FIGURES, or share/swirl/paper above the program (installed) or next to it
 /// (build tree), if its owner is root or that of the program. No other folder is searched. Throws
 /// Failure if there is none.
 std::filesystem::path figures_folder();

@@ -1,0 +1,43 @@
+"""Atomic writes, as those of the program (src/swirl/io/atomic_file.hpp). Content goes to a locked temporary
+file next to the target, is synchronised to the disk, and is then renamed. A killed process leaves a temporary
+file without a lock; the next `swirl paper` or `swirl experiment` on that folder removes it."""
+
+import fcntl
+import os
+import secrets
+import sys
+
+
+def write(path, content):
+    """Writes text or bytes. Raises OSError; the target then keeps its old content."""
+    if isinstance(content, str):
+        content = content.encode("utf-8")
+    temporary = f"{path}.{secrets.token_hex(8)}.partial"
+    with open(temporary, "xb") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+            os.replace(temporary, path)
+        except BaseException:
+            os.remove(temporary)
+            raise
+
+
+def remove_if_unlocked(temporary):
+    """Removes the temporary file of a process that was killed."""
+    try:
+        with open(temporary, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            os.remove(temporary)
+    except OSError:  # another process writes it, or has removed it
+        pass
+
+
+def write_or_exit(path, content):
+    """Ends the script with a message if the file cannot be written."""
+    try:
+        write(path, content)
+    except OSError as error:
+        sys.exit(f"'{path}' cannot be written: {error.strerror}.")

@@ -1,0 +1,46 @@
+"""All figures: the files of paper/figures and paper/chapters."""
+
+import glob
+import importlib
+import os
+import re
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+# The first words of each figure in its file, which can be listed without importing it.
+ENTRY = re.compile(r'Figure\(\s*"([^"]+)",\s*"([^"]+)",\s*"([^"]+)"')
+# Pinning and depinning have no figure in the paper; they follow Figure 3.
+SORTED_AS = {"pinning": "3c"}
+# The order of the report within a group. A figure that is not listed here comes last.
+ORDER = ("ball states times 5b-steady averages friction inertia restitution tangential polygon map transient energy "
+         "condensation spheres spheres_friction spheres_few spheres_ingredients spheres_ingredients_rough size amplitude "
+         "critical hysteresis lifetimes torque gears contacts material_inertia material_friction material_tangential "
+         "spheres_packing spheres_size fields closure cooling scherer instability").split()
+GROUP_ORDER = ("paper", "beyond", "rolling", "chapters")
+
+
+def entries():
+    """[(name, group, description, module)] in the order of the report."""
+    found = []
+    for folder in ("figures", "chapters"):
+        for file in glob.glob(os.path.join(FOLDER, folder, "*.py")):
+            with open(file, encoding="utf-8") as text:
+                module = f"{folder}.{os.path.basename(file)[:-len('.py')]}"
+                found += [(*entry, module) for entry in ENTRY.findall(text.read())]
+    return sorted(found, key=lambda entry: (
+        GROUP_ORDER.index(entry[1]), SORTED_AS.get(entry[0], entry[0]) if entry[1] == "paper" else "",
+        ORDER.index(entry[0]) if entry[0] in ORDER else len(ORDER), entry[0]))
+
+
+def drawing(name):
+    """The function that draws the table figure_NAME.csv."""
+    for entry in entries():
+        if entry[0] == name:
+            return named([name])[0].draw
+    return importlib.import_module(f"figures.figure_{name.replace('5b-steady', '5b')}").draw
+
+
+def named(names):
+    """The figures with these names, which may be names of groups or "all"; each once."""
+    wanted = [entry for name in names for entry in entries() if name in ("all", entry[0], entry[1])]
+    return [next(figure for figure in importlib.import_module(module).FIGURES if figure.name == name)
+            for name, _, _, module in dict.fromkeys(wanted)]

@@ -1,0 +1,71 @@
+"""Writes the tables of claims in docs/explanation/paper.md from the tables of a full study.
+
+    /usr/bin/python3 paper/claims_page.py out docs/explanation/paper.md
+"""
+
+import re
+import sys
+
+import atomic_file
+from claims.claim import UNTESTED
+from claims.settings import ALSO
+from report import ORDER, cell, judge
+from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
+
+
+def figure_of(j):
+    return f"`{j.claim.figure}`" if j.claim.figure else "–"
+
+
+def verdict_of(j):
+    return (j.verdict if j.verdict == HOLDS else f"**{j.verdict}**") + (" (size)" if j.depends_on_size else "")
+
+
+def list_of(judged, *verdicts):
+    """A row for each claim with one of these verdicts."""
+    return ["| claim | found | figure |", "|---|---|---|",
+            *(f"| {k}: {cell(j.claim.statement)} | {cell(j.found)} | {figure_of(j)} |"
+              for k, j in judged if j.verdict in verdicts)]
+
+
+def tables_of(judged):
+    """{heading of the page: lines of the table below it}; `judged` are (number, Judged)."""
+    found = [j.verdict for _, j in judged]
+    return {
+        "# Comparison with the paper": ["| verdict | claims |", "|---|---|", *(
+            f"| {verdict} | {found.count(verdict)} |" for verdict in ORDER if verdict in found)],
+        "## The claims": [
+            "| no. | claim | judged on | figure | result | verdict |", "|---|---|---|---|---|---|",
+            *(f"| {k} | {cell(j.claim.statement)} | {j.claim.on} | {figure_of(j)} | {cell(j.found.split(ALSO)[0])} | "
+              f"{verdict_of(j)} |" for k, j in judged)],
+        "### Claims that do not hold": list_of(judged, FAILS),
+        "### Claims that hold in part": list_of(judged, IN_PART),
+        "### Claims that are undecided or not tested": list_of(judged, UNDECIDED, UNTESTED, UNTESTABLE, MISSING),
+        "### Verdicts that depend on the required size": [
+            "| claim | verdict | at half the size | at twice the size |", "|---|---|---|---|",
+            *(f"| {k}: {cell(j.claim.statement)} | {j.verdict} | {j.scaled[0.5]} | {j.scaled[2]} |"
+              for k, j in judged if j.depends_on_size)]}
+
+
+def written(page, judged):
+    """The page with new tables."""
+    for heading, lines in tables_of(list(enumerate(judged, 1))).items():
+        start, rest = page.split(f"{heading}\n", 1)
+        rest = re.sub(r"^(?:\|.*\n)+", lambda _: "\n".join(lines) + "\n", rest, count=1, flags=re.M)
+        page = f"{start}{heading}\n{rest}"
+    return page
+
+
+def main():
+    if len(sys.argv) != 3:
+        print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER PAGE\n"
+              "Writes the tables of claims in PAGE from the tables in FOLDER", file=sys.stderr)
+        sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
+    folder, page = sys.argv[1:]
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    atomic_file.write_or_exit(page, written(text, judge(folder)))
+
+
+if __name__ == "__main__":
+    main()

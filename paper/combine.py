@@ -1,0 +1,165 @@
+"""Combines the runs of a point, which differ only in their seeds, into one result of the same form.
+
+Every average becomes the mean over the runs, with the error within and between them (src/swirl/statistics/replicates.hpp).
+Angles are averaged as directions. Counts of visits add up; lengths become means. Averages over time are weighted by
+the periods after the warm-up, averages over events are not.
+
+Failed runs are not averaged, nor are runs that ended before their warm-up or within five periods after it. Averages
+over three periods without wall friction, for example, deviate by a tenth of Ω, in the same direction for all seeds.
+
+"seeds" has the number of runs, and how many of them were averaged, steady, drifting, jumping, switching, too short for
+the test, too short to average, and failed; also the scatter of ϖ by event in units of the runs' own errors.
+"""
+
+import math
+
+import numpy as np
+from engine import swirl
+
+MIN_PERIODS = 5  # of a run that is averaged
+RATES = ("by_event", "by_time", "rigid_by_event", "rigid_by_time")
+COUNTS = ("runs", "averaged", "steady", "drifting", "jumping", "switching", "too_short", "too_short_to_average", "failed")
+
+
+def at(result, *path):
+    """result["a"]["b"]…, or None if it does not exist, as in the result of a failed run."""
+    for name in path:
+        if not isinstance(result, dict) or name not in result:
+            return None
+        result = result[name]
+    return result
+
+
+def number(value):
+    """A number; NaN for anything else."""
+    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else math.nan
+
+
+def over_seeds(means, errors=None, weights=(), effective=None, directions=False):
+    """Mean, error, effective samples, scatter and disagreement over the runs, of one quantity or of rows of several:
+    arrays [row, run]. Without errors of the runs, the error is that between them."""
+    means = np.asarray(means, dtype=float)
+    rows = np.atleast_2d(means)
+    errors = np.full(rows.shape, np.nan) if errors is None else np.atleast_2d(np.asarray(errors, dtype=float))
+    effective = np.zeros(rows.shape) if effective is None else np.atleast_2d(np.asarray(effective, dtype=float))
+    found = swirl._engine.over_replicates(rows, errors, effective, list(weights), directions)
+    return tuple(column[0] for column in found) if means.ndim == 1 else found
+
+
+def failed(result):
+    return "failed" in result
+
+
+def steadiness(result):
+    """"steady", "drifting", "jumping", "switching", "too short to tell", or "failed"."""
+    return at(result, "steady_state", "verdict") or "failed"
+
+
+def too_short_to_average(run):
+    """True if a run ended before its warm-up, or soon after it."""
+    return ((number(at(run, "warmup", "periods")) == 0 and at(run, "config", "warmup") != 0)
+            or not number(at(run, "rotation", "by_event", "blocks")) >= MIN_PERIODS)
+
+
+def is_average(node):
+    return isinstance(node, dict) and "mean" in node and "error" in node
+
+
+def average(nodes, weights):
+    columns = [[number(node.get(name)) for node in nodes] for name in ("mean", "error", "effective_samples")]
+    mean, error, effective, scatter, disagree = over_seeds(
+        columns[0], columns[1], weights, np.nan_to_num(columns[2]), "concentration" in nodes[0])
+    found = {"mean": mean, "error": error, "effective_samples": effective, "scatter": scatter, "disagree": bool(disagree)}
+    for name in nodes[0]:  # further numbers have no errors: counts add up, others are averaged
+        if name not in found and name != "blocks":
+            values = [number(node.get(name)) for node in nodes]
+            found[name] = sum(values) if name == "count" else sum(values) / len(values)
+    return found
+
+
+def mean_cell(cells):
+    """The common value of all runs, bitwise, or their mean."""
+    cells = [cell for cell in cells if not math.isnan(cell)]
+    return math.nan if not cells else cells[0] if cells.count(cells[0]) == len(cells) else sum(cells) / len(cells)
+
+
+def table(nodes, weights):
+    """A table of a measurement: {column: values}. Errors are in the columns NAME_error."""
+    found = {}
+    for name in nodes[0]:
+        if name in found:
+            continue  # an error, added with its mean
+        cells = np.array([[number(cell) for cell in node[name]] for node in nodes]).T
+        if f"{name}_error" in nodes[0]:
+            errors = np.array([[number(cell) for cell in node[f"{name}_error"]] for node in nodes]).T
+            # Angles in tables are recognised by their names.
+            columns = over_seeds(cells, errors, weights, directions=name.startswith("becoming_"))
+            found[name], found[f"{name}_error"] = columns[0].tolist(), columns[1].tolist()
+        else:
+            found[name] = [sum(row) if name == "visits" else mean_cell(list(row)) for row in cells.tolist()]
+    return found
+
+
+def measured(nodes, weights):
+    """Combines averages, tables and numbers, at any depth."""
+    first = nodes[0]
+    if is_average(first):
+        return average(nodes, weights)
+    if not isinstance(first, dict):
+        return mean_cell([number(node) for node in nodes])
+    column = next(iter(first.values()), None)
+    if isinstance(column, list) and column and not isinstance(column[0], (list, dict)):
+        return table(nodes, weights)
+    return {name: measured([node[name] for node in nodes], weights) for name in first}
+
+
+def verdict_of(seeds):
+    """"steady" if all runs are, otherwise the worst verdict."""
+    for verdict in ("drifting", "jumping", "switching"):
+        if seeds[verdict]:
+            return verdict
+    return "too short to tell" if seeds["too_short"] or not seeds["steady"] else "steady"
+
+
+def count_seeds(results):
+    count = dict.fromkeys(COUNTS, 0)
+    for run in results:
+        count["runs"] += 1
+        if failed(run):
+            count["failed"] += 1
+        elif too_short_to_average(run):
+            count["too_short_to_average"] += 1
+            count["too_short"] += 1
+        else:
+            count["averaged"] += 1
+            count[steadiness(run).replace("too short to tell", "too_short")] += 1
+    return count
+
+
+def combined(results):
+    """The result of a point. Results that are not those of runs are returned as {"runs": those that did not fail}."""
+    if not any("rotation" in r and "state_hash" in r for r in results):
+        good = [r for r in results if not failed(r)]
+        return {"runs": good} if good else results[0]
+    seeds = count_seeds(results)
+    runs = [r for r in results if not failed(r) and not too_short_to_average(r)]
+    if not runs:
+        reason = next((r["failed"] for r in results if failed(r)),
+                      f"no run has {MIN_PERIODS} periods after its warm-up, so nothing is averaged.")
+        return {"failed": reason} if any(map(failed, results)) else {"failed": reason, "seeds": seeds}
+    periods = [number(r["periods"]) - number(at(r, "warmup", "periods")) for r in runs]
+
+    def mean(*path):
+        return sum(number(at(run, *path)) for run in runs) / len(runs)
+
+    rotation = {rate: average([run["rotation"][rate] for run in runs], () if rate.endswith("by_event") else periods)
+                for rate in RATES}
+    hashes = [run["state_hash"] for run in runs]
+    return {"config": runs[0]["config"], "rotation": rotation, "periods": mean("periods"),
+            "events": {"total": int(mean("events", "total") + 0.5)},
+            "warmup": {"periods": int(mean("warmup", "periods") + 0.5)},
+            **({"measured": measured([run["measured"] for run in runs], periods)} if "measured" in runs[0] else {}),
+            "seeds": {**seeds, "scatter": rotation["by_event"]["scatter"],
+                      "disagree": rotation["by_event"]["disagree"]},
+            "steady_state": {"verdict": verdict_of(seeds)},
+            "state_hash": hashes[0] if len(hashes) == 1 else swirl._engine.checksum("".join(hashes))}

@@ -1,0 +1,32 @@
+"""Draws a table of `swirl paper` again, to PNG and PDF next to it.
+
+    /usr/bin/python3 paper/draw.py out/figure_5b.csv
+    /usr/bin/python3 paper/draw.py out/figure_3a.csv 20      sliding slices of 20°, in steps of 5°
+"""
+
+import os
+import sys
+
+import catalogue
+
+
+def main():
+    if len(sys.argv) not in (2, 3) or sys.argv[1] in ("-h", "--help"):
+        print(f"usage: {__doc__[__doc__.index('/usr'):]}", end="", file=sys.stderr)
+        sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
+    table = sys.argv[1]
+    if not os.path.exists(table):
+        sys.exit(f"the table '{table}' does not exist.\nhint: `swirl paper` writes it.")
+    name = os.path.splitext(os.path.basename(table))[0].removeprefix("figure_")
+    try:
+        draw = catalogue.drawing(name)
+    except ModuleNotFoundError as missing:
+        if not missing.name.startswith("figures."):
+            raise
+        sys.exit(f"'{table}' is not the table of a figure.\nhint: name it as `swirl paper` does, such as "
+                 "figure_5b.csv.")
+    draw(table, *map(float, sys.argv[2:]))
+
+
+if __name__ == "__main__":
+    main()

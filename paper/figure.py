@@ -1,0 +1,35 @@
+"""What a figure is: one file of paper/figures or paper/chapters with FIGURES, a list of Figure."""
+
+import dataclasses
+import os
+from collections.abc import Callable
+from typing import Optional
+
+from curves import write_table
+
+
+@dataclasses.dataclass
+class Figure:
+    """`points(settings)` lists study.Point; `table(points, settings)` returns ({ending: rows}, findings), where the
+    ending "" is that of the table figure_NAME.csv; `draw(file)` draws this table to PNG and PDF next to it."""
+
+    name: str
+    group: str  # one of GROUPS
+    description: str  # one line
+    points: Callable
+    table: Callable
+    draw: Optional[Callable] = None
+
+    def write(self, points, settings):
+        """Writes the tables. Returns (findings, files)."""
+        tables, findings = self.table(points, settings)
+        files = []
+        for ending, rows in tables.items():
+            files.append(os.path.join(settings.out, f"figure_{self.name}{ending}.csv"))
+            rows, columns = rows if isinstance(rows, tuple) else (rows, None)
+            write_table(files[-1], rows, columns)
+        return findings, files
+
+
+GROUPS = {"paper": "the figures of the paper", "beyond": "parameters, averages and times that the paper does not show",
+          "rolling": "spheres that roll on the floor", "chapters": "questions that the paper leaves open"}

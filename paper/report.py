@@ -1,0 +1,234 @@
+"""The report: report.md, report.html (one self-contained file) and report.pdf, from the files that `swirl paper` wrote to a
+folder.
+
+    /usr/bin/python3 paper/report.py out
+"""
+
+import html
+import os
+
+import atomic_file
+import verdicts
+from captions import CONTRADICTIONS, by_section, figure_texts, image_of, question_of, title_of
+from claims import all_judged
+from claims.claim import UNTESTED
+from first_page import crossings_of_one_setting, main_results
+from html_page import bullets, described_folder, opening, pairs, rich, table, td, write
+from page_layout import figures_html
+from point_names import in_words
+from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
+
+ORDER = [HOLDS, IN_PART, FAILS, UNDECIDED, UNTESTABLE, UNTESTED, MISSING]
+MARK = {HOLDS: "✓", IN_PART: "◐", FAILS: "✗", UNDECIDED: "±", UNTESTABLE: "–", UNTESTED: "–", MISSING: "?"}
+CLASS = {HOLDS: "holds", IN_PART: "part", FAILS: "fails"}
+# For counts: (one claim, several claims).
+WORDS = {HOLDS: ("holds", "hold"), IN_PART: ("holds in part", "hold in part"),
+         FAILS: ("does not hold", "do not hold"), UNDECIDED: ("is undecided", "are undecided"),
+         UNTESTABLE: ("is not testable by simulation", "are not testable by simulation"),
+         UNTESTED: ("is not tested", "are not tested"), MISSING: ("was not made", "were not made")}
+
+TITLE = "Rotation and counterrotation of swirled discs"
+INTRODUCTION = (
+    "Discs lie in a container that is swirled. With few discs the cluster rotates in the direction of the swirl, with "
+    "many against it. L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon and S. M. Rubinstein, “Geometric frustration "
+    "induces the transition between rotation and counterrotation in swirled granular media” (Phys. Rev. E 100, "
+    "012903, 2019), explain it by friction at the wall and between the discs. This report answers which of their "
+    "claims are confirmed by exact event-driven simulations: claims about their experiment by spheres that roll on a "
+    "floor, claims about their simulation by their discs.")
+
+
+def duration(seconds):
+    seconds = round(seconds)
+    if seconds < 100:
+        return f"{seconds} s"
+    return f"{seconds // 60} min {seconds % 60} s"
+
+
+def judge(folder):
+    """[claims.claim.Judged], with the names of points in words."""
+    judged = all_judged(folder)
+    for j in judged:
+        j.found = in_words(j.found)
+    return judged
+
+
+def with_sizes(j):
+    """How the verdict depends on the sizes that our reading of the paper's words requires."""
+    if not j.scaled or j.verdict in (MISSING, UNTESTED, UNTESTABLE):
+        return ""
+    if not j.depends_on_size:
+        return "the same at half and twice the size"
+    return "depends on the size: " + ", ".join(
+        f"{j.scaled[factor]} at {words}" for factor, words in ((0.5, "half"), (2, "twice")))
+
+
+def counts(judged):
+    """"Of 26 claims 19 hold, 6 hold in part, 1 does not hold." """
+    found = [j.verdict for j in judged]
+    numbers = [(found.count(verdict), WORDS[verdict]) for verdict in ORDER if verdict in found]
+    changing = sum(j.depends_on_size for j in judged)
+    return (f"Of {len(found)} claims " +
+            ", ".join(f"{n} {one if n == 1 else several}" for n, (one, several) in numbers) + "." +
+            (f" The verdicts on {changing} depend on the required sizes: they change at half or twice of them."
+             if changing else ""))
+
+
+def disagreements(judged):
+    """[(heading, [(statement, found)])] of the claims that do not hold. For undecided claims the table has more."""
+    groups = ((FAILS, "Does not hold"), (IN_PART, "Holds in part"), (UNDECIDED, "Undecided"))
+    result = [(heading, [(f"{j.claim.statement} (judged on {j.claim.on})", "" if kind == UNDECIDED else j.found)
+                         for j in judged if j.verdict == kind]) for kind, heading in groups]
+    return [(heading, claims) for heading, claims in result if claims]
+
+
+def parameter_rows(about):
+    c = about["defaults"]
+    return [("moment of inertia", c["inertia"]), ("container radius", c["container_radius"]),
+            ("amplitude", c["amplitude"]), ("sides of the path", c["sides"]),
+            ("period", c["period"]), ("restitution", c["restitution"]),
+            ("events of a run", f"{about['events_of_a_run']:,}"), ("first seed", about["seed"]),
+            ("version", about["version"]), ("built with", about["build"]),
+            ("command", about["command"]),
+            ("runs", f"{about['runs']}, {about['runs_of_earlier_calls']} of them from an earlier call"),
+            ("time", f"{duration(about['seconds'])} for this call; all runs together "
+                     f"{duration(about['seconds_on_one_core'])} on one core")]
+
+
+def how_to_read(about):
+    seeds = about.get("seeds_of_a_point", 8)
+    quick = (" This is the quick version, with fewer points and seeds than the full study. So errors are larger. A claim "
+             "whose points are missing is undecided." if about["quick"] else "")
+    return ("ϖ is the rotation rate of the cluster, Ω that of the swirl, N the number of discs, and μ the friction "
+            "coefficient (μ_d between discs, μ_w at the wall). ± is one standard error: the larger of the errors from "
+            "within the runs and from between the seeds. A claim is decided with a probability of 99.73 %, that of "
+            f"three standard deviations. With {seeds} seeds this needs {verdicts.threshold(seeds - 1):.1f} standard "
+            "errors. The sign of an effect alone does not decide a claim; the text of each claim gives the required "
+            "size. An undecided claim gets up to "
+            f"{about.get('max_seeds_of_a_point', 32)} seeds at the points that could decide it. Verdicts are computed "
+            "from the tables by the rules in paper/verdicts.py. Every other number on which a verdict depends is a "
+            "named constant in paper/claims/thresholds.py or paper/paper_parameters.py. The sizes that our reading "
+            "of the paper's words requires are also halved and doubled; verdicts that change are marked." + quick)
+
+
+# --- Markdown -----------------------------------------------------------------------------------
+
+def cell(text):
+    return str(text).replace("|", "\\|").replace("\n", " ")
+
+
+def markdown(about, judged, crossings="", results=()):
+    lines = [f"# {TITLE}", "", "**Question.** " + INTRODUCTION, ""]
+    if results:
+        lines += ["**Results.**", ""] + [f"- {text}" for text in results] + [""]
+    lines += [f"**{counts(judged)}** {how_to_read(about)}", ""]
+    if crossings:
+        lines += [crossings, ""]
+    for heading, group in disagreements(judged):
+        lines += [f"{heading}:", "", *(f"- {statement}" + (f" — {found}" if found else "")
+                                       for statement, found in group), ""]
+    lines += ["## Claim by claim", "", "| # | the paper says | judged on | found | verdict | command |",
+              "|---|---|---|---|---|---|"]
+    for k, j in enumerate(judged, 1):
+        claim, sizes = j.claim, with_sizes(j)
+        command = f"`{claim.command}`" if claim.command else ""
+        lines.append(f"| {k} | {cell(claim.statement)} ({claim.source}) | {claim.on} | {cell(j.found)} | "
+                     f"{MARK[j.verdict]} {j.verdict}{sizes and f' ({sizes})'} | {command} |")
+    texts = figure_texts(about)
+    for heading, figures in by_section(about["figures"]):
+        lines += ["", f"## {heading}"]
+        for figure in figures:
+            lines += figure_markdown(figure, *texts[figure["name"]])
+    lines += ["", "## Contradictions in the paper, and the choices of this program", "",
+              "| topic | the paper | this program |",
+              "|---|---|---|", *(f"| {cell(a)} | {cell(b)} | {cell(c)} |" for a, b, c in CONTRADICTIONS),
+              "", "## Parameters, versions, time", "", "| | |", "|---|---|",
+              *(f"| {cell(a)} | {cell(b)} |" for a, b in parameter_rows(about))]
+    return "\n".join(lines) + "\n"
+
+
+def figure_markdown(figure, caption, findings, remarks):
+    title, image, question = title_of(figure), image_of(figure), question_of(figure)
+    return ["", f"### {title}", "", *([f"![{title}]({image})", ""] if image else []),
+            *([f"*{question}*", ""] if question else []), *([caption, ""] if caption else []),
+            *(f"- {finding}" for finding in findings), *(["", *remarks] if remarks else []),
+            "", f"`swirl paper --figure {figure['name']}`"]
+
+
+# --- HTML ---------------------------------------------------------------------------------------
+
+def claim_row(k, j):
+    claim, sizes = j.claim, with_sizes(j)
+    command = f"<br><code>{html.escape(claim.command)}</code>" if claim.command else ""
+    words = f"<br><span class=small>{html.escape(sizes)}</span>" if sizes else ""
+    return (td(k), f"<td>{rich(claim.statement)} <span class=small>({html.escape(claim.source)})</span></td>",
+            td(claim.on), td(j.found), f"<td><span class='verdict {CLASS.get(j.verdict, 'other')}'>{MARK[j.verdict]} "
+            f"{j.verdict}</span>{words}{command}</td>")
+
+
+def page(folder, about, judged):
+    results = main_results(folder)
+    texts = figure_texts(about)
+    parts = [opening(TITLE), f"<h1>{TITLE}</h1>\n",
+             "<p class=small>The claims of a paper, one by one, compared with a simulation</p>\n",
+             f"<p><b>Question.</b> {rich(INTRODUCTION)}</p>\n",
+             f"<p><b>Results.</b></p>{bullets(results)}" if results else "",
+             f"<p><b>{html.escape(counts(judged))}</b></p>\n",
+             f"<p class=small>{rich(how_to_read(about))} {rich(crossings_of_one_setting(folder))}</p>\n"]
+    for heading, group in disagreements(judged):
+        items = "".join(f"<li>{rich(statement)} <span class=small>{rich(found)}</span></li>"
+                        for statement, found in group)
+        parts.append(f"<p class=heading>{heading}:</p><ul>{items}</ul>\n")
+    parts += ["<h2>Claim by claim</h2>\n",
+              table(["", "the paper says", "judged on", "found", "verdict, and how to reproduce it"],
+                    [claim_row(k, j) for k, j in enumerate(judged, 1)], "claims")]
+    for heading, figures in by_section(about["figures"]):
+        parts += [f"<h2>{heading}</h2>\n", figures_html(folder, figures, texts)]
+    parts += ["<h2>Contradictions in the paper, and the choices of this program</h2>\n",
+              table(["topic", "the paper", "this program"], [map(td, row) for row in CONTRADICTIONS]),
+              "<h2>Parameters, versions, time</h2>\n", pairs(parameter_rows(about)), "</body></html>\n"]
+    return "".join(parts)
+
+
+# --- PDF ----------------------------------------------------------------------------------------
+
+def figure_blocks(figure, caption, findings, remarks):
+    image, question = image_of(figure), question_of(figure)
+    return [("heading", title_of(figure)), *([("image", image)] if image else []),
+            *([("text", question)] if question else []), *([("text", caption)] if caption else []),
+            *(("bullet", finding) for finding in findings), *(("small", remark) for remark in remarks),
+            ("small", f"swirl paper --figure {figure['name']}")]
+
+
+def pdf(folder, about, judged):
+    from report_pdf import report_pdf  # the only part that needs matplotlib
+    opening = [(INTRODUCTION, main_results(folder)), (counts(judged), []), (how_to_read(about), [])]
+    for heading, group in disagreements(judged):
+        opening.append((heading + ":", [f"{statement} {found}" for statement, found in group]))
+    claims = []
+    for k, j in enumerate(judged, 1):
+        small = "; ".join(filter(None, (f"judged on {j.claim.on}", with_sizes(j), j.claim.command)))
+        claims += [("text", f"{k}. {j.claim.statement} ({j.claim.source})"),
+                   ("bullet", f"{j.verdict}: {j.found}"), ("small", small)]
+    texts = figure_texts(about)
+    sections = [("Claim by claim", claims)]
+    for heading, figures in by_section(about["figures"]):
+        sections.append((heading, [block for figure in figures
+                                   for block in figure_blocks(figure, *texts[figure["name"]])]))
+    sections += [("Contradictions in the paper, and the choices of this program",
+                  [("bullet", f"{matter}. The paper: {paper}. Here: {here}.") for matter, paper, here in CONTRADICTIONS]),
+                 ("Parameters, versions, time",
+                  [("bullet", f"{name}: {value}") for name, value in parameter_rows(about)])]
+    return report_pdf(folder, TITLE, opening, sections)
+
+
+def main():
+    folder, about = described_folder("paper.json", "swirl paper --out", "Writes report.md, report.html and report.pdf")
+    judged = judge(folder)
+    for name, text in (("report.md", markdown(about, judged, crossings_of_one_setting(folder), main_results(folder))),
+                       ("report.html", page(folder, about, judged))):
+        write(os.path.join(folder, name), text)
+    atomic_file.write_or_exit(os.path.join(folder, "report.pdf"), pdf(folder, about, judged))
+
+
+if __name__ == "__main__":
+    main()

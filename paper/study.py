@@ -1,0 +1,262 @@
+"""The points of the figures, and the runs that they need: in parallel, stored when done, and reused.
+
+A point is a set of parameters with several seeds. The result of each seed is OUT/parts/KEY.json, so an interrupted
+study continues, and two figures that need the same point share its runs.
+"""
+
+import dataclasses
+import glob
+import json
+import multiprocessing
+import os
+import signal
+import threading
+import time
+
+import atomic_file
+import combine
+from combine import at, failed
+from engine import swirl
+
+DEFAULT_EVENTS = 1_000_000  # SI: "10^6 iterations"
+
+
+@dataclasses.dataclass
+class Settings:
+    quick: bool = False  # fewer points and seeds; all runs are those of the full study
+    events: float = None  # of a run; scales all lengths in periods likewise
+    out: str = "out"
+    seed: int = 1
+    first_seeds: int = 0  # runs of a point; 0: the default
+    threads: int = 0  # 0: all cores
+    seeds_of_point: dict = dataclasses.field(default_factory=dict)  # more seeds, until a claim is decided
+
+    @property
+    def default_seeds(self):
+        return 3 if self.quick else 8
+
+    @property
+    def seeds(self):
+        """Runs at a point of the paper's figures."""
+        return self.first_seeds or self.default_seeds
+
+    @property
+    def seeds_beyond(self):
+        """Runs at a point of the figures beyond the paper."""
+        return 2 if self.quick else 3
+
+    @property
+    def chapter_seeds(self):
+        return 2 if self.quick else 8
+
+    @property
+    def max_seeds(self):
+        """The budget of a point on which an undecided claim rests."""
+        return 4 * self.default_seeds
+
+    @property
+    def events_of_a_run(self):
+        return int(self.events or DEFAULT_EVENTS)
+
+    def periods(self, by_default, minimum):
+        """A length in periods, scaled as `events` scales the other runs."""
+        return max(minimum, int(by_default * self.events_of_a_run / DEFAULT_EVENTS + 0.5))
+
+
+class Point:
+    """The runs of a set of parameters with consecutive seeds.
+
+    `name` identifies it in tables and verdicts. `cells` are the first columns of its row. `work(parameters)` makes the
+    result of one seed, a dictionary; without it, this is that of swirl.run() with the measurements `measure`.
+    """
+
+    def __init__(self, settings, name, seeds, parameters, measure=(), work=None, cells=None):
+        self.name, self.parameters, self.measure, self.work = name, parameters, tuple(measure), work
+        self.cells = dict(cells or {})
+        seeds = max(seeds, settings.seeds_of_point.get(name, 0))
+        self.tasks = [Task(name, {**parameters, "seed": settings.seed + k}, self.measure, work) for k in range(seeds)]
+        self.result = None  # over the seeds, once they are done
+
+    @property
+    def runs(self):
+        """The results of the single seeds, without failed ones."""
+        return [task.result for task in self.tasks if not failed(task.result)]
+
+
+class Task:
+    """One seed of a point."""
+
+    def __init__(self, name, parameters, measure, work):
+        self.parameters, self.measure, self.work = parameters, measure, work
+        self.result, self.seconds = None, 0.0
+        self.identity = repr((sorted(parameters.items()), work and f"{work.__module__}.{work.__name__}"))
+        self.key = f"{name}_seed{parameters['seed']}_{swirl._engine.checksum(self.identity)[:8]}"
+
+    def file(self, out):
+        return os.path.join(out, "parts", f"{self.key}.json")
+
+    def cost(self):
+        """An estimate, in events."""
+        p = self.parameters
+        return p["periods"] * events_per_period(p) if "periods" in p else float(p.get("events", DEFAULT_EVENTS))
+
+    def take(self, stored):
+        """Takes a stored result if it is whole, of this version, and has all measurements."""
+        if (isinstance(stored, dict) and stored.get("identity") == self.identity and stored.get("version") ==
+                swirl._engine.version() and set(self.measure) <= set(stored["measure"])
+                and stored["checksum"] == checksum_of(stored)):
+            self.result, self.seconds = stored["result"], stored["seconds"]
+        return self.result is not None
+
+    def find(self, out):
+        try:
+            with open(self.file(out), encoding="utf-8") as file:
+                return self.take(json.load(file))
+        except (FileNotFoundError, ValueError, KeyError, TypeError):
+            return False
+
+
+def checksum_of(stored):
+    return swirl._engine.checksum(json.dumps([stored["result"], stored["seconds"]]))
+
+
+def events_per_period(p):
+    """For lengths, the progress and the order of the runs. In the paper's container 480 at N = 28 and 3400 at N = 48.
+    For small N the vertices of the path dominate."""
+    discs, radius, container = p.get("discs", 48), p.get("radius", 1.0), p.get("container_radius", 8.6)
+    mu = p.get("mu", 1.0)
+    mu_disc, mu_wall = p.get("mu_disc", mu), p.get("mu_wall", mu)
+    packing_fraction = discs * radius * radius / (container * container)
+    # A sphere begins to roll after most collisions. Discs with only one of disc and wall friction end up rolling on
+    # their partners, and collide gently and often (measured at N = 11 … 48: 11 to 30 times as often without wall
+    # friction, 2.5 to 15 without disc friction).
+    factor = 3.0 if "preset" in p else 20.0 if mu_disc and not mu_wall else 8.0 if mu_wall and not mu_disc else 1.0
+    return p.get("sides", 30) + factor * discs * (5.0 + 275.0 * packing_fraction ** 3.3)
+
+
+# --- Running ------------------------------------------------------------------------------------
+
+def plain_run(parameters, measure):
+    return json.loads(swirl.run(measure=list(measure), **parameters).to_json())
+
+
+def worker(parent):
+    """Ctrl-C reaches the parent alone, which ends its workers; they also end if it is killed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+    def watch():
+        while os.getppid() == parent:
+            time.sleep(1)
+        os._exit(1)
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def do(job):
+    """Makes the result of a task and stores it. A failed run is a result, too, but it is not stored."""
+    k, task, out = job
+    begin = time.monotonic()
+    try:
+        result = task.work(task.parameters) if task.work else plain_run(task.parameters, task.measure)
+    except swirl.Failure as failure:
+        return k, {"result": {"failed": str(failure)}, "seconds": time.monotonic() - begin}
+    result = json.loads(json.dumps(result))  # as it will be read
+    stored = {"identity": task.identity, "version": swirl._engine.version(), "measure": list(task.measure),
+              "seconds": time.monotonic() - begin, "result": result}
+    stored["checksum"] = checksum_of(stored)
+    atomic_file.write(task.file(out), json.dumps(stored) + "\n")
+    return k, stored
+
+
+def distinct(points):
+    """The tasks of all points, each once, with all measurements that the points need; by falling cost."""
+    tasks = {}
+    for point in points:
+        for task in point.tasks:
+            known = tasks.setdefault(task.key, task)
+            known.measure = tuple(dict.fromkeys((*known.measure, *task.measure)))
+    return sorted(tasks.values(), key=lambda task: -task.cost())
+
+
+def make(points, settings, progress=lambda fraction: None, part=(1, 1)):
+    """Makes the missing runs of the points, or those of a part, and combines those of every point. Returns the counts
+    of all runs, those reused and those failed, and the seconds of all of them."""
+    out = settings.out
+    os.makedirs(os.path.join(out, "parts"), exist_ok=True)
+    remove_leftovers(out)
+    tasks = distinct(points)[part[0] - 1::part[1]]
+    reused = sum(task.find(out) for task in tasks)
+    left = [task for task in tasks if task.result is None]
+    total, done = sum(task.cost() for task in left) or 1.0, 0.0
+    if left:
+        workers = settings.threads or len(os.sched_getaffinity(0))
+        with multiprocessing.Pool(min(workers, len(left)), worker, (os.getpid(),)) as pool:
+            jobs = [(k, task, out) for k, task in enumerate(left)]
+            for k, stored in pool.imap_unordered(do, jobs):
+                left[k].result, left[k].seconds = stored["result"], stored["seconds"]
+                done += left[k].cost()
+                progress(done / total)
+    if part == (1, 1):
+        results = {task.key: task for task in tasks}
+        for point in points:
+            for task in point.tasks:
+                task.result = results[task.key].result
+            point.result = {**combine.combined([task.result for task in point.tasks]), "point": point.name}
+    return {"tasks": len(tasks), "reused": reused, "failed": sum(failed(task.result) for task in left),
+            "task_seconds": sum(task.seconds for task in tasks)}
+
+
+def remove_leftovers(out):
+    """Removes temporary files of killed calls, which nobody has locked."""
+    for name in glob.glob(os.path.join(glob.escape(out), "*.partial")) + glob.glob(
+            os.path.join(glob.escape(out), "parts", "*.partial")):
+        atomic_file.remove_if_unlocked(name)
+
+
+# --- Remarks ------------------------------------------------------------------------------------
+
+def first_few(names, few=5):
+    """The first names of a list, and the number of the others."""
+    if len(names) <= few + 1:
+        return ", ".join(names)
+    return f"{', '.join(names[:few])}, and {len(names) - few} more"
+
+
+def failures(points):
+    """The failed runs, with the reason of the first."""
+    words, reasons = [], []
+    for point in points:
+        here = [task.result["failed"] for task in point.tasks if failed(task.result)]
+        reasons += here
+        if here:
+            words.append(f"{len(here)} of {len(point.tasks)} at {point.name}" +
+                         (" (no result)" if len(here) == len(point.tasks) else ""))
+    if not reasons:
+        return []
+    one = len(reasons) == 1
+    return [f"{len(reasons)} run{'' if one else 's'} failed and {'is' if one else 'are'} omitted: {first_few(words)}. "
+            f"{'Reason' if one else 'Reason of the first'}: {reasons[0]}"]
+
+
+def remarks(points):
+    """Remarks on the runs of a figure: failures, drifting runs, points where the seeds disagree."""
+    found = failures(points)
+    seeds = [at(point.result, "seeds") for point in points if at(point.result, "seeds")]
+
+    def count(name):
+        return sum(s[name] for s in seeds)
+
+    kinds = [count(name) for name in ("drifting", "jumping", "switching", "too_short")]
+    if sum(kinds):
+        found.append(f"Steady state not verified after the warm-up: {sum(kinds)} of {count('runs')} runs ({kinds[0]} "
+                     f"drifting, {kinds[1]} jumping, {kinds[2]} switching between two states, {kinds[3]} too short for "
+                     "the test). They are marked in the figure and in its table.")
+    if count("too_short_to_average"):
+        found.append(f"{count('too_short_to_average')} of them have fewer than {combine.MIN_PERIODS} periods after "
+                     "their warm-up and are not averaged.")
+    disagreeing = [point.name for point in points if at(point.result, "seeds", "disagree")]
+    if disagreeing:
+        found.append(f"At {len(disagreeing)} of {len(points)} points the seeds scatter more than the errors within the "
+                     f"runs explain: {first_few(disagreeing)}. The errors given there are those between the seeds; if "
+                     "the runs are steady, these points are mixtures of states that last longer than a run.")
+    return found

@@ -1,0 +1,421 @@
+"""The common style of all figures: sizes, colours, fonts, recurring elements, and saving.
+
+The colours are those of Okabe and Ito (2008), which are distinguishable with any kind of colour vision. Every
+curve also has its own marker.
+"""
+
+import io
+import math
+import os
+import sys
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
+from matplotlib.patheffects import withStroke  # noqa: E402
+
+import atomic_file  # noqa: E402
+import tables  # noqa: E402
+from paper_parameters import AMPLITUDE  # noqa: E402
+from tables import column, select  # noqa: E402, F401
+
+# Column widths of the Physical Review, in inches.
+COLUMN = 3.375
+PAGE = 7.0
+SMALLEST = 7  # font size in points, where a figure is as wide as its column
+LEAST_VISITS = 200  # a slice of θ with fewer visits is not drawn
+
+BLACK = "#000000"
+ORANGE = "#e69f00"
+SKY = "#56b4e9"
+GREEN = "#009e73"
+BLUE = "#0072b2"
+RED = "#d55e00"
+PINK = "#cc79a7"
+GREY = "#7f7f7f"
+CYCLE = [BLUE, RED, GREEN, PINK, ORANGE, SKY, BLACK, GREY]
+MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<"]
+
+# Settings of the figures with spheres and discs: label, colour, marker. Discs have open symbols.
+LOOKS = {
+    "smooth": ("smooth spheres", {"color": BLUE, "marker": "o"}),
+    "rough": ("roughened spheres", {"color": RED, "marker": "s"}),
+    "half": ("smooth, half the amplitude", {"color": GREY, "marker": "v", "linestyle": "--"}),
+    "high": (r"discs, $\mu = 1$", {"color": ORANGE, "marker": "D", "fillstyle": "none", "linestyle": ":"}),
+    "low": (r"discs, $\mu = 0.1$", {"color": SKY, "marker": "^", "fillstyle": "none", "linestyle": ":"}),
+}
+
+SETTINGS = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 8,
+    "axes.labelsize": 8.5,
+    "axes.linewidth": 0.6,
+    "axes.prop_cycle": matplotlib.cycler(color=CYCLE),
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": 8.5,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.major.size": 3,
+    "ytick.major.size": 3,
+    "legend.fontsize": SMALLEST,
+    "legend.frameon": False,
+    "legend.handlelength": 1.6,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 3.2,
+    "errorbar.capsize": 0,
+    "image.cmap": "viridis",
+    "figure.dpi": 300,
+    "savefig.dpi": 300,
+    "pdf.fonttype": 42,  # TrueType: the text can be searched
+    "axes.unicode_minus": True,
+    "mathtext.fontset": "dejavusans",
+}
+
+
+def read(table):
+    """The rows of a table; ends the script if there are none."""
+    rows = tables.read(table)
+    if not rows:
+        sys.exit(f"'{table}' has no rows, so nothing is drawn.")
+    return rows
+
+
+def figure(width=COLUMN, height=None, **subplots):
+    """plt.subplots() with width and height in inches."""
+    plt.rcParams.update(SETTINGS)
+    height = height or 0.72 * width
+    return plt.subplots(figsize=(width, height), constrained_layout=True, **subplots)
+
+
+def not_steady(rows):
+    """Rows whose steady state is not verified: the run drifts, or is too short for the test."""
+    return [row for row in rows
+            if row.get("steady_state", "steady") not in ("steady", "failed")]
+
+
+def ring(axes, rows, x, y):
+    """Rings around the points whose steady state is not verified, and a note that explains them. `y` names a
+    column or is a function of the row."""
+    value = y if callable(y) else lambda row: row[y]
+    marked = not_steady(rows)
+    if not marked:
+        return
+    axes.plot(column(marked, x), [value(row) for row in marked], "o", markersize=6.5,
+              markerfacecolor="none", markeredgecolor=BLACK, markeredgewidth=0.5, zorder=4)
+    note(axes.figure, "ring: steady state not verified")
+
+
+def note(drawing, text):
+    """A remark below the figure."""
+    drawing.supxlabel(text, fontsize=SMALLEST, color="0.3")
+
+
+def note_not_steady(drawing, rows):
+    """For maps and profiles, which cannot have rings: a note with the numbers of discs."""
+    numbers = sorted({row["discs"] for row in not_steady(rows)})
+    if numbers:
+        note(drawing, "steady state not verified: N = " + ", ".join(f"{n:.0f}" for n in numbers))
+
+
+def curve(axes, rows, x, y, **look):
+    """One line with errors, and rings where the run is not steady. If no run has an average, only its label."""
+    if not np.isfinite(column(rows, y)).any():
+        axes.errorbar([], [], **look)
+        return
+    axes.errorbar(column(rows, x), column(rows, y), yerr=column(rows, y + "_error"),
+                  elinewidth=0.7, **look)
+    ring(axes, rows, x, y)
+
+
+def rotation_curves(table, parameter, symbol):
+    """A complete figure: rotation against the number of discs, a curve for each value of a parameter."""
+    rows = read(table)
+    curves = [(select(rows, **{parameter: value}),
+               {"label": f"${symbol} = {value:g}$", "color": CYCLE[k], "marker": MARKERS[k]})
+              for k, value in enumerate(sorted({row[parameter] for row in rows}))]
+    rotation_figure(table, curves, ncol=3)
+
+
+def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=None, **more):
+    """A complete figure: rotation against the number of `of`; `curves` are rows and their style. Above `fine` the
+    scale is coarser, if there are points."""
+    drawing, axes = figure(width, height)
+    zero_line(axes)
+    for rows, look in curves:
+        curve(axes, rows, "discs", "by_time", **look)
+    if fine:
+        coarser_above(axes, fine, [row for rows, _ in curves for row in rows])
+    rotation_axes(axes, of=of)
+    legend(axes, **more)
+    save(drawing, table)
+
+
+COARSER = 6  # factor between the two scales
+
+
+def coarser_above(axes, level, rows):
+    """Shows all points, with a fine scale near zero: above the level, which a dotted line marks, the scale of ϖ is
+    coarser."""
+    ends = [row["by_time"] + sign * (row["by_time_error"] if row["by_time_error"] >= 0 else 0)
+            for row in rows if row["by_time"] == row["by_time"] for sign in (-1, 1)]
+    if not ends or max(ends) <= level:
+        return
+    axes.set_yscale("function", functions=(
+        lambda y: np.where(y <= level, y, level + (y - level) / COARSER),
+        lambda z: np.where(z <= level, z, level + (z - level) * COARSER)))
+    axes.set_ylim(min(ends) - 0.02, max(ends) + 0.02 * COARSER)
+    step = 0.05
+    axes.set_yticks([step * k for k in range(math.ceil(min(ends) / step), math.ceil(level / step))]
+                    + [0.2 * k for k in range(2, 6) if level + 0.1 < 0.2 * k < max(ends) + 0.1])
+    axes.yaxis.set_major_formatter(
+        matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:.2f}".replace("-", "−")))
+    axes.axhline(level, color=GREY, linewidth=0.7, linestyle=":", zorder=0)
+    axes.annotate(f"coarser\nabove {level:g}", (1.0, level), xycoords=("axes fraction", "data"),
+                  fontsize=SMALLEST, color="0.3", ha="left", va="center")
+
+
+def legend(axes, ncol=2, **more):
+    """Above the axes, clear of the data."""
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=ncol, columnspacing=1.2,
+                borderaxespad=0.2, **more)
+
+
+def legend_of_all(drawing, handles, labels, ncol):
+    """Above all axes of a figure."""
+    drawing.suptitle(" ", fontsize=SMALLEST)  # reserves the space
+    drawing.legend(handles, labels, loc="upper center", ncol=ncol, columnspacing=1.2,
+                   borderaxespad=0.2)
+
+
+def rotation_axes(axes, average="by time", of="discs"):
+    axes.set_xlabel(rf"number of {of} $N$")
+    axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True, steps=(1, 2, 5, 10)))
+    axes.set_ylabel(rf"rotation $\varpi/\Omega$, {average}")
+
+
+def sliding(rows, width):
+    """The profile of one number of discs in slices of `width` degrees that slide by one slice of the table, like
+    the paper's "angular slice slides around the entire container". All visits have the same weight; the
+    normalised angular velocity is the ratio of the two means."""
+    result = []
+    for row in rows:
+        here = [other for other in rows
+                if abs((other["theta"] - row["theta"] + 180) % 360 - 180) < width / 2]
+        visits = sum(other["visits"] for other in here)
+
+        def mean(name):
+            return sum(other["visits"] * other[name] for other in here if other["visits"]) / visits
+        if visits:
+            result.append(row | {"visits": visits, "varpi_m": mean("varpi_m"), "wall": mean("wall"),
+                                 "normalised": mean("varpi_m") / mean("wall")})
+    return result
+
+
+def profiles(table, width, quantity, level, label):
+    """A complete figure: a quantity against the angle θ, a curve for each number of discs, and the mean angles where
+    residences at the wall begin and end. `width`: that of a sliding slice, or 0."""
+    rows = read(table)
+    numbers = sorted({row["discs"] for row in rows})
+    settings = [name for name in LOOKS if select(rows, setting=name)]
+    drawing, panels = figure(width=PAGE, height=2.7, ncols=len(settings), sharex=True, sharey=True, squeeze=False)
+    colors = plt.get_cmap("viridis")
+    span = max(numbers[-1] - numbers[0], 1)
+    for axes, setting in zip(panels[0], settings):
+        axes.set_title(LOOKS[setting][0])
+        for discs in sorted({row["discs"] for row in select(rows, setting=setting)}):
+            color = colors(0.95 * (discs - numbers[0]) / span)
+            here = select(rows, setting=setting, discs=discs)
+            shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > LEAST_VISITS]
+            axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
+                      linestyle=":" if not_steady(shown) else "-")
+            for angle, marker in (("residence_begin", "v"), ("residence_end", "o")):
+                here = [row for row in shown if not math.isnan(row[angle])]
+                if not here:
+                    continue
+                nearest = min(here, key=lambda row: abs((row["theta"] - row[angle] + 180) % 360 - 180))
+                axes.plot(nearest[angle], nearest[quantity], marker, color=color, markersize=3.2,
+                          markeredgecolor=BLACK, markeredgewidth=0.4, zorder=3)
+        axes.axhline(level, color=GREY, linewidth=0.6, linestyle="--", zorder=0)
+        axes.set_xlim(0, 360)
+        axes.set_xticks(range(0, 361, 90))
+    first = panels[0][0]
+    handles = [first.plot([], [], marker, color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
+                          label=words)[0] for marker, words in (("v", "residences at the wall begin"),
+                                                                ("o", "residences end"))]
+    panels[0][len(settings) // 2].set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
+    first.set_ylabel(label)
+    legend_of_all(drawing, handles, [mark.get_label() for mark in handles], ncol=2)
+    bar = drawing.colorbar(scale(numbers, colors), ax=panels)
+    bar.set_label(r"number of particles $N$")
+    note_not_steady(drawing, rows)
+    save(drawing, table)
+
+
+def curves_by_setting(axes, rows, quantity, settings=tuple(LOOKS), **more):
+    """A curve against N for each setting of the table."""
+    for name in settings:
+        here = [row for row in select(rows, setting=name) if row[quantity] == row[quantity]]
+        if here:
+            label, look = LOOKS[name]
+            curve(axes, here, "discs", quantity, **({"label": label} | look | more))
+
+
+def zero_line(axes):
+    axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
+
+
+def scale(values, colors):
+    """A mappable for a colour bar."""
+    span = matplotlib.colors.Normalize(min(values), max(values))
+    return matplotlib.cm.ScalarMappable(norm=span, cmap=colors)
+
+
+def bare(axes):
+    """No axes, for a drawing in space."""
+    axes.set_aspect("equal")
+    axes.axis("off")
+
+
+def map_radius(cells):
+    """The radius of the container, from the centres of the cells of a map."""
+    across = len({row["x"] for row in cells})
+    return max(row["x"] for row in cells) * across / (across - 1)
+
+
+def container(axes, radius, color=BLACK, amplitude=AMPLITUDE):
+    """The wall in the M-frame, with M, the centre S of the swirl above C, and θ."""
+    bare(axes)
+    axes.add_patch(plt.Circle((0, 0), radius, fill=False, color=BLACK, linewidth=0.8))
+    axes.plot(0, -radius, "o", color=PINK, markersize=3, clip_on=False, zorder=5)
+    axes.text(0, -1.07 * radius, "$M$", color=PINK, fontsize=SMALLEST + 1, ha="center", va="top")
+    # The outline keeps it visible on arrows and on any colour of a map.
+    edge = [withStroke(linewidth=1.6, foreground=BLACK if color == "white" else "white")]
+    axes.plot(0, amplitude, "+", color=color, markersize=4, markeredgewidth=0.8, zorder=5,
+              path_effects=edge)
+    axes.text(0.05 * radius, amplitude + 0.02 * radius, "$S$", color=color,
+              fontsize=SMALLEST + 1, va="bottom", zorder=5, path_effects=edge)
+    for degrees, align in ((0, "left"), (90, "center"), (180, "right")):
+        turn = math.radians(degrees)
+        axes.text(1.06 * radius * math.cos(turn), 1.11 * radius * math.sin(turn),
+                  r"$\theta = 0$" if degrees == 0 else f"{degrees}°", fontsize=SMALLEST, color="0.3",
+                  ha=align, va="center")
+    axes.set_xlim(-1.3 * radius, 1.3 * radius)
+    axes.set_ylim(-1.3 * radius, 1.2 * radius)
+
+
+def cells(axes, rows, name, radius):
+    """A map of equal cells over the square around the container, white outside the container."""
+    side = round(len(rows) ** 0.5)
+    image = [column(rows[k * side:(k + 1) * side], name) for k in range(side)]
+    shown = axes.imshow(image, origin="lower", extent=[-radius, radius, -radius, radius],
+                        interpolation="nearest", vmin=0)
+    shown.set_clip_path(plt.Circle((0, 0), radius, transform=axes.transData))
+    return shown
+
+
+def often_visited(rows, least):
+    """Cells of a flow map with more than this share of all visits; others have no reliable mean."""
+    total = sum(row["visits"] for row in rows)
+    return [row for row in rows if row["visits"] > least * total]
+
+
+COARSE = 2  # cells of the table, in each direction, that share an arrow on a density map
+
+
+def blocks(rows, side):
+    """The flow in squares of side × side cells; all visits have the same weight."""
+    across, up = (sorted({row[axis] for row in rows}) for axis in ("x", "y"))
+    members = {}
+    for row in rows:
+        members.setdefault((across.index(row["x"]) // side, up.index(row["y"]) // side),
+                           []).append(row)
+
+    def middle(positions, k):
+        here = positions[k * side:(k + 1) * side]
+        return sum(here) / len(here)
+
+    result = []
+    for (i, j), here in members.items():
+        here = [row for row in here if row["visits"] > 0]
+        visits = sum(row["visits"] for row in here)
+        if visits:
+            result.append({"x": middle(across, i), "y": middle(up, j), "visits": visits} | {
+                name: sum(row["visits"] * row[name] for row in here) / visits
+                for name in ("u_x", "u_y")})
+    return result
+
+
+def speed(row):
+    return math.hypot(row["u_x"], row["u_y"])
+
+
+def arrows(axes, rows, spacing, fastest, color, key=(0.9, 0.03)):
+    """Velocities in units of the container's speed, each in the middle of its cell. The fastest arrow is as long as
+    the distance of the cells, so arrows do not overlap. `key`: position of the scale in the axes."""
+    drawn = axes.quiver(column(rows, "x"), column(rows, "y"), column(rows, "u_x"),
+                        column(rows, "u_y"), color=color, angles="xy", scale_units="xy",
+                        scale=fastest / spacing, pivot="mid", units="xy", width=0.095 * spacing,
+                        headwidth=3.6, headlength=4, headaxislength=3.6, minlength=0.5)
+    # The scale, outside the container.
+    known = max([k for k in (0.1, 0.2, 0.5, 1, 2, 5) if k <= fastest], default=fastest)
+    axes.quiverkey(drawn, *key, known, f"speed {known:g}", labelpos="N", coordinates="axes",
+                   color=BLACK if color == "white" else color,
+                   fontproperties={"size": SMALLEST}, labelsep=0.03)
+
+
+def save(drawing, table):
+    """Writes PNG and PDF next to the table, atomically. They contain no date: the same table gives the same bytes."""
+    stem = os.path.splitext(table)[0]
+    drawing.canvas.draw()  # the layout of the first drawing has the sizes of labels that change in it
+    for kind, about in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
+        drawn = io.BytesIO()
+        drawing.savefig(drawn, format=kind, metadata=about)
+        atomic_file.write_or_exit(f"{stem}.{kind}", drawn.getvalue())
+
+
+def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
+    """ϖ/Ω over two parameters, as colour and as number; `columns` are the parameters along x and y."""
+    across, up = (sorted({row[column] for row in rows}) for column in columns)
+    values = [[float("nan")] * len(across) for _ in up]
+    for row in rows:
+        values[up.index(row[columns[1]])][across.index(row[columns[0]])] = row["by_time"]
+    colors = plt.get_cmap("PuOr_r").copy()
+    colors.set_bad("0.85")
+    # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.
+    span = matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-1, vmax=1)
+    shown = axes.imshow(values, origin="lower", cmap=colors, norm=span)
+    for y, line in enumerate(values):
+        for x, value in enumerate(line):
+            if value == value:
+                number = f"{value:.2f}".replace("-0.00", "0.00").replace("-", "−")
+                axes.text(x, y, number, ha="center", va="center", fontsize=fontsize,
+                          color="white" if abs(value) > 0.3 else "black")
+    notes = []
+    drifting = not_steady(rows)
+    for row in drifting:
+        corner = (across.index(row[columns[0]]) - 0.44, up.index(row[columns[1]]) - 0.44)
+        axes.add_patch(plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7, linestyle=":"))
+    if drifting:
+        notes.append("dotted: steady state not verified")
+    if any(value != value for line in values for value in line):
+        notes.append("grey: no result")
+    if notes:
+        note(drawing, "; ".join(notes))
+    axes.set_xticks(range(len(across)), [f"{s:g}" for s in across])
+    axes.set_yticks(range(len(up)), [f"{s:g}" for s in up])
+    for side in axes.spines.values():
+        side.set_visible(False)
+    axes.tick_params(length=0)
+    bar = drawing.colorbar(shown, ax=axes, shrink=0.85)
+    bar.set_ticks([-1, -0.1, 0, 0.1, 1], labels=["−1", "−0.1", "0", "0.1", "1"])
+    bar.minorticks_off()
+    bar.set_label(label)

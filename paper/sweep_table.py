@@ -1,0 +1,97 @@
+"""A quantity of a sweep against one of its parameters, a curve for each combination of the others.
+
+    /usr/bin/python3 paper/sweep_table.py study/table.csv [QUANTITY]
+
+`swirl collect study --plot` writes the table and draws it. The parameter along x is the one with the most
+values. In a chain, rising and falling values are separate curves.
+"""
+
+import os
+import sys
+
+import style
+import tables
+
+MAX_CURVES = 24
+
+
+def parameters_of(rows):
+    """The columns of parameters come first; the next is the number of replicas."""
+    names = list(rows[0])
+    if "replicas" not in names:
+        sys.exit("the table is not of a sweep: it has no column 'replicas'.\nhint: `swirl collect` writes it.")
+    return names[:names.index("replicas")]
+
+
+def along_x(rows, parameters):
+    values = {name: {row[name] for row in rows} for name in parameters
+              if all(isinstance(row[name], float) for row in rows)}
+    if not values:
+        sys.exit("the sweep has no parameter of numbers, so nothing is drawn.")
+    return max(values, key=lambda name: len(values[name]))
+
+
+def text_of(name, value):
+    if name == "direction":
+        return "rising" if value == "up" else "falling"
+    return f"{name} = {value:g}" if isinstance(value, float) else f"{name} = {value}"
+
+
+def curves(rows, others):
+    """The rows of each combination of the other parameters, in order of the table."""
+    groups = {}
+    for row in rows:
+        groups.setdefault(tuple(row[name] for name in others), []).append(row)
+    return groups
+
+
+def label_of(quantity):
+    rates = {"by_time": "by time", "by_event": "by event", "rigid_by_time": "rigid body, by time",
+             "rigid_by_event": "rigid body, by event"}
+    if quantity in rates:
+        return rf"rotation $\varpi/\Omega$, {rates[quantity]}"
+    return quantity.replace("_", " ")
+
+
+def main():
+    if len(sys.argv) not in (2, 3) or sys.argv[1] in ("-h", "--help"):
+        print(f"usage: /usr/bin/python3 {sys.argv[0]} table.csv [QUANTITY]", file=sys.stderr)
+        sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
+    table = sys.argv[1]
+    quantity = sys.argv[2] if len(sys.argv) == 3 else "by_time"
+    if not os.path.exists(table):
+        sys.exit(f"the table '{table}' does not exist.\nhint: `swirl collect` writes it.")
+    rows = style.read(table)
+    parameters = parameters_of(rows)
+    quantities = [name for name in rows[0] if name not in parameters
+                  and not name.endswith("_error") and name not in ("steady_state", "state_hash")]
+    if quantity not in quantities:
+        sys.exit(f"the table has no column '{quantity}'.\nhint: it has {', '.join(quantities)}.")
+    x = along_x(rows, parameters)
+    others = [name for name in parameters if len({row[name] for row in rows}) > 1 and name != x]
+    groups = curves(rows, others)
+    if len(groups) > MAX_CURVES:
+        sys.exit(f"the sweep would have {len(groups)} curves, but at most {MAX_CURVES} can be distinguished.\n"
+                 "hint: draw a part of the table.")
+    drawing, axes = style.figure()
+    for k, (values, points) in enumerate(groups.items()):
+        points = sorted(points, key=lambda row: row[x])
+        label = ", ".join(text_of(name, value) for name, value in zip(others, values))
+        look = {"color": style.CYCLE[k % len(style.CYCLE)], "marker": style.MARKERS[k % len(style.MARKERS)],
+                "label": label or None}
+        if f"{quantity}_error" in rows[0]:
+            style.curve(axes, points, x, quantity, **look)
+        else:
+            axes.plot(style.column(points, x), style.column(points, quantity), **look)
+    if quantity in tables.RATES:
+        axes.axhline(0, color="0.6", linewidth=0.5, zorder=0)
+    names = {"discs": "number of discs $N$", "mu": r"friction coefficient $\mu$"}
+    axes.set_xlabel(names.get(x, x.replace("_", " ")))
+    axes.set_ylabel(label_of(quantity))
+    if others:
+        style.legend(axes)
+    style.save(drawing, table)
+
+
+if __name__ == "__main__":
+    main()

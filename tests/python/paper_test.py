@@ -1,0 +1,74 @@
+"""The figures of paper/: runs that are stored, reused, shared and combined."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+PAPER = os.path.join(os.environ["SWIRL_SOURCE"], "paper")
+sys.path.insert(0, PAPER)
+import study  # noqa: E402
+
+EVENTS = 2000
+
+
+def made(out, *figures, **more):
+    call = {"figures": figures, "quick": True, "events": EVENTS, "out": str(out), "draw": False, **more}
+    done = subprocess.run([sys.executable, "-B", PAPER, json.dumps(call)], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def rows(folder, name):
+    with open(Path(folder, f"figure_{name}.csv"), newline="", encoding="utf-8") as file:
+        return list(csv.reader(file))
+
+
+def test_runs_are_reused_and_a_damaged_result_is_made_again(tmp_path):
+    first = made(tmp_path, "restitution")
+    assert (first["reused"], first["failed"]) == (0, 0)
+    table, parts = rows(tmp_path, "restitution"), sorted(Path(tmp_path, "parts").iterdir())
+    assert len(parts) == first["tasks"]
+    parts[0].write_text(parts[0].read_text()[:-20])
+    parts[1].write_text(parts[1].read_text().replace('"mean": 0.', '"mean": 1.', 1))
+    parts[2].write_text("[]")
+    again = made(tmp_path, "restitution")
+    assert again["reused"] == first["tasks"] - 3
+    assert rows(tmp_path, "restitution") == table
+
+
+def test_parts_share_the_runs(tmp_path):
+    tasks = made(tmp_path, "restitution", part=[1, 2])["tasks"] + made(tmp_path, "restitution", part=[2, 2])["tasks"]
+    assert not list(tmp_path.glob("*.csv"))
+    all_of_them = made(tmp_path, "restitution")
+    assert all_of_them["reused"] == all_of_them["tasks"] == tasks
+
+
+def fails(parameters):
+    raise study.swirl.Failure("it collapses")
+
+
+def test_a_failed_run_leaves_a_gap(tmp_path):
+    settings = study.Settings(quick=True, events=EVENTS, out=str(tmp_path))
+    good, bad = study.Point(settings, "good", 2, {"discs": 5}), study.Point(settings, "bad", 2, {"discs": 5}, work=fails)
+    counts = study.make([good, bad], settings)
+    assert counts["failed"] == 2
+    assert bad.result == {"failed": "it collapses", "point": "bad"} and bad.runs == []
+    assert good.result["seeds"]["runs"] == 2
+    assert study.remarks([good, bad])[0] == ("2 runs failed and are omitted: 2 of 2 at bad (no result). Reason of the "
+                                             "first: it collapses")
+
+
+def test_a_point_with_measurements_serves_one_without(tmp_path):
+    settings = study.Settings(quick=True, events=EVENTS, out=str(tmp_path))
+    plain, measured = (study.Point(settings, "p", 2, {"discs": 5}, measure) for measure in ((), ("centre",)))
+    assert study.make([plain, measured], settings)["tasks"] == 2
+    assert plain.result["rotation"] == measured.result["rotation"]
+    again = study.Point(settings, "p", 2, {"discs": 5})
+    assert study.make([again], settings)["reused"] == 2
+
+
+def test_more_seeds_for_a_single_point():
+    settings = study.Settings(seeds_of_point={"p": 16})
+    assert [len(study.Point(settings, name, 8, {"discs": 5}).tasks) for name in "pq"] == [16, 8]
