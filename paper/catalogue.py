@@ -36,7 +36,8 @@ def drawing(name):
     for entry in entries():
         if entry[0] == name:
             return named([name])[0].draw
-    return importlib.import_module(f"figures.figure_{name.replace('5b-steady', '5b')}").draw
+    drawn_as = {"2c": "2b", "5b-steady": "5b"}
+    return importlib.import_module(f"figures.figure_{drawn_as.get(name, name)}").draw
 
 
 def named(names):

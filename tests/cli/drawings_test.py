@@ -146,6 +146,10 @@ class Drawings(unittest.TestCase):
         names = {os.path.basename(s)[len("figure_"):-len(".py")] for s in scripts}
         self.assertEqual(names | {entry[0] for entry in catalogue.entries()}, set(TABLES) | CHAPTERS)
 
+    def test_figures_with_the_same_columns_share_a_drawing(self):
+        for name, other in (("2c", "2b"), ("5b-steady", "5b")):
+            self.assertIs(catalogue.drawing(name), catalogue.drawing(other))
+
     def test_layout_of_every_figure(self):
         for name, rows in TABLES.items():
             with self.subTest(figure=name):
