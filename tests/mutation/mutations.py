@@ -220,7 +220,7 @@ MUTATIONS = [
      "the loss of a collision is wrong"),
     (ENERGY, "dot(change.push, after.container_velocity);", "-dot(change.push, after.container_velocity);",
      "the wall's work has the wrong sign"),
-    (ENERGY, "* dot(n, n);", ";", "the rounding of a normal is not in the budget"),
+    (ENERGY, "* excess;", "* 0.0;", "the rounding of a normal is not in the budget"),
     (STRESS, "tangential_.add(slice, -event.impulse.tangential);", "tangential_.add(slice, event.impulse.tangential);",
      "the traction has the wrong sign"),
     (RADIAL, "pi * (outer - inner) * (outer + inner)", "pi * (outer - inner) * (outer - inner)",

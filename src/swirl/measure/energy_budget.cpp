@@ -29,10 +29,14 @@ EnergyChange energy_change(const Event& event, const Snapshot& after) {
 
     // |n|² is 1 up to rounding. This rounding is not random, since all contacts of a pair have the
     // same distance to the last digits. The impulse acted along this very n, so |n|² belongs here.
-    // Without it the budget is off by a fifth of a rounding error per event, always to one side.
-    const double inverse_masses = (i.inverse_mass + j.inverse_mass) * dot(n, n);
-    const double inverse_tangential = inverse_masses + i.radius * i.radius * i.inverse_inertia +
-                                      j.radius * j.radius * j.inverse_inertia;
+    // Doubles above 1 are half as dense as those below it, so |n|² itself would be rounded to one
+    // side, and the budget with it: by up to three rounding errors per event. |n|² − 1 has no
+    // such bias.
+    const double long_square = larger(n.x * n.x, n.y * n.y);
+    const double excess = (long_square - 1.0) + smaller(n.x * n.x, n.y * n.y);
+    const double inverse_masses = i.inverse_mass + j.inverse_mass;
+    const double inverse_spins =
+        i.radius * i.radius * i.inverse_inertia + j.radius * j.radius * j.inverse_inertia;
     const Vec2 g = j.velocity - i.velocity;
     const double normal_after = dot(g, n);
     const double slip_after = dot(g, r) + i.radius * i.spin + j.radius * j.spin;
@@ -42,16 +46,18 @@ EnergyChange energy_change(const Event& event, const Snapshot& after) {
         change.push = -1.0 * (J.normal * n + J.tangential * r);
         change.work = dot(change.push, after.container_velocity);
     }
-    change.inelastic_loss = -J.normal * (normal_after - 0.5 * J.normal * inverse_masses);
-    change.friction_loss = -J.tangential * (slip_after - 0.5 * J.tangential * inverse_tangential);
+    const double half_excess = 0.5 * inverse_masses * excess;
+    change.inelastic_loss =
+        -J.normal * (normal_after - 0.5 * J.normal * inverse_masses - J.normal * half_excess);
+    // Two products: the sum of the inverse masses and spins would be rounded, too, and is a constant.
+    change.friction_loss = -J.tangential * (slip_after - 0.5 * J.tangential * inverse_masses -
+                                            J.tangential * (0.5 * inverse_spins + half_excess));
     if (after.are_spheres()) {
         const auto rolls = [&](std::size_t k) {
             return after.radius[k] * cross(Vec2{after.spin_x[k], after.spin_y[k]}, n);
         };
         const double vertical_after = -(rolls(event.i) + (wall ? 0.0 : rolls(event.j)));
-        const double inverse_vertical = inverse_tangential - inverse_masses;
-        change.friction_loss +=
-            -J.vertical * (vertical_after - 0.5 * J.vertical * inverse_vertical);
+        change.friction_loss += -J.vertical * (vertical_after - 0.5 * J.vertical * inverse_spins);
     }
     return change;
 }
