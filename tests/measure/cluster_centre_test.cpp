@@ -60,27 +60,20 @@ TEST(ClusterCentre, ForcesAtMAndOnADiscThatMovesWithTheWall) {
     EXPECT_NEAR(row_of(with_wall, "coriolis").mean, 2.0 * omega * omega * 5.0, 1e-9);
 }
 
+TEST(ClusterCentre, UsesEveryEighthSample) {
+    ClusterCentre centre;
+    for (int k = 0; k < 17; ++k)
+        centre.sample(resting_at({{k == 8 ? 1.0 : k == 16 ? 2.0 : 0.1 * (k % 8), 1.0}}));
+    centre.close_block();
+    EXPECT_NEAR(row_of(centre, "x").mean, (0.0 + 1.0 + 2.0) / 3.0, 1e-12);
+}
+
 TEST(ClusterCentre, IsNaNWithoutSamples) {
     ClusterCentre centre(1);
     centre.sample(empty_container());
     centre.close_block();
     EXPECT_TRUE(std::isnan(row_of(centre, "x").mean));
     EXPECT_TRUE(std::isnan(centre.direction().angle().mean));
-}
-
-TEST(ClusterCentre, MergedEqualsOneLongRun) {
-    ClusterCentre a(1), b(1), both(1);
-    for (int k = 0; k < 6; ++k) {
-        const Snapshot s = random_discs(12, std::uint64_t(k), 0.1 * k);
-        (k < 3 ? a : b).sample(s);
-        both.sample(s);
-        (k < 3 ? a : b).close_block();
-        both.close_block();
-    }
-    a.merge(b);
-    EXPECT_NEAR(row_of(a, "x").mean, row_of(both, "x").mean, 1e-12);
-    EXPECT_NEAR(a.direction().angle().mean, both.direction().angle().mean, 1e-12);
-    EXPECT_EQ(row_of(a, "elongation").blocks, row_of(both, "elongation").blocks);
 }
 
 }  // namespace

@@ -50,19 +50,5 @@ TEST(CollisionRates, AreNaNWithoutTimeOrDiscsAndZeroWithoutCollisions) {
     EXPECT_TRUE(std::isinf(quiet.mean_free_time().mean));
 }
 
-TEST(CollisionRates, MergedEqualsOneLongRun) {
-    CollisionRates whole, first, second;
-    for (int block = 0; block < 10; ++block) {
-        for (int k = 0; k < 5 + block % 3; ++k) {
-            whole.sample_event(event_of(EventKind::disc_disc));
-            (block < 4 ? first : second).sample_event(event_of(EventKind::disc_disc));
-        }
-        whole.close_event_block(2.0, 3);
-        (block < 4 ? first : second).close_event_block(2.0, 3);
-    }
-    first.merge(second);
-    EXPECT_DOUBLE_EQ(row_of(first, "disc_disc_rate").mean, row_of(whole, "disc_disc_rate").mean);
-}
-
 }  // namespace
 }  // namespace swirl

@@ -115,6 +115,16 @@ TEST(Diffusion, UnsortedOrUnevenTimesRestart) {
     EXPECT_EQ(diffusion.breaks(), 1.0);
     for (const int k : {2, 4}) sample_at(k);
     EXPECT_EQ(diffusion.breaks(), 2.0);
+    // Steps are equal to 1 %, here of 1/8 of a period.
+    for (const double step : {0.1237, 0.1238, 0.1262, 0.1263}) {
+        Diffusion even(3);
+        for (const double time : {0.0, 0.125, 0.125 + step}) {
+            Snapshot s = empty_container(time);
+            add_disc(s, s.container_centre, {0.0, 0.0});
+            even.sample(s);
+        }
+        EXPECT_EQ(even.breaks(), std::abs(step / 0.125 - 1.0) > 0.01 ? 1.0 : 0.0) << step;
+    }
     diffusion.sample(empty_container());
     EXPECT_TRUE(std::isnan(Diffusion(3).square_displacement(0).mean));
 }

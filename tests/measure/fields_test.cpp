@@ -212,5 +212,13 @@ TEST(Fields, ReportTheSameTablesWithoutData) {
     }
 }
 
+// A checkpoint with grids of another size is rejected (is_consistent), one of the same size is not.
+TEST(Fields, AreConsistentBeforeAndAfterTheFirstState) {
+    Fields fields(paper_container_radius);
+    EXPECT_TRUE(fields.is_consistent());
+    fields.sample_in_lab(random_discs(5, 1));
+    EXPECT_TRUE(fields.is_consistent());
+}
+
 }  // namespace
 }  // namespace swirl

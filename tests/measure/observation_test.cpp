@@ -45,18 +45,22 @@ Observation observation_of(std::vector<std::string> names) {
 }
 
 TEST(Observation, NeedsFollowFromTheFunctionsOfTheClass) {
-    std::set<std::string> pinned, tracks, cells, events;
+    std::set<std::string> pinned, tracks, cells, events, any_path;
     for (const MeasurementKind& kind : measurement_kinds()) {
         if (kind.needs_pinned) pinned.emplace(kind.name);
         if (kind.needs_tracks) tracks.emplace(kind.name);
         if (kind.needs_cells) cells.emplace(kind.name);
         if (kind.needs_events) events.emplace(kind.name);
+        if (!kind.needs_m_frame) any_path.emplace(kind.name);
     }
     using Names = std::set<std::string>;
     EXPECT_EQ(pinned, (Names{"pinned", "slip", "frustration"}));
     EXPECT_EQ(tracks, (Names{"pinned", "slip", "frustration", "diffusion"}));
     EXPECT_EQ(cells, (Names{"order", "packing", "segregation"}));
     EXPECT_EQ(events, (Names{"collisions", "wall", "energy", "torque", "collision_angles"}));
+    EXPECT_EQ(any_path, (Names{"collisions", "contact_network", "diffusion", "energy",
+                               "fluctuations", "order", "packing", "pair_correlation", "radial",
+                               "rolling", "segregation", "velocity_correlation"}));
 }
 
 TEST(Observation, UsesEveryFrameAndEvery32ndEvent) {
@@ -162,22 +166,6 @@ TEST(Observation, RowsAndColumnsAreCompleteWithoutSamples) {
     }
 }
 
-TEST(Observation, MergedHasTheBlocksOfBoth) {
-    Observation whole = observation_of(everything()), first = observation_of(everything()),
-                second = observation_of(everything());
-    observe(whole, 5, 120);
-    observe(first, 2, 120);
-    observe(second, 3, 120);
-    first.merge(second);
-    const auto merged = first.report(), expected = whole.report();
-    const auto mean = [](const std::vector<MeasurementReport>& reports) {
-        return report_of(reports, "temperature").rows.front().estimate;
-    };
-    EXPECT_EQ(mean(merged).blocks, 5u);
-    // The same samples, added in another order.
-    EXPECT_NEAR(mean(merged).mean, mean(expected).mean, 1e-12);
-}
-
 /// Every number of a report, in order.
 std::vector<double> numbers_in(const Report& report) {
     std::vector<double> numbers;
@@ -205,6 +193,24 @@ TEST(Observation, AMeasurementReportsTheSameAloneAndAmongAll) {
                         Pointwise(NanSensitiveDoubleEq(), numbers_in(report_of(among_all, name))))
                 << name;
         }
+    }
+}
+
+// Pinned discs of a frame are known seven frames later; then it must still be stored.
+TEST(PinnedFrames, EarlierIsTheFrameOfSevenSamplesAgo) {
+    for (const double rate : {511.0, 2.0 * 511.0}) {
+        PinnedFrames frames(rate);
+        const int delay = rate > 511.0 ? 14 : 7;
+        for (int k = 0; k < 50; ++k) {
+            frames.sample(random_discs(3, 7, k / rate));
+            if (k < 2 * delay) {
+                EXPECT_EQ(frames.earlier(), nullptr) << k;
+                continue;
+            }
+            ASSERT_NE(frames.earlier(), nullptr) << k;
+            EXPECT_EQ(frames.earlier()->time, empty_container((k - delay) / rate).time()) << k;
+        }
+        EXPECT_TRUE(frames.is_consistent());
     }
 }
 
@@ -259,6 +265,21 @@ TEST(SampleTimes, AreEquallySpacedAndThePeriodIsHalfOpen) {
     s.periods = 1;
     ASSERT_TRUE(times.next(s, path, 0.0));
     EXPECT_EQ(s.clock, 0.0);
+}
+
+TEST(SampleTimes, DueIsTheNextTimeOfThisPeriodAndZeroInAnother) {
+    const ContainerPath path = polygon_path(1.0, 2.0, 6);
+    SampleTimes times(4, 2.0);
+    Snapshot s;
+    s.period = 2.0;
+    EXPECT_EQ(times.due(0), 0.0);  // not yet determined
+    ASSERT_TRUE(times.next(s, path, 0.0));
+    EXPECT_EQ(times.due(0), 0.5);
+    EXPECT_EQ(times.due(1), 0.0);
+    while (times.next(s, path, 2.0)) {
+    }
+    EXPECT_EQ(times.due(0), never);
+    EXPECT_EQ(times.due(1), 0.0);
 }
 
 TEST(SampleTimes, IntervalContinuesAcrossPeriods) {

@@ -103,21 +103,5 @@ TEST(PairCorrelation, IsNaNBeyondTheContainerAndForASingleDisc) {
     EXPECT_FALSE(std::isnan(correlation.inner_g(bins.bin_of(3.15)).mean));
 }
 
-TEST(PairCorrelation, MergedEqualsOneLongRun) {
-    PairCorrelation whole(R, 1), first(R, 1), second(R, 1);
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-        const Snapshot s = ideal_gas(30, seed);
-        for (PairCorrelation* one : {&whole, seed <= 3 ? &first : &second}) {
-            one->sample(s);
-            one->close_block();
-        }
-    }
-    first.merge(second);
-    for (const std::size_t bin : {20u, 25u, 31u}) {
-        EXPECT_DOUBLE_EQ(first.g(bin).mean, whole.g(bin).mean);
-        EXPECT_NEAR(first.inner_g(bin).mean, whole.inner_g(bin).mean, 1e-13);
-    }
-}
-
 }  // namespace
 }  // namespace swirl

@@ -110,6 +110,33 @@ TEST(PinnedLoose, FindsTheAnglesOfAKnownCycle) {
     EXPECT_EQ(pinning.breaks(), 0.0);
 }
 
+// The SI's two numbers, each with a motion on either side of it.
+TEST(PinnedLoose, DeviationIsTenDegrees) {
+    for (const double angle : {9.8, 10.2}) {
+        // A spiral: its direction is always off the azimuthal one by this angle. The line that is
+        // fitted to 15 frames has that of the spiral to 0.01°.
+        const double growth = std::tan(angle * degree) * 2.0 * pi / frames;
+        PinnedLoose pinning;
+        for (int k = 0; k < 40; ++k)
+            pinning.sample(frame_of(k, 1, [&](std::size_t, int t) {
+                return 4.0 * std::exp(growth * t) * unit_circle(1.0 - double(t) / frames);
+            }));
+        EXPECT_EQ(pinning.pinned().at(0), angle < 10.0 ? 1 : 0) << angle;
+    }
+}
+TEST(PinnedLoose, SharpTurnChangesTheVelocityByHalfTheSpeedOfTheWall) {
+    for (const double change : {0.49, 0.51}) {
+        const double step = change * paper_container_radius * 2.0 * pi / frames;
+        PinnedLoose pinning;
+        for (int k = 0; k < 40; ++k)  // at rest, then outwards
+            pinning.sample(frame_of(k, 1, [&](std::size_t, int t) {
+                return Vec2{1.0 + step * std::max(t - 20, 0), 0};
+            }));
+        pinning.close_block();
+        EXPECT_EQ(pinning.pinning().count(), change < 0.5 ? 0.0 : 1.0) << change;
+    }
+}
+
 TEST(PinnedLoose, RunningFitEqualsTheFitFromScratch) {
     // A long track: pinned or not must not depend on how long ago the track began.
     const auto path = [](std::size_t i, int t) {
@@ -173,25 +200,6 @@ TEST(PinnedLoose, UnevenTimesBreakTheTracks) {
     EXPECT_TRUE(pinning.pinned().empty());
 }
 
-TEST(PinnedLoose, MergedRunsHaveTheAnglesOfBoth) {
-    PinnedLoose whole, first, second;
-    for (int k = 0; k < 10 * frames; ++k) {
-        const Snapshot s = frame_of(k, 1, [](std::size_t, int t) { return cycle(t); });
-        first.sample(s);
-        second.sample(s);
-        whole.sample(s);
-        if (k % frames == frames - 1) {
-            first.close_block();
-            second.close_block();
-            whole.close_block();
-        }
-    }
-    first.merge(second);
-    EXPECT_EQ(first.depinning().count(), 2.0 * whole.depinning().count());
-    EXPECT_NEAR(first.depinning().angle().mean, whole.depinning().angle().mean, 1e-14);
-    EXPECT_NEAR(first.share().mean, whole.share().mean, 1e-15);
-}
-
 Event collision_at(EventKind kind, std::uint32_t i, std::uint32_t j) {
     return {0, 0.0, kind, i, j, {1.0, 0.0}, {1.0, 0.0, false}, 0.0};
 }
@@ -237,6 +245,13 @@ TEST(PinnedByCollisions, BothPartnersCountAndFlightsContinueAcrossPeriods) {
     pinning.close_block();
     EXPECT_EQ(pinning.pinning().count(), 2.0);
     EXPECT_NEAR(pinning.pinning().angle().mean, 0.5 * pi, 1e-14);
+}
+
+TEST(PinnedByCollisions, IsConsistent) {
+    PinnedByCollisions pinning;
+    EXPECT_TRUE(pinning.is_consistent());
+    pinning.sample_event(collision_at(EventKind::disc_wall, 0, 0), random_discs(3, 1));
+    EXPECT_TRUE(pinning.is_consistent());
 }
 
 }  // namespace

@@ -230,29 +230,5 @@ TEST(LocalStructure, ResidentValuesAreThoseAtTheTimeOfTheSample) {
     EXPECT_GT(std::abs(packing.all().mean - phi), 1e-3);
 }
 
-TEST(LocalStructure, IsNaNWithoutDiscsAndMergedEqualsOneLongRun) {
-    HexaticOrder order, first, second;
-    LocalPacking packing, one, two;
-    EXPECT_TRUE(std::isnan(order.all().mean));
-    EXPECT_TRUE(std::isnan(packing.all().mean));
-    for (int k = 0; k < 10; ++k) {
-        const MFrameView view(random_discs(20, k + 1, k / 10.0));
-        Voronoi cells;
-        cells.find(view);
-        order.sample(view, cells);
-        order.close_block();
-        packing.sample(view, cells);
-        packing.close_block();
-        (k < 4 ? first : second).sample(view, cells);
-        (k < 4 ? first : second).close_block();
-        (k < 4 ? one : two).sample(view, cells);
-        (k < 4 ? one : two).close_block();
-    }
-    first.merge(second);
-    one.merge(two);
-    EXPECT_NEAR(first.all().mean, order.all().mean, 1e-15);
-    EXPECT_NEAR(one.all().mean, packing.all().mean, 1e-15);
-}
-
 }  // namespace
 }  // namespace swirl

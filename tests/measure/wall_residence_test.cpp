@@ -71,18 +71,35 @@ TEST(WallResidences, LengthsHaveADistribution) {
     EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-// The minimum length is 40 steps, from the first to the last of 41 samples.
-TEST(WallResidences, MinimumLengthIsInclusive) {
-    for (const int length : {41, 40}) {
+TEST(WallResidences, LayersAre13And15And17RadiiWide) {
+    // Between the edges of the layers, 1.3, 1.5 and 1.7 from the wall, 0.01 on either side of them.
+    const std::vector<double> distances{1.29, 1.31, 1.49, 1.51, 1.69, 1.71};
+    const std::vector<std::size_t> layers{3, 2, 2, 1, 1, 0};  // that contain the disc
+    for (std::size_t d = 0; d < distances.size(); ++d) {
         WallResidences residences;
-        for (int k = 0; k < 200; ++k) {
-            const bool at_wall = k >= 50 && k < 50 + length;
-            residences.sample(at_sample(k, {{0.0, at_wall ? 7.6 : 3.0}}));
-        }
+        for (int k = 0; k < samples; ++k)
+            residences.sample(at_sample(k, {{0.0, paper_container_radius - distances[d]}}));
         residences.close_block();
-        EXPECT_EQ(residences.depinning().count(), length == 41 ? 1.0 : 0.0);
-        EXPECT_EQ(residences.pinning().count(), length == 41 ? 1.0 : 0.0);
-        EXPECT_NEAR(residences.share().mean, length == 41 ? 41.0 / 200.0 : 0.0, 1e-15);
+        for (std::size_t layer = 0; layer < 3; ++layer)
+            EXPECT_EQ(residences.share(layer).mean > 0.9, layer + layers[d] >= 3) << d << layer;
+    }
+}
+
+// The minimum lengths are 20, 40 and 80 steps, from the first of 21, 41 and 81 samples to the last.
+TEST(WallResidences, MinimumLengthsAre20And40And80Steps) {
+    for (const int steps : {19, 20, 39, 40, 79, 80}) {
+        WallResidences residences;
+        for (int k = 0; k < 200; ++k)
+            residences.sample(at_sample(k, {{0.0, k >= 50 && k <= 50 + steps ? 7.6 : 3.0}}));
+        residences.close_block();
+        for (const std::size_t minimum : {0u, 1u, 2u}) {
+            const bool counts = steps >= 20 << minimum;
+            const auto layer = WallResidences::standard;
+            EXPECT_EQ(residences.depinning(layer, minimum).count(), counts ? 1.0 : 0.0) << steps;
+            EXPECT_EQ(residences.pinning(layer, minimum).count(), counts ? 1.0 : 0.0) << steps;
+            EXPECT_NEAR(residences.share(layer, minimum).mean, counts ? (steps + 1) / 200.0 : 0.0,
+                        1e-15);
+        }
     }
 }
 
@@ -113,22 +130,6 @@ TEST(WallResidences, ChangeOfTheNumberOfDiscsRestarts) {
     for (int k = 60; k < 70; ++k) residences.sample(at_sample(k, {{0.0, 0.0}, {3.0, 0.0}}));
     residences.close_block();
     EXPECT_EQ(residences.depinning().count(), 0.0);  // 30 samples each time
-}
-
-TEST(WallResidences, MergedEqualsOneLongRun) {
-    WallResidences a, b, both;
-    for (int k = 0; k < 4 * samples; ++k) {
-        WallResidences& one = k < 2 * samples ? a : b;
-        const Snapshot s = at_sample(k, {rounds(k)});
-        one.sample(s);
-        both.sample(s);
-        if (k % samples != samples - 1) continue;
-        one.close_block();
-        both.close_block();
-    }
-    a.merge(b);
-    EXPECT_NEAR(a.share().mean, both.share().mean, 1e-12);
-    EXPECT_EQ(a.depinning().count(), both.depinning().count());
 }
 
 }  // namespace

@@ -48,25 +48,5 @@ TEST(WallStress, CountsOnlyWallCollisionsAndIsNaNWithoutTime) {
     EXPECT_EQ(stress.mean_traction().mean, 0.0);
 }
 
-TEST(WallStress, MergedEqualsOneLongRun) {
-    WallStress whole(R), first(R), second(R);
-    Noise noise(2);
-    for (int block = 0; block < 10; ++block) {
-        for (int k = 0; k < 30; ++k) {
-            const double u = 0.5 + 0.5 * noise(), v = 0.5 + 0.5 * noise();
-            const Impulse J{1.0 + noise(), noise(), false};
-            hit(whole, u, v, J);
-            hit(block < 4 ? first : second, u, v, J);
-        }
-        whole.close_event_block(1.0);
-        (block < 4 ? first : second).close_event_block(1.0);
-    }
-    first.merge(second);
-    for (std::size_t k = 0; k < whole.slices(); ++k) {
-        EXPECT_NEAR(first.pressure(k).mean, whole.pressure(k).mean, 1e-15);
-        EXPECT_NEAR(first.traction(k).error, whole.traction(k).error, 1e-9);
-    }
-}
-
 }  // namespace
 }  // namespace swirl

@@ -1,18 +1,18 @@
 """Mutation testing: does a test fail when the source is wrong? (docs/explanation/reliability.md)
 
-Each entry of mutations.py changes one piece of text in a source file of statistics, measure or physics. The
-mutated file goes to a scratch folder that the compiler searches first; the source tree is not
-changed. For every test file of that layer that includes the mutated file, this script compiles one
-program and runs it, until one fails: then the mutation is killed. Each program must pass without
-the mutation before it may kill one.
+A mutation changes one piece of text in a source file. The mutated file goes to a scratch folder that the
+compiler searches first; the source tree is not changed. For every test file that includes the mutated
+file, this script compiles one program and runs it, until one fails: then the mutation is killed. The tests
+of the file's own layer come first. Each program must pass without the mutation before it may kill one.
 
-    mutate.py                       all mutations
+    mutate.py                       the chosen mutations of mutations.py
     mutate.py measure/slip          those of files whose path contains this text
     mutate.py --number 17           one mutation
     mutate.py --check               only checks that each text occurs exactly once
+    mutate.py --random 100 --seed 4 mutations drawn from a seed (draw.py)
 
-The exit code is 1 if a mutation survives that the table does not declare equivalent, if an equivalent one
-is killed, if one does not compile, or if the table no longer matches the sources.
+The exit code is 1 if a mutation survives that the table (or equivalent.py) does not declare equivalent, if an
+equivalent one is killed, if a chosen one does not compile, or if the table no longer matches the sources.
 """
 
 import argparse
@@ -28,6 +28,8 @@ import sys
 import tempfile
 import threading
 
+import draw
+from equivalent import EQUIVALENT
 from mutations import MUTATIONS
 
 SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
@@ -38,7 +40,11 @@ FLAGS = ["-std=c++20", "-O1", "-w", "-DNDEBUG", "-fno-math-errno", "-fno-trappin
 WIDE = {"_avx2.cpp": ["-mavx2"],
         "_avx512.cpp": ["-mavx512f", "-mavx512vl", "-mavx512dq", "-mavx512bw",
                         "-mprefer-vector-width=512"]}
-LIBRARIES = ["-lrapidcheck", "-lgmock_main", "-lgmock", "-lgtest"]
+LIBRARIES = ["-lrapidcheck", "-lgmock_main", "-lgmock", "-lgtest", "-lfmt", "-lhdf5_serial", "-lhdf5_serial_hl"]
+# In this order; a test belongs to the layer of its folder. The higher layers need other programs to be tested.
+LAYERS = ("math", "physics", "engine", "statistics", "measure", "io", "run", "study")
+# Of these folders a test links the files whose headers it includes, of the others all files.
+BY_HEADER = ("src/swirl/statistics", "src/swirl/measure")
 # Test programs of these layers need a few seconds. A mutated one may run without end.
 CPU_SECONDS = 60
 
@@ -58,13 +64,17 @@ def included(path):
             continue
         found.add(path)
         for name in re.findall(r'^#include "([^"]+)"', text_of(path), re.M):
-            waiting.append(("src/" if name.startswith("swirl/") else "tests/") + name)
+            folder = "src" if name.startswith("swirl/") else "bench" if name.startswith("baselines/") else "tests"
+            if name != "version.inc":  # made by the build
+                waiting.append(f"{folder}/{name}")
     return frozenset(found)
 
 
+@functools.lru_cache(maxsize=None)
 def sources_in(folder, ending):
-    names = sorted(os.listdir(os.path.join(SOURCE, folder)))
-    return [f"{folder}/{name}" for name in names if name.endswith(ending)]
+    return sorted(os.path.relpath(os.path.join(where, name), SOURCE)
+                  for where, _, names in os.walk(os.path.join(SOURCE, folder)) for name in names
+                  if name.endswith(ending))
 
 
 @functools.lru_cache(maxsize=None)
@@ -73,36 +83,41 @@ def parts(test):
     needed, grew = [test], True
     while grew:
         headers = frozenset().union(*(included(part) for part in needed))
-        more = [cpp for layer in ("statistics", "measure")
-                for cpp in sources_in(f"src/swirl/{layer}", ".cpp") if cpp not in needed and
-                re.sub(r"(_avx2|_avx512)?\.cpp$", ".hpp", cpp) in headers]
+        more = [cpp for folder in ("bench/baselines", *(f"src/swirl/{layer}" for layer in LAYERS))
+                if folder in BY_HEADER or any(header.startswith(folder) for header in headers)
+                for cpp in sources_in(folder, ".cpp") if cpp not in needed and
+                (folder not in BY_HEADER or re.sub(r"(_avx2|_avx512)?\.cpp$", ".hpp", cpp) in headers)]
         needed, grew = needed + more, bool(more)
     return tuple(needed)
 
 
-def tests_of(file):
-    """The test files of the layer that include the file; the one with its name comes first."""
-    layer = file.split("/")[2]
-    stem = os.path.basename(file).split(".")[0]
-    folders = ("statistics", "measure") if layer == "statistics" else (layer,)
-    tests = [test for folder in folders for test in sources_in(f"tests/{folder}", "_test.cpp")
+def tests_of(file, layers=LAYERS):
+    """The test files that include the file: those of its own layer first, then the one with its name."""
+    own, stem = file.split("/")[2], os.path.basename(file).split(".")[0]
+    tests = [test for layer in layers for test in sources_in(f"tests/{layer}", "_test.cpp")
              if any(file in included(part) for part in parts(test))]
-    return sorted(tests, key=lambda test: (os.path.basename(test) != stem + "_test.cpp",
+    return sorted(tests, key=lambda test: (test.split("/")[1] != own, LAYERS.index(test.split("/")[1]),
+                                           os.path.basename(test) != stem + "_test.cpp",
                                            file not in included(test), test))
 
 
 class Builder:
     """Compiles and runs test programs in a scratch folder, and caches the objects."""
 
-    def __init__(self, scratch):
+    def __init__(self, scratch, baseline_only=False):
         self.scratch = scratch
+        self.flags = FLAGS + [f"-I{scratch}", "-isystem/usr/include/hdf5/serial", '-DSWIRL_BUILD="mutated"']
+        if baseline_only:  # the vector width; the wide loops are the same source
+            self.flags.append("-DSWIRL_BASELINE_ONLY=1")
+        with open(os.path.join(scratch, "version.inc"), "w", encoding="utf-8") as file:
+            file.write('#define SWIRL_VERSION "0"\n#define SWIRL_COMMIT "0"\n')
         self.lock = threading.Lock()
         self.baselines = {}
         self.headers = os.path.join(scratch, "headers.hpp")
         with open(self.headers, "w", encoding="utf-8") as file:
             file.write("#include <gmock/gmock.h>\n#include <gtest/gtest.h>\n"
                        "#include <rapidcheck.h>\n#include <rapidcheck/gtest.h>\n")
-        subprocess.run([COMPILER, *FLAGS, "-x", "c++-header", self.headers, "-o",
+        subprocess.run([COMPILER, *self.flags, "-x", "c++-header", self.headers, "-o",
                         self.headers + ".gch"], check=True)
 
     def compiled(self, part, file, text, overlay):
@@ -121,9 +136,9 @@ class Builder:
         # The precompiled headers were compiled without these flags, so they cannot be used.
         headers = [] if wide else ["-include", self.headers]
         made = target + f".{threading.get_ident()}"
-        search = ["-I" + folder for folder in (overlay, os.path.join(SOURCE, "src"),
-                                               os.path.join(SOURCE, "tests"))]
-        result = subprocess.run([COMPILER, *FLAGS, *wide, *headers, *search, "-c", where, "-o",
+        folders = [overlay, *(os.path.join(SOURCE, folder) for folder in ("src", "tests", "bench"))]
+        search = ["-I" + folder for folder in folders]
+        result = subprocess.run([COMPILER, *self.flags, *wide, *headers, *search, "-c", where, "-o",
                                  made], capture_output=True, text=True)
         if result.returncode != 0:
             return None
@@ -135,6 +150,8 @@ class Builder:
         the test or the file concerned."""
         objects = []
         for part in parts(test):
+            if "_avx" in part and "-DSWIRL_BASELINE_ONLY=1" in self.flags:
+                continue
             made = self.compiled(part, file, text, overlay or self.scratch)
             if made is None:
                 return "not compiled", part
@@ -159,24 +176,22 @@ class Builder:
         with self.lock:
             if test not in self.baselines:
                 self.baselines[test] = self.run(test)
-        if self.baselines[test][0] != "passed":
-            sys.exit(f"error: {test} fails without a mutation: {self.baselines[test]}")
+                if self.baselines[test][0] != "passed":
+                    print(f"warning: {test} fails without a mutation: {self.baselines[test]}", flush=True)
+        return self.baselines[test][0] == "passed"
 
-    def judge(self, number):
+    def judge(self, name, file, text, layers=LAYERS):
         """Returns "killed", "survived" or "not compiled", and the test or the file concerned."""
-        file, before, after, *_ = MUTATIONS[number]
-        text = text_of(file).replace(before, after)
-        overlay = os.path.join(self.scratch, f"mutation_{number}")
+        overlay = os.path.join(self.scratch, f"mutation_{name}")
         where = os.path.join(overlay, file.removeprefix("src/"))
         os.makedirs(os.path.dirname(where))
         with open(where, "w", encoding="utf-8") as opened:
             opened.write(text)
-        for test in tests_of(file):
-            self.passes_unchanged(test)
+        for test in tests_of(file, layers):
             outcome, what = self.run(test, file, text, overlay)
             if outcome == "not compiled":
                 return outcome, what
-            if outcome != "passed":
+            if outcome != "passed" and self.passes_unchanged(test):
                 return "killed", what if outcome == "failed" else f"{what} (out of time)"
         return "survived", ""
 
@@ -192,26 +207,20 @@ def check_table():
     return wrong
 
 
-def main():
-    call = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    call.add_argument("part", nargs="?", default="", help="mutate files whose path contains this")
-    call.add_argument("--number", type=int, nargs="*", help="numbers of the mutations to run")
-    call.add_argument("--check", action="store_true", help="check the table only")
-    call.add_argument("--jobs", type=int, default=1, help="mutations at a time [1]")
-    options = call.parse_args()
-    os.nice(19 - os.nice(0))
-    if check_table() > 0:
-        return 1
+def run_chosen(options, pool):
     chosen = [number for number, (file, *_) in enumerate(MUTATIONS) if options.part in file and
               (not options.number or number in options.number)]
-    if options.check:
-        print(f"{len(MUTATIONS)} mutations, each text found exactly once")
-        return 0
+
+    def judge(builder, number):
+        file, before, after, _, *equivalent = MUTATIONS[number]
+        # Only the tests of its layer for what no test can notice.
+        layers = (file.split("/")[2], "measure") if equivalent else LAYERS
+        return builder.judge(number, file, text_of(file).replace(before, after), layers)
+
     count, wrong = {"killed": 0, "equivalent": 0, "survived": 0, "not compiled": 0}, 0
-    with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch, \
-            concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+    with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
         builder = Builder(scratch)
-        for number, (outcome, what) in zip(chosen, pool.map(builder.judge, chosen)):
+        for number, (outcome, what) in zip(chosen, pool.map(functools.partial(judge, builder), chosen)):
             file, before, after, description, *equivalent = MUTATIONS[number]
             if outcome == "survived" and equivalent:
                 outcome, what = "equivalent", equivalent[0]
@@ -223,7 +232,57 @@ def main():
             if outcome == "killed" and equivalent:
                 print("    error: the table declares it equivalent", flush=True)
     print(f"{len(chosen)} mutations: " + ", ".join(f"{n} {name}" for name, n in count.items()))
-    return 1 if wrong else 0
+    return wrong
+
+
+def run_random(options, pool):
+    reasons = {(file, before, after): reason for file, before, after, reason in EQUIVALENT}
+    count = {"killed": 0, "equivalent": 0, "survived": 0, "not compiled": 0}
+
+    def judge(builder, number, site):
+        file, line, before, after, _ = site
+        if (file, before.strip(), after.strip()) in reasons:
+            return "equivalent", reasons[file, before.strip(), after.strip()]
+        lines = text_of(file).splitlines(keepends=True)
+        lines[line - 1] = after + "\n"
+        layers = (file.split("/")[2],) if options.own_layer else LAYERS
+        return builder.judge(f"random_{number}", file, "".join(lines), layers)
+
+    with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
+        builder = Builder(scratch, baseline_only=True)
+        chosen = [(number, site) for number, site in
+                  enumerate(draw.drawn(SOURCE, options.random, options.seed))
+                  if options.part in site[0] and (not options.number or number in options.number)]
+        judged = pool.map(lambda numbered: judge(builder, *numbered), chosen)
+        for (number, site), (outcome, what) in zip(chosen, judged):
+            file, line, before, after, operator = site
+            count[outcome] += 1
+            print(f"{number:3} {outcome:12} {file.removeprefix('src/')}:{line} ({operator}){' — ' * bool(what)}{what}")
+            if outcome == "survived":
+                print(f"    - {before.strip()}\n    + {after.strip()}")
+            sys.stdout.flush()
+    print(f"seed {options.seed}: " + ", ".join(f"{n} {name}" for name, n in count.items()))
+    return count["survived"]
+
+
+def main():
+    call = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    call.add_argument("part", nargs="?", default="", help="mutate files whose path contains this")
+    call.add_argument("--number", type=int, nargs="*", help="numbers of the mutations to run")
+    call.add_argument("--check", action="store_true", help="check the table only")
+    call.add_argument("--random", type=int, default=0, metavar="COUNT", help="draw this many mutations")
+    call.add_argument("--seed", type=int, default=1, help="of the random mutations [1]")
+    call.add_argument("--own-layer", action="store_true", help="random ones: run the tests of the file's layer only")
+    call.add_argument("--jobs", type=int, default=1, help="mutations at a time [1]")
+    options = call.parse_args()
+    os.nice(max(0, 15 - os.nice(0)))
+    if check_table() > 0:
+        return 1
+    if options.check:
+        print(f"{len(MUTATIONS)} mutations, each text found exactly once")
+        return 0
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        return 1 if (run_random if options.random else run_chosen)(options, pool) else 0
 
 
 if __name__ == "__main__":

@@ -35,6 +35,11 @@ DISC = "src/swirl/physics/disc.hpp"
 TURNED = "src/swirl/physics/orientation.hpp"
 SNAPSHOT = "src/swirl/physics/snapshot.hpp"
 BALL = "src/swirl/physics/rolling_ball.hpp"
+PINNED_HPP = "src/swirl/measure/pinned_loose.hpp"
+RESIDENCES_HPP = "src/swirl/measure/wall_residence.hpp"
+OBSERVATION = "src/swirl/measure/observation.hpp"
+TIMES = "src/swirl/measure/sample_times.hpp"
+FIELDS = "src/swirl/measure/fields.hpp"
 
 MUTATIONS = [
     # Means and their errors.
@@ -272,4 +277,26 @@ MUTATIONS = [
      "double rotation_in_m_frame() const { return gamma(); }", "the ball turns the wrong way"),
     (BALL, "phase - ball.lag / (2.0 * pi)", "phase + ball.lag / (2.0 * pi)",
      "the ball settles ahead of M"),
+    # Survivors of random mutations: definitions that were tested only where they could not fail.
+    (PINNED_HPP, "sharp_turn = 0.5;", "sharp_turn = 0.6;", "a sharp turn needs a larger change"),
+    (PINNED_HPP, "deviation = pi / 18.0;", "deviation = pi / 17.0;", "parallel is within 10.6° of the wall"),
+    (PINNED_HPP, "return last_.size() == longest_.size();", "return last_.size() != longest_.size();",
+     "a valid checkpoint of pinned discs is rejected"),
+    (STEADY, "early.effective_samples - 2.0, b", "early.effective_samples - 3.0, b",
+     "a straight line costs three degrees of freedom"),
+    (STEADY, "all.effective_samples - 4.0", "all.effective_samples - 5.0",
+     "two straight lines cost five degrees of freedom"),
+    (RESIDENCES_HPP, "layers{1.3,", "layers{1.4,", "the narrow wall layer is wider"),
+    (RESIDENCES_HPP, "minimum{0.5 * long_residence", "minimum{0.55 * long_residence",
+     "the shortest pinned residence is longer"),
+    (CENTRE, "int every = 8", "int every = 9", "the centre takes every ninth sample"),
+    (DIFFUSION, "samples_ < 2 ||", "samples_ < 3 ||", "the third sample may come at any time"),
+    (DIFFUSION, "0.01 * step_", "0.011 * step_", "unequal time steps pass as equal"),
+    (SNAPSHOT, "on_floor = false;", "on_floor = true;", "discs are on a floor unless said"),
+    (FIELDS, "grid.grid().side != side_) return false", "grid.grid().side == side_) return false",
+     "a valid checkpoint of fields is rejected"),
+    (TIMES, "return periods == periods_", "return periods != periods_",
+     "the next sample is due in another period"),
+    (OBSERVATION, "recent_(delay() + 1)", "recent_(delay() - 1)",
+     "the frame of which the pinned discs are known is no longer stored"),
 ]

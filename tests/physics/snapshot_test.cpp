@@ -72,5 +72,11 @@ TEST(Snapshot, UpToDateKeepsPositionsAndSetsTheTime) {
     }
 }
 
+TEST(Snapshot, IsOfDiscsWithoutFloorUnlessSaid) {
+    const Snapshot s;
+    EXPECT_FALSE(s.on_floor || s.lie_flat || s.are_spheres() || s.are_balls());
+    EXPECT_EQ(s.time(), 0.0);
+}
+
 }  // namespace
 }  // namespace swirl
