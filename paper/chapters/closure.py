@@ -1,0 +1,84 @@
+"""The coefficients of a micropolar fluid (micropolar.py), and the share of the stresses that they explain, by packing
+fraction, in several dishes."""
+
+import style
+from chapters.fields import LEAST_POINTS, RANGES, WALL, dish_points, seeds_of
+from curves import CERTAIN
+from figure import Figure
+from micropolar import RELATIONS, fit_relation
+
+PANELS = (("rotational_viscosity", r"rotational viscosity $\Gamma$"), ("shear_viscosity", r"shear viscosity $\eta$"),
+          ("spin_diffusion", "spin diffusion $D$"), ("odd_viscosity", r"odd viscosity $\eta_o$"))
+TICKS = (0.2, 0.5, 1, 2, 5, 10, 20, 50)
+
+
+def closure_points(settings):
+    return dish_points(settings, [(17.2, 0.45)] if settings.quick else
+                       [(34.4, 0.42), (34.4, 0.26), (34.4, 0.55), (17.2, 0.45)])
+
+
+def closure_table(points, settings):
+    rows, findings = [], []
+    dishes = [(point, seeds_of(point)) for point in points]
+    for relation in RELATIONS:
+        fits, certain = 0, []
+        for point, seeds in dishes:
+            for low, high in RANGES:
+                fit = fit_relation(seeds, relation, low, high, point.cells["container_radius"] - WALL)
+                if fit.points < LEAST_POINTS:
+                    continue
+                rows.append({**point.cells, "relation": relation.name, "packing_low": low, "packing_high": high,
+                             "coefficient": fit.coefficient[0], "coefficient_error": fit.coefficient[1],
+                             "explained": fit.explained[0], "explained_error": fit.explained[1], "points": fit.points,
+                             "seeds": len(seeds)})
+                fits += 1
+                if fit.coefficient[0] > CERTAIN * fit.coefficient[1]:
+                    certain.append(fit.explained[0])
+        explained = certain and f", where it explains {min(certain):.2f} to {max(certain):.2f} of the {relation.explains}"
+        findings.append(f"The {relation.words} is certainly positive in {len(certain)} of {fits} ranges of the packing "
+                        f"fraction{explained or ''}.")
+    return {"": rows}, findings
+
+
+def show_certain(axes, rows):
+    """Limits that show all coefficients with a certain sign. Others may have errors that are many times larger."""
+    ends = [0.0] + [row["coefficient"] + sign * row["coefficient_error"] for row in rows for sign in (-1, 1)
+                    if abs(row["coefficient"]) > 3 * row["coefficient_error"]]
+    if max(ends) > min(ends):
+        margin = 0.3 * (max(ends) - min(ends))
+        axes.set_ylim(min(ends) - margin, max(ends) + margin)
+
+
+def draw_closure(table):
+    rows = style.read(table)
+    drawing, axes = style.figure(style.PAGE, 4.2, ncols=len(PANELS), nrows=2, sharex=True)
+    dishes = sorted({(row["container_radius"], row["discs"]) for row in rows})
+    for column, (relation, words) in enumerate(PANELS):
+        upper, lower = axes[0][column], axes[1][column]
+        style.zero_line(upper)
+        for k, (radius, discs) in enumerate(dishes):
+            here = [row | {"packing": 0.5 * (row["packing_low"] + row["packing_high"]) + 0.008 * (k - 1.5)}
+                    for row in style.select(rows, container_radius=radius, discs=discs, relation=relation)]
+            look = {"color": style.CYCLE[k], "marker": style.MARKERS[k], "linestyle": "-", "linewidth": 0.6,
+                    "elinewidth": 0.7}
+            for panel, name in ((upper, "coefficient"), (lower, "explained")):
+                panel.errorbar(style.column(here, "packing"), style.column(here, name),
+                               yerr=style.column(here, name + "_error"), **look,
+                               label=f"$R/r$ = {radius:g}, $N$ = {discs:.0f}")
+        if relation == "shear_viscosity":
+            upper.set_yscale("log")
+            upper.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
+            upper.minorticks_off()
+        else:
+            show_certain(upper, style.select(rows, relation=relation))
+        upper.set_title(words)
+        lower.set_ylim(0, 1.02)
+        lower.set_xlabel(r"packing fraction $\varphi$")
+    axes[0][0].set_ylabel(r"coefficient/$\sqrt{mT}$")
+    axes[1][0].set_ylabel("share explained")
+    style.legend_of_all(drawing, *axes[0][0].get_legend_handles_labels(), ncol=4)
+    style.save(drawing, table)
+
+
+FIGURES = [Figure("closure", "chapters", "chapter: the coefficients of a micropolar fluid", closure_points, closure_table,
+                  draw_closure)]

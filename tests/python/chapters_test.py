@@ -1,0 +1,99 @@
+"""The statistics of the chapters, on curves and fields whose answers are known in closed form."""
+
+import math
+import os
+import sys
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
+from coarse_zero import last_zero, zero_of_curve  # noqa: E402
+from jackknife import jackknife  # noqa: E402
+from micropolar import RELATIONS, Relation, fit_relation  # noqa: E402
+
+EXACT = 1e-12  # rounding errors of sums of a few hundred terms
+
+
+def curve(function, numbers, error=1e-6):
+    return [(n, function(n), error) for n in numbers]
+
+
+def test_the_zero_of_a_parabola_is_exact():
+    zero, falls = last_zero(curve(lambda n: 1 - (n / 30) ** 2, (20, 26, 35, 44)))
+    assert falls and zero.discs == pytest.approx(30, abs=EXACT) and zero.interpolation < EXACT
+
+
+def test_the_zero_of_a_cubic_is_within_its_interpolation_error():
+    zero = zero_of_curve(curve(lambda n: -((n - 30) / 10) ** 3 - 0.1 * (n - 30), (18, 26, 36, 46)), 1)
+    # The two parabolas bound the zero, more closely than the two points alone do.
+    assert abs(zero.discs - 30) <= zero.interpolation < 10 / math.sqrt(12)
+
+
+def test_two_points_leave_the_uniform_error_of_their_distance():
+    zero = zero_of_curve(curve(lambda n: 30 - n, (28, 34)), 0)
+    assert (zero.discs, zero.interpolation) == pytest.approx((30, 6 / math.sqrt(12)), abs=EXACT)
+
+
+def test_a_curve_without_a_certain_sign_has_no_zero():
+    assert last_zero(curve(lambda n: 30 - n, (28, 34), error=10)) == (None, False)
+    assert last_zero([]) == (None, False)
+
+
+def test_the_jackknife_of_a_mean_is_its_standard_error():
+    values = np.random.default_rng(1).normal(size=12)
+    assert jackknife(12, lambda k: values[k].mean()) == pytest.approx(
+        (values.mean(), values.std(ddof=1) / math.sqrt(12)), abs=EXACT)
+    assert all(map(math.isnan, jackknife(3, lambda k: 1.0)))
+
+
+def seeds_with(noise, **more):
+    """Six seeds of a stress with η = 2, η_o = 0.5 and η_n = −0.3, whose columns have independent errors."""
+    random = np.random.default_rng(7)
+    xx, xy = random.normal(size=(2, 400))
+    vorticity = random.normal(size=400)
+    even, odd = np.array([xx, xy]), np.array([-xy, xx])
+    stress = 2 * (2 * even + (0.5 - 0.3 * np.sign(vorticity)) * odd)  # √(mT) = 1
+    seeds = []
+    for _ in range(6):
+        def noisy(column):
+            return column + noise * random.normal(size=400)
+        zero = np.zeros(400)
+        seeds.append({"x": zero, "y": zero, "packing": np.full(400, 0.5), "temperature": np.ones(400),
+                      "vorticity": vorticity, "strain_xx": noisy(xx), "strain_xy": noisy(xy), "kinetic_xx": noisy(stress[0]),
+                      "kinetic_yy": noisy(-stress[0]), "kinetic_xy": noisy(stress[1]), "collisional_xx": zero,
+                      "collisional_yy": zero, "collisional_xy": zero, "collisional_yx": zero, **more})
+    return seeds
+
+
+def coefficients(seeds):
+    return [fit_relation(seeds, relation, 0.4, 0.6, 1).coefficient for relation in (RELATIONS[1], *RELATIONS[4:])]
+
+
+def test_even_odd_and_normal_parts_of_the_stress_are_separated():
+    (eta, _), (odd, _), (normal, _) = coefficients(seeds_with(0))
+    # The even part alone is not biased, because e and e* are orthogonal at every point.
+    assert (eta, odd, normal) == pytest.approx((2, 0.5, -0.3), abs=EXACT)
+    fit = fit_relation(seeds_with(0), RELATIONS[4], 0.4, 0.6, 1)
+    assert fit.explained[0] == pytest.approx(1, abs=EXACT) and fit.points == 400
+
+
+def test_noise_does_not_bias_the_coefficients():
+    # Ordinary least squares would give η = 2/(1 + 0.5²) = 1.6.
+    for (found, error), exact in zip(coefficients(seeds_with(0.5)), (2, 0.5, -0.3)):
+        assert abs(found - exact) < 4 * error and error < 0.1
+
+
+def test_a_vorticity_of_one_sign_leaves_odd_and_normal_parts_undetermined():
+    seeds = seeds_with(0, vorticity=np.ones(400))
+    assert all(math.isnan(found) for found, _ in coefficients(seeds)[1:])
+    assert coefficients(seeds)[0][0] == pytest.approx(2, abs=EXACT)
+
+
+def test_points_outside_the_range_or_with_a_missing_value_are_omitted():
+    seeds = seeds_with(0)
+    seeds[3]["strain_xx"][:10] = math.nan
+    seeds[0]["packing"][10:20] = 3  # a mean of 0.92
+    assert fit_relation(seeds, RELATIONS[1], 0.4, 0.6, 1).points == 380
+    assert fit_relation(seeds, RELATIONS[1], 0.7, 0.8, 1).points == 0
+    assert fit_relation([], Relation("", "", "", (), None), 0, 1, 1).points == 0
