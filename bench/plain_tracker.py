@@ -21,7 +21,8 @@ import tempfile
 import numpy
 from scipy import ndimage, optimize
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "cli"))
+for folder in ("tests/cli", "track/tests"):
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", folder))
 import track_test  # noqa: E402
 
 

@@ -25,7 +25,8 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "cli"))
+for folder in ("tests/cli", "track/tests"):
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", folder))
 import track_test  # noqa: E402
 from program import swirl  # noqa: E402
 

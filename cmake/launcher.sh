@@ -163,7 +163,7 @@ changed_since() {
         git_folder=.git
         [ ! -f .git ] || git_folder=$(sed -n 's/^gitdir: //p' .git)
         set -- src cmake CMakeLists.txt CMakePresets.json packages "$@"
-        for file in "$git_folder/logs/HEAD" "$git_folder/HEAD" /var/lib/dpkg/status; do
+        for file in track "$git_folder/logs/HEAD" "$git_folder/HEAD" /var/lib/dpkg/status; do
             [ ! -e "$file" ] || set -- "$@" "$file"
         done
         find "$@" -cnewer "$stamp" -print 2>/dev/null
@@ -261,7 +261,7 @@ build() {
     # ctime, so it gets a new date.
     if [ -e "$stamp" ]; then
         # shellcheck disable=SC2086
-        (cd "$home" && find src cmake CMakeLists.txt ${3-} -type f -cnewer "$stamp" ! -newer "$stamp" \
+        (cd "$home" && find src track cmake CMakeLists.txt ${3-} -type f -cnewer "$stamp" ! -newer "$stamp" \
             -exec touch {} + 2>/dev/null) || true
     fi
     [ -e "$stamp" ] || say "building the program, only once; this takes $long on two cores"

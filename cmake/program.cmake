@@ -17,12 +17,15 @@ function(swirl_settings target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
 
+function(swirl_part target folder level)
+  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  add_library(${target} STATIC ${sources})
+  target_link_libraries(${target} ${ARGN})
+  swirl_compiled_at_once(${target})
+  swirl_settings(${target} ${level})
+endfunction()
 function(swirl_layer layer level)
-  file(GLOB sources CONFIGURE_DEPENDS src/swirl/${layer}/*.cpp)
-  add_library(swirl_${layer} STATIC ${sources})
-  target_link_libraries(swirl_${layer} ${ARGN})
-  swirl_compiled_at_once(swirl_${layer})
-  swirl_settings(swirl_${layer} ${level})
+  swirl_part(swirl_${layer} src/swirl/${layer} ${level} ${ARGN})
 endfunction()
 
 swirl_layer(io -O2
@@ -44,8 +47,16 @@ endif()
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper ${PROJECT_BINARY_DIR}/share/swirl/paper SYMBOLIC)
-# The layer `tracking` is built if OpenCV is found (section [camera] of `packages`). Otherwise `swirl track`
-# reports what is missing. Its report uses the layer `paper`.
+# Tracking (track/). Only track/video needs OpenCV; without it (section [camera] of `packages`), `swirl track`
+# reports what is missing.
+swirl_part(swirl_track_tables track/tables -O2 PUBLIC swirl_render)
+target_include_directories(swirl_track_tables PUBLIC ${PROJECT_SOURCE_DIR})
+target_link_libraries(swirl_track_tables PRIVATE ${hdf5_library})
+target_include_directories(swirl_track_tables SYSTEM PRIVATE ${hdf5_include})
+swirl_part(swirl_track_synthetic track/synthetic -O2 PUBLIC swirl_track_tables)
+if(SWIRL_PAPER)
+  swirl_part(swirl_track_experiment track/experiment -O1 PUBLIC swirl_track_tables swirl_paper)
+endif()
 cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON SWIRL_PAPER OFF)
 # Debian's package with the CMake files of OpenCV depends on all of OpenCV, so they are not used.
 find_path(opencv_include opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
@@ -55,9 +66,9 @@ if(NOT (opencv_include AND opencv_core_library AND opencv_imgproc_library))
   set(SWIRL_CAMERA OFF)
 endif()
 if(SWIRL_CAMERA)
-  swirl_layer(tracking -O3 PUBLIC swirl_render Threads::Threads
+  swirl_part(swirl_track_video track/video -O3 PUBLIC swirl_track_tables Threads::Threads
     PRIVATE ${opencv_imgproc_library} ${opencv_core_library})
-  target_include_directories(swirl_tracking SYSTEM PUBLIC ${opencv_include})
+  target_include_directories(swirl_track_video SYSTEM PUBLIC ${opencv_include})
 endif()
 
 # Every result contains the version (version.inc), the compiler and its flags.
@@ -68,19 +79,19 @@ set_source_files_properties(src/swirl/run/version.cpp PROPERTIES COMPILE_DEFINIT
   "SWIRL_BUILD=\"${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS_${build_type}} -ffp-contract=off\"")
 
 # The command line: one file per subcommand.
-file(GLOB app_sources CONFIGURE_DEPENDS src/swirl/cli/*.cpp)
+file(GLOB app_sources CONFIGURE_DEPENDS src/swirl/cli/*.cpp track/cli/*.cpp)
 add_executable(swirl ${app_sources})
-target_link_libraries(swirl PRIVATE swirl_study swirl_render CLI11::CLI11)
+target_link_libraries(swirl PRIVATE swirl_study swirl_track_synthetic CLI11::CLI11)
 if(SWIRL_PAPER)
-  target_link_libraries(swirl PRIVATE swirl_paper)
+  target_link_libraries(swirl PRIVATE swirl_paper swirl_track_experiment)
   # Outside the batches, so that adding this part later compiles nothing else of the command line again.
-  set_source_files_properties(src/swirl/cli/command_paper.cpp src/swirl/cli/command_experiment.cpp
+  set_source_files_properties(src/swirl/cli/command_paper.cpp track/cli/command_experiment.cpp
     PROPERTIES COMPILE_DEFINITIONS SWIRL_PAPER=1)
 endif()
-set_source_files_properties(src/swirl/cli/command_paper.cpp src/swirl/cli/command_experiment.cpp
+set_source_files_properties(src/swirl/cli/command_paper.cpp track/cli/command_experiment.cpp
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 if(SWIRL_CAMERA)
-  target_link_libraries(swirl PRIVATE swirl_tracking)
+  target_link_libraries(swirl PRIVATE swirl_track_video)
   target_compile_definitions(swirl PRIVATE SWIRL_CAMERA=1)
 endif()
 swirl_settings(swirl -O1)

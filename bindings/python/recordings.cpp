@@ -13,12 +13,12 @@
 #include "frames.hpp"
 #include "reports.hpp"
 #include "swirl/io/series.hpp"
-#include "swirl/io/track_repair.hpp"
-#include "swirl/io/tracks.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measured_series.hpp"
-#include "swirl/run/track_fit.hpp"
+#include "track/tables/track_fit.hpp"
+#include "track/tables/track_repair.hpp"
+#include "track/tables/tracks.hpp"
 
 namespace swirl::python {
 namespace {

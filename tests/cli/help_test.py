@@ -19,6 +19,15 @@ def subcommands():
     return re.findall(r"^  (\S+)", listed, re.MULTILINE)
 
 
+def source_folders():
+    """The results of os.walk() for all source files of the program."""
+    for top in ("src", "track"):
+        for folder, folders, files in os.walk(os.path.join(SOURCE, top)):
+            if top == "track" and folder.endswith("track"):
+                folders.remove("tests")
+            yield folder, folders, files
+
+
 def described_options(text):
     """(name, description) of each option in a help text; wrapped lines are joined."""
     found = []
@@ -163,9 +172,8 @@ class Help(unittest.TestCase):
         known = {name: set(re.findall(r"(--[a-z][a-z0-9-]+)", swirl(name, "--help").stdout))
                  for name in subcommands()}
         everywhere = set().union(*known.values()) | {"--version", "--help"}
-        root = os.path.join(SOURCE, "src")
         seen = 0
-        for folder, _, files in os.walk(root):
+        for folder, _, files in source_folders():
             for file in files:
                 if file == "slurm.cpp":  # has options of sbatch
                     continue
@@ -190,7 +198,7 @@ class Help(unittest.TestCase):
         self.assertGreater(seen, 100)
 
     def test_adjacent_literals_of_a_message_are_separated(self):
-        for folder, _, files in os.walk(os.path.join(SOURCE, "src")):
+        for folder, _, files in source_folders():
             for file in files:
                 with open(os.path.join(folder, file), encoding="utf-8") as opened:
                     text = opened.read()

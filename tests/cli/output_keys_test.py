@@ -65,7 +65,7 @@ class OutputKeys(InFolder):
 
     def test_track(self):
         # Tracking a video takes too long here, so the keys come from the source.
-        with open(os.path.join(SOURCE, "src", "swirl", "cli", "tracked_video.cpp"), encoding="utf-8") as opened:
+        with open(os.path.join(SOURCE, "track", "cli", "tracked_video.cpp"), encoding="utf-8") as opened:
             text = opened.read()
         found = re.findall(r'\{"([a-z_-]+)",', text) + re.findall(r'json\["(\w+)"\]', text)
         # Without the texts of the HDF5 file and the columns of the tables.

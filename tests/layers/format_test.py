@@ -20,7 +20,7 @@ def version():
 
 
 def files():
-    for top in ("src", "bindings", "tests", "bench", "examples"):
+    for top in ("src", "track", "bindings", "tests", "bench", "examples"):
         for folder, _, names in os.walk(os.path.join(SOURCE, top)):
             for name in names:
                 if name.endswith((".hpp", ".cpp")):

@@ -1,4 +1,4 @@
-"""Layers of src/swirl: each includes only the layers listed before it (docs/explanation/architecture.md).
+"""Layers of src/swirl, and the folders of track/: each includes only the layers listed before it (docs/explanation/architecture.md).
 
 The test reads every #include. It also checks the rules of the engine's layers: standard library only,
 no input or output, no clock, no threads, no exceptions.
@@ -12,15 +12,21 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
     os.path.abspath(__file__)))))
 
 # The lowest layer first.
-LAYERS = ("math", "physics", "engine", "statistics", "measure", "io", "run", "render", "tracking",
-          "study", "paper", "cli")
+ENGINE_PROGRAM = ("math", "physics", "engine", "statistics", "measure", "io", "run", "render", "study",
+                  "paper", "cli")
+TRACK = ("track/tables", "track/video", "track/synthetic", "track/experiment", "track/cli")
+LAYERS = (*ENGINE_PROGRAM[:ENGINE_PROGRAM.index("cli")], *TRACK, "cli")
 # Layers that use the standard library only, and compile for WebAssembly.
 ENGINE = ("math", "physics", "engine", "statistics", "measure")
 # Layers that do not include each other although one is listed before the other: a measurement cannot
 # know where its snapshots come from, statistics know no physics, and the program builds without the
 # camera support.
 FORBIDDEN_PAIRS = {("measure", "engine"), ("statistics", "engine"), ("statistics", "physics"),
-                   ("study", "tracking"), ("paper", "tracking"), ("study", "render")}
+                   ("study", "render"), ("track/synthetic", "track/video"),
+                   ("track/experiment", "track/video"), ("track/experiment", "track/synthetic"),
+                   # The command line reads tables of tracks. It calls the rest of track/ through the
+                   # subcommands that register themselves there.
+                   *(("cli", part) for part in TRACK if part != "track/tables")}
 
 FORBIDDEN_HEADERS = {
     "iostream", "fstream", "sstream", "cstdio", "stdio.h", "filesystem", "chrono", "ctime", "time.h",
@@ -41,8 +47,23 @@ STANDARD = {
 }
 
 
+def folder_of(layer):
+    return os.path.join(SOURCE, layer if layer in TRACK else os.path.join("src", "swirl", layer))
+
+
+def header_of(what):
+    """The file that an include names: track/... from the root, swirl/... from src."""
+    return os.path.join(SOURCE, what if what.startswith("track/") else os.path.join("src", what))
+
+
+def layer_of(what):
+    """The layer of an included header; None if it is not of the project."""
+    first, *rest = what.split("/")
+    return {"swirl": rest[0], "track": "/".join([first, *rest[:1]])}.get(first) if rest else None
+
+
 def sources(layer):
-    for folder, _, names in sorted(os.walk(os.path.join(SOURCE, "src", "swirl", layer))):
+    for folder, _, names in sorted(os.walk(folder_of(layer))):
         for name in sorted(names):
             if name.endswith((".hpp", ".cpp", ".h", ".c", ".inc")):
                 yield os.path.join(folder, name)
@@ -73,7 +94,8 @@ def code_of(file):
 
 # Layers of which the compiler gets several files at once (and the command line, whose files write one
 # function for each kind of call).
-COMPILED_AT_ONCE = ("measure", "io", "run", "render", "tracking", "study", "paper")
+COMPILED_AT_ONCE = ("measure", "io", "run", "render", "study", "paper",
+                    *(part for part in TRACK if part != "track/cli"))
 DEFINITIONS = (
     # A function, up to its brace; a type; a constant.
     r"^(?!return|namespace|using|\s|template|\})[\w:<>&*,\[\]. ]*?[\w>&*\]] [*&]?(\w+)\([^;{}]*?\)"
@@ -126,7 +148,9 @@ def bindings_sources():
 class Layers(unittest.TestCase):
     def test_every_folder_of_src_is_a_layer(self):
         self.assertEqual(os.listdir(os.path.join(SOURCE, "src")), ["swirl"])
-        self.assertEqual(set(os.listdir(os.path.join(SOURCE, "src", "swirl"))), set(LAYERS))
+        self.assertEqual(set(os.listdir(os.path.join(SOURCE, "src", "swirl"))), set(ENGINE_PROGRAM))
+        self.assertEqual(set(os.listdir(os.path.join(SOURCE, "track"))),
+                         {part.removeprefix("track/") for part in TRACK} | {"tests"})
         for layer in LAYERS:
             self.assertTrue(list(sources(layer)), layer)
 
@@ -147,18 +171,21 @@ class Layers(unittest.TestCase):
         for rank, layer in enumerate(LAYERS):
             for file in sources(layer):
                 for what, _ in includes(file):
-                    if not what.startswith("swirl/"):
+                    other = layer_of(what)
+                    if other is None or (layer, other) == ("track/cli", "cli"):  # one program
                         continue
-                    other = what.split("/")[1]
                     self.assertIn(other, LAYERS[:rank + 1], f"{file} includes {what}")
                     self.assertNotIn((layer, other), FORBIDDEN_PAIRS, f"{file} includes {what}")
+        for file in bindings_sources():
+            for what, _ in includes(file):
+                self.assertNotIn(layer_of(what), set(TRACK) - {"track/tables"}, f"{file} includes {what}")
 
     def test_quoted_includes_name_a_header_of_the_project(self):
         for file in all_sources():
             for what, quoted in includes(file):
                 if quoted and what != "version.inc":
-                    self.assertTrue(what.startswith("swirl/"), f"{file} includes {what}")
-                    self.assertTrue(os.path.exists(os.path.join(SOURCE, "src", what)),
+                    self.assertIsNotNone(layer_of(what), f"{file} includes {what}")
+                    self.assertTrue(os.path.exists(header_of(what)),
                                     f"{file} includes {what}, which does not exist")
 
     def test_the_engine_uses_nothing_but_the_standard_library(self):
@@ -211,7 +238,7 @@ class Layers(unittest.TestCase):
 
     def test_every_header_is_included_somewhere(self):
         wanted = set()
-        for top in ("src", "tests", "bench", "examples"):
+        for top in ("src", "track", "bindings", "tests", "bench", "examples"):
             for folder, _, names in os.walk(os.path.join(SOURCE, top)):
                 for name in names:
                     if name.endswith((".hpp", ".cpp")):
@@ -219,8 +246,8 @@ class Layers(unittest.TestCase):
         for layer in LAYERS:
             for file in sources(layer):
                 if file.endswith(".hpp"):
-                    name = "swirl/" + os.path.relpath(file, os.path.join(SOURCE, "src", "swirl"))
-                    self.assertIn(name, wanted)
+                    root = SOURCE if layer in TRACK else os.path.join(SOURCE, "src")
+                    self.assertIn(os.path.relpath(file, root), wanted)
 
     def test_no_file_is_named_utils_or_manager(self):
         for layer in LAYERS:

@@ -16,7 +16,7 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
 GENERATED = os.path.join(os.environ.get("SWIRL_LIBRARIES", os.path.join(SOURCE, "build", "tests")), "generated")
 COMPILER = "clang++-19"
 FLAGS = ["-std=c++20", "-stdlib=libc++", "-fsyntax-only", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror",
-         "-Wno-deprecated-declarations", f"-I{SOURCE}/src", f"-I{GENERATED}", '-DSWIRL_BUILD=""']
+         "-Wno-deprecated-declarations", f"-I{SOURCE}/src", f"-I{SOURCE}", f"-I{GENERATED}", '-DSWIRL_BUILD=""']
 SYSTEM_FOLDERS = ("/usr/include/hdf5/serial", "/usr/include/opencv4")
 ONE_BY_ONE = ("cli", "engine")
 VECTORS = {"avx2": ["-mavx2"],
@@ -30,9 +30,11 @@ def flags_of(package):
 
 def units():
     """The files that the compiler gets at once, with a name and further flags."""
-    for layer in sorted(os.listdir(os.path.join(SOURCE, "src", "swirl"))):
-        together = []
-        for folder, _, names in sorted(os.walk(os.path.join(SOURCE, "src", "swirl", layer))):
+    parts = [os.path.join(SOURCE, *part.split("/"), name) for part in ("src/swirl", "track")
+             for name in sorted(os.listdir(os.path.join(SOURCE, *part.split("/")))) if name != "tests"]
+    for part in parts:
+        layer, together = os.path.basename(part), []
+        for folder, _, names in sorted(os.walk(part)):
             for name in sorted(name for name in names if name.endswith(".cpp")):
                 path = os.path.join(folder, name)
                 width = re.search(r"_(avx\w+)\.cpp$", name)

@@ -33,7 +33,7 @@ def code_of(path):
 
 
 def sources():
-    for top in ("src", "bindings"):
+    for top in ("src", "track", "bindings"):
         for folder, _, names in os.walk(os.path.join(SOURCE, top)):
             for name in names:
                 if name.endswith((".cpp", ".hpp")):

@@ -100,9 +100,9 @@ class Tracks(Recording):
     in the image. misfit: the largest share of frames with discs outside the container or overlapping.
 
     Short gaps are filled. Positions are smoothed according to their noise, and velocities are
-    derivatives of the smoothed positions (src/swirl/io/track_smoothing.hpp). With fewer than a hundred
+    derivatives of the smoothed positions (track/tables/track_smoothing.hpp). With fewer than a hundred
     frames per period, positions stay as they are, and velocities are differences between frames
-    (src/swirl/io/tracks.hpp).
+    (track/tables/tracks.hpp).
 
     Raises ValueError or TypeError for wrong arguments, and swirl.Failure with the likely cause if more
     frames misfit.

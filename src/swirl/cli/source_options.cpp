@@ -15,6 +15,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
+#include "track/tables/tracked_source.hpp"
 
 namespace swirl {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "swirl/run/failure.hpp"
-#include "swirl/run/track_fit.hpp"
+#include "track/tables/track_fit.hpp"
 
 namespace swirl {
 namespace {

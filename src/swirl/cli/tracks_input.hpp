@@ -7,7 +7,7 @@
 
 #include "swirl/cli/track_options.hpp"
 #include "swirl/io/series.hpp"
-#include "swirl/run/track_fit.hpp"
+#include "track/tables/track_fit.hpp"
 
 namespace swirl {
 

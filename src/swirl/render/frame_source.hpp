@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "swirl/io/series.hpp"
-#include "swirl/io/tracks.hpp"
 #include "swirl/math/vec2.hpp"
 #include "swirl/physics/rolling_ball.hpp"
 #include "swirl/physics/snapshot.hpp"
@@ -58,27 +57,6 @@ FrameSource rolling(const RollingBall& ball, double amplitude, double period);
 FrameSource recorded(const SnapshotSeries& series, const std::string& caption);
 /// A trajectory file of this program. Throws Failure.
 FrameSource recorded(const std::string& file);
-
-/// The motion of a camera, which was removed from tracks: in frame `first` + k, position p is seen
-/// at origin + (a p.x - b p.y, b p.x + a p.y).
-struct ImageMotion {
-    struct Pose {
-        Vec2 origin{0.0, 0.0};
-        double a = 1.0, b = 0.0;
-    };
-    std::int64_t first = 0;
-    std::vector<Pose> poses = {};  // empty: the camera was steady
-
-    /// The backdrop of this frame; `backdrop` is that of a steady camera.
-    Backdrop applied(Backdrop backdrop, std::int64_t frame) const;
-};
-
-/// Tracks of a camera or of another program. If discs come and go, or over camera images, the
-/// nearest frame is shown without interpolation. `images` is a name as in numbered_frames.hpp, in
-/// which frame 0 has number `first_image`; empty: no images. Throws Failure.
-FrameSource tracked(Tracks tracks, const TrackScale& scale, const std::string& caption,
-                    const std::string& images = "", std::int64_t first_image = 0,
-                    const ImageMotion& motion = {});
 
 /// "$N$ = 48", "$μ_{d}$ = 1", … in the order of the paper.
 std::vector<std::string> parameter_labels(const RunConfig& config);

@@ -1,0 +1,111 @@
+#include "track/video/shading_detection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "math/deviate.hpp"
+#include "swirl/math/random.hpp"
+#include "swirl/math/unit_circle.hpp"
+
+namespace swirl::tracking {
+namespace {
+
+constexpr double ball_radius = 15.0;
+constexpr std::size_t balls = 28;
+constexpr double noise = 3.0;  // grey levels; the floor has 100, a ball at most 130
+
+struct Scene {
+    std::vector<PreparedFrame> frames;
+    std::vector<CircleFit> rims;
+    std::vector<std::vector<Vec2>> positions;
+};
+
+/// Balls at random positions in a dish, lit from 45 degrees above the direction `light` (turns).
+Scene lit_balls(std::uint64_t seed, double light, std::size_t number) {
+    constexpr int side = 280, frames = 8;
+    constexpr double dish = 125.0, elevation = std::numbers::sqrt2 / 2.0;
+    const Vec2 l = elevation * unit_circle(light), middle{0.5 * (side - 1), 0.5 * (side - 1)};
+    Random random(seed);
+    Scene scene;
+    for (int k = 0; k < frames; ++k) {
+        std::vector<Vec2> at;
+        while (at.size() < number) {
+            const Vec2 p = (dish - ball_radius) *
+                           Vec2{2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0};
+            if (length(p) < dish - ball_radius &&
+                std::none_of(at.begin(), at.end(), [&](const Vec2& q) {
+                    return length(middle + p - q) < 2.0 * ball_radius;
+                }))
+                at.push_back(middle + p);
+        }
+        cv::Mat image(side, side, CV_32F, cv::Scalar(60.0));
+        for (int row = 0; row < side; ++row)
+            for (int column = 0; column < side; ++column) {
+                const Vec2 x{double(column), double(row)};
+                double level = length(x - middle) < dish ? 100.0 : 60.0;
+                for (const Vec2& p : at) {
+                    const Vec2 n = (1.0 / ball_radius) * (x - p);
+                    if (dot(n, n) > 1.0) continue;
+                    const double up = std::sqrt(1.0 - dot(n, n));
+                    level = 130.0 * (0.55 + 0.45 * std::max(0.0, dot(n, l) + elevation * up));
+                }
+                image.at<float>(row, column) = static_cast<float>(level + noise * deviate(random));
+            }
+        cv::Mat grey;
+        image.convertTo(grey, CV_8U);
+        scene.frames.emplace_back(grey, 1.0, survey_blur);
+        CircleFit rim;
+        rim.centre = middle;
+        rim.radius = dish;
+        rim.good = true;
+        scene.rims.push_back(rim);
+        scene.positions.push_back(at);
+    }
+    return scene;
+}
+
+TEST(ShadingDetection, FindsNumberRadiusAndPositionsOfBallsOfLowContrast) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        const double light = 0.1 + 0.3 * double(seed);
+        const Scene scene = lit_balls(seed, light, balls);
+        const auto found = survey_shading(scene.frames, scene.rims, {}, 1);
+        ASSERT_TRUE(found) << seed;
+        EXPECT_EQ(found->number, balls) << seed;
+        // Radii of trials differ by a tenth.
+        EXPECT_NEAR(found->radius(), ball_radius, 0.1 * ball_radius) << seed;
+        EXPECT_GT(dot(found->shading->towards, unit_circle(light)),
+                  std::cos(2.0 * pi * 15.0 / 360.0));
+        Vec2 sum{0.0, 0.0};
+        double square = 0.0, count = 0.0;
+        for (std::size_t k = 0; k < scene.frames.size(); ++k) {
+            const auto discs = find_by_shading(scene.frames[k].sharp, scene.rims[k],
+                                               *found->shading, found->number);
+            ASSERT_EQ(discs.size(), balls) << seed;
+            for (const Vec2& p : scene.positions[k]) {
+                Vec2 nearest{1e9, 0.0};
+                for (const DetectedParticle& d : discs)
+                    if (length(d.centre - p) < length(nearest)) nearest = d.centre - p;
+                EXPECT_LT(length(nearest), 0.5 * ball_radius) << seed;
+                sum = sum + nearest;
+                square += dot(nearest, nearest);
+                count += 1.0;
+            }
+        }
+        // All share a shift. Neighbours shift single balls by about a tenth of a radius.
+        const Vec2 shift = (1.0 / count) * sum;
+        EXPECT_LT(std::sqrt(0.5 * (square / count - dot(shift, shift))), 0.15 * ball_radius)
+            << seed;
+    }
+}
+
+TEST(ShadingDetection, FindsNoBallsInNoise) {
+    const Scene scene = lit_balls(4, 0.2, 0);
+    EXPECT_FALSE(survey_shading(scene.frames, scene.rims, {}, 1));
+}
+
+}  // namespace
+}  // namespace swirl::tracking

@@ -1,0 +1,242 @@
+#include "track/video/contact_distance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "swirl/math/unit_circle.hpp"
+
+namespace swirl::tracking {
+
+namespace {
+
+constexpr std::size_t bins = 80;
+
+struct Histogram {
+    double from = 0.0, width = 1.0;
+    std::array<double, bins> number{};
+    double middle(std::size_t k) const { return from + width * (double(k) + 0.5); }
+};
+
+/// Parameters of the distribution, in bins, so that all are of order one.
+struct Spread {
+    double contact = 0.0, error = 1.0, decay = 1.0, share = 0.7;
+};
+
+/// Density of the sum of a normal and an exponential deviate. `x` counts from the mean of the
+/// normal one, `error` is its standard deviation, and `decay` is the mean of the exponential one.
+double normal_and_exponential(double x, double error, double decay) {
+    const double rate = 1.0 / decay;
+    const double inner = std::clamp(0.5 * rate * (rate * error * error - 2.0 * x), -300.0, 300.0);
+    return 0.5 * rate * std::exp(inner) *
+           std::erfc((rate * error * error - x) / (std::sqrt(2.0) * error));
+}
+
+/// Log likelihood of a histogram, up to a constant.
+double log_likelihood(const Histogram& seen, const Spread& spread) {
+    std::array<double, bins> near{};
+    double sum = 0.0, beyond = 0.0;
+    for (std::size_t k = 0; k < bins; ++k) {
+        const double x = double(k) + 0.5 - spread.contact;
+        sum += near[k] = normal_and_exponential(x, spread.error, spread.decay);
+        beyond += x > 0.0 ? 1.0 : 0.0;
+    }
+    double log_of_all = 0.0;
+    for (std::size_t k = 0; k < bins; ++k) {
+        const double far = double(k) + 0.5 > spread.contact ? 1.0 / std::max(beyond, 1.0) : 0.0;
+        const double share = spread.share * near[k] / std::max(sum, 1e-300);
+        log_of_all += seen.number[k] * std::log(share + (1.0 - spread.share) * far + 1e-9);
+    }
+    return log_of_all;
+}
+
+/// Maximises the likelihood by coordinate search; steps shrink if none improves it.
+Spread most_likely(const Histogram& seen, Spread spread) {
+    std::array<double*, 4> numbers{&spread.contact, &spread.error, &spread.decay, &spread.share};
+    std::array<double, 4> steps{2.0, 1.0, 3.0, 0.15};
+    const auto allowed = [&] {
+        return spread.error >= 0.2 && spread.decay >= 0.5 && spread.decay <= 2.0 * bins &&
+               spread.share >= 0.05 && spread.share <= 1.0;
+    };
+    double best = log_likelihood(seen, spread);
+    for (int round = 0; round < 300 && steps[0] > 0.01; ++round) {
+        bool better = false;
+        for (std::size_t n = 0; n < numbers.size(); ++n)
+            for (const double step : {steps[n], -steps[n]}) {
+                const double before = *numbers[n];
+                *numbers[n] += step;
+                const double now = allowed() ? log_likelihood(seen, spread) : -1e300;
+                if (now > best) {
+                    best = now;
+                    better = true;
+                    break;
+                }
+                *numbers[n] = before;
+            }
+        if (!better)
+            for (double& step : steps) step *= 0.6;
+    }
+    return spread;
+}
+
+/// The mean of a normal number of mean x and variance 1, given that it is positive, minus x:
+/// φ(x)/Φ(x).
+double excess_if_positive(double x) {
+    constexpr double far = -6.0;  // below, both vanish; the limit is −x − 1/x
+    if (x < far) return -x - 1.0 / x;
+    return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi) / (0.5 * std::erfc(-x / std::sqrt(2.0)));
+}
+
+/// A minimum distance of two discs, or of a disc and the wall (then `other` equals `one`).
+struct Constraint {
+    std::size_t one, other;
+    Vec2 apart;  // unit vector from `other` to `one`, along which both are moved
+    double minimum, force = 0.0;
+};
+
+std::vector<Constraint> constraints_of(const std::vector<HardDisc>& discs, double closest,
+                                       const Vec2& container) {
+    constexpr double neighbours = 1.08;  // of the contact distance: at least five errors
+    constexpr double near_wall = 0.1;    // radii
+    std::vector<Constraint> all;
+    for (std::size_t a = 0; a < discs.size(); ++a) {
+        for (std::size_t b = a + 1; b < discs.size(); ++b) {
+            const Vec2 d = discs[a].centre - discs[b].centre;
+            const double far = std::sqrt(dot(d, d));
+            const double minimum = closest * (discs[a].radius + discs[b].radius);
+            if (far > 0.0 && far < neighbours * minimum)
+                all.push_back({a, b, (1.0 / far) * d, minimum});
+        }
+        const Vec2 d = discs[a].centre - container;
+        const double far = std::sqrt(dot(d, d));
+        if (far > 0.0 && far > discs[a].reach - near_wall * discs[a].radius)
+            all.push_back({a, a, (-1.0 / far) * d, -discs[a].reach});
+    }
+    return all;
+}
+
+}  // namespace
+
+std::optional<Contact> contact_of(const std::vector<double>& distances, double nearest,
+                                  double farthest) {
+    constexpr std::size_t minimum = 400;
+    Histogram seen;
+    seen.from = nearest;
+    seen.width = (farthest - nearest) / double(bins);
+    std::size_t used = 0;
+    for (const double d : distances) {
+        if (!(d >= nearest && d < farthest)) continue;
+        ++seen.number[std::min(static_cast<std::size_t>((d - nearest) / seen.width), bins - 1)];
+        ++used;
+    }
+    if (used < minimum) return std::nullopt;
+    // The search starts at the most frequent distance.
+    const auto top = std::max_element(seen.number.begin(), seen.number.end());
+    const double at = double(top - seen.number.begin());
+    const Spread spread = most_likely(seen, {at - 1.0, 2.0, 0.15 * bins, 0.7});
+    // A maximum at an end of the histogram, or nearly as wide as the histogram, is no contact.
+    if (spread.contact < 0.1 * bins || spread.contact > 0.8 * bins || spread.error > 0.25 * bins)
+        return std::nullopt;
+    return Contact{nearest + seen.width * spread.contact, seen.width * spread.error,
+                   log_likelihood(seen, spread) / double(used)};
+}
+
+std::optional<Contact> contact_of_discs(const std::vector<double>& ratios) {
+    constexpr double range = 0.1, soft_range = 0.2;  // from 1
+    constexpr double max_soft_off = 0.15;            // more is no contact of soft edges
+    if (const auto found = contact_of(ratios, 1.0 - range, 1.0 + range);
+        found && std::abs(found->at - 1.0) < max_contact_off)
+        return found;
+    const auto soft = contact_of(ratios, 1.0 - soft_range, 1.0 + soft_range);
+    if (soft && std::abs(soft->at - 1.0) < max_soft_off) return soft;
+    // The edge of a transparent ball is within the ball. Discs that never touch have no sharp onset.
+    constexpr double max_error = 0.04;
+    const auto inside = contact_of(ratios, 1.0 - soft_range, 1.0 + contact_range);
+    if (!inside || inside->at < 1.0 + max_contact_off || inside->error > max_error)
+        return std::nullopt;
+    return inside;
+}
+
+std::optional<Distortion> distortion_of(const std::vector<DiscPair>& pairs, const Vec2& middle,
+                                        double half) {
+    constexpr double maximum = 0.12, coarse = 0.02, fine = 0.005;
+    // A contact lasts for several frames, and a disc has several: this many pairs are correlated.
+    constexpr double correlated_pairs = 4.0;
+    const auto score = [&](double k) {
+        Lens lens{middle, half};
+        lens.k = k;
+        std::vector<double> distances;
+        double stretch = 0.0;
+        for (const DiscPair& pair : pairs) {
+            const Vec2 q = (0.5 / half) * (pair.one + pair.other - 2.0 * middle);
+            const Vec2 d = lens.ideal(pair.one) - lens.ideal(pair.other);
+            distances.push_back(std::sqrt(dot(d, d)) / pair.radii);
+            stretch += (1.0 + 2.0 * k * dot(q, q)) / double(pairs.size());
+        }
+        for (double& d : distances) d /= stretch;
+        const auto contact = contact_of(distances, 0.88, 1.14);
+        return contact ? contact->log_likelihood : -1e300;
+    };
+    double best = 0.0, highest = -1e300;
+    for (double k = -maximum; k < maximum + 0.5 * coarse; k += coarse)
+        if (const double w = score(k); w > highest) highest = w, best = k;
+    if (highest == -1e300) return std::nullopt;
+    for (double step = 0.5 * coarse; step > 0.5 * fine; step *= 0.5) {
+        const double about = best;
+        for (const double k : {about - step, about + step})
+            if (const double w = score(k); w > highest) highest = w, best = k;
+    }
+    const double before = score(best - fine), after = score(best + fine);
+    const double bend = before - 2.0 * highest + after;
+    if (before == -1e300 || after == -1e300 || !(bend < 0.0)) return std::nullopt;
+    const double shift = std::clamp(0.5 * (before - after) / bend, -1.0, 1.0);
+    // The density of a crowd varies over the container, which shifts contact distances by about
+    // this much. Its effect on k depends on how much farther out the outer half of the pairs is.
+    constexpr double contact_bias = 0.0018;
+    std::vector<double> squares;
+    for (const DiscPair& pair : pairs) {
+        const Vec2 q = (0.5 / half) * (pair.one + pair.other - 2.0 * middle);
+        squares.push_back(dot(q, q));
+    }
+    std::sort(squares.begin(), squares.end());
+    double farther = 0.0;
+    for (std::size_t n = 0; n < squares.size(); ++n)
+        farther += (2 * n < squares.size() ? -2.0 : 2.0) * squares[n] / double(squares.size());
+    const double by_chance = fine / std::sqrt(-bend * double(pairs.size()) / correlated_pairs);
+    return Distortion{best + fine * shift,
+                      std::hypot(by_chance, 0.5 * contact_bias / std::max(farther, 1e-6))};
+}
+
+void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& container) {
+    constexpr int linearized = 3, rounds = 60;
+    constexpr double converged = 2e-3;  // pixels
+    constexpr double follow = 0.7;      // damping prevents oscillations
+    const std::vector<HardDisc> seen = discs;
+    for (int pass = 0; pass < linearized; ++pass) {
+        std::vector<Constraint> all = constraints_of(discs, closest, container);
+        std::vector<Vec2> positions;
+        for (const HardDisc& disc : seen) positions.push_back(disc.centre);
+        for (int round = 0; round < rounds; ++round) {
+            double maximum = 0.0;
+            for (Constraint& c : all) {
+                const bool wall = c.one == c.other;
+                const Vec2 from = positions[c.one] - (wall ? container : positions[c.other]);
+                const double share = seen[c.one].variance + (wall ? 0.0 : seen[c.other].variance);
+                const double deviation = std::sqrt(share);
+                const double free = dot(from, c.apart) - c.minimum - c.force * share;
+                const double more =
+                    follow * (excess_if_positive(free / deviation) / deviation - c.force);
+                c.force += more;
+                positions[c.one] = positions[c.one] + more * seen[c.one].variance * c.apart;
+                if (!wall)
+                    positions[c.other] =
+                        positions[c.other] - more * seen[c.other].variance * c.apart;
+                maximum = std::max(maximum, std::abs(more) * share);
+            }
+            if (maximum < converged) break;
+        }
+        for (std::size_t i = 0; i < discs.size(); ++i) discs[i].centre = positions[i];
+    }
+}
+
+}  // namespace swirl::tracking

@@ -1,0 +1,67 @@
+// The contact distance of hard discs, from distances with errors.
+//
+// The gaps between neighbours in a crowd are most frequent at zero and fall off about
+// exponentially. With normal errors the distances d are distributed as
+//
+//     f(d) = w EMG(d; contact, σ, λ) + (1 − w) (d > contact) / (farthest − contact)
+//
+// where EMG is the distribution of the sum of a normal and an exponential deviate. Maximum
+// likelihood of a histogram gives the contact distance more accurately than single positions, and
+// the error σ of a distance. The wall stops discs in the same way: use negative distances from the
+// container's centre.
+//
+// The positions of hard discs are then replaced by their expectations. A single pair with measured
+// gap g and error s has the expected gap g + s h(g/s) with h(x) = φ(x)/Φ(x). That changes nothing
+// if the discs are far apart, and moves overlapping discs slightly out of contact. In a crowd, each
+// gap is corrected iteratively given all others; the wall acts as a disc that does not move. Small
+// errors give small corrections.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "swirl/math/vec2.hpp"
+#include "track/video/lens.hpp"
+
+namespace swirl::tracking {
+
+struct Contact {
+    double at = 0.0;              // the contact distance
+    double error = 0.0;           // standard deviation of a distance
+    double log_likelihood = 0.0;  // mean per distance
+};
+/// Uses distances between `nearest` and `farthest`; none if they do not determine the contact.
+std::optional<Contact> contact_of(const std::vector<double>& distances, double nearest,
+                                  double farthest);
+
+/// The contact of discs, from distances in sums of radii: near 1, or farther off if their edges are
+/// soft and their radii wrong. Uses distances within `contact_range` of 1.
+std::optional<Contact> contact_of_discs(const std::vector<double>& ratios);
+inline constexpr double contact_range = 0.5;
+/// A contact that is farther from 1 implies another radius.
+inline constexpr double max_contact_off = 0.05;
+
+/// Two neighbouring discs of one frame.
+struct DiscPair {
+    Vec2 one, other;
+    double radii;  // sum
+};
+/// The lens distortion for which the contact distance is uniform over the image.
+struct Distortion {
+    double k = 0.0, error = 0.0;
+};
+std::optional<Distortion> distortion_of(const std::vector<DiscPair>& pairs, const Vec2& middle,
+                                        double half);
+
+/// A disc with the error of its position.
+struct HardDisc {
+    Vec2 centre{0.0, 0.0};
+    double variance = 1.0;  // per coordinate
+    double radius = 1.0;
+    double reach = 1e300;  // largest distance from the container's centre, at the wall
+};
+/// Moves discs to their expected positions. `closest`: contact distance relative to the sum of
+/// radii.
+void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& container);
+
+}  // namespace swirl::tracking

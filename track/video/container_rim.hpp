@@ -1,0 +1,48 @@
+// The rim of the container in a video: a circle of constant size that goes round a circle.
+//
+//   survey   the circle with the most votes in a few frames spread over the video, among those that
+//            move as a swirled container does; the edge of a table does not
+//   find     in each frame: votes for the known radius, then a fit to the edge
+//
+// Pixels, y down.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "track/video/circles.hpp"
+#include "track/video/lens.hpp"
+#include "track/video/prepared_frame.hpp"
+
+namespace swirl::tracking {
+
+/// For errors about a container whose centre does not go round a circle.
+inline constexpr const char* no_circle_hint =
+    "hint: check that the camera does not move, that the video lasts at least half a period, that "
+    "nothing covers the container, and that its path is not a polygon of few sides; --path without "
+    "--out records the motion on any path";
+
+struct ContainerRim {
+    double radius = 0.0;  // corrected by `lens`, if there is one
+    Polarity polarity = 1;
+    double support = 0.0;
+    Vec2 path_centre{0.0, 0.0};
+    double amplitude = 0.0;         // of the path, approximately; 0: it is not a circle
+    bool rough = false;             // its centres are far from a circle, as if the camera shook
+    bool second_container = false;  // another circle of this size moves as well
+    std::optional<Lens> lens;       // set if the camera is tilted
+};
+
+/// `frames` spread over the video. Throws Failure with the likely cause if no rim is found.
+ContainerRim survey_container_rim(const std::vector<PreparedFrame>& frames);
+/// The same, but returns none if no rim moves along a circle. If `shaken`, a rough path is better
+/// than none.
+std::optional<ContainerRim> find_moving_rim(const std::vector<PreparedFrame>& frames, bool shaken);
+
+/// The same for a rim that moves on any path; its amplitude is 0. Throws Failure if none moves.
+ContainerRim find_rim_on_any_path(const std::vector<PreparedFrame>& frames);
+
+/// The rim in one frame; `good` is false if it was not found.
+CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim);
+
+}  // namespace swirl::tracking

@@ -1,0 +1,356 @@
+#include "track/video/tilt.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "swirl/math/unit_circle.hpp"
+#include "track/video/container_path_fit.hpp"
+#include "track/video/outline.hpp"
+#include "track/video/robust_statistics.hpp"
+
+namespace swirl::tracking {
+
+namespace {
+
+constexpr double tilt_stands_out = 4.0;  // standard errors
+
+/// The rim in one frame.
+struct RimOutline {
+    const PreparedFrame* frame;
+    Vec2 centre;             // without lens and tilt
+    std::vector<Vec2> edge;  // as seen
+};
+
+/// Squeeze and perspective that fit all outlines best, with the radius and the centre of each.
+class TiltFit {
+  public:
+    TiltFit(std::vector<RimOutline> outlines, const Lens& lens, const Vec2& path_centre,
+            double amplitude, double radius, bool squeeze_known)
+        : outlines_(std::move(outlines)),
+          lens_(lens),
+          path_centre_(path_centre),
+          amplitude_(amplitude),
+          radius_(radius),
+          unit_(radius),
+          squeeze_known_(squeeze_known) {}
+
+    void run(Polarity polarity) {
+        constexpr int rounds = 3, passes = 12;  // edges, and steps of Gauss–Newton
+        constexpr double first_window = 0.015;  // radii: how far a tilted rim is off a circle
+        constexpr double noise_factor = 3.0;    // standard deviations: least slope of an edge
+        double window = std::max(known_window, first_window * radius_);
+        for (int round = 0; round < rounds; ++round, window = known_window) {
+            for (RimOutline& o : outlines_)
+                o.edge = outline_edge(o.frame->sharp, lens_, {o.centre, radius_},
+                                      {polarity, window, noise_factor * o.frame->noise});
+            scale_ = window;
+            for (int pass = 0; pass < passes; ++pass) improve();
+        }
+    }
+    const Lens& lens() const { return lens_; }
+    double radius() const { return radius_; }
+    /// Share of the edge points of all frames that lie on the outline.
+    double support() const {
+        constexpr double tolerance = 1.0;  // pixels
+        std::size_t on = 0, all = 0;
+        for (const RimOutline& o : outlines_)
+            for (const Vec2& seen : o.edge) {
+                ++all;
+                if (std::abs(row_of(o, seen).residual) < tolerance) ++on;
+            }
+        return all > 0 ? double(on) / double(all) : 0.0;
+    }
+
+    struct Errors {
+        double squeeze, perspective;
+    };
+    Errors errors() {
+        improve();  // for the final normal equations
+        Global meat = Global::zeros();
+        for (const GlobalVector& s : scores_) meat += s * s.t();
+        const Global covariance = inverse_ * meat * inverse_;
+        const double outline = 2.0 * harmonics() / radius_,
+                     way = std::max(amplitude_, min_path_amplitude);
+        const auto error = [&](int a) {
+            return std::sqrt(0.5 * std::max(0.0, covariance(a, a) + covariance(a + 1, a + 1)));
+        };
+        return {std::hypot(error(0), outline), std::hypot(error(2) / unit_, outline / way)};
+    }
+
+  private:
+    static constexpr double known_window = 3.0;  // pixels about an outline that is known
+    static constexpr double min_scale = 0.05;    // pixels: exact edges would give 0
+    static constexpr double cutoff = 4.7;        // of Tukey's weights, standard deviations
+
+    /// Squeeze (2), perspective (2, times `unit_`), radius, and a squeeze that goes round with the
+    /// container (2): discs at the wall cause it, and so does an error of the distortion.
+    static constexpr int unknowns = 7;
+    using Global = cv::Matx<double, unknowns, unknowns>;
+    using GlobalVector = cv::Vec<double, unknowns>;
+    using Coupling = cv::Matx<double, unknowns, 2>;
+
+    struct Row {
+        GlobalVector global;
+        Vec2 n;
+        double residual, weight;
+    };
+
+    Row row_of(const RimOutline& o, const Vec2& seen) const {
+        const Vec2 p = lens_.ideal(seen) - lens_.image_centre,
+                   d = p - (o.centre - lens_.image_centre);
+        const double distance = length(d);
+        const Vec2 n = (1.0 / distance) * d;
+        Row row;
+        const Vec2 way = o.centre - path_centre_;
+        const double along = dot(n, way), across = dot(n, perpendicular(way)), w = dot(way, way);
+        row.global = {0.5 * (n.x * p.x - n.y * p.y),
+                      0.5 * (n.x * p.y + n.y * p.x),
+                      dot(n, p) * p.x / unit_,
+                      dot(n, p) * p.y / unit_,
+                      -1.0,
+                      (along * along - across * across) / w,
+                      2.0 * along * across / w};
+        if (squeeze_known_) row.global[0] = row.global[1] = 0.0;
+        row.n = n;
+        row.residual = distance - radius_ + rotating_squeeze_.x * row.global[5] +
+                       rotating_squeeze_.y * row.global[6];
+        row.weight = tukey_weight(row.residual / (cutoff * scale_));
+        return row;
+    }
+
+    /// One step of Gauss–Newton. The centres are eliminated frame by frame.
+    void improve() {
+        constexpr double regularisation = 1e-9;  // keeps the matrix invertible without edges
+        Global normal = Global::zeros();
+        GlobalVector right = GlobalVector::all(0.0);
+        struct Centre {
+            cv::Matx22d inverse;
+            Coupling coupling;
+            cv::Vec2d right;
+        };
+        std::vector<Centre> centres;
+        std::vector<double> off;
+        scores_.clear();
+        for (const RimOutline& o : outlines_) {
+            Global a = Global::zeros();
+            Coupling b = Coupling::zeros();
+            cv::Matx22d c = regularisation * cv::Matx22d::eye();
+            GlobalVector ra = GlobalVector::all(0.0);
+            cv::Vec2d rc(0.0, 0.0);
+            for (const Vec2& seen : o.edge) {
+                const Row row = row_of(o, seen);
+                off.push_back(std::abs(row.residual));
+                const cv::Vec2d own(-row.n.x, -row.n.y);
+                a += row.weight * (row.global * row.global.t());
+                b += row.weight * (row.global * own.t());
+                c += row.weight * (own * own.t());
+                ra += row.weight * row.residual * row.global;
+                rc += row.weight * row.residual * own;
+            }
+            const Centre m{c.inv(), b, rc};
+            normal += a - b * m.inverse * b.t();
+            const GlobalVector score = ra - b * (m.inverse * rc);
+            right += score;
+            scores_.push_back(score);
+            centres.push_back(m);
+        }
+        if (off.empty()) return;
+        if (squeeze_known_) normal(0, 0) = normal(1, 1) = 1.0;
+        inverse_ = normal.inv(cv::DECOMP_SVD);
+        const GlobalVector d = -(inverse_ * right);
+        lens_.squeeze = lens_.squeeze + Vec2{d[0], d[1]};
+        lens_.perspective = lens_.perspective + (1.0 / unit_) * Vec2{d[2], d[3]};
+        radius_ += d[4];
+        rotating_squeeze_ = rotating_squeeze_ + Vec2{d[5], d[6]};
+        for (std::size_t k = 0; k < outlines_.size(); ++k) {
+            const cv::Vec2d own =
+                -(centres[k].inverse * (centres[k].right + centres[k].coupling.t() * d));
+            outlines_[k].centre = outlines_[k].centre + Vec2{own[0], own[1]};
+        }
+        scale_ = std::clamp(mad_to_sigma * median(off), min_scale, known_window);
+    }
+
+    /// The second harmonic to be expected from the harmonics 3 … 8 of the mean outline, if they
+    /// fall as 1/n: light and shade shift an edge by amounts that change slowly along the rim.
+    double harmonics() const {
+        constexpr int first = 3, last = 8;
+        std::array<double, 2 * (last - first + 1)> sums{};
+        double weight = 0.0;
+        for (const RimOutline& o : outlines_)
+            for (const Vec2& seen : o.edge) {
+                const Row row = row_of(o, seen);
+                const double angle = std::atan2(row.n.y, row.n.x);
+                weight += row.weight;
+                std::size_t at = 0;
+                for (int n = first; n <= last; ++n) {
+                    const double off = 0.5 * n * row.weight * row.residual;
+                    sums[at++] += off * std::cos(n * angle);
+                    sums[at++] += off * std::sin(n * angle);
+                }
+            }
+        double square = 0.0;
+        for (const double s : sums) square += 4.0 * s * s / (weight * weight);
+        return weight > 0.0 ? std::sqrt(square / double(sums.size())) : 0.0;
+    }
+
+    std::vector<RimOutline> outlines_;
+    Lens lens_;
+    Vec2 path_centre_, rotating_squeeze_{0.0, 0.0};
+    double amplitude_, radius_, unit_;  // unit_: the initial radius
+    bool squeeze_known_;
+    double scale_ = 1.0;
+    Global inverse_ = Global::zeros();
+    std::vector<GlobalVector> scores_;  // of each frame
+};
+
+Vec2 squeeze_of(double angle, double towards) {
+    const double e = 1.0 - std::cos(angle);
+    return e * Vec2{std::cos(2.0 * towards), -std::sin(2.0 * towards)};
+}
+
+/// The tilt by the squeeze alone.
+Tilt tilt_by_squeeze(const Lens& lens, const TiltFit::Errors& errors) {
+    constexpr double max_squeeze = 0.9;  // keeps the arc cosine of a failed fit finite
+    Tilt tilt;
+    tilt.squeeze_error = errors.squeeze;
+    tilt.perspective_error = errors.perspective;
+    const double e = std::min(length(lens.squeeze), max_squeeze);
+    tilt.below = std::acos(1.0 - std::min(e + 2.0 * errors.squeeze, 1.0));
+    if (e < tilt_stands_out * errors.squeeze) return tilt;
+    tilt.angle = std::acos(1.0 - e);
+    tilt.angle_error = errors.squeeze / std::sin(tilt.angle);
+    tilt.towards = 0.5 * std::atan2(-lens.squeeze.y, lens.squeeze.x);  // half the angle, y up
+    tilt.towards_error = 0.5 * errors.squeeze / e;
+    return tilt;
+}
+
+/// Sets `value` to the weighted mean with `other`.
+void combine(double other, double other_error, double& value, double& error) {
+    const double a = 1.0 / (error * error), b = 1.0 / (other_error * other_error);
+    value = (a * value + b * other) / (a + b);
+    error = 1.0 / std::sqrt(a + b);
+}
+
+/// Adds what the perspective determines: the direction, and the angle or the view angle.
+void add_perspective(const Lens& lens, bool focal_length_known, Tilt& tilt) {
+    constexpr double min_oval = 0.3;  // rad between the two directions of a container not round
+    constexpr double max_sine = 0.7;  // keeps the arc sine of a failed fit finite
+    const double p = length(lens.perspective);
+    // The camera stands where things are nearer.
+    const double nearer = std::atan2(lens.perspective.y, -lens.perspective.x);
+    const double nearer_error = tilt.perspective_error / p;
+    if (tilt.angle > 0.0) {
+        if (std::cos(nearer - tilt.towards) < 0.0) tilt.towards += pi;
+        const double apart = std::remainder(nearer - tilt.towards, 2.0 * pi);
+        tilt.oval = std::abs(apart) > min_oval &&
+                    std::abs(apart) > tilt_stands_out * (nearer_error + tilt.towards_error);
+        combine(tilt.towards + apart, nearer_error, tilt.towards, tilt.towards_error);
+    } else {
+        tilt.towards = nearer, tilt.towards_error = nearer_error;
+    }
+    if (focal_length_known) {
+        const double other = std::asin(std::min(p / lens.inverse_focal_length, max_sine));
+        const double other_error =
+            tilt.perspective_error / lens.inverse_focal_length / std::cos(other);
+        if (tilt.angle > 0.0)
+            combine(other, other_error, tilt.angle, tilt.angle_error);
+        else
+            tilt.angle = other, tilt.angle_error = other_error;
+    } else if (tilt.angle > 0.0) {
+        const double tangent = lens.half_height * p / std::sin(tilt.angle);
+        tilt.view_angle = 2.0 * std::atan(tangent);
+        const double share = std::hypot(nearer_error, tilt.angle_error / std::tan(tilt.angle));
+        tilt.view_angle_error = 2.0 * tangent / (1.0 + tangent * tangent) * share;
+    }
+}
+
+std::vector<RimOutline> rim_outlines(const std::vector<PreparedFrame>& frames,
+                                     const ContainerRim& rim, const Lens& lens, double& radius) {
+    std::vector<RimOutline> outlines;
+    std::vector<double> radii;
+    for (const PreparedFrame& frame : frames) {
+        const CircleFit seen = find_container_rim(frame, rim);
+        if (!seen.good) continue;
+        const Lens::Circle circle = lens.ideal(Lens::Circle{seen.centre, seen.radius});
+        outlines.push_back({&frame, circle.centre, {}});
+        radii.push_back(circle.radius);
+    }
+    radius = median(radii);
+    return outlines;
+}
+
+/// The tilt with the present distortion and focal length of `lens`.
+Tilt fit_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known, ContainerRim& rim,
+              Lens& lens) {
+    constexpr std::size_t min_frames = 8;  // fewer do not go round
+    constexpr double good_support = 0.9;   // of the edge points: no other start is better
+    constexpr double exact = 1e-6;         // error of a given angle, rad: outweighs a fitted one
+    double radius = 0.0;
+    const auto outlines = rim_outlines(frames, rim, lens, radius);
+    if (outlines.size() < min_frames) return {};
+    const Vec2 centre = lens.ideal(Lens::Circle{rim.path_centre, rim.radius}).centre;
+    const auto fit_from = [&](double start) {
+        TiltFit fit(outlines, lens, centre, rim.amplitude, start, known.tilt.has_value());
+        fit.run(rim.polarity);
+        return fit;
+    };
+    TiltFit fit = fit_from(radius);
+    // The circle that fits a tilted rim may lie between two edges of the wall.
+    for (const double ratio : {0.975, 1.025, 0.95, 1.05}) {
+        if (fit.support() > good_support) break;
+        TiltFit other = fit_from(ratio * radius);
+        if (other.support() > fit.support()) fit = std::move(other);
+    }
+    const TiltFit::Errors errors = fit.errors();
+    Lens found = fit.lens();
+    const bool perspective = length(found.perspective) > tilt_stands_out * errors.perspective;
+    if (!perspective) found.perspective = {0.0, 0.0};
+    Tilt tilt = tilt_by_squeeze(found, errors);
+    if (known.tilt) {
+        tilt.angle = *known.tilt, tilt.angle_error = exact;
+        tilt.towards = known.towards.value_or(0.0), tilt.towards_error = exact;
+    }
+    if (perspective) add_perspective(found, known.view_angle.has_value(), tilt);
+    if (known.tilt) tilt.angle_error = tilt.towards_error = 0.0;
+    found.squeeze = squeeze_of(tilt.angle, tilt.towards);
+    lens = found;
+    rim.radius = fit.radius();
+    return tilt;
+}
+
+}  // namespace
+
+Tilt find_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known,
+               ContainerRim& rim, Lens& lens) {
+    constexpr double max_view_error = 0.2;  // relative: enough to correct the sizes of balls
+    const bool given = known.view_angle && *known.view_angle > 0.0;
+    if (given) lens.inverse_focal_length = std::tan(0.5 * *known.view_angle) / lens.half_height;
+    lens.combine_distortions();
+    if (known.tilt && *known.tilt == 0.0) return {};
+    Lens start = lens;
+    // The sizes of balls give the perspective to a few per cent. This start keeps the fit from
+    // taking another edge for the rim, which then gives it exactly.
+    const Vec2& p = lens.size_perspective;
+    if (length(p) > tilt_stands_out * lens.size_perspective_error) start.perspective = p;
+    if (known.tilt) start.squeeze = squeeze_of(*known.tilt, known.towards.value_or(0.0));
+    const ContainerRim seen = rim;
+    lens = start;
+    Tilt tilt = fit_tilt(frames, known, rim, lens);
+    if (!given && tilt.view_angle_error > 0.0 &&
+        tilt.view_angle_error < max_view_error * tilt.view_angle) {
+        start.inverse_focal_length = std::tan(0.5 * tilt.view_angle) / lens.half_height;
+        start.combine_distortions();
+        lens = start;
+        rim = seen;
+        tilt = fit_tilt(frames, known, rim, lens);
+    }
+    if (lens.tilted())
+        rim.lens = lens;
+    else
+        rim = seen;
+    return tilt;
+}
+
+}  // namespace swirl::tracking

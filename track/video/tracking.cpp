@@ -1,0 +1,252 @@
+#include "track/video/tracking.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parallel_for.hpp"
+#include "track/video/robust_statistics.hpp"
+#include "track/video/tracking_steps.hpp"
+
+namespace swirl::tracking {
+
+void TrackingSettings::throw_if_stopped() const {
+    if (stop && stop->load())
+        throw Interrupted("stopped while the video was tracked; nothing was written.");
+}
+
+unsigned thread_count(const TrackingSettings& settings) {
+    return settings.threads ? settings.threads : available_cores();
+}
+
+double TrackedVideo::step() const {
+    std::vector<double> steps;
+    for (std::size_t k = 1; k < times.size(); ++k) steps.push_back(times[k] - times[k - 1]);
+    return quantile(steps, 0.5);
+}
+
+TrackScale TrackedVideo::scale() const {
+    TrackScale s;
+    s.frames_per_time = fps > 0.0 ? fps : 1.0;
+    s.pixels_per_radius = radius;
+    s.swirl_centre = path.centre;
+    s.period = 2.0 * pi / path.omega;
+    s.amplitude = path.amplitude / radius;
+    s.phase = path.angle(0.0);
+    s.container_radius = container_radius / radius;
+    s.clockwise = path.clockwise;
+    return s;
+}
+
+namespace {
+
+/// Number of discs that `counts` accepts: the largest number of sure discs that is reached in more
+/// than a seventh of the frames, so that it is no accident.
+template <typename Counts>
+std::size_t count_discs(const Detections& all, Counts&& counts) {
+    constexpr std::size_t one_in = 7;
+    std::map<std::size_t, std::size_t, std::greater<>> frames_with;
+    std::size_t frames = 0;
+    for (const FrameDetections& found : all) {
+        if (!found.rim.good) continue;
+        ++frames;
+        ++frames_with[static_cast<std::size_t>(
+            std::count_if(found.particles.begin(), found.particles.end(),
+                          [&](const DetectedParticle& p) { return p.sure && counts(p.species); }))];
+    }
+    std::size_t so_far = 0;
+    for (const auto& [number, count] : frames_with) {
+        so_far += count;
+        if (so_far * one_in > frames) return number;
+    }
+    return 0;
+}
+
+/// Numbers of the two species that are most common among frames with `total` sure discs.
+std::optional<std::array<std::size_t, 2>> common_composition(const Detections& all,
+                                                             std::size_t total) {
+    std::map<std::size_t, std::size_t> frames_with;  // number of the second species
+    for (const FrameDetections& found : all) {
+        std::array<std::size_t, 2> number{};
+        for (const DetectedParticle& p : found.particles)
+            if (p.sure) ++number[p.species];
+        if (number[0] + number[1] == total) ++frames_with[number[1]];
+    }
+    const auto best =
+        std::max_element(frames_with.begin(), frames_with.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (best == frames_with.end()) return std::nullopt;
+    return std::array{total - best->first, best->first};
+}
+
+/// Sets the species and their numbers of discs.
+void set_species(const TrackingSettings& settings, const ParticleAppearance& appearance,
+                 const Detections& all, TrackedVideo& tracked) {
+    for (std::size_t k = 0; k < appearance.species.size(); ++k)
+        tracked.species.push_back(
+            {appearance.species[k].radius, appearance.species[k].scatter,
+             count_discs(all, [k](std::size_t species) { return species == k; })});
+    if (tracked.species.size() == 2) {
+        // A disc whose size is ambiguous is of either species in some frames: it counts once.
+        const std::size_t counted = count_discs(all, [](std::size_t) { return true; }),
+                          sum = tracked.species[0].number + tracked.species[1].number,
+                          total = settings.discs ? static_cast<std::size_t>(*settings.discs)
+                                                 : std::min(counted, sum);
+        if (sum != total) {
+            const auto numbers = common_composition(all, total);
+            if (!numbers && settings.discs)
+                throw UncertainDiscs(fmt::format(
+                    "--discs is {}, but no frame shows this number: discs of two sizes are found, "
+                    "{} in most frames. Some of these circles may be texture or noise.\n"
+                    "hint: use a plain floor, or give --disc-diameter and --container-diameter.",
+                    total, counted));
+            if (numbers) {
+                tracked.species[0].number = (*numbers)[0];
+                tracked.species[1].number = (*numbers)[1];
+            }
+        }
+    }
+    tracked.number_given = settings.discs.has_value();
+    if (settings.discs && tracked.species.size() == 1)
+        tracked.species[0].number = static_cast<std::size_t>(*settings.discs);
+    // The first one of the most frequent.
+    tracked.radius =
+        std::max_element(tracked.species.begin(), tracked.species.end(),
+                         [](const auto& a, const auto& b) { return a.number < b.number; })
+            ->radius;
+}
+
+/// All steps after the detection. Throws Failure, and UncertainDiscs.
+void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey,
+                     const VideoTimes& times, Detections& all, TrackedVideo& tracked) {
+    constexpr std::size_t min_frames = 8;  // to fit a path
+    tracked.width = survey.size.width;
+    tracked.height = survey.size.height;
+    tracked.bright = survey.appearance.polarity > 0;
+    tracked.tilt = survey.tilt;
+    tracked.spacing = survey.appearance.spacing;
+    if (tracked.spacing > 1.0) tracked.contact_ratio = tracked.spacing;
+    if (survey.rim.second_container)
+        tracked.warnings.emplace_back(
+            "there is a second circle of the container's size: of two containers in the frame, the "
+            "one with the clearer rim was followed; crop the video to one of them");
+    collect_camera_motion(all, tracked);
+    correct_lens(survey, all, tracked);
+    tracked.frame_count = static_cast<std::int64_t>(all.size());
+    if (all.size() < min_frames)
+        throw Failure(fmt::format("'{}' has {} frames, too few to determine the path: at least {}",
+                                  settings.video, all.size(), min_frames));
+    const bool uneven_times = set_frame_times(settings, times, all, tracked);
+    fit_container_motion(settings, uneven_times, all, tracked);
+    set_species(settings, survey.appearance, all, tracked);
+
+    const Links links = link_detections(settings, survey, all, tracked);
+    remove_shading_shift(links, survey.brighter, all, tracked);
+    separate_overlaps(links, all, tracked);
+    assemble_tracks(all, links, settings.first_frame, tracked);
+    if (tracked.number == 0) throw Failure("no disc could be followed through the video");
+
+    if (tracked.lens.tilted()) move_path_to_wall(tracked);
+    measure_quality(all, tracked);
+    reject_contradicted_discs(tracked);
+    set_radii(tracked);
+    if (survey.floor)
+        tracked.warnings.emplace_back(
+            "the floor of the container has a pattern, which was learned from the video and "
+            "removed; a plain floor gives more accurate positions");
+    add_warnings(tracked);
+}
+
+/// The number of frames to track, or 0 if it is unknown. Throws Failure if there are none.
+std::int64_t expected_frames(const TrackingSettings& settings, const VideoTimes& times) {
+    std::int64_t expected = times.frame_count;
+    if (expected > 0 && settings.first_frame >= expected)
+        throw Failure(fmt::format("frame {} is the first to be tracked, but '{}' has {} frames",
+                                  settings.first_frame, settings.video, expected));
+    if (expected > 0) expected -= settings.first_frame;
+    if (settings.max_frames > 0)
+        expected = expected > 0 ? std::min(expected, settings.max_frames) : settings.max_frames;
+    return expected;
+}
+
+/// A video whose frames have been searched.
+struct DetectedVideo {
+    VideoTimes times;
+    VideoSurvey survey;
+    Detections all;
+};
+
+/// Sets `settings.fields`.
+DetectedVideo detect_video(TrackingSettings& settings, TrackedVideo& tracked) {
+    constexpr std::int64_t assumed_frames = 4 * survey_frames;  // if the number is unknown
+    cv::setNumThreads(1);  // the frames are distributed over our threads
+    DetectedVideo video;
+    video.times = video_times(settings.video);
+    const std::int64_t expected = expected_frames(settings, video.times);
+    settings.fields = tracked.fields = field_order(settings.video, settings.first_frame);
+    const std::int64_t planned = expected > 0 ? expected : assumed_frames;
+    if (settings.planned) settings.planned(planned, settings.spins);
+    video.survey = survey_video(settings, planned);
+    video.all = detect_frames(settings, video.survey, expected, tracked);
+    return video;
+}
+
+}  // namespace
+
+TrackedVideo track_container(const TrackingSettings& given) {
+    TrackingSettings settings = given;
+    settings.motion_only = true;
+    TrackedVideo tracked;
+    auto [times, survey, all] = detect_video(settings, tracked);
+    collect_camera_motion(all, tracked);
+    correct_lens(survey, all, tracked);
+    tracked.frame_count = static_cast<std::int64_t>(all.size());
+    set_frame_times(settings, times, all, tracked);
+    tracked.rims = rim_centres(all, tracked);
+    tracked.tilt = survey.tilt;
+    tracked.radius = survey.appearance.spacing * survey.appearance.radius();
+    tracked.container_radius = tracked.rim_radius;
+    return tracked;
+}
+
+namespace {
+
+TrackedVideo detect_and_link(TrackingSettings settings) {
+    TrackedVideo tracked;
+    auto [times, survey, all] = detect_video(settings, tracked);
+    try {
+        finish_tracking(settings, survey, times, all, tracked);
+    } catch (const Failure& failure) {
+        // A damaged video has a cause that no other message states.
+        if (tracked.damage.empty()) throw;
+        std::string text = failure.what();
+        text.insert(std::min(text.find('\n'), text.size()),
+                    fmt::format("; the video is damaged, ffmpeg reports: {}", tracked.damage));
+        throw Failure(text);
+    }
+    return tracked;
+}
+
+}  // namespace
+
+TrackedVideo track_video(const TrackingSettings& settings) {
+    try {
+        return detect_and_link(settings);
+    } catch (const UncertainDiscs&) {
+        TrackingSettings again = settings;
+        again.patterned_floor = true;
+        try {
+            return detect_and_link(again);
+        } catch (const Failure&) {
+        }
+        throw;  // the first attempt states the cause
+    }
+}
+
+}  // namespace swirl::tracking

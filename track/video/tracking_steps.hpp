@@ -1,0 +1,145 @@
+// The steps of track_video(), in their order; a heading names the file that contains the step.
+// Other layers use tracking.hpp alone.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "track/video/container_rim.hpp"
+#include "track/video/floor_pattern.hpp"
+#include "track/video/link.hpp"
+#include "track/video/particle_detection.hpp"
+#include "track/video/tilt.hpp"
+#include "track/video/tracking.hpp"
+#include "track/video/video.hpp"
+
+namespace swirl::tracking {
+
+unsigned thread_count(const TrackingSettings& settings);
+
+// video_survey.cpp
+
+/// Frames of a survey: enough to cover a period and all sides of the container.
+inline constexpr std::int64_t survey_frames = 48;
+
+struct VideoSurvey {
+    ContainerRim rim;
+    ParticleAppearance appearance;
+    Tilt tilt;
+    std::shared_ptr<const StaticBackground> background;  // set if the camera moves
+    std::shared_ptr<const FloorPattern> floor;           // set if it is removed from all frames
+    cv::Size size;                                       // of the frames
+    Vec2 brighter{0.0, 0.0};  // mean gradient of the brightness of a disc, levels per radius
+
+    static constexpr double vote_radius = 12.0;  // of a disc, pixels: more only costs time
+    /// Reduction of the frames in which votes for discs are counted.
+    double reduction() const { return std::min(1.0, vote_radius / appearance.radius()); }
+};
+/// `frame_count` may be an estimate.
+VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_count);
+
+// frame_detection.cpp
+
+struct FrameDetections {
+    CircleFit rim;
+    std::vector<DetectedParticle> particles;
+    /// False for a frame without a time of its own, a duplicate, and one to be skipped.
+    bool used = true;
+    std::optional<CameraPose> pose;  // of the frame, if the camera moves
+    double change = -1.0;  // of the pixels since the frame before, grey levels; −1: unknown
+
+    /// Drops all that was found in the frame.
+    void discard() {
+        rim = {};
+        particles.clear();
+        used = false;
+        pose.reset();
+    }
+};
+using Detections = std::vector<FrameDetections>;  // for each frame
+/// Positions as seen through the lens. `expected` frames, for the progress; 0: unknown.
+Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& survey,
+                         std::int64_t expected, TrackedVideo& tracked);
+
+/// Sets the final lens, corrects all positions by it, and sets the radius of the rim.
+void correct_lens(const VideoSurvey& survey, Detections& all, TrackedVideo& tracked);
+
+// camera_steps.cpp
+
+/// Sets the camera's motion from the poses of the frames. Frames without one are not used.
+void collect_camera_motion(Detections& all, TrackedVideo& tracked);
+/// If the camera shakes and the background does not show it, takes the motion from the rim: removes
+/// its deviation from the path from all positions. True if it did.
+bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked);
+
+// frame_times.cpp
+
+/// Sets the time of every frame; returns whether these are the video's own because they are uneven.
+/// Steps that differ by no more than the rounding of the video's clock count as equal. Throws
+/// Failure if too few frames have valid times.
+bool set_frame_times(const TrackingSettings& settings, const VideoTimes& times, Detections& all,
+                     TrackedVideo& tracked);
+
+/// Throws Failure if the video's clock advances by half a period or more between two frames.
+void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
+                      const TrackedVideo& tracked);
+/// Warns of a few dropped or duplicated frames. If they are many, throws Failure, or corrects the
+/// times if the settings accept them. Duplicates are then no longer used. True if times changed.
+bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims, Detections& all,
+                       TrackedVideo& tracked);
+
+// container_motion.cpp
+
+RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked);
+/// Sets all that the rim determines: path, polygon, shake. Throws Failure.
+void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
+                          TrackedVideo& tracked);
+
+// track_repair.cpp
+
+/// Links the particles of all frames. Removes outliers, and adds discs that were missed. `all` gets
+/// the added ones.
+Links link_detections(const TrackingSettings& settings, const VideoSurvey& survey, Detections& all,
+                      TrackedVideo& tracked);
+/// Calls use(frame, track, index) for every particle that belongs to a track, frame by frame.
+template <typename Use>
+void for_each_linked(const Links& links, Use&& use) {
+    for (std::size_t k = 0; k < links.track.size(); ++k)
+        for (std::size_t d = 0; d < links.track[k].size(); ++d)
+            if (const int t = links.track[k][d]; t >= 0) use(k, static_cast<std::size_t>(t), d);
+}
+// wall_fit.cpp
+
+/// Light from one side shifts discs towards the side that stands out from the floor. Removes the
+/// shift of discs at the wall, the same at opposite sides, from all positions. `brighter`: gradient
+/// of the brightness of a disc; a shift that is not along it has another cause.
+void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& all,
+                          TrackedVideo& tracked);
+
+// overlap_separation.cpp, track_assembly.cpp, wall_fit.cpp, track_quality.cpp,
+// tracking_warnings.cpp
+
+/// Moves discs that seem to overlap or to stick in the wall apart, since they are hard. Sets the
+/// error that overlaps imply.
+void separate_overlaps(const Links& links, Detections& all, TrackedVideo& tracked);
+/// Writes the tracks, with short gaps filled.
+void assemble_tracks(const Detections& all, const Links& links, std::int64_t first_frame,
+                     TrackedVideo& tracked);
+
+/// Seen at an angle, the rim is shifted relative to the discs, and larger: moves the path to where
+/// the wall stops discs.
+void move_path_to_wall(TrackedVideo& tracked);
+/// Sets the errors, the shares, and how far out discs come.
+void measure_quality(const Detections& all, TrackedVideo& tracked);
+/// Sets the container's radius from the rim and the discs; corrects the radii of discs in contact.
+void set_radii(TrackedVideo& tracked);
+/// Throws UncertainDiscs if most frames contradict the discs that were found.
+void reject_contradicted_discs(const TrackedVideo& tracked);
+/// Adds warnings about what looks wrong, with the likely cause.
+void add_warnings(TrackedVideo& tracked);
+
+}  // namespace swirl::tracking

@@ -1,0 +1,233 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
+#include "track/video/tracking_steps.hpp"
+
+namespace swirl::tracking {
+
+namespace {
+
+constexpr double complete_rim = 0.005;  // share of the rim outside the frame that is no warning
+
+/// Successive frames in each of which many discs are missing.
+struct Occlusion {
+    std::size_t begin = 0, end = 0;
+    double share = 0.0;  // of the discs, mean
+    std::size_t size() const { return end - begin; }
+};
+
+Occlusion longest_occlusion(const TrackedVideo& tracked) {
+    constexpr double min_share = 0.2;   // of the discs
+    constexpr std::size_t minimum = 3;  // discs: of very few, one is a large share
+    Occlusion longest, here;
+    for (std::size_t k = 0; k <= tracked.seen.size(); ++k) {
+        std::size_t missing = 0;
+        if (k < tracked.seen.size())
+            missing = tracked.number -
+                      std::size_t(std::count(tracked.seen[k].begin(), tracked.seen[k].end(), 1));
+        if (missing >= minimum && double(missing) >= min_share * double(tracked.number)) {
+            if (here.end != k) here = {k, k, 0.0};
+            ++here.end;
+            here.share += double(missing) / double(tracked.number);
+        } else if (here.size() > longest.size()) {
+            longest = here;
+        }
+    }
+    if (longest.size() > 0) longest.share /= double(longest.size());
+    return longest;
+}
+
+/// How to leave out a part at the beginning or at the end; empty for any other part.
+std::string omission_text(const Occlusion& occlusion, const TrackedVideo& tracked) {
+    constexpr std::size_t one_in = 10;  // frames that may be left out in addition
+    const std::size_t frames = tracked.seen.size();
+    const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
+    if (one_in * occlusion.begin < frames)
+        return fmt::format("; --from {} leaves these frames out", first + occlusion.end);
+    if (one_in * (frames - occlusion.end) < frames)
+        return fmt::format("; --to {} leaves these frames out", first + occlusion.begin - 1);
+    return "";
+}
+
+/// Share of the rim, averaged over a period, that lies outside the frame.
+double share_outside(const TrackedVideo& tracked) {
+    constexpr int steps = 36;  // of the period and of the rim: 10 degrees
+    int out = 0;
+    for (int a = 0; a < steps; ++a)
+        for (int b = 0; b < steps; ++b) {
+            const Vec2 p =
+                tracked.lens.seen(tracked.path.centre - tracked.rim_shift +
+                                  tracked.path.amplitude * unit_circle(double(a) / steps) +
+                                  tracked.rim_radius * unit_circle(double(b) / steps));
+            if (p.x < 0.0 || p.y < 0.0 || p.x > tracked.width - 1.0 || p.y > tracked.height - 1.0)
+                ++out;
+        }
+    return double(out) / (steps * steps);
+}
+
+template <typename... Values>
+void warn(TrackedVideo& tracked, fmt::format_string<Values...> text, Values&&... values) {
+    tracked.warnings.push_back(fmt::format(text, std::forward<Values>(values)...));
+}
+
+void warn_about_motion(TrackedVideo& tracked) {
+    constexpr double min_periods = 1.0, min_per_period = 24.0, min_used = 0.9;
+    constexpr std::size_t max_missed = 20;  // one rim in 20 may be missed
+    const double per_period = 2.0 * pi / (tracked.path.omega * tracked.step());
+    const double periods = double(tracked.frame_count) / per_period;
+    if (periods < min_periods)
+        warn(tracked, "the video shows {:.2f} periods; Ω and the centre need at least one",
+             periods);
+    if (per_period < min_per_period)
+        warn(tracked,
+             "there are only {:.1f} frames per period: discs may be confused, and their spins "
+             "cannot be measured; use 60 or more (the paper has 511)",
+             per_period);
+    if (tracked.path.used < min_used)
+        warn(tracked,
+             "in {:.0f} % of the frames the rim is not on the fitted path: something may cover it, "
+             "the camera may have moved, or the motion changed during the video",
+             100.0 * (1.0 - tracked.path.used));
+    if (tracked.rims_missed * max_missed > static_cast<std::size_t>(tracked.frame_count))
+        warn(tracked, "the rim was not found in {:.0f} % of the frames",
+             100.0 * double(tracked.rims_missed) / double(tracked.frame_count));
+}
+
+void warn_about_fields(TrackedVideo& tracked) {
+    if (tracked.fields == FieldOrder::progressive) return;
+    warn(tracked,
+         "the video is interlaced: the {} rows of each frame, which were taken later, are replaced "
+         "by estimates; ffmpeg -i VIDEO -vf bwdif=mode=send_field:parity={}:deint=all "
+         "-qp 16 twice.mp4 makes a video with twice as many frames per period",
+         tracked.fields == FieldOrder::top_first ? "odd" : "even", parity_of(tracked.fields));
+}
+
+void warn_about_wall(TrackedVideo& tracked) {
+    constexpr double max_off = 0.06;     // disc radii between the rim and the discs' reach
+    constexpr double max_beyond = 0.05;  // disc radii from the vertices to the circle
+    const double inside = tracked.rim_radius - tracked.reach, limit = max_off * tracked.radius;
+    if (inside > limit && !tracked.wall_reached)
+        warn(tracked,
+             "discs are at the wall too seldom to determine its radius: the visible rim, with a "
+             "radius of {:.2f} pixels, is used; if it is the outer edge of the wall, the container "
+             "is smaller",
+             tracked.rim_radius);
+    else if (inside > limit)
+        warn(tracked,
+             "the visible rim has a radius of {:.2f} pixels, but discs never come farther out than "
+             "{:.2f}: the rim is the outer edge of the wall, and the smaller radius is used",
+             tracked.rim_radius, tracked.reach);
+    if (-inside > limit)
+        warn(tracked,
+             "discs come {:.2f} pixels farther out than the visible rim, which has a radius of "
+             "{:.2f} pixels; the radius at which discs are stopped is used",
+             -inside, tracked.rim_radius);
+    if (length(tracked.rim_shift) > 0.0)
+        warn(tracked,
+             "the circle at which discs are stopped is {:.2f} pixels away from the visible rim, as "
+             "if the camera saw the rim at an angle and at another height; this circle and its "
+             "path are used",
+             length(tracked.rim_shift));
+    if (tracked.tilt.oval)
+        warn(tracked,
+             "the container looks elongated in another direction than a tilted camera explains: it "
+             "is not round, or its rim is not flat; distances in different directions are not "
+             "comparable to better than that");
+    const double beyond = tracked.polygon.vertex_distance - tracked.path.amplitude;
+    if (tracked.polygon.sides > 0 && beyond > max_beyond * tracked.radius)
+        warn(
+            tracked,
+            "the container moved along a polygon of {} sides, but the circle that fits it is used: "
+            "its vertices are {:.2f} pixels farther out; positions relative to the container, and "
+            "its radius, may be wrong by as much",
+            tracked.polygon.sides, beyond);
+}
+
+void warn_about_discs(double outside, TrackedVideo& tracked) {
+    constexpr std::size_t min_occlusion = 4;                  // frames
+    constexpr double min_complete = 0.9, max_crowded = 0.05;  // of the frames
+    const Occlusion occlusion = longest_occlusion(tracked);
+    const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
+    const bool hidden = occlusion.size() >= min_occlusion && outside <= complete_rim;
+    if (hidden)
+        warn(
+            tracked,
+            "in frames {} to {} about {:.0f} % of the discs are missing at once: something covered "
+            "the container, perhaps a hand; a disc may have different IDs before and after{}",
+            first + occlusion.begin, first + occlusion.end - 1, 100.0 * occlusion.share,
+            omission_text(occlusion, tracked));
+    if (tracked.complete_share < min_complete && !hidden)
+        warn(tracked,
+             "all {} discs are detected in only {:.1f} % of the frames: more even light, less "
+             "glare, a sharper image or a shorter exposure would help{}",
+             tracked.number, 100.0 * tracked.complete_share,
+             tracked.species.size() == 1 && !tracked.number_given ? "; --discs sets their number"
+                                                                  : "");
+    if (double(tracked.crowded) > max_crowded * double(tracked.frame_count))
+        warn(
+            tracked,
+            "in {:.0f} % of the frames there are more discs than the {} {}, on average {:.1f} more",
+            100.0 * double(tracked.crowded) / double(tracked.frame_count), tracked.number,
+            tracked.number_given ? "of --discs" : "that were counted (--discs sets their number)",
+            double(tracked.rejected) / double(tracked.crowded));
+}
+
+}  // namespace
+
+void reject_contradicted_discs(const TrackedVideo& tracked) {
+    constexpr double most = 0.5;        // of the frames
+    constexpr double max_excess = 0.1;  // of the discs
+    constexpr double max_incomplete = 0.8;
+    const double crowded = double(tracked.crowded), frames = double(tracked.frame_count);
+    if (crowded < most * frames || 1.0 - tracked.complete_share < max_incomplete) return;
+    const double excess = double(tracked.rejected) / crowded;
+    if (excess < max_excess * double(tracked.number)) return;
+    throw UncertainDiscs(fmt::format(
+        "{} discs with a radius of {:.1f} pixels were {}, but most frames contradict that: "
+        "{:.0f} % have more, on average {:.0f} more, and all {} are found in only {:.0f} %. These "
+        "circles may be texture or noise.\nhint: give {}--disc-diameter and --container-diameter. "
+        "A plain floor, a higher contrast and less compression also help.",
+        tracked.number, tracked.radius, tracked.number_given ? "expected" : "counted",
+        std::min(100.0, 100.0 * crowded / frames), excess, tracked.number,
+        100.0 * tracked.complete_share, tracked.number_given ? "" : "--discs, or "));
+}
+
+void add_warnings(TrackedVideo& tracked) {
+    constexpr double min_percent = 1.0;                    // printed without decimals
+    constexpr double min_shake = 0.5, shake_factor = 3.0;  // pixels; position errors
+    constexpr double max_contact_off = 0.03;               // of the contact ratio
+    warn_about_fields(tracked);
+    warn_about_motion(tracked);
+    warn_about_wall(tracked);
+    const double outside = share_outside(tracked);
+    if (outside > complete_rim)
+        warn(tracked,
+             "the container is not entirely in the frame: {:.0f} % of its rim, averaged over a "
+             "period, lies outside; discs there are not detected, and results are from a part of "
+             "the container",
+             std::max(100.0 * outside, min_percent));
+    warn_about_discs(outside, tracked);
+    if (tracked.frames_without_pose > 0)
+        warn(tracked,
+             "the camera moves, and in {} of {} frames the background does not show by how much; "
+             "they are not used, and positions are filled in",
+             tracked.frames_without_pose, tracked.frame_count);
+    if (tracked.shake > std::max(min_shake, shake_factor * tracked.position_error))
+        warn(
+            tracked,
+            "the container shakes by {:.1f} pixels from frame to frame: the camera was not steady, "
+            "or the rim is hard to see; positions relative to the container err by as much",
+            tracked.shake);
+    if (tracked.contact_ratio > 0.0 && std::abs(tracked.contact_ratio - 1.0) > max_contact_off)
+        warn(tracked,
+             "discs in contact are {:.3f} times the sum of their visible radii apart, since their "
+             "outlines are not sharp; the radii are corrected to that distance",
+             tracked.contact_ratio);
+}
+
+}  // namespace swirl::tracking

@@ -1,0 +1,280 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "swirl/run/failure.hpp"
+#include "swirl/run/parallel_for.hpp"
+#include "track/video/appearance_template.hpp"
+#include "track/video/contact_distance.hpp"
+#include "track/video/floor_pattern.hpp"
+#include "track/video/shading_detection.hpp"
+#include "track/video/tracking_steps.hpp"
+
+namespace swirl::tracking {
+
+namespace {
+
+std::vector<cv::Mat> read_survey_frames(const TrackingSettings& settings,
+                                        std::int64_t frame_count) {
+    const std::int64_t every = std::max<std::int64_t>(1, frame_count / survey_frames);
+    std::size_t maximum = survey_frames + 2;  // the division rounds down
+    if (settings.max_frames > 0)
+        maximum = std::min(maximum, static_cast<std::size_t>((frame_count + every - 1) / every));
+    Video video(settings.video, every, settings.first_frame, settings.fields);
+    cv::Mat grey;
+    std::vector<cv::Mat> images;
+    while (images.size() < maximum && video.next(grey)) {
+        settings.throw_if_stopped();
+        images.push_back(grey.clone());
+        settings.report_progress("surveying the video", double(images.size()) / double(maximum));
+    }
+    return images;
+}
+
+std::vector<PreparedFrame> prepare_all(const std::vector<cv::Mat>& images, double reduction,
+                                       const TrackingSettings& settings) {
+    constexpr double blur = 1.0;  // pixels, against noise: the edge of a rim is broader
+    std::vector<std::optional<PreparedFrame>> prepared(images.size());
+    parallel_for(
+        images.size(),
+        [&](std::size_t k) {
+            settings.throw_if_stopped();
+            prepared[k].emplace(images[k], reduction, blur);
+        },
+        thread_count(settings));
+    std::vector<PreparedFrame> frames;
+    for (auto& frame : prepared) frames.push_back(std::move(*frame));
+    return frames;
+}
+
+/// The discs' appearance, from a part of the frames.
+ParticleAppearance survey_appearance(const std::vector<cv::Mat>& images,
+                                     const std::vector<PreparedFrame>& frames, double reduction,
+                                     const ContainerRim& known_rim,
+                                     const TrackingSettings& settings) {
+    constexpr std::size_t enough = 24;  // frames: discs are many, and their survey is slow
+    std::vector<PreparedFrame> part;
+    std::vector<CircleFit> rims;
+    const std::size_t stride = std::max<std::size_t>(1, frames.size() / enough);
+    for (std::size_t k = 0; k < frames.size(); k += stride) {
+        settings.throw_if_stopped();
+        const CircleFit rim = find_container_rim(frames[k], known_rim);
+        if (!rim.good) continue;
+        rims.push_back(rim);
+        part.emplace_back(images[k], reduction, survey_blur);
+    }
+    if (part.empty()) throw Failure("no container found in the frames");
+    settings.throw_if_stopped();
+    KnownDiscs known;
+    if (settings.discs) known.number = static_cast<std::size_t>(*settings.discs);
+    known.radius_share = settings.radius_share;
+    const auto by_shading = [&] {
+        return survey_shading(part, rims, known, thread_count(settings));
+    };
+    try {
+        const ParticleAppearance by_edges =
+            survey_particles(part, rims, known, thread_count(settings));
+        // Circles that are only the lit parts of balls are displaced by different amounts.
+        if (by_edges.spacing > 1.0)
+            if (const auto found = by_shading()) return *found;
+        return by_edges;
+    } catch (const Failure&) {
+        if (const auto found = by_shading()) return *found;
+        throw;
+    }
+}
+
+std::vector<AppearanceTemplate::Example> find_examples(const std::vector<cv::Mat>& images,
+                                                       const TrackingSettings& settings,
+                                                       const VideoSurvey& survey) {
+    std::vector<std::optional<AppearanceTemplate::Example>> found(images.size());
+    parallel_for(
+        images.size(),
+        [&](std::size_t k) {
+            settings.throw_if_stopped();
+            const PreparedFrame frame(images[k], survey.reduction(), survey.appearance.blur);
+            const CircleFit rim = find_container_rim(frame, survey.rim);
+            if (rim.good)
+                found[k] = {frame.sharp, rim, find_particles(frame, rim, survey.appearance)};
+        },
+        thread_count(settings));
+    std::vector<AppearanceTemplate::Example> examples;
+    for (auto& example : found)
+        if (example) examples.push_back(std::move(*example));
+    settings.throw_if_stopped();
+    return examples;
+}
+
+/// Soft edges give a wrong radius, and circles of that radius are displaced. If the commonest
+/// distance of neighbours is far from the diameter, halves the difference: the visible outline is
+/// between the edge and the contact. True if the radius changed.
+bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& examples,
+                                ParticleAppearance& appearance) {
+    std::vector<double> ratios;
+    for (const AppearanceTemplate::Example& example : examples) {
+        const std::vector<DetectedParticle>& discs = example.particles;
+        for (std::size_t a = 0; a < discs.size(); ++a)
+            for (std::size_t b = a + 1; b < discs.size(); ++b) {
+                if (!discs[a].sure || !discs[b].sure) continue;
+                const double radii = appearance.species[discs[a].species].radius +
+                                     appearance.species[discs[b].species].radius;
+                const double ratio = length(discs[a].centre - discs[b].centre) / radii;
+                if (std::abs(ratio - 1.0) < contact_range) ratios.push_back(ratio);
+            }
+    }
+    const auto contact = contact_of_discs(ratios);
+    if (appearance.spacing > 1.0 || !contact) return false;
+    // A circle far inside a ball is the sharp edge of its bright part, and stays the best guide.
+    constexpr double inner_edge = 1.1;
+    if (std::abs(contact->at - 1.0) < max_contact_off || contact->at > inner_edge) return false;
+    for (ParticleSpecies& species : appearance.species) species.radius *= 0.5 * (1.0 + contact->at);
+    appearance.lens.ball_radius = appearance.radius();
+    return true;
+}
+
+/// Mean gradient of the brightness over the inner part of a disc, in grey levels per radius.
+Vec2 mean_gradient(const std::vector<AppearanceTemplate::Example>& examples,
+                   const ParticleAppearance& appearance) {
+    constexpr double inner = 0.7;  // radii: without the edge
+    Vec2 sum{0.0, 0.0};
+    double weight = 0.0;
+    for (const AppearanceTemplate::Example& example : examples)
+        for (const DetectedParticle& p : example.particles) {
+            if (!p.sure) continue;
+            const double radius = appearance.species[p.species].radius, reach = inner * radius;
+            const int top = std::max(0, int(p.centre.y - reach) + 1),
+                      bottom = std::min(example.sharp.rows - 1, int(p.centre.y + reach)),
+                      left = std::max(0, int(p.centre.x - reach) + 1),
+                      right = std::min(example.sharp.cols - 1, int(p.centre.x + reach));
+            for (int row = top; row <= bottom; ++row)
+                for (int column = left; column <= right; ++column) {
+                    const Vec2 d = (1.0 / radius) * (Vec2{double(column), double(row)} - p.centre);
+                    if (dot(d, d) > inner * inner) continue;
+                    sum = sum + double(example.sharp.ptr<float>(row)[column]) * d;
+                    weight += 0.5 * dot(d, d);
+                }
+        }
+    return weight > 0.0 ? (1.0 / weight) * sum : sum;
+}
+
+/// Learns the discs' mean appearance, for videos with poor edges.
+void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings& settings,
+                      VideoSurvey& survey) {
+    std::vector<AppearanceTemplate::Example> examples = find_examples(images, settings, survey);
+    if (correct_radius_by_contacts(examples, survey.appearance))
+        examples = find_examples(images, settings, survey);
+    if (!survey.appearance.shading) survey.brighter = mean_gradient(examples, survey.appearance);
+    if (auto learned =
+            AppearanceTemplate::learned(examples, survey.appearance, thread_count(settings)))
+        survey.appearance.appearance_template =
+            std::make_shared<const AppearanceTemplate>(std::move(*learned));
+    else if (survey.appearance.shading)
+        throw UncertainDiscs(
+            "the container was found, but no discs: balls were found by their shading, but they "
+            "have no common appearance.\n"
+            "hint: a higher contrast and less compression help.");
+}
+
+/// If the background shows that the camera moves, stabilises the images and surveys the rim again.
+void remove_camera_motion(const TrackingSettings& settings, double reduction,
+                          std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
+                          VideoSurvey& survey) {
+    constexpr double min_motion = 0.3;     // pixels, rms: about ten errors of a pose
+    constexpr double min_known = 0.7;      // of the frames
+    constexpr double rim_width = 0.1;      // of the radius: the outer edge of the wall
+    constexpr double min_amplitude = 0.5;  // of the path: less if the background moves with it
+    const double reach = survey.rim.amplitude + (1.0 + rim_width) * survey.rim.radius;
+    const auto background = std::make_shared<const StaticBackground>(images[images.size() / 2],
+                                                                     survey.rim.path_centre, reach);
+    if (!background->usable()) return;
+    std::vector<std::optional<CameraPose>> poses(images.size());
+    parallel_for(
+        images.size(),
+        [&](std::size_t k) {
+            settings.throw_if_stopped();
+            poses[k] = background->pose(images[k]);
+        },
+        thread_count(settings));
+    double square = 0.0;
+    std::vector<cv::Mat> stable;
+    for (std::size_t k = 0; k < images.size(); ++k) {
+        if (!poses[k]) continue;
+        const Vec2 moved = poses[k]->seen(survey.rim.path_centre) - survey.rim.path_centre;
+        square += dot(moved, moved);
+        stable.push_back(images[k]);
+        stabilise(stable.back(), *poses[k]);
+    }
+    if (double(stable.size()) < min_known * double(images.size()) ||
+        square < min_motion * min_motion * double(stable.size()))
+        return;
+    std::vector<PreparedFrame> again = prepare_all(stable, reduction, settings);
+    const std::optional<ContainerRim> rim = find_moving_rim(again, false);
+    if (!rim || rim->amplitude < min_amplitude * survey.rim.amplitude) return;
+    survey.rim = *rim;
+    survey.background = background;
+    images = std::move(stable);
+    frames = std::move(again);
+}
+
+/// Throws Failure if the floor has no pattern.
+void remove_floor_pattern(const TrackingSettings& settings, double reduction,
+                          std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
+                          VideoSurvey& survey) {
+    // The edge of a patterned floor is no circle. Without the pattern the rim is found exactly, and
+    // then the pattern can be learned up to the wall.
+    constexpr int rounds = 2;
+    const std::vector<cv::Mat> seen = images;
+    for (int round = 0; round < rounds; ++round) {
+        std::optional<FloorPattern> floor =
+            FloorPattern::learned(seen, survey.rim, reduction, thread_count(settings));
+        if (!floor) throw Failure("the floor of the container has no pattern");
+        survey.floor = std::make_shared<const FloorPattern>(std::move(*floor));
+        parallel_for(
+            images.size(),
+            [&](std::size_t k) {
+                settings.throw_if_stopped();
+                images[k] = seen[k].clone();
+                survey.floor->remove(images[k]);
+            },
+            thread_count(settings));
+        frames = prepare_all(images, reduction, settings);
+        if (const auto rim = find_moving_rim(frames, true)) survey.rim = *rim;
+    }
+}
+
+}  // namespace
+
+VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_count) {
+    constexpr double min_side = 64.0;      // pixels: smaller frames show no discs
+    constexpr double rim_side = 300.0;     // pixels: enough to find the rim
+    constexpr double particle_side = 1.3;  // times that, for discs: they are smaller
+    VideoSurvey survey;
+    std::vector<cv::Mat> images = read_survey_frames(settings, frame_count);
+    survey.size = images.front().size();
+    const double side = std::min(survey.size.width, survey.size.height);
+    if (side < min_side)
+        throw Failure(fmt::format("the frames of '{}' have {}x{} pixels, too few to show discs",
+                                  settings.video, survey.size.width, survey.size.height));
+    const double reduction = std::min(1.0, rim_side / side);
+    std::vector<PreparedFrame> frames = prepare_all(images, reduction, settings);
+    const std::optional<ContainerRim> moving = find_moving_rim(frames, true);
+    const bool on_circle = moving && !(settings.motion_only && moving->rough);
+    survey.rim = on_circle              ? *moving
+                 : settings.motion_only ? find_rim_on_any_path(frames)
+                                        : survey_container_rim(frames);
+    remove_camera_motion(settings, reduction, images, frames, survey);
+    if (survey.rim.rough) survey.rim = survey_container_rim(frames);
+    if (settings.patterned_floor) remove_floor_pattern(settings, reduction, images, frames, survey);
+    survey.appearance = survey_appearance(
+        images, frames, std::min(1.0, particle_side * rim_side / side), survey.rim, settings);
+    settings.throw_if_stopped();
+    // Where edges are too poor for discs, they are too poor for the tilt.
+    KnownCamera camera = settings.camera;
+    if (survey.appearance.shading && !camera.tilt) camera.tilt = 0.0;
+    survey.tilt = find_tilt(frames, camera, survey.rim, survey.appearance.lens);
+    learn_appearance(images, settings, survey);
+    return survey;
+}
+
+}  // namespace swirl::tracking
