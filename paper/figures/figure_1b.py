@@ -2,10 +2,18 @@
 parameter of the pinned ones, with the numbers that the paper states."""
 
 import style
+from against_n import against_n
+from figure import Figure
 from paper_parameters import ROUGH_CHANGE_N, SLIP_AT_25, SMOOTH_CHANGE_N
+from runs import HALF, HIGH, ROUGH, SMOOTH
 
 PAPER = {"color": style.BLACK, "marker": "*", "markersize": 9, "linestyle": "none", "zorder": 5,
          "markeredgecolor": "white", "markeredgewidth": 0.5}
+QUANTITIES = """slip.pinned_region slip.cluster_perimeter slip.pancake centre.x=centre_x centre.y=centre_y
+    centre.distance=centre_distance centre.theta=centre_theta centre.left=left centre.elongation centre.centrifugal
+    centre.coriolis centre.max_centrifugal centre.max_coriolis"""
+WORDS = {"slip.pancake": "pancake line",
+         "centre.theta": "direction of the centre of mass in degrees (M is at 270)"}
 
 
 def draw(table):
@@ -25,3 +33,7 @@ def draw(table):
     slip.set_ylabel("slip parameter $s$, pinned")
     slip.set_xlabel(r"number of particles $N$")
     style.save(drawing, table)
+
+
+FIGURES = [Figure("1b", "paper", "rotation against N, and the pancake line",
+                  *against_n((HIGH, SMOOTH, ROUGH, HALF), QUANTITIES, WORDS, with_crossings=True), draw)]

@@ -1,9 +1,34 @@
 """Figures 2b and 2c: density of the discs in the M-frame, and their velocity relative to the container."""
 
 import style
-from paper_parameters import AMPLITUDES
+from combine import failed, steadiness
+from figure import Figure
+from paper_parameters import AMPLITUDES, COUNTERROTATING_N, ROTATING_N
+from runs import HIGH, SMOOTH, measured_point
 
 LEAST_SHARE = 2e-4  # of all visits: cells with fewer have no arrow
+COLUMNS = ("setting", "map", "discs", "steady_state", "x", "y", "density", "density_error", "u_x", "u_x_error", "u_y",
+           "u_y_error", "visits")
+
+
+def points_at(discs):
+    return lambda settings: [measured_point(settings, friction, discs) for friction in (HIGH, SMOOTH)]
+
+
+def table(points, settings):
+    """Density and flow in one table: rows of one have no values of the other."""
+    rows = []
+    for point in points:
+        if failed(point.result):
+            continue
+        for name in ("density", "flow"):
+            found = point.result["measured"][name]
+            names = {"density": "by_time", "density_error": "by_time_error"} if name == "density" else {}
+            first = dict(zip(COLUMNS, (point.cells["setting"], name, point.cells["discs"], steadiness(point.result))))
+            shown = COLUMNS[4:8] if name == "density" else (*COLUMNS[4:6], *COLUMNS[8:])
+            for cells in zip(*(found[names.get(column, column)] for column in shown)):
+                rows.append({**dict.fromkeys(COLUMNS), **first, **dict(zip(shown, cells))})
+    return {"": (rows, COLUMNS)}, []
 
 
 def draw(table):
@@ -27,3 +52,8 @@ def draw(table):
         bar.set_label(r"particles per unit area ($r^{-2}$)")
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
+
+
+FIGURES = [Figure("2b", "paper", "density and flow of a rotating cluster, N = 28", points_at(ROTATING_N), table, draw),
+           Figure("2c", "paper", "density and flow of a counterrotating cluster, N = 48", points_at(COUNTERROTATING_N),
+                  table, draw)]

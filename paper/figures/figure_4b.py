@@ -2,8 +2,23 @@
 and outside of them; and the share of the contacts that belong to a triangle."""
 
 import style
+from against_n import against_n
+from figure import Figure
+from runs import HALF, HIGH, ROUGH, SMOOTH
 
 SETTINGS = ("smooth", "rough", "high")
+QUANTITIES = """frustration.wall_spin frustration.pinned_wall_spin frustration.resident_spin frustration.spin_correlation
+    frustration.pinned_correlation frustration.resident_correlation frustration.along_wall
+    frustration.triangle_correlation frustration.chain_correlation frustration.correlation_by_impulse
+    frustration.triangles frustration.coordination frustration.disc_sticking frustration.wall_sticking order.all=psi6
+    order.pinned=psi6_pinned order.resident=psi6_resident order.six order.six_pinned collisions.disc_disc_rate
+    collisions.disc_wall_rate rolling.rolling_share rolling.wall_rolling_share rolling.floor_slip
+    rolling.contact_correlation rolling.vertical_share rolling.vertical_power"""
+WORDS = {"frustration.pinned_wall_spin": "spin of discs at the wall that are pinned by the SI's criterion, in Ω",
+         "frustration.resident_spin": "spin of discs resident at the wall, in Ω",
+         "frustration.spin_correlation": "spin correlation of neighbours",
+         "frustration.correlation_by_impulse": "spin correlation of colliding discs, weighted by impulse",
+         "frustration.triangles": "share of contacts in triangles"}
 
 
 def draw(table):
@@ -23,3 +38,7 @@ def draw(table):
         axes.set_xlabel(r"number of particles $N$")
     style.legend_of_all(drawing, *spin.get_legend_handles_labels(), ncol=3)
     style.save(drawing, table)
+
+
+FIGURES = [Figure("4b", "paper", "spin of pinned particles at the wall, and frustration",
+                  *against_n((HIGH, SMOOTH, ROUGH, HALF), QUANTITIES, WORDS), draw)]

@@ -1,8 +1,15 @@
 """Figure 5b: rotation of the cluster against the number of discs, for five pairs of friction
 coefficients; below, the same around zero, where curves cross."""
 
+import math
+
 import style
+from curves import curves_by, lowest_of, rows_of, with_error
+from figure import Figure
 from paper_parameters import LAST_N
+from runs import (FRICTION_OF_5B, HIGH, cells_of, dense_point, length_of, numbers_beyond, numbers_of_discs, point,
+                  settled_run, sparse_numbers)
+from study import Point
 
 NEAR_ZERO = 0.1  # in Ω: upper limit of the lower panel
 CURVES = [
@@ -12,6 +19,52 @@ CURVES = [
     ("medium", r"medium ($\mu = 0.5$)", style.BLUE, "s"),
     ("high", r"high ($\mu = 1$)", style.RED, "o"),
 ]
+
+
+def points(settings):
+    """Beyond the paper's last N: whether ϖ rises again after its minimum (high friction), and whether a curve that does
+    not cross up to there crosses later."""
+    return ([point(settings, friction, discs) for friction in FRICTION_OF_5B for discs in numbers_of_discs(settings)] +
+            [(dense_point if friction == HIGH else point)(settings, friction, discs)
+             for friction in FRICTION_OF_5B for discs in numbers_beyond(settings)])
+
+
+def steady_points(settings):
+    made = []
+    for friction in FRICTION_OF_5B:
+        for discs in sparse_numbers(settings) if settings.quick else numbers_of_discs(settings):
+            run = settled_run(settings, friction, discs)
+            made.append(Point(settings, f"steady_{friction.name}_N{discs}_{length_of(run)}", settings.seeds_beyond, run,
+                              cells=cells_of(friction, discs)))
+    return made
+
+
+def compare_rates(curve):
+    """The two rates differ at every N: discs near the centre of mass, whose r² is small, have the largest weight in the
+    paper's ϖ and the smallest in the rotation of the rigid body."""
+    known = [p for p in curve.points if math.isfinite(p[1])]
+    if not known:
+        return "No run with the paper's friction has an average."
+    rigid = {p[0]: p for p in curve.by_rate["rigid_by_event"]}
+
+    def both(p):
+        return f"{with_error(*p[1:])} at N = {p[0]:.0f} (rigid body: {with_error(*rigid[p[0]][1:])})"
+    lowest, last = lowest_of(known), known[-1]
+    return ("The paper's ϖ/Ω, the mean over the discs, compared with that of the rigid body that fits the velocities best: "
+            f"the lowest is {both(lowest)}{', which is the last' if last == lowest else '; the last is ' + both(last)}.")
+
+
+def friction_words(friction):
+    return f"{friction.words} (μ_d = {friction.mu_disc:g}, μ_w = {friction.mu_wall:g})"
+
+
+def table(points, settings):
+    curves, findings = curves_by(points, "setting", "by_event"), []  # by event, as in the paper's figure
+    for curve, friction in zip(curves, FRICTION_OF_5B):
+        findings.append(f"{friction_words(friction)}: {curve.sentence()}")
+        if friction == HIGH:
+            findings.append(compare_rates(curve))
+    return {"": rows_of(points), "_crossings": [curve.row() for curve in curves]}, findings
 
 
 def draw(table):
@@ -47,3 +100,7 @@ def draw(table):
     if notes:
         style.note(drawing, "; ".join(notes))
     style.save(drawing, table)
+
+
+FIGURES = [Figure("5b", "paper", "rotation against N, for five sets of friction coefficients", points, table, draw),
+           Figure("5b-steady", "beyond", "beyond the paper: Figure 5b in the steady state", steady_points, table, draw)]

@@ -1,6 +1,8 @@
 """Figure 5c: density of the discs in the M-frame, rotating and counterrotating."""
 
 import style
+from figure import Figure
+from measured_map import points, table_of
 
 
 def draw(table):
@@ -18,3 +20,7 @@ def draw(table):
         bar.set_label(r"discs per unit area ($r^{-2}$)")
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
+
+
+FIGURES = [Figure("5c", "paper", "density, N = 28 and 48", points,
+                  table_of("density", ("x", "y", "by_event", "by_event_error", "by_time", "by_time_error")), draw)]

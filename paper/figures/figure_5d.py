@@ -1,6 +1,8 @@
 """Figure 5d: velocity of the discs relative to the container, in the M-frame."""
 
 import style
+from figure import Figure
+from measured_map import points, table_of
 
 LEAST_SHARE = 1e-4  # of all visits: cells with fewer have no arrow
 
@@ -21,3 +23,7 @@ def draw(table):
         panel.set_title(f"$N = {discs:.0f}$")
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
+
+
+FIGURES = [Figure("5d", "paper", "flow relative to the container, N = 28 and 48", points,
+                  table_of("flow", ("x", "y", "visits", "u_x", "u_x_error", "u_y", "u_y_error")), draw)]

@@ -1,7 +1,31 @@
 """Beyond the paper: the average over events minus that over time, for the five pairs of friction coefficients of 5b."""
 
 import style
-from figures.figure_5b import CURVES
+from curves import Curve, rows_of, with_error
+from figure import Figure
+from figures.figure_5b import CURVES, friction_words, points
+from paper_parameters import LAST_N
+from runs import FRICTION_OF_5B
+
+
+def largest_difference(curve):
+    """Where the two averages differ most."""
+    pairs = [(event, time) for event, time in zip(curve.by_rate["by_event"], curve.by_rate["by_time"])
+             if abs(event[1] - time[1]) >= 0]
+    if not pairs:
+        return "no runs"
+    event, time = max(pairs, key=lambda pair: abs(pair[0][1] - pair[1][1]))
+    return (f"largest difference at N = {event[0]}, ϖ/Ω = {with_error(*event[1:])} by event and "
+            f"{with_error(*time[1:])} by time")
+
+
+def table(points, settings):
+    """The runs and the table of Figure 5b."""
+    findings = []
+    for friction in FRICTION_OF_5B:
+        curve = Curve("", [p for p in points if p.cells["setting"] == friction.name and p.cells["discs"] <= LAST_N])
+        findings.append(f"{friction_words(friction)}: {largest_difference(curve)}.")
+    return {"": rows_of(points)}, findings
 
 
 def draw(table):
@@ -27,3 +51,6 @@ def draw(table):
     difference.set_ylabel(r"by event $-$ by time")
     difference.set_xlabel(r"number of discs $N$")
     style.save(drawing, table)
+
+
+FIGURES = [Figure("averages", "beyond", "beyond the paper: by event and by time", points, table, draw)]

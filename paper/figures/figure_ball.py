@@ -4,8 +4,58 @@ of the wall, for three radii. Bounces are elastic, or inelastic so that the disc
 import itertools
 
 import style
+from combine import number, over_seeds
+from curves import with_error
+from engine import swirl
+from figure import Figure
+from paper_parameters import CONTAINER_RADIUS
+from runs import lengths
+from study import Point
 
 BOUNCES = ((0.5, "full", "-"), (1.0, "none", ":"))
+REPORTED_RADIUS = 5.0
+
+
+def ball_run(parameters):
+    """γ from the spin, and the direction of the ball about C in the M-frame, in degrees."""
+    run = swirl.run(series=True, measure="centre", **parameters)
+    spins = run.series["spin"][run.series["counted"] > 0]
+    gamma, theta = swirl._engine.estimate_of_series([1 - spin for spin in spins]), run.measured["centre"]["theta"]
+    return {"gamma": gamma[:3], "theta": (theta.mean, theta.error)}
+
+
+def points(settings):
+    """The ball is a solid disc. Its bounces on the wall are elastic as in the paper, or lose half of the normal velocity,
+    after which it stays at the wall."""
+    made = []
+    for radius in (4.3, 5.0, 7.0):
+        for restitution in (0.5, 1.0):
+            for mu in (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0):
+                run = {"discs": 1, "radius": radius, "inertia": 0.5 * radius * radius, "mu": mu,
+                       "restitution": restitution, **lengths(settings, (200, 5), (300, 5))}
+                made.append(Point(settings, f"ball_R{radius:g}_mu{mu:g}_e{restitution:g}", settings.seeds, run,
+                                  work=ball_run, cells={"ball_radius": radius, "container_radius": CONTAINER_RADIUS,
+                                                        "mu": mu, "restitution": restitution}))
+    return made
+
+
+def table(points, settings):
+    rows, findings = [], []
+    for point in points:
+        runs, cells = point.runs, point.cells
+        if not runs:
+            continue
+        gamma, error, _, scatter, _ = over_seeds(*zip(*(run["gamma"][:2] for run in runs)),
+                                                 effective=[number(run["gamma"][2]) for run in runs])
+        theta = over_seeds(*zip(*(map(number, run["theta"]) for run in runs)), directions=True)
+        no_slip = CONTAINER_RADIUS / cells["ball_radius"]
+        rows.append({**cells, "gamma": gamma, "gamma_error": error, "gamma_no_slip": no_slip, "slip": gamma / no_slip,
+                     "slip_error": error / no_slip, "theta": theta[0], "theta_error": theta[1], "seeds": settings.seeds,
+                     "scatter": scatter})
+        if cells["ball_radius"] == REPORTED_RADIUS and cells["mu"] in (0, 1):
+            findings.append(f"A disc of radius {REPORTED_RADIUS:g}, μ = {cells['mu']:g}, e = {cells['restitution']:g}: γ = "
+                            f"{with_error(gamma, error)} (γ_c = {no_slip:.3f}).")
+    return {"": rows}, findings
 
 
 def draw(table):
@@ -36,3 +86,6 @@ def draw(table):
     style.note(drawing, r"dashed: $\gamma_c = R_{\rm container}/R_{\rm ball}$; above 1 it "
                "counterrotates")
     style.save(drawing, table)
+
+
+FIGURES = [Figure("ball", "beyond", "the minimal model, simulated: γ of one large disc", points, table, draw)]

@@ -1,6 +1,53 @@
 """Beyond the paper: the energy without any friction, on polygons and on the circle (first seed)."""
 
+import math
+
+import numpy as np
 import style
+from combine import failed
+from curves import with_error
+from engine import swirl
+from figure import Figure
+from paper_parameters import ROTATING_N
+from runs import sides
+from study import Point
+
+
+def energy_series(parameters):
+    """The kinetic energy K, and K − ΩL with the angular momentum L, at the start of every period. On a circle K − ΩL is
+    conserved."""
+    simulation = swirl.Simulation(**{name: value for name, value in parameters.items() if name not in ("periods", "warmup")})
+    frames = simulation.sample(parameters["periods"], 1)
+    position, velocity = frames.position, frames.velocity
+    K = 0.5 * frames.mass * (velocity ** 2).sum(axis=2) + 0.5 * frames.inertia * frames.spin ** 2
+    turning = position[..., 0] * velocity[..., 1] - position[..., 1] * velocity[..., 0]
+    L = frames.mass * turning + frames.inertia * frames.spin
+    K, L = K.sum(axis=1), L.sum(axis=1)
+    return {"energy": K.tolist(), "invariant": (K - simulation.omega * L).tolist()}
+
+
+def points(settings):
+    run = {"discs": ROTATING_N, "mu": 0, "warmup": 0, "periods": settings.periods(400, 10)}
+    return [Point(settings, f"energy_M{m}_N{ROTATING_N}", settings.seeds, {**run, **sides(m)}, work=energy_series,
+                  cells={"sides": m, "discs": ROTATING_N}) for m in (6, 30, 300, 0)]
+
+
+def table(points, settings):
+    rows, findings = [], []
+    for point in points:
+        for k, task in enumerate(point.tasks):
+            if failed(task.result):
+                continue
+            energy, invariant = task.result["energy"], task.result["invariant"]
+            rows += [{**point.cells, "seed": k + 1, "period": t, "energy": energy[t], "invariant": invariant[t]}
+                     for t in range(len(energy))]
+            if k == 0:
+                m = point.cells["sides"]
+                findings.append(
+                    f"No friction, {f'{m} sides' if m else 'the circle'}: in {task.parameters['periods']} periods the energy "
+                    f"changes from {energy[0]:.0f} to {energy[-1]:.0f}, and K − ΩL by "
+                    f"{with_error(invariant[-1] - invariant[0], math.nan)} (first seed).")
+    return {"": (rows, ["sides", "discs", "seed", "period", "energy", "invariant"])}, findings
 
 
 def draw(table):
@@ -16,3 +63,6 @@ def draw(table):
     axes.set_ylabel("kinetic energy ($m v_c^2$)")
     style.legend(axes)
     style.save(drawing, table)
+
+
+FIGURES = [Figure("energy", "beyond", "beyond the paper: energy without any friction", points, table, draw)]

@@ -2,11 +2,34 @@
 residences in the wall layer."""
 
 import style
+from combine import failed, number
+from figure import Figure
+from figures.figure_3 import FIRST, first_cells, points
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
 
 CRITERIA = (("the SI's criterion", style.RED, "--", ("si_pinning", "si_depinning")),
             ("residences in the wall layer", style.BLUE, "-", ("residence_begin", "residence_end")))
 EVENTS = ("pinning", "depinning")
+
+
+def table(points, settings):
+    """Distributions of the angles where discs pin and depin. Mean directions alone do not show them."""
+    columns = [*FIRST, "theta"] + [f"{name}{ending}" for _, _, _, names in CRITERIA for name in names
+                                   for ending in ("", "_mean", "_mean_error", "_resultant")]
+    rows = []
+    for point in points:
+        if failed(point.result):
+            continue
+        found = point.result["measured"]
+        for k, theta in enumerate(found["residence"]["positions"]["theta"]):
+            cells = [*first_cells(point).values(), theta]
+            for criterion in ("pinned", "residence"):
+                for event in EVENTS:
+                    mean = found[criterion][event]
+                    cells += [found[criterion]["positions"][event][k],
+                              *(number(mean.get(part)) for part in ("mean", "error", "concentration"))]
+            rows.append(dict(zip(columns, cells)))
+    return {"": (rows, columns)}, []
 
 
 def draw(table):
@@ -46,3 +69,6 @@ def draw(table):
     style.legend_of_all(drawing, *panels[0][0].get_legend_handles_labels(), ncol=2)
     style.note_not_steady(drawing, [row for row in rows if row["discs"] in numbers])
     style.save(drawing, table)
+
+
+FIGURES = [Figure("pinning", "paper", "where particles pin and depin, by two criteria", points, table, draw)]

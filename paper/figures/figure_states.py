@@ -1,10 +1,28 @@
 """Motion of the discs in the M-frame, with both kinds of friction and with one of them absent."""
 
 import style
-from paper_parameters import CONTAINER_RADIUS, OMEGA
+from against_n import findings_of
+from curves import rows_of
+from figure import Figure
+from paper_parameters import CONTAINER_RADIUS, COUNTERROTATING_N, OMEGA, ROTATING_N
+from runs import HIGH, NO_DISC, NO_WALL, measured_point, settled_point
 
 SETTINGS = (("high", "both coefficients 1", style.RED), ("no-wall", r"$\mu_w = 0$", style.GREEN),
             ("no-disc", r"$\mu_d = 0$", style.ORANGE))
+FRICTIONS = (HIGH, NO_WALL, NO_DISC)
+QUANTITIES = """temperature.granular temperature.of_the_spin centre.coriolis order.all=psi6 residence.share=residence_share
+    frustration.coordination frustration.triangles"""
+
+
+def points(settings):
+    """Without disc friction in the steady state; the paper's 10^6 events cover the transient."""
+    return [(measured_point if friction.mu_disc else settled_point)(settings, friction, discs)
+            for friction in FRICTIONS for discs in (ROTATING_N, COUNTERROTATING_N)]
+
+
+def table(points, settings):
+    words = {"temperature.granular": "granular temperature, in m v²"}
+    return {"": rows_of(points, QUANTITIES.split())}, findings_of(points, FRICTIONS, words)
 
 
 def draw(table):
@@ -31,3 +49,6 @@ def draw(table):
     style.legend_of_all(drawing, *speed.get_legend_handles_labels(), ncol=3)
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
+
+
+FIGURES = [Figure("states", "beyond", "motion in the M-frame, without disc or wall friction", points, table, draw)]

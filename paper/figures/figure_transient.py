@@ -1,7 +1,51 @@
 """Beyond the paper: without disc friction, rotation and mean spin against time from rest."""
 
+import math
+
+import numpy as np
 import style
+from combine import over_seeds
+from curves import with_error
+from engine import swirl
+from figure import Figure
 from paper_parameters import EVENTS
+from runs import NO_DISC, paper_run, with_periods
+from study import Point
+
+SEEDS = 4
+
+
+def transient(parameters):
+    """For each period of a run that starts from rest: ϖ/Ω, mean spin/Ω, and the number of events up to its end."""
+    series = swirl.run(series=True, **parameters).series
+    return {"varpi": series["by_time"].tolist(), "spin": series["spin"].tolist(),
+            "events": np.cumsum(series["events"]).tolist()}
+
+
+def points(settings):
+    length = {"warmup": 0, "periods": settings.periods(600, 20)}
+    return [Point(settings, f"transient_N{discs}", SEEDS, with_periods(paper_run(settings, NO_DISC, discs), length),
+                  work=transient, cells={"discs": discs}) for discs in ([48] if settings.quick else [40, 44, 46, 48])]
+
+
+def table(points, settings):
+    rows, findings = [], []
+    for point in points:
+        discs, runs = point.cells["discs"], point.runs
+        if not runs:
+            continue
+        varpi, spin = (over_seeds(np.array([run[name] for run in runs]).T) for name in ("varpi", "spin"))
+        events = np.mean([run["events"] for run in runs], axis=0)
+        periods = len(events)
+        rows += [{"discs": discs, "period": t + 1, "varpi": varpi[0][t], "varpi_error": varpi[1][t], "spin": spin[0][t],
+                  "spin_error": spin[1][t], "events": events[t]} for t in range(periods)]
+        reached = [t + 1 for t in range(periods) if events[t] >= EVENTS]
+        findings.append(
+            f"μ_d = 0, N = {discs}: ϖ/Ω = {np.mean(varpi[0][:periods // 10]):.3f} in the first {periods // 10} periods, "
+            f"{np.mean(varpi[0][periods // 2:]):.4f} in the last {periods - periods // 2}, with a mean spin of "
+            f"{with_error(spin[0][-1], math.nan)} Ω at the end; 10^6 events last "
+            f"{reached[0] if reached else f'more than {periods}'} periods.")
+    return {"": rows}, findings
 
 
 def smoothed(rows, name, width=10):
@@ -30,3 +74,6 @@ def draw(table):
     spin.set_xlabel(r"periods from rest (dashed: the paper's $10^6$ events)")
     style.legend(rotation, ncol=4)
     style.save(drawing, table)
+
+
+FIGURES = [Figure("transient", "beyond", "beyond the paper: spin and rotation from rest, μ_d = 0", points, table, draw)]

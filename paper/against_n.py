@@ -1,0 +1,23 @@
+"""Figures with measured quantities and the rotation against the number of particles, a curve for each setting."""
+
+from curves import at_both_ends, curves_by, rows_of
+from runs import measured_point, points_of
+
+
+def findings_of(points, frictions, words):
+    """Sentences about the quantities {name: words}, for each curve."""
+    return [at_both_ends([p for p in points if p.cells["setting"] == friction.name], what, friction.words, quantity)
+            for friction in frictions for quantity, what in words.items()]
+
+
+def against_n(frictions, quantities="", words=(), with_crossings=False):
+    """The functions `points` and `table` of a figure. `words` are {quantity: how findings call it}."""
+    def points(settings):
+        return [measured_point(settings, friction, discs) for friction, discs in points_of(settings, frictions)]
+
+    def table(points, settings):
+        curves = curves_by(points, "setting")
+        findings = [f"{curve.name} friction, ϖ by time: {curve.sentence()}" for curve in curves if with_crossings]
+        return ({"": rows_of(points, quantities.split()), "_crossings": [curve.row() for curve in curves]},
+                findings + findings_of(points, frictions, dict(words)))
+    return points, table

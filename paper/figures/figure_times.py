@@ -1,0 +1,50 @@
+"""The shortest times between collisions, with and without friction, as a table only. The paper: "The minimal time between
+collisions is around 10^-11 and 10^-9 with and without friction, respectively" (SI, "Finding the next event")."""
+
+import math
+
+import numpy as np
+from combine import failed
+from engine import swirl
+from figure import Figure
+from paper_parameters import COUNTERROTATING_N
+from runs import Friction, paper_run
+from study import Point
+
+EVENTS_AT_ONCE = 100_000
+
+
+def shortest_time(parameters):
+    """Between two consecutive collisions, anywhere in the container."""
+    simulation = swirl.Simulation(**{name: value for name, value in parameters.items() if name != "events"})
+    shortest, last, left = math.inf, np.zeros((0, 2)), parameters["events"]
+    while left > 0:
+        events = simulation.step(min(left, EVENTS_AT_ONCE))
+        left -= len(events)
+        events = events[events["kind"] <= swirl.EventKind.disc_wall]
+        times = np.concatenate([last, np.column_stack([events["whole_periods"], events["clock"]])])
+        # Clocks restart with each period. One pair in thousands spans two periods; it is skipped.
+        steps = np.diff(times, axis=0)
+        steps = steps[(steps[:, 0] == 0) & (steps[:, 1] > 0), 1]
+        shortest, last = min([shortest, *steps]), times[-1:]
+    return {"events": parameters["events"], "smallest": shortest}
+
+
+def points(settings):
+    return [Point(settings, f"times_mu{mu}", settings.seeds, paper_run(settings, Friction("", "", mu, mu), COUNTERROTATING_N),
+                  work=shortest_time, cells={"mu": mu, "discs": COUNTERROTATING_N}) for mu in (1, 0)]
+
+
+def table(points, settings):
+    rows, findings = [], []
+    for point in points:
+        rows += [{**point.cells, "seed": k + 1, **task.result} for k, task in enumerate(point.tasks)
+                 if not failed(task.result)]
+        found = [run["smallest"] for run in point.runs]
+        if found:
+            findings.append(f"μ = {point.cells['mu']}, N = {COUNTERROTATING_N}: the shortest time between two collisions "
+                            f"of a run lies between {min(found):.1g} and {max(found):.1g}.")
+    return {"": (rows, ["mu", "discs", "seed", "events", "smallest"])}, findings
+
+
+FIGURES = [Figure("times", "beyond", "the shortest times between collisions", points, table)]
