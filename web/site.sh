@@ -9,29 +9,35 @@ me=swirl
 usage() {
     cat <<'TEXT'
 Write the documentation, the browser page, the gallery and the notebooks as a web site.
-Usage: swirl site --out DIR [--report DIR]
+Usage: swirl site --out DIR [--report DIR] [--address URL]
 
 Options:
   -h,--help                       Print this help message and exit
   --out DIR                       Output folder; an existing site is replaced
   --report DIR                    Include the report of swirl paper in DIR
+  --address URL                   Public address of DIR, for search engines and link previews
 
 Examples:
   swirl site --out site
   swirl paper --out results && swirl site --out site --report results
 TEXT
 }
-out= report=
+out= report= address=
 while [ $# -gt 0 ]; do
     case $1 in
         -h | --help) usage && exit 0 ;;
-        --out | --report)
+        --out | --report | --address)
             [ $# -gt 1 ] && [ -n "$2" ] || usage_error "$1 needs a value. See swirl site --help."
-            [ "$1" = --out ] && out=$2 || report=$2
+            case $1 in
+                --out) out=$2 ;;
+                --report) report=$2 ;;
+                --address) address=${2%/}/ ;;
+            esac
             shift 2
             ;;
         --out=*) out=${1#*=} && shift ;;
         --report=*) report=${1#*=} && shift ;;
+        --address=*) address=${1#*=} && address=${address%/}/ && shift ;;
         --)
             [ $# -eq 1 ] || usage_error "unexpected argument '$2'. See swirl site --help."
             break
@@ -43,6 +49,13 @@ done
 if [ -n "$report" ] && ! [ -e "$report/report.html" ]; then
     usage_error "--report is '$report', but it contains no report.html. Run swirl paper first."
 fi
+case $address in
+    '' | http://?* | https://?*) ;;
+    *) usage_error "--address is '$address', but it must begin with https://." ;;
+esac
+case $address in
+    *[!A-Za-z0-9:/._~-]*) usage_error "--address is '$address', but it may contain only letters, digits and :/._~-." ;;
+esac
 # Only a folder that this command wrote is replaced.
 if [ -e "$out" ] && ! [ -e "$out/.swirl-site" ] && [ -n "$(ls -A "$out" 2>/dev/null || echo no folder)" ]; then
     usage_error "--out is '$out', which is neither empty nor a site. Choose another name."
@@ -95,8 +108,14 @@ if ! "$(system_python)" -B "$home/web/site.py" "$home" "$source" "$temporary/gal
     give_up "the site could not be built (see above)."
 fi
 "$home/web/lab.sh" --quiet --out "$site/lab.html"
-# The page links to the documentation next to it.
-sed 's|<meta charset="utf-8">|&<meta name="swirl-documentation" content="docs/">|' "$site/lab.html" >"$temporary/lab.html"
+# The page links to the documentation next to it. Search engines and link previews need its public address.
+head='<meta name="swirl-documentation" content="docs/">'
+if [ -n "$address" ]; then
+    head="$head<link rel=\"canonical\" href=\"${address}lab.html\"><meta property=\"og:url\" content=\"${address}lab.html\">"
+    head="$head<meta property=\"og:image\" content=\"${address}preview.png\"><meta name=\"twitter:card\" content=\"summary_large_image\">"
+    cp "$home/docs/images/lab_preview.png" "$site/preview.png"
+fi
+sed "s|<meta charset=\"utf-8\">|&$head|" "$site/lab.html" >"$temporary/lab.html"
 mv "$temporary/lab.html" "$site/lab.html"
 # Sphinx copies the images of the pages, but no movies.
 for movie in "$temporary"/gallery/*.mp4; do
@@ -112,6 +131,10 @@ done
 <a href="docs/index.html">Documentation</a>
 </html>
 HTML
+if [ -n "$address" ]; then
+    (cd "$site" && find . -name '*.html' | sort | sed "s|^\./|$address|") >"$site/sitemap.txt"
+    echo "Sitemap: ${address}sitemap.txt" >"$site/robots.txt"
+fi
 pages=$(find "$site" -name '*.html' | wc -l)
 touch "$site/.swirl-site"
 trap '' INT HUP TERM # both renames or none

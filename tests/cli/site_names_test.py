@@ -10,7 +10,7 @@ from program import SOURCE, InFolder
 
 # Programs in the PATH. The last argument of sphinx-build is the output folder.
 PROGRAMS = {
-    "web/lab.sh": 'for a; do case $a in *.html) echo lab >"$a" ;; esac; done',
+    "web/lab.sh": 'for a; do case $a in *.html) echo \'<meta charset="utf-8">\' >"$a" ;; esac; done',
     "bin/sphinx-build": '[ -z "${FAIL-}" ] || exit 1\nfor a; do :; done\necho "$PAGE" >"$a/index.html"',
     # Call number AT sends SIGNAL to the calling shell, before or after its rename.
     "bin/mv": """count=$(($(cat "$COUNT" 2>/dev/null || echo 0) + 1))
@@ -38,11 +38,11 @@ class SiteNames(InFolder):
         os.mkdir(self.path("out"))
         self.site = self.path("out/site")
 
-    def make(self, page, **more):
+    def make(self, page, *options, **more):
         if os.path.exists(self.path("count")):
             os.remove(self.path("count"))
         settings = {"AT": "0", "WHEN": "", "SIGNAL": "", **more}
-        return subprocess.run([self.path("web/site.sh"), "--out", self.site], capture_output=True, text=True,
+        return subprocess.run([self.path("web/site.sh"), "--out", self.site, *options], capture_output=True, text=True,
                               timeout=150, env={**os.environ, **settings, "PAGE": page,
                                                "COUNT": self.path("count"), "SWIRL": self.path("bin/swirl"),
                                                "SWIRL_PYTHON": "false",
@@ -74,6 +74,26 @@ class SiteNames(InFolder):
                     self.assertEqual(done.returncode, 0, done.stderr)
                     self.assertEqual(self.page(), "newer")
                     self.assertEqual(os.listdir(self.path("out")), ["site"])
+
+    def test_an_address_makes_the_site_known_to_search_engines_and_link_previews(self):
+        os.makedirs(self.path("docs/images"))
+        with open(self.path("docs/images/lab_preview.png"), "w", encoding="utf-8") as opened:
+            opened.write("picture")
+        self.assertEqual(self.make("page", "--address", "https://example.org/swirl").returncode, 0)
+        read = lambda name: open(os.path.join(self.site, name), encoding="utf-8").read()  # noqa: E731
+        at = "https://example.org/swirl/"
+        self.assertEqual(read("sitemap.txt"), f"{at}index.html\n{at}lab.html\n")
+        self.assertEqual(read("robots.txt"), f"Sitemap: {at}sitemap.txt\n")
+        for tag in (f'<link rel="canonical" href="{at}lab.html">', f'<meta property="og:image" content="{at}preview.png">'):
+            self.assertIn(tag, read("lab.html"))
+        self.assertEqual(read("preview.png"), "picture")
+        self.assertEqual(self.make("page").returncode, 0)
+        self.assertFalse({"sitemap.txt", "robots.txt", "preview.png"} & set(os.listdir(self.site)))
+        self.assertNotIn("canonical", read("lab.html"))
+        for wrong in ("example.org", "https://", "https://example.org/a b", "https://example.org/'><script>"):
+            done = self.make("page", "--address", wrong)
+            self.assertEqual(done.returncode, 2, wrong)
+            self.assertIn("--address is", done.stderr)
 
     def test_a_site_in_progress_of_another_call_is_not_touched(self):
         self.assertEqual(self.make("old").returncode, 0)
