@@ -2,13 +2,15 @@
 import {defineConfig} from "vite";
 import {viteSingleFile} from "vite-plugin-singlefile";
 import {createHash} from "node:crypto";
-import {pageTexts} from "./src/texts.en.ts";
+import english from "./src/texts.en.json" with {type: "json"};
+
+const pageTexts = english.page;
 
 /** Replaces {{name}} in the page by the English text of this name; translatePage() of texts.ts replaces it by another language. */
 const texts = {
     name: "texts",
     transformIndexHtml: {order: "pre", handler: (html) => html.replace(/\{\{(\w+)\}\}/g, (_, name) => {
-        if (!(name in pageTexts)) throw new Error(`index.html has {{${name}}}, but src/texts.en.ts has no such text.`);
+        if (!(name in pageTexts)) throw new Error(`index.html has {{${name}}}, but src/texts.en.json has no such text.`);
         return pageTexts[name].replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/"/g, "&quot;");
     })},
 };

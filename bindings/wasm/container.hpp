@@ -17,10 +17,26 @@
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/measure/sample_times.hpp"
+#include "swirl/measure/slip.hpp"
+#include "swirl/measure/spin_frustration.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/core_run.hpp"
 
 namespace swirl {
+
+/// A collision for the drawing of contacts.
+struct ContactMark {
+    double time;
+    std::uint32_t i, j;  // equal for a contact with the wall
+    bool sticks;
+};
+
+/// The rotation of the cluster, or of a single disc about itself: a pancake.
+inline RotationSample rotation_of(const Snapshot& s) {
+    if (s.size() == 1) return {s.spin[0], s.spin[0]};
+    const RotationSample rate = cluster_rotation(s);
+    return std::isfinite(rate.individual + rate.rigid) ? rate : RotationSample{0.0, 0.0};
+}
 
 /// A simulated container with its measurements. An event is found by executing it. At first
 /// the snapshot still holds the state before it, for frames in between. When the event is passed,
@@ -35,6 +51,7 @@ class Container {
           shown_(run_.stored_snapshot()),
           turned_times_(rotation_samples, config.period),
           map_times_(samples_per_period, config.period),
+          cause_times_(8, config.period),  // as often as Slip and SpinFrustration elsewhere
           spins_(config.container_radius) {
         run_.follow_orientations();
     }
@@ -76,6 +93,12 @@ class Container {
         return found.is_known() && found.pinned()[i] != 0;
     }
     const SpinMap& spins() const { return spins_; }
+    /// What shows the cause, averaged since the warm-up: how well the cluster grips the wall, and
+    /// how touching discs spin.
+    const Slip& slip() const { return slip_; }
+    const SpinFrustration& frustration() const { return frustration_; }
+    /// The collisions since the last call, or the later ones of too many.
+    std::vector<ContactMark> take_contacts() { return std::exchange(contacts_, {}); }
     const Simulation& simulation() const { return run_.simulation(); }
     const RunConfig& config() const { return config_; }
     const ContainerPath& path() const { return run_.path(); }
@@ -182,6 +205,12 @@ class Container {
         run_.execute_event();
         found_ = true;
         while (run_.next_sample(turned_times_)) add_turns();
+        while (run_.next_sample(cause_times_))
+            if (run_.is_warm()) {
+                const MFrameView view(run_.snapshot());
+                slip_.sample(view);
+                frustration_.sample(view);
+            }
         if (samples_maps())
             while (run_.next_sample(map_times_)) {
                 const Snapshot& now = run_.snapshot();
@@ -199,19 +228,32 @@ class Container {
             turns_ = {0.0, 0.0};
             turns_are_averaged_ = true;
         }
-        const RotationSample rate = cluster_rotation(s);
+        const RotationSample rate = rotation_of(s);
         const double turns = config_.period / rotation_samples / (2.0 * pi);
-        if (!std::isfinite(rate.individual + rate.rigid)) return;  // a single disc has none
         turns_.individual += turns * rate.individual;
         turns_.rigid += turns * rate.rigid;
     }
     void pass() {
         const std::int64_t period = run_.stored_snapshot().periods;
         run_.pass_event();
-        if (samples_maps() && run_.stored_snapshot().periods > period) maps_->close_block();
+        if (run_.stored_snapshot().periods > period) {
+            if (samples_maps()) maps_->close_block();
+            slip_.close_block();
+            frustration_.close_block();
+        }
         found_ = false;
         passed_ = run_.event();
+        add_contact();
         passed_clock_ = run_.stored_snapshot().clock;
+    }
+
+    void add_contact() {
+        constexpr std::size_t most = 4096;
+        if (passed_.kind != EventKind::disc_disc && passed_.kind != EventKind::disc_wall) return;
+        if (contacts_.size() == most)
+            contacts_.erase(contacts_.begin(), contacts_.end() - most / 2);
+        contacts_.push_back({time_of(passed_), passed_.i, passed_.j, passed_.impulse.sticks});
+        if (run_.is_warm()) frustration_.sample_event(passed_, run_.stored_snapshot());
     }
 
     const RunConfig config_;
@@ -224,6 +266,10 @@ class Container {
     bool turns_are_averaged_ = false;
     SampleTimes turned_times_;
     SampleTimes map_times_;
+    SampleTimes cause_times_;
+    Slip slip_{1};
+    SpinFrustration frustration_{0.1, 1};
+    std::vector<ContactMark> contacts_;
     PinnedFrames pinned_;
     std::optional<Observation> maps_;
     bool maps_are_shown_ = false;

@@ -310,11 +310,9 @@ EXPORTED(steer) void steer(double time, double x, double y, double duration) {
     const Snapshot& now = simulated->snapshot_at(time);
     const Vec2 from = now.container_centre;
     if (!is_by_hand(simulated->path())) turns_by_hand = {0.0, 0.0};
-    const RotationSample rate = cluster_rotation(now.up_to_date());
-    if (std::isfinite(rate.individual + rate.rigid)) {
-        turns_by_hand.individual += duration * rate.individual / (2.0 * pi);
-        turns_by_hand.rigid += duration * rate.rigid / (2.0 * pi);
-    }
+    const RotationSample rate = rotation_of(now.up_to_date());
+    turns_by_hand.individual += duration * rate.individual / (2.0 * pi);
+    turns_by_hand.rigid += duration * rate.rigid / (2.0 * pi);
     const InitialState state =
         simulated->continued_from(time, config, path_by_hand(from, {x, y}, duration));
     config.period = state.path.period;
@@ -442,6 +440,32 @@ EXPORTED(turns) const double* turns() {
         is_by_hand(simulated->path()) ? turns_by_hand : simulated->turns();
     numbers.assign({counted.individual, counted.rigid});
     return numbers.data();
+}
+
+/// What shows the cause, averaged since the warm-up: slip parameter and perimeter of the cluster,
+/// spin correlation of touching discs, and the shares of the collisions between discs and with the
+/// wall that stop the slip; each with its error.
+EXPORTED(cause) const double* cause() {
+    numbers.clear();
+    const auto add = [](std::initializer_list<std::string_view> names) {
+        return [names](const ReportRow& row) {
+            for (const std::string_view name : names)
+                if (name == row.name)
+                    numbers.insert(numbers.end(), {row.estimate.mean, row.estimate.error});
+        };
+    };
+    simulated->slip().report(add({"cluster", "cluster_perimeter"}));
+    simulated->frustration().report(add({"spin_correlation", "disc_sticking", "wall_sticking"}));
+    return numbers.data();
+}
+
+/// The collisions since the last call: time, the discs (equal for the wall), 1 if friction stopped
+/// the slip. values() has them.
+EXPORTED(contacts) std::uint32_t contacts() {
+    numbers.clear();
+    for (const ContactMark& c : simulated->take_contacts())
+        numbers.insert(numbers.end(), {c.time, double(c.i), double(c.j), double(c.sticks)});
+    return static_cast<std::uint32_t>(numbers.size());
 }
 
 /// Whether maps are measured from now on (Container::show_maps), also in later simulations.

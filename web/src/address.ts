@@ -2,10 +2,21 @@
 // stores, so that two tabs have nothing in common, and nothing can be full or blocked.
 import type {Laboratory} from "./laboratory";
 import {addressOf} from "./share";
-import {startParameters} from "./start";
-import {texts} from "./texts";
+import {isEmbedded, pageEntry, setPageEntry, startParameters} from "./start";
+import {fill, texts} from "./texts";
 
-const maxEvents = 1e7;
+const maxEvents = 1e7, maxBeside = 300;
+
+/** The number of discs of the container next to the first: the one in the address, or for a new visitor a few. Undefined
+ *  if there is none. */
+export function readBeside(lab: Laboratory, isNew: boolean): string | undefined {
+    const text = pageEntry("beside") ?? (isNew && !isEmbedded() ? "8" : undefined);
+    if (text === undefined) return undefined;
+    const isValid = /^\d+$/.test(text) && Number(text) >= 1 && Number(text) <= maxBeside;
+    setPageEntry("beside", isValid ? text : undefined);
+    if (!isValid) lab.warn(fill(texts.invalidNumber, {name: "beside", text, from: 1, to: maxBeside}));
+    return isValid ? text : undefined;
+}
 
 /** The parameters in the address, and the number of events to run to. Undefined after an error message. */
 export function readAddress(lab: Laboratory): {given: Record<string, string>; events: number} | undefined {
@@ -15,7 +26,7 @@ export function readAddress(lab: Laboratory): {given: Record<string, string>; ev
         if (name === "events") {
             events = value.trim() === "" ? NaN : Number(value);
             if (Number.isInteger(events) && events >= 0 && events <= maxEvents) continue;
-            lab.fail(texts.invalidEvents(value));
+            lab.fail(fill(texts.invalidEvents, {text: value}));
             return undefined;
         }
         given[name] = value;

@@ -1,68 +1,116 @@
-// A second container next to the first. It keeps its parameters and runs at the same speed.
-import {liveEstimate} from "./estimates";
+// A second container to the left of the first. It keeps its parameters and moves at the same pace, also by hand.
+import type {Laboratory} from "./laboratory";
 import type {FromWorker, ToWorker} from "./messages";
-import {button, dark, element, withError} from "./page";
+import {button, dark, element, signed} from "./page";
 import {SectorPaint} from "./paint";
 import {draw, type Coloring} from "./scene";
-import {engineMessage, texts} from "./texts";
+import {Glide, isWholePeriod} from "./strobe";
+import {Contacts} from "./contacts";
+import {fill, engineMessage, texts} from "./texts";
+import {captionOf, findingOf, type Finding} from "./verdict";
+
+/** How the first container is shown. */
+interface Look {
+    coloring: Coloring;
+    strobe: boolean;
+    isLapse: boolean;
+    isByHand: boolean;
+}
 
 export class ComparedContainer {
-    readonly figure = element("figure", {id: "compared"});
-    private readonly canvas = element("canvas");
+    readonly canvas = element("canvas");
+    readonly figure: HTMLElement;
+    particles = 0;
+    finding: Finding = findingOf(undefined, 0, 0);
+    last: Float64Array | undefined;
+    private readonly worker: Worker;
     private readonly caption = element("figcaption");
-    private frame: Float64Array | undefined;
-    private waiting = true;
-    private room = 0;
-    private turns = 0;
-    coloring: Coloring = "sector";
+    private readonly glide = new Glide();
     private readonly paint = new SectorPaint();
+    private readonly contacts = new Contacts();
+    private waiting = true;
+    private isNew = true; // its colours are those of the next frame
+    private room = 0;
+    private period = 1;
+    private look: Look = {coloring: "sector", strobe: false, isLapse: false, isByHand: false};
 
-    /** `worker` has the engine, `given` are its parameters, `name` its caption. */
-    constructor(private readonly worker: Worker, private readonly given: Record<string, string>,
-                private readonly name: string, ended: () => void) {
+    /** `given` are its parameters, `follows` whether it begins again together with the first container. */
+    constructor(lab: Laboratory, readonly given: Record<string, string>, private readonly name: string,
+                readonly follows: boolean, ended: () => void) {
         this.canvas.setAttribute("role", "img");
         this.canvas.setAttribute("aria-label", name);
         this.caption.textContent = name;
-        const end = button("×", () => {
-            this.worker.terminate();
-            ended();
-        }, "close-compared");
+        const end = button("×", ended, "close-compared");
         end.setAttribute("aria-label", texts.closeCompared);
-        this.figure.append(this.canvas, element("div", {className: "row-of-caption"}, this.caption, end));
-        worker.onmessage = ({data}: MessageEvent<FromWorker>): void => this.hear(data);
+        this.figure = element("figure", {id: "compared"}, this.canvas,
+                              element("div", {className: "row-of-caption"}, this.caption, end));
+        this.worker = lab.newWorker();
+        this.worker.onmessage = ({data}: MessageEvent<FromWorker>): void => this.hear(data);
     }
 
-    tick(periods: number): void {
-        if (this.waiting) return;
-        this.waiting = true;
-        this.send({kind: "tick", periods});
+    end(): void { this.worker.terminate(); }
+
+    begin(): void {
+        this.isNew = true;
+        this.send({kind: "begin", given: this.given, events: 0, run: 0});
     }
 
-    redraw(): void {
-        if (this.frame)
-            draw(this.canvas, this.frame, {view: "lab", coloring: this.coloring,
-                                           sectors: this.paint.sectors, trails: [],
-                                           event: undefined, next: undefined, omega: 0,
-                                           dark: dark(), room: this.room, turns: this.turns, held: undefined});
+    /** Sends a message unless the answer to an earlier one is missing. */
+    request(message: ToWorker): void {
+        if (!this.waiting) this.send(message);
     }
 
-    private send(message: ToWorker): void {
+    /** Runs the periods before the averages without showing them. */
+    skip(periods: number): void {
+        this.isNew = true;
+        this.send({kind: "skip", periods});
+    }
+
+    redraw(look = this.look): void {
+        if (look.coloring !== this.look.coloring) {
+            this.send({kind: "measure", maps: false, contacts: look.coloring === "contacts"}, false);
+            if (look.coloring === "sector" && this.last) this.paint.apply(this.last);
+        }
+        this.look = {...look};
+        const image = this.glide.image;
+        if (image) draw(this.canvas, image.frame, {view: "lab", coloring: this.look.coloring, sectors: this.paint.sectors,
+                                                   trails: [], event: undefined, next: undefined, omega: 0, dark: dark(),
+                                                   room: this.room, turns: image.turns, held: undefined,
+                                                   contacts: this.contacts.recent});
+    }
+
+    private send(message: ToWorker, isAnswered = true): void {
+        this.waiting ||= isAnswered;
         this.worker.postMessage(message);
     }
 
     private hear(data: FromWorker): void {
-        if (data.kind === "ready") this.send({kind: "begin", given: this.given, events: 0, run: 0});
-        else if (data.kind === "started") this.room = Number(data.configuration["amplitude"]);
-        else if (data.kind === "rejected") this.caption.textContent = engineMessage(data.message);
+        if (data.kind === "ready") this.begin();
+        else if (data.kind === "started") {
+            this.room = Number(data.configuration["amplitude"]);
+            this.period = Number(data.configuration["period"]);
+        } else if (data.kind === "rejected") this.caption.textContent = engineMessage(data.message);
         if (data.kind !== "frame") return;
+        const {frame, rotation, turns: [turns]} = data, {look} = this;
         this.waiting = false;
-        if (this.frame?.length !== data.frame.length) this.paint.apply(data.frame);
-        this.frame = data.frame;
-        this.turns = data.turns[0];
+        this.contacts.add(data, this.period);
+        if (this.isNew || this.last?.length !== frame.length) {
+            this.paint.apply(frame);
+            this.glide.clear();
+        }
+        this.isNew = false;
+        this.last = frame;
+        this.particles = frame[10]!;
+        const stops = (look.strobe || look.isLapse) && !look.isByHand;
+        if (!stops || isWholePeriod(frame, this.period)) {
+            if (!look.isLapse && this.paint.isMixed(frame)) this.paint.apply(frame);
+            this.glide.add(frame, turns, look.isLapse);
+        }
         this.redraw();
-        const found = data.rotation && liveEstimate(data.rotation);
-        if (found)
-            this.caption.textContent =
-                texts.comparedResult(this.name, withError(found.mean, found.error, texts.notYet));
+        if (look.isByHand) this.caption.textContent = `${this.name}: ${fill(texts.turns, {turns: signed(turns, 2)})}`;
+        else if (rotation) {
+            this.finding = findingOf(rotation, turns, frame[1]! + frame[2]! / this.period);
+            this.caption.textContent = captionOf(this.name, this.finding, look.coloring === "contacts" ? data.cause : undefined);
+        }
     }
 }

@@ -4,7 +4,7 @@ import type {Laboratory} from "./laboratory";
 import {accent, byId, element, ink, line, localized, quiet} from "./page";
 import {Plot} from "./plot";
 import {meansOf, periodsOf} from "./series";
-import {symbols, texts} from "./texts";
+import {fill, symbols, texts} from "./texts";
 
 const height = 150;
 /** The axis ends here: a disc that passes the centre of mass makes single periods many times as large. */
@@ -79,7 +79,7 @@ export class Curve {
         }
         this.plot.setData(columns);
         const beyond = columns[1].filter((each) => Math.abs(each ?? 0) > clippedAt).length;
-        this.note.textContent = beyond > 0 ? texts.clipped(beyond, clippedAt) : texts.perPeriod;
+        this.note.textContent = beyond > 0 ? fill(texts.clipped, {n: beyond, at: clippedAt}) : texts.perPeriod;
     }
 
     private drawMarks(plot: Plot): void {

@@ -4,12 +4,13 @@
 import {UsageError, perRate, type Crossing, type Rotation} from "./engine";
 import {intervalOf, liveEstimate} from "./estimates";
 import type {Host, Values} from "./host";
+import {measuredFromLink, measuredPoints, measuredText, rateOf, type Measured} from "./measured";
 import {addressOf} from "./share";
 import {button, element, save, withError} from "./page";
 import {PointsPlot, type Curve, type PlottedPoint} from "./points_plot";
 import {Runs, estimates, seedsPerPoint} from "./runs";
 import {startParameters} from "./start";
-import {symbols, texts} from "./texts";
+import {fill, symbols, texts} from "./texts";
 
 /** A point of the plot. */
 export interface Visited {
@@ -19,6 +20,12 @@ export interface Visited {
     /** Of each run, after the warm-up. */
     periods: number;
 }
+
+/** ϖ/Ω for the default parameters, from four runs of 400 periods each (`swirl run --discs N`, seeds 1 to 4). */
+const reference: PlottedPoint[] = [
+    [5, 0.184], [8, 0.145], [11, 0.11], [14, 0.087], [17, 0.079], [20, 0.064], [23, 0.05], [26, 0.038], [29, 0.03], [32, 0.021],
+    [35, 0.01], [38, 0.001], [41, -0.011], [44, -0.025], [47, -0.036], [50, -0.041], [53, -0.027],
+].map(([x, y]) => ({x: x!, y: y!, lower: y!, upper: y!}));
 
 /** The points of one setting, that is of all parameters except the number of discs. */
 export type Setting = Map<number, Visited>;
@@ -57,11 +64,12 @@ export function settingFrom(text: string): {setting: Setting; invalid: number} {
     return {setting, invalid};
 }
 
-/** All points as CSV. */
-export function tableOf(settings: Map<string, Setting>): string {
+/** All points as CSV: those of the page, and those that were counted at a real dish. */
+export function tableOf(settings: Map<string, Setting>, measured: readonly Measured[] = []): string {
     const rows = [...settings].flatMap(([name, points]) => [...points].sort(([a], [b]) => a - b).map(
         ([n, {mean, error, periods}]) => `${n},${mean},${error},${seedsPerPoint},${periods},"${name.replaceAll('"', '""')}"\n`));
-    return `discs,varpi,varpi_error,runs,periods,other_parameters\n${rows.join("")}`;
+    const counted = measured.map((row) => `${row[0]},${rateOf(row).join(",")},1,${row[2]},"counted: ${row[1]} turns"\n`);
+    return `discs,varpi,varpi_error,runs,periods,other_parameters\n${rows.join("")}${counted.join("")}`;
 }
 
 const titled = (made: HTMLButtonElement, title: string): HTMLButtonElement => Object.assign(made, {title});
@@ -73,6 +81,8 @@ export class Discovery {
     /** Is called when there are other points. */
     changed: () => void = () => {};
     readonly settings = new Map<string, Setting>();
+    measured: readonly Measured[] = [];
+    private pooled: Setting = new Map();
     private readonly plot: PointsPlot;
     private readonly finding = element("p", {id: "discovery-finding"});
     private readonly runs: Runs;
@@ -96,7 +106,7 @@ export class Discovery {
                     element("p", {textContent: texts.discovery.help})));
         // A frame without an address, as in a notebook, has no link.
         document.getElementById("discovery-link")!.hidden = location.protocol === "about:";
-        this.plot = new PointsPlot(plotPlace, 210);
+        this.plot = new PointsPlot(plotPlace, innerWidth < 480 ? 165 : 210);
         this.draw();
     }
 
@@ -116,6 +126,11 @@ export class Discovery {
             void this.drop(setting, discs, given);
         }, settling);
         this.draw();
+    }
+
+    /** Adds the point of another container on the page. */
+    add({discs, ...given}: Values): void {
+        void this.drop(settingOf(given), Number(discs), given);
     }
 
     /** The averages of the simulation on display. */
@@ -159,7 +174,7 @@ export class Discovery {
             if (!runs) return !isWanted();
             const {mean, error} = estimates(runs).by_time;
             if (mean === null || error === null || !(error > 0)) return false;
-            this.add(setting, discs, {mean, error, periods});
+            this.keep(setting, discs, {mean, error, periods});
             return true;
         } catch (error) {
             if (error instanceof UsageError) return false;
@@ -167,7 +182,7 @@ export class Discovery {
         }
     }
 
-    private add(setting: string, discs: number, visited: Visited): void {
+    private keep(setting: string, discs: number, visited: Visited): void {
         const points = this.settings.get(setting) ?? new Map<number, Visited>();
         this.settings.set(setting, points.set(discs, visited));
         this.draw();
@@ -191,13 +206,17 @@ export class Discovery {
         const curves: Curve[] = [...this.settings].filter(([name]) => name !== present).map(([name, points]) =>
             ({name: this.nameOf(name), points: this.plotted(points), faint: true}));
         curves.unshift({name: this.nameOf(present), points: this.plotted(this.settings.get(present) ?? new Map())});
+        if (present === "") curves[0]!.name = texts.discovery.yours;
+        if (present === "") curves.push({name: texts.discovery.reference, points: reference, isReference: true, faint: true});
+        if (this.pooled.size > 0) curves.push({name: texts.discovery.ofClass, points: this.plotted(this.pooled)});
+        if (this.measured.length > 0) curves.push({name: texts.discovery.counted, points: measuredPoints(this.measured)});
         const text = this.findingText();
         this.finding.textContent = text;
         const band = this.found && this.found.discs !== null && this.found.lower !== null && this.found.upper !== null
             ? [this.found.lower, this.found.upper] as [number, number] : undefined;
         this.plot.show([texts.numberOfDiscs, symbols.rotation], curves,
                        {at: this.present?.discs, live: this.live, band},
-                       texts.discovery.description(this.settings.get(present)?.size ?? 0, text));
+                       fill(texts.discovery.description, {points: this.settings.get(present)?.size ?? 0, finding: text}));
     }
 
     private plotted(points: Setting): PlottedPoint[] {
@@ -212,16 +231,18 @@ export class Discovery {
     private findingText(): string {
         const found = this.found;
         if (!found || found.verdict !== "crosses") return texts.discovery.noCrossing;
-        if (found.discs === null) return texts.discovery.bracket(found.lower!, found.upper!);
-        return texts.discovery.crossing(withError(found.discs, found.error, ""));
+        if (found.discs === null) return fill(texts.discovery.bracket, {lower: found.lower!, upper: found.upper!});
+        return fill(texts.discovery.crossing, {discs: withError(found.discs, found.error, "")});
     }
 
     private saveTable(): void {
-        save("discovery.csv", {text: tableOf(this.settings), type: "text/csv"});
+        save("discovery.csv", {text: tableOf(this.settings, this.measured), type: "text/csv"});
     }
 
     private clear(): void {
         this.settings.clear();
+        this.measured = [];
+        this.pooled = new Map();
         this.found = undefined;
         this.draw();
         this.changed();
@@ -230,7 +251,24 @@ export class Discovery {
     /** The part of the address after # with the points of the parameters that are given. */
     fragment(): string {
         const points = this.settings.get(settingOf(this.host.given()));
-        return points?.size ? `points=${linkTextOf(points)}` : "";
+        return [points?.size ? `points=${linkTextOf(points)}` : "",
+                this.measured.length > 0 ? `counted=${measuredText(this.measured)}` : ""].filter(Boolean).join("&");
+    }
+
+    /** The parameters of the present points. */
+    get setting(): string { return settingOf(this.host.given()); }
+
+    /** Shows points that were counted at a real dish. */
+    showMeasured(rows: readonly Measured[]): void {
+        this.measured = rows;
+        this.draw();
+        this.changed();
+    }
+
+    /** Shows the points of a class. */
+    showClass(points: Setting): void {
+        this.pooled = points;
+        this.draw();
     }
 
     /** An address with the present parameters and the points of this setting. */
@@ -252,10 +290,14 @@ export class Discovery {
 
     /** Reads the points in the page's address, which belong to the parameters in it. */
     readLink(): void {
-        const points = new URLSearchParams(location.hash.slice(1)).get("points");
+        const fragment = new URLSearchParams(location.hash.slice(1)), points = fragment.get("points");
+        const {rows, wrong} = measuredFromLink(fragment.get("counted") ?? "");
+        this.measured = rows;
+        if (wrong) this.fail(fill(texts.myDish.wrongPoint, {line: wrong}));
+        this.draw();
         if (points === null) return;
         const {setting, invalid} = settingFrom(points);
         this.settings.set(settingOf(Object.fromEntries(startParameters((name) => this.host.isParameter(name)))), setting);
-        if (invalid > 0) this.fail(texts.discovery.invalid(invalid));
+        if (invalid > 0) this.fail(fill(texts.discovery.invalid, {points: invalid}));
     }
 }

@@ -1,12 +1,15 @@
 // The container on the page: its canvases, and what the pointer, fingers and keys do on them.
-import type {ComparedContainer} from "./compared";
+import {ComparedContainer} from "./compared";
+import {Contacts} from "./contacts";
 import type {Laboratory} from "./laboratory";
 import {layerOf, type MapKind} from "./maps";
 import type {Frame, Maps} from "./messages";
-import {byId, dark, element} from "./page";
+import {byId, dark, element, signed} from "./page";
 import {SectorPaint} from "./paint";
 import {discAt, discOf, draw, pointedAt, recent, type Coloring, type View} from "./scene";
-import {texts} from "./texts";
+import {Glide, isWholePeriod} from "./strobe";
+import {fill, texts} from "./texts";
+import {captionOf, findingOf} from "./verdict";
 
 export type Views = View | "both" | MapKind;
 const mapKinds: readonly string[] = ["density", "flow", "spin"];
@@ -23,6 +26,8 @@ export class Dish {
     trails = false;
     forces = false;
     private strobes = false;
+    private readonly glide = new Glide();
+    private readonly contacts = new Contacts();
     /** The same, while time runs fast to the averages. */
     isLapse = false;
     /** Whether another part of the page shows averages of the M-frame. */
@@ -30,6 +35,10 @@ export class Dish {
     compared: ComparedContainer | undefined;
     /** The container's target when it is moved by hand. */
     pointer: [number, number] | undefined;
+    /** Called when the way in which the page shows the containers has changed. */
+    changed: () => void = () => {};
+    /** Called when there is another compared container, or none. */
+    comparedChanged: () => void = () => {};
     /** Called when canvases are replaced. */
     laidOut: () => void = () => {};
 
@@ -37,7 +46,7 @@ export class Dish {
     private readonly paint = new SectorPaint();
     private maps: Maps | undefined;
     private lastMaps = 0;
-    private measures: boolean | undefined; // what the worker was told
+    private measures = ""; // what the worker was told
     private shown: Frame | undefined; // with the stroboscope, the last image
     private history: Float64Array[] = [];
     private dragged: number | undefined; // the disc under the pointer
@@ -53,6 +62,15 @@ export class Dish {
         lab.on("frame", (frame) => this.receive(frame));
         addEventListener("resize", () => this.redraw());
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
+    }
+
+    /** Shows a container with these parameters next to the first, or none. */
+    compare(given?: Record<string, string>, name = "", follows = false): void {
+        this.compared?.end();
+        this.compared = given && new ComparedContainer(this.lab, given, name, follows, () => this.compare());
+        document.body.classList.toggle("compares", given !== undefined);
+        this.layOut();
+        this.comparedChanged();
     }
 
     /** Time is paused while a disc is dragged or selected. */
@@ -82,7 +100,10 @@ export class Dish {
             return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
         }));
         for (const each of ["lab", "m"] as const) if (!views.includes(each)) delete this.canvases[each];
-        if (this.compared) byId("views").append(this.compared.figure);
+        if (this.compared) {
+            byId("views").prepend(this.compared.figure);
+            this.addPointerControl(this.compared.canvas);
+        }
         this.laidOut();
         this.redraw();
     }
@@ -99,8 +120,10 @@ export class Dish {
     }
 
     private forget(): void {
-        this.measures = undefined; // there may be another worker
+        this.measures = ""; // there may be another worker
         this.history = [];
+        this.glide.clear();
+        if (this.compared?.follows && this.compared.last) this.compared.begin();
         this.shown = this.maps = undefined;
         this.paint.sectors.length = 0;
     }
@@ -113,9 +136,8 @@ export class Dish {
     private show(frame: Frame): void {
         const before = this.shown?.frame;
         const stops = (this.strobe || this.isLapse) && !this.lab.isByHand;
-        // The stroboscope shows the end of each period; its clock is a rounding error from a whole period.
-        const phase = frame.frame[2]! / this.lab.value("period");
-        if (stops && before && phase > 1e-6 && phase < 1 - 1e-6 && !frame.event) return;
+        this.contacts.add(frame, this.lab.value("period"));
+        if (stops && before && !isWholePeriod(frame.frame, this.lab.value("period")) && !frame.event) return;
         if (before?.length === frame.frame.length) {
             this.history.push(before);
             if (this.history.length > trailLength) this.history.shift();
@@ -126,13 +148,20 @@ export class Dish {
         if (!this.isLapse && before?.[1] !== frame.frame[1] && this.paint.isMixed(frame.frame))
             this.paint.apply(frame.frame);
         this.shown = frame;
+        this.glide.add(frame.frame, frame.turns[0], this.isLapse);
         this.redraw();
     }
 
+    /** Draws what has changed since the last frame. */
+    animate(): void {
+        if (this.glide.isMoving) this.redraw();
+    }
+
     private requestMaps(): void {
-        const maps = isMap(this.view) || this.needsMaps(), measures = maps || this.coloring === "pinned";
-        if (measures !== this.measures) this.lab.send({kind: "measure", maps: measures});
-        this.measures = measures;
+        const maps = isMap(this.view) || this.needsMaps(), contacts = this.coloring === "contacts";
+        const measures = {maps: maps || this.coloring === "pinned", contacts}, said = JSON.stringify(measures);
+        if (said !== this.measures) this.lab.send({kind: "measure", ...measures});
+        this.measures = said;
         if (this.lab.isByHand || !maps || performance.now() - this.lastMaps < mapInterval) return;
         this.lastMaps = performance.now();
         this.lab.send({kind: "maps"});
@@ -143,28 +172,39 @@ export class Dish {
     }
 
     redraw(): void {
-        const {lab, shown} = this;
-        if (!shown) return;
+        const {lab, shown} = this, image = this.glide.image;
+        if (!shown || !image) return;
         const period = lab.value("period");
         const past = this.trails ? recent(this.history, shown.frame, (this.strobe ? strobeTrail : trailPeriods) * period) : [];
         for (const [each, canvas] of Object.entries(this.canvases) as [View, HTMLCanvasElement][]) {
-            draw(canvas, shown.frame, {
+            draw(canvas, image.frame, {
                 view: each, coloring: this.coloring, sectors: this.paint.sectors, trails: past,
                 event: shown.event, next: shown.next, dark: dark(),
                 omega: this.forces && !lab.isByHand ? 2 * Math.PI / period : 0,
-                room: lab.maxDistance(), turns: shown.turns[0], held: this.held,
+                room: lab.maxDistance(), turns: image.turns, held: this.held,
+                contacts: this.contacts.recent,
                 map: isMap(this.view) ? layerOf(this.view, this.maps) : undefined, note: this.note});
-            this.compared?.redraw();
-            const label = texts.container(lab.counted(shown.frame[10] ?? 0), texts.views[each]);
+            const label = fill(texts.container, {particles: lab.counted(shown.frame[10] ?? 0), view: texts.views[each]});
             if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
         }
+        this.compared?.redraw({coloring: this.coloring, strobe: this.strobe, isLapse: this.isLapse, isByHand: lab.isByHand});
+        this.showCaption();
+    }
+
+    /** Next to another container the caption of the first has its result. */
+    private showCaption(): void {
+        const {lab, shown} = this, caption = this.canvases.lab?.parentElement?.querySelector("figcaption"), name = lab.counted(shown!.frame[10]!);
+        if (!caption) return;
+        const text = !this.compared ? texts.views.lab : lab.isByHand ? `${name}: ${fill(texts.turns, {turns: signed(shown!.turns[0], 2)})}`
+            : captionOf(name, findingOf(lab.averages, shown!.turns[0], shown!.frame[1]!), this.coloring === "contacts" ? lab.cause : undefined);
+        if (caption.textContent !== text) caption.textContent = text;
     }
 
     /** Time is paused while a disc is selected. */
     private select(disc: number | undefined): void {
         if (disc === this.held) return;
         this.held = disc;
-        if (disc !== undefined) this.say(texts.selected(disc + 1));
+        if (disc !== undefined) this.say(fill(texts.selected, {disc: disc + 1}));
         this.redraw();
     }
 
@@ -182,7 +222,7 @@ export class Dish {
         canvas.addEventListener("pointerdown", (event) => {
             if (!lab.last) return;
             if (lab.isByHand) this.pointer = point(event);
-            else this.dragged = discAt(lab.last.frame, ...point(event));
+            else if (canvas === this.canvases.lab) this.dragged = discAt(lab.last.frame, ...point(event));
             if (this.dragged !== undefined) canvas.setPointerCapture(event.pointerId);
         });
         canvas.addEventListener("pointermove", (event) => {

@@ -1,6 +1,6 @@
 // The interface to the WebAssembly engine (bindings/wasm/laboratory.cpp).
 
-import {workerTexts} from "./texts";
+import {fill, workerTexts} from "./worker_texts";
 
 /** An error message of the engine, with an optional hint in a second line. */
 export class UsageError extends Error {}
@@ -51,6 +51,19 @@ export interface Rotation extends Record<Rate, Estimate> {
     periods_per_block: [number, number];
 }
 
+/** Averages that show why the cluster turns as it does; null where there is none. */
+export interface Cause {
+    slip: number | null;
+    /** Of the cluster, in radii of a disc. */
+    perimeter: number | null;
+    /** Of touching discs: −1 for gears, 0 for independent spins. */
+    spinCorrelation: number | null;
+    spinCorrelationError: number | null;
+    /** Shares of the collisions in which friction stops the slip. */
+    discSticking: number | null;
+    wallSticking: number | null;
+}
+
 interface Exports {
     memory: WebAssembly.Memory;
     _initialize(): void;
@@ -71,6 +84,8 @@ interface Exports {
     state_hash(): bigint;
     rotation(): number;
     turns(): number;
+    cause(): number;
+    contacts(): number;
     keeps_discs(): number;
     change(time: number): number;
     steer(time: number, x: number, y: number, duration: number): void;
@@ -157,7 +172,8 @@ export class Engine {
     private writeLines(given: Record<string, string>): void {
         for (const [name, value] of Object.entries(given)) {
             const control = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/u.exec(value);
-            if (control) throw new UsageError(workerTexts.control(name, control[0].codePointAt(0) ?? 0));
+            if (control) throw new UsageError(fill(workerTexts.control, {option: `--${name.replaceAll("_", "-")}`,
+                code: (control[0].codePointAt(0) ?? 0).toString(16).toUpperCase().padStart(4, "0")}));
         }
         this.write(Object.entries(given).map(([name, value]) => `${name}=${value}\n`).join(""));
     }
@@ -261,6 +277,16 @@ export class Engine {
      *  body. */
     turns(): [number, number] {
         return [...this.numbers(this.out.turns(), 2)] as [number, number];
+    }
+    cause(): Cause {
+        const [slip, , perimeter, , spinCorrelation, spinCorrelationError, discSticking, , wallSticking] =
+            [...this.numbers(this.out.cause(), 10)].map((each) => (Number.isFinite(each) ? each : null));
+        return {slip, perimeter, spinCorrelation, spinCorrelationError, discSticking, wallSticking} as Cause;
+    }
+    /** The collisions since the last call (contacts.ts). */
+    contacts(): Float64Array {
+        const size = this.out.contacts();
+        return this.numbers(this.out.values(), size);
     }
     get time(): number {
         return this.out.time();

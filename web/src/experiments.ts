@@ -1,8 +1,7 @@
 // The menu of further actions on the container: move it by hand, reverse time, compare it.
-import {ComparedContainer} from "./compared";
 import type {Dish} from "./dish";
 import type {Laboratory} from "./laboratory";
-import {button, element, localized} from "./page";
+import {button, byId, element, localized} from "./page";
 import type {Player} from "./player";
 import type {Transport} from "./transport";
 import {texts} from "./texts";
@@ -20,13 +19,7 @@ export function experiments(lab: Laboratory, dish: Dish, player: Player, transpo
     const compare = button(texts.compare, () => {
         const given = {...lab.given}, name = [lab.counted(lab.value("discs")), ...Object.entries(given)
             .filter(([key]) => key !== "discs").map(([key, value]) => localized(`${key} ${value}`))].join(", ");
-        dish.compared = new ComparedContainer(lab.newWorker(), given, name, () => {
-            dish.compared = undefined;
-            compare.disabled = false;
-            dish.layOut();
-        });
-        compare.disabled = true;
-        dish.layOut();
+        dish.compare(given, name);
     }, "compare");
     compare.title = texts.compareHelp;
     const forces = element("input", {type: "checkbox", id: "forces"});
@@ -46,7 +39,8 @@ export function experiments(lab: Laboratory, dish: Dish, player: Player, transpo
         backwards.disabled = !lab.conservesEnergy();
     };
     for (const kind of ["begin", "started", "changed", "reversed"] as const) lab.on(kind, show);
-    return [hand, compare, backwards, paint, element("label", {title: texts.forcesHelp}, forces, ` ${texts.forces}`),
+    byId("transport").querySelector(".buttons")!.after(hand);
+    return [compare, backwards, paint, element("label", {title: texts.forcesHelp}, forces, ` ${texts.forces}`),
             element("label", {title: texts.keepHelp}, keep, ` ${texts.keep}`),
             element("label", {title: texts.lapsesHelp}, lapses, ` ${texts.lapsesByItself}`)];
 }

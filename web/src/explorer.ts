@@ -8,7 +8,7 @@ import {button, element, localized, save, shownList, typedList, withError} from 
 import {PointsPlot, type Curve} from "./points_plot";
 import {Runs, estimates, seedsFrom, seedsPerPoint, type Crossings, type Estimates} from "./runs";
 import {commands as commandOf} from "./symbols";
-import {symbols, texts} from "./texts";
+import {fill, symbols, texts} from "./texts";
 
 export type Quantity = "rotation" | "crossing";
 
@@ -223,15 +223,15 @@ export class Explorer {
         const curves = parseCurves(this.curveOf.value, typedList(this.curveValues.value));
         const quantity = this.quantity.value as Quantity, periods = Number(this.periods.value);
         if (!values || !curves || values.length * curves.length > maxPoints) {
-            this.status.textContent = texts.explorer.invalid(maxPoints);
+            this.status.textContent = fill(texts.explorer.invalid, {most: maxPoints});
             return;
         }
         if (this.x.value === this.curveOf.value) {
-            this.status.textContent = texts.explorer.sameParameter(this.x.value);
+            this.status.textContent = fill(texts.explorer.sameParameter, {name: this.x.value});
             return;
         }
         if (!(Number.isInteger(periods) && periods >= 10 && periods <= 100000)) {
-            this.status.textContent = texts.invalidPeriods(this.periods.value);
+            this.status.textContent = fill(texts.invalidPeriods, {text: this.periods.value});
             return;
         }
         this.shown = {x: this.x.value, quantity, curves};
@@ -321,8 +321,8 @@ export class Explorer {
         const names = collapsed.map(({curve, x}) => [`${this.shown.x} ${x}`, curve.name].filter(Boolean).join(", ")).join("; ");
         const made = this.points.reduce((sum, point) => sum + (point.runs ?? 0), 0);
         this.status.textContent = (this.shown.quantity === "rotation"
-            ? texts.studyProgress(done, this.points.length) : texts.explorer.searches(done, this.points.length, made)) +
-            (names ? ` ${texts.collapsed(localized(names))}` : "");
+            ? fill(texts.studyProgress, {done, all: this.points.length}) : fill(texts.explorer.searches, {done, all: this.points.length, runs: made})) +
+            (names ? ` ${fill(texts.collapsed, {runs: localized(names)})}` : "");
         this.draw();
     }
 
@@ -333,7 +333,7 @@ export class Explorer {
             .flatMap((point) => plottedPoint(point, quantity))}));
         const found = shown.reduce((sum, {points}) => sum + points.length, 0);
         this.plot.show([this.labelOf(x), quantity === "rotation" ? symbols.rotation : symbols.crossing],
-                       shown, {}, texts.explorer.description(found, this.labelOf(x)));
+                       shown, {}, fill(texts.explorer.description, {points: found, name: this.labelOf(x)}));
     }
 
     private discsOf({given}: Point): string {
@@ -387,8 +387,8 @@ export class Explorer {
 
 export function crossingText(found: Crossing): string {
     if (found.verdict !== "crosses") return texts.verdicts[found.verdict];
-    return found.discs === null ? texts.bracket(found.lower!, found.upper!)
-        : texts.crossing(withError(found.discs, found.error, ""), found.lower!, found.upper!);
+    return found.discs === null ? fill(texts.bracket, {lower: found.lower!, upper: found.upper!})
+        : fill(texts.crossing, {discs: withError(found.discs, found.error, ""), lower: found.lower!, upper: found.upper!});
 }
 
 /** 95 % intervals. A point without a result is not drawn. */

@@ -1,4 +1,5 @@
 // The part of the page that its panels use.
+import type {Dish} from "./dish";
 import type {Parameter} from "./engine";
 import type {Laboratory} from "./laboratory";
 import type {Player} from "./player";
@@ -13,6 +14,8 @@ export interface Shown {
     coloring?: Coloring;
     /** Shows its start only. */
     isPaused?: boolean;
+    /** Shows another container with this number of discs next to it; none if it is omitted. */
+    beside?: string | undefined;
 }
 
 export interface Host {
@@ -38,14 +41,17 @@ export interface Host {
     newWorker(): Worker;
 }
 
-export function hostOf(lab: Laboratory, player: Player, transport: Transport): Host {
+export function hostOf(lab: Laboratory, dish: Dish, player: Player, transport: Transport): Host {
     return {
         parameters: () => lab.parameters,
         isParameter: lab.isParameter,
         given: () => lab.given,
         withSeed: (given) => lab.withSeed(given),
         configuration: () => lab.configuration,
-        show: (given, {view, coloring, isPaused = false} = {}) => {
+        show: (given, {view, coloring, isPaused = false, beside} = {}) => {
+            const {discs: _, ...others} = given;
+            if (beside) dish.compare({...others, discs: beside}, lab.counted(Number(beside), given), true);
+            else if (dish.compared) dish.compare();
             if (view) transport.setView(view);
             if (coloring) transport.setColoring(coloring);
             player.setPlaying(!isPaused && !player.reducedMotion);

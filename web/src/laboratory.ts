@@ -2,10 +2,10 @@
 // the parts of the page listen to what it reports.
 import engineUrl from "../generated/swirl.wasm.gz?url";
 import EngineWorker from "./worker?worker&inline";
-import {parameterOf, type Parameter, type Rotation} from "./engine";
+import {parameterOf, type Cause, type Parameter, type Rotation} from "./engine";
 import type {Frame, FromWorker, Maps, ToWorker} from "./messages";
 import {language} from "./start";
-import {engineMessage, texts} from "./texts";
+import {counted, fill, engineMessage, texts} from "./texts";
 
 /** The reports of the laboratory. Each part of the page listens to some of them. */
 export interface Reports {
@@ -27,6 +27,7 @@ export interface Reports {
     progress: [unit: "events" | "periods", done: number, all: number];
     /** `parameter` is the name of the one whose value is wrong, if it is known. */
     error: [message: string, parameter?: string];
+    warning: [message: string];
 }
 type Listeners = {[Kind in keyof Reports]?: ((...report: Reports[Kind]) => void)[]};
 
@@ -54,6 +55,7 @@ export class Laboratory {
     readonly isParameter = (name: string): boolean => this.parameters.some((row) => row.name === name && row.settable);
     last: Frame | undefined;
     averages: Rotation | undefined;
+    cause: Cause | undefined;
     /** Whether a parameter that changes keeps the discs, if it can. */
     keepsDiscs = true;
     /** The simulation was changed, so no command line reproduces it. */
@@ -139,7 +141,7 @@ export class Laboratory {
         clearTimeout(this.soon);
         this.soon = undefined;
         this.last = undefined;
-        this.averages = undefined;
+        this.averages = this.cause = undefined;
         this.isWaiting = true;
         this.wasChanged = this.isByHand = this.isBackwards = this.hasFailed = false;
         const message: ToWorker = {kind: "begin", given: this.given, events, run: ++this.run};
@@ -160,8 +162,7 @@ export class Laboratory {
     private endPlacing(): void {
         this.renewWorker();
         this.placing = undefined;
-        this.fail(texts.tooDense(this.counted(Number(this.given["discs"] || this.effectiveValue("discs")), this.given),
-                                 Math.round(100 * this.packing())), "discs");
+        this.fail(fill(texts.tooDense, {particles: this.counted(Number(this.given["discs"] || this.effectiveValue("discs")), this.given), percent: Math.round(100 * this.packing())}), "discs");
     }
 
     private renewWorker(message?: ToWorker): void {
@@ -174,7 +175,7 @@ export class Laboratory {
     /** The discs continue, but no command line reproduces them from here on. */
     resetAverages(byParameters = false): void {
         this.wasChanged = true;
-        this.averages = undefined;
+        this.averages = this.cause = undefined;
         this.report("changed", byParameters);
     }
 
@@ -183,6 +184,11 @@ export class Laboratory {
         if (!on) return this.begin();
         this.isByHand = true;
         this.resetAverages();
+    }
+
+    /** Shows a message; the simulation continues. */
+    warn(message: string): void {
+        this.report("warning", message);
     }
 
     fail(message: string, parameter?: string): void {
@@ -204,7 +210,7 @@ export class Laboratory {
     /** "48 discs", "1 sphere": the number with the particles of this configuration. */
     counted(n: number, {preset, body}: Record<string, string> = this.configuration): string {
         const sphere = body === "sphere" || (preset === "experiment" && !body);
-        return texts.counted(n, texts.bodies[sphere ? "sphere" : "disc"]);
+        return counted(n, texts.bodies[sphere ? "sphere" : "disc"]);
     }
 
     /** No contact and no floor dissipates energy. */
@@ -264,7 +270,7 @@ export class Laboratory {
                 return this.report("progress", data.unit, data.done, data.all);
             case "frame":
                 this.isWaiting = false;
-                if (data.rotation) this.averages = data.rotation;
+                if (data.rotation) [this.averages, this.cause] = [data.rotation, data.cause];
                 this.last = data;
                 this.report("frame", data);
                 if (data.rotation) this.report("averages", data.rotation);

@@ -1,5 +1,6 @@
 // The legend of the colours, in a lower corner of the image. It is part of the canvas, so saved images and movies contain it.
 import {mapColor} from "./maps";
+import {slidingColor} from "./marks";
 import {diverging, looseColor, pinnedColor, type DrawOptions, type Palette} from "./scene";
 import {texts} from "./texts";
 
@@ -52,7 +53,11 @@ export function drawLegend(context: CanvasRenderingContext2D, size: number, look
         if (kind === "density") bar((t) => `rgb(${mapColor(t, look.dark).join(" ")})`, texts.sparse, texts.dense);
         else if (kind === "spin") bar(ofSpin, texts.spinAgainst, texts.spinWith);
         say(look.map.isEmpty ? texts.mapEmpty : texts.maps[kind]);
-    } else if (look.coloring === "spin") {
+    } else if (look.coloring === "spin" || look.coloring === "contacts") {
+        if (look.coloring === "contacts") {
+            chip(slidingColor, texts.slides);
+            chip(palette.ink, texts.sticks);
+        }
         bar(ofSpin, texts.spinAgainst, texts.spinWith);
     } else if (look.coloring === "speed") {
         bar(ofSpin, texts.atRest, texts.fast);

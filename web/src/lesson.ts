@@ -7,7 +7,7 @@ import {Runs, estimates} from "./runs";
 import type {Coloring, View} from "./scene";
 import {pageEntry, setPageEntry} from "./start";
 import {documentIn} from "./symbols";
-import {lessonSteps, symbols, team, texts, worksheet} from "./texts";
+import {fill, lessonSteps, symbols, team, texts, worksheet} from "./texts";
 
 /** How the result of a step is found: the direction of a run, N_c, or an answer that needs no run. */
 type Kind = "direction" | "crossing" | number;
@@ -18,6 +18,8 @@ export interface Step {
     kind: Kind;
     /** The colours that its text speaks of; by sector if omitted. */
     coloring?: Coloring;
+    /** The number of discs in a second container. */
+    beside?: string;
     /** Shows the motion within a period. */
     isSlow?: boolean;
     /** The experiment that its explanation proposes. */
@@ -31,11 +33,13 @@ export const steps: Step[] = [
     {given: {discs: "48"}, view: "m", kind: 0, isSlow: true}, // one image per period would show the wall at rest
     {given: {discs: "48", mu_disc: "1", mu_wall: "0"}, view: "both", kind: "direction",
      next: {discs: "48", mu_disc: "0", mu_wall: "1"}},
-    {given: {discs: "48"}, view: "m", kind: 1, coloring: "spin"},
+    {given: {discs: "48"}, view: "lab", kind: 1, coloring: "contacts", beside: "8", isSlow: true},
 ];
 
 /** The options for N_c: first and last number of discs. */
 export const ranges: [number, number][] = [[0, 19], [20, 34], [35, 44], [45, Infinity]];
+const rangeText = ([lower, upper]: [number, number]): string => lower <= 0 ? fill(texts.lesson.rangeBelow, {limit: upper + 1})
+    : upper === Infinity ? fill(texts.lesson.rangeFrom, {lower}) : fill(texts.lesson.range, {lower, upper});
 const runPeriods = 50;
 const watchTime = 4000; // milliseconds between the prediction and its result
 
@@ -73,7 +77,7 @@ export class Lesson {
     private optionsOf(step: number): string[] {
         const {kind} = steps[step]!;
         return kind === "direction" ? texts.lesson.directions
-            : kind === "crossing" ? ranges.map(([first, last]) => texts.lesson.ranges(first, last))
+            : kind === "crossing" ? ranges.map(rangeText)
             : lessonSteps[step]!.options ?? [];
     }
 
@@ -84,7 +88,7 @@ export class Lesson {
         const step = /^\d+$/.test(text) ? Number(text) : NaN;
         if (step >= 1 && step <= steps.length) return this.go(step - 1);
         setPageEntry("lesson", undefined);
-        this.fail(texts.invalidLesson(text, steps.length));
+        this.fail(fill(texts.invalidLesson, {text, steps: steps.length}));
     }
 
     private go(to: number): void {
@@ -106,8 +110,8 @@ export class Lesson {
         (this.place.querySelector<HTMLElement>("h2") ?? document.getElementById("lesson-open"))?.focus();
     }
 
-    private display({given, view, coloring = "sector"}: Step, isPaused = false): void {
-        this.host.show(this.host.withSeed(given), {view, coloring, isPaused});
+    private display({given, view, coloring = "sector", beside}: Step, isPaused = false): void {
+        this.host.show(this.host.withSeed(given), {view, coloring, isPaused, beside});
     }
 
     /** After the prediction: watch, measure, and show the result. */
@@ -138,7 +142,7 @@ export class Lesson {
             const replicates = await runs.replicates(this.host.withSeed(given), runPeriods);
             const {mean = null, error = null} = replicates ? estimates(replicates).by_time : {};
             const answer = directionOf(mean ?? 0, error ?? 1);
-            return {answer, text: texts.lesson.rotation(withError(mean, error, texts.notYet), texts.lesson.directions[answer]!)};
+            return {answer, text: fill(texts.lesson.rotation, {rotation: withError(mean, error, texts.notYet), direction: texts.lesson.directions[answer]!})};
         }
         const {discs: _, ...others} = given;
         const {crossings} = await searchCrossing(usualSearch, {
@@ -147,7 +151,7 @@ export class Lesson {
         });
         const {discs, error} = crossings[controlling];
         return discs === null ? {answer: -1, text: texts.lesson.noCrossing}
-            : {answer: rangeOf(discs), text: texts.lesson.crossing(withError(discs, error, ""))};
+            : {answer: rangeOf(discs), text: fill(texts.lesson.crossing, {discs: withError(discs, error, "")})};
     }
 
     private show(): void {
@@ -161,7 +165,7 @@ export class Lesson {
         next.className = "main";
         next.disabled = this.result === undefined;
         const back = button(texts.lesson.back, () => this.go(this.step - 1), "lesson-back");
-        const heading = element("h2", {textContent: texts.lesson.step(this.step + 1, steps.length, at.title), tabIndex: -1});
+        const heading = element("h2", {textContent: fill(texts.lesson.step, {step: this.step + 1, all: steps.length, title: at.title}), tabIndex: -1});
         this.place.replaceChildren(element("div", {className: "lesson"}, heading,
             element("p", {textContent: at.text}), this.question(at.question), this.outcome(at.explanation),
             element("div", {className: "bar"}, back, next,
@@ -183,7 +187,7 @@ export class Lesson {
         if (this.result) {
             const right = this.result.answer === this.chosen;
             place.append(
-                element("p", {className: "result", textContent: texts.lesson.result(this.result.text)}),
+                element("p", {className: "result", textContent: fill(texts.lesson.result, {text: this.result.text})}),
                 element("p", {}, element("strong", {textContent: right ? texts.lesson.right : texts.lesson.wrong}), " ", explanation));
             const {next} = steps[this.step]!;
             if (next) place.append(button(texts.lesson.tryNext, () => this.host.show(this.host.withSeed(next)), "lesson-try"));
@@ -252,7 +256,7 @@ export function worksheetPage(): HTMLElement {
     const question = (step: number): HTMLElement => {
         const {kind} = steps[step]!, at = lessonSteps[step]!;
         const options = kind === "direction" ? texts.lesson.directions
-            : kind === "crossing" ? ranges.map(([first, last]) => texts.lesson.ranges(first, last)) : at.options ?? [];
+            : kind === "crossing" ? ranges.map(rangeText) : at.options ?? [];
         return element("section", {},
             element("h2", {textContent: `${step + 1}. ${at.title}`}), element("p", {textContent: at.text}),
             element("p", {}, element("strong", {textContent: at.question})),

@@ -1,7 +1,8 @@
 // Puts the parts of the page together. The simulation itself runs in the worker.
 import "./style.css";
 import "./panels.css";
-import {followAddress, newSeed, readAddress} from "./address";
+import {followAddress, newSeed, readAddress, readBeside} from "./address";
+import {CausePanel} from "./cause";
 import {Curve} from "./curve";
 import {Dish} from "./dish";
 import {experiments} from "./experiments";
@@ -12,13 +13,14 @@ import {Laboratory} from "./laboratory";
 import {hostOf} from "./host";
 import {Lesson} from "./lesson";
 import {byId} from "./page";
+import {MyDish} from "./my_dish";
 import {OpenedFile} from "./opened_file";
 import {Parameters} from "./parameters";
 import {Player} from "./player";
 import {Profile} from "./profile";
-import {Share} from "./share";
+import {addressOf, Share} from "./share";
 import {addShortcuts} from "./shortcuts";
-import {isEmbedded} from "./start";
+import {isEmbedded, pageEntry, setPageEntry} from "./start";
 import {translatePage} from "./texts";
 import {Transport} from "./transport";
 import {Verdict} from "./verdict";
@@ -29,12 +31,13 @@ document.body.classList.toggle("embedded", isEmbedded());
 const lab = new Laboratory();
 const verdict = new Verdict(lab);
 const dish = new Dish(lab, (text) => verdict.say(text));
+verdict.other = () => dish.compared;
 const player = new Player(lab, dish, matchMedia("(prefers-reduced-motion: reduce)").matches);
 const transport = new Transport(lab, dish, player);
 const parameters = new Parameters(lab);
 new Curve(lab);
-new Share(lab, dish);
-const host = hostOf(lab, player, transport);
+const share = new Share(lab, dish);
+const host = hostOf(lab, dish, player, transport);
 const discovery = new Discovery(byId("discovery"), host, (message) => showError(message));
 const explorer = new Explorer(byId("explorer"), host);
 const lesson = new Lesson(byId("lesson"), byId("lesson-start"), byId("panels"), host, (message) => showError(message));
@@ -44,6 +47,12 @@ lab.on("ready", () => { lessonButton.disabled = false; });
 new OpenedFile(byId("controls"), byId("options"), host, (message) => showError(message));
 for (const kind of ["started", "changed"] as const) lab.on(kind, () => { if (lab.missing === 0) discovery.visit(); });
 lab.on("averages", (rotation) => discovery.follow(rotation));
+dish.comparedChanged = () => {
+    setPageEntry("beside", dish.compared?.follows ? dish.compared.given["discs"] : undefined);
+    if (dish.compared) discovery.add(dish.compared.given);
+    (byId("compare") as HTMLButtonElement).disabled = dish.compared !== undefined;
+    dish.changed();
+};
 lab.on("ready", () => explorer.parametersKnown());
 byId("options").append(...experiments(lab, dish, player, transport));
 addShortcuts(lab, player, transport);
@@ -58,6 +67,7 @@ function showError(message: string, parameter?: string): void {
     error.hidden = false;
 }
 lab.on("error", showError);
+lab.on("warning", (message) => setTimeout(() => showError(message))); // after the beginning, which hides messages
 lab.on("begin", () => { error.hidden = true; });
 
 let isFirst = false; // frame of a simulation
@@ -72,20 +82,40 @@ lab.on("frame", () => {
 });
 lab.on("ready", () => {
     dish.layOut();
+    transport.readAddress();
     const address = readAddress(lab);
     if (address) {
         // Each new visitor sees another run; a link keeps its own.
-        lab.given = Object.keys(address.given).length > 0 || address.events > 0 ? address.given : {seed: newSeed()};
-        discovery.changed = lesson.changed = followAddress(lab, () => discovery.fragment());
+        const isClass = pageEntry("class") !== null;
+        setPageEntry("class", undefined);
+        lab.given = isClass ? {...address.given, seed: newSeed()}
+            : Object.keys(address.given).length > 0 || address.events > 0 ? address.given : {seed: newSeed()};
+        discovery.changed = lesson.changed = dish.changed = transport.changed = followAddress(lab, () => discovery.fragment());
+        dish.changed(); // what the address had and the page does not know
         isExact = address.events > 0;
+        const isNew = Object.keys(address.given).length === 0 && address.events === 0;
+        const beside = readBeside(lab, isNew), {discs: _, ...others} = lab.given;
+        if (beside) dish.compare({...others, discs: beside}, lab.counted(Number(beside), others), true);
         lab.begin(address.events);
         lesson.open();
     }
     discovery.readLink();
-    buildGallery(lab, (given) => lab.set(lab.withSeed(given), {all: true, restart: true}));
+    byId("explorer").after(new MyDish(host, discovery, (text, from) => void share.copy(text, from, from.textContent!), showError, () => {
+        const {seed: _, ...given} = lab.given, address = new URL(addressOf(given), location.href);
+        address.searchParams.set("class", "1");
+        return address.href;
+    }).panel);
+    buildGallery(lab, (given) => {
+        if (dish.compared?.follows) dish.compare();
+        lab.set(lab.withSeed(given), {all: true, restart: true});
+    });
     player.start();
 });
 
+byId("panels").prepend(new CausePanel(lab, player.reducedMotion, () => {
+    host.show(lab.withSeed({discs: "48"}), {view: "lab", coloring: "contacts", beside: "8"});
+    byId("dish").scrollIntoView({block: "nearest"});
+}).panel);
 const profile = new Profile(lab);
 dish.needsMaps = (): boolean => profile.panel.open;
 byId("profile").replaceChildren(profile.panel);

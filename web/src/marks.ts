@@ -18,6 +18,45 @@ function write(context: CanvasRenderingContext2D, text: string, x: number, y: nu
     context.restore();
 }
 
+/** The direction in which the container moves on its path: an arrow at the edge of the image. */
+export function drawSwirl(context: CanvasRenderingContext2D, radius: number, palette: Palette, hair: number): void {
+    const [from, to] = [0.8 * Math.PI, 1.25 * Math.PI], [c, s] = [Math.cos(to), Math.sin(to)], length = 11 * hair;
+    context.strokeStyle = context.fillStyle = palette.quiet;
+    context.lineWidth = 3 * hair;
+    context.beginPath();
+    context.arc(0, 0, radius, from, to);
+    context.stroke();
+    context.beginPath();
+    context.moveTo(radius * c - length * s, radius * s + length * c);
+    for (const side of [-0.5, 0.5]) context.lineTo((radius + side * length) * c, (radius + side * length) * s);
+    context.fill();
+}
+
+export const slidingColor = "#d0202a";
+
+/** Contacts in which friction stopped the slip as bars that tie the surfaces together, and sliding ones as dots. */
+export function drawContacts(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, {view, contacts = []}: DrawOptions,
+                             palette: Palette, hair: number): void {
+    for (const {i, j, sticks} of contacts) {
+        const a = frameHead + frameDisc * i, b = frameHead + frameDisc * j;
+        const wall: [number, number] = [f[a]! - frame.centre[0], f[a + 1]! - frame.centre[1]];
+        const [dx, dy] = i === j ? wall : [f[b]! - f[a]!, f[b + 1]! - f[a + 1]!], distance = Math.hypot(dx, dy), r = f[a + 6]!;
+        const [x, y] = shown(frame, view, f[a]! + r * dx / distance, f[a + 1]! + r * dy / distance);
+        const [ex, ey] = shown(frame, view, f[a]! + (r + 1) * dx / distance, f[a + 1]! + (r + 1) * dy / distance);
+        context.strokeStyle = context.fillStyle = sticks ? palette.ink : slidingColor;
+        context.lineWidth = 3 * hair;
+        context.beginPath();
+        if (sticks) {
+            context.moveTo(x - 0.5 * r * (ex - x), y - 0.5 * r * (ey - y));
+            context.lineTo(x + 0.5 * r * (ex - x), y + 0.5 * r * (ey - y));
+            context.stroke();
+        } else {
+            context.arc(x, y, Math.max(3 * hair, 0.2 * r), 0, 2 * Math.PI);
+            context.fill();
+        }
+    }
+}
+
 /** An arc around the wall that starts at the top, as in movies, and a number: the rotation of the cluster.
  *  A thin circle stands for all whole turns. */
 export function drawTurns(context: CanvasRenderingContext2D, frame: Frame, turns: number, palette: Palette,

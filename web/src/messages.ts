@@ -1,5 +1,5 @@
 // The messages between the page and its worker.
-import type {Crossing, Parameter, Rate, Rotation, RunNumbers} from "./engine";
+import type {Cause, Crossing, Parameter, Rate, Rotation, RunNumbers} from "./engine";
 
 export type ToWorker =
     | {kind: "engine"; bytes: ArrayBuffer}
@@ -20,8 +20,8 @@ export type ToWorker =
     /** Moves a disc to the free position nearest to a point. Answered by a frame. */
     | {kind: "drag"; disc: number; x: number; y: number}
     | {kind: "result"}
-    /** Whether maps and the pinned discs are measured from now on. */
-    | {kind: "measure"; maps: boolean}
+    /** Whether maps and the pinned discs are measured from now on, and whether frames have the collisions before them. */
+    | {kind: "measure"; maps: boolean; contacts: boolean}
     | {kind: "maps"}
     /** A whole run with this many periods after the warm-up. */
     | {kind: "point"; given: Record<string, string>; periods: number}
@@ -54,6 +54,9 @@ export interface Frame {
     next?: Float64Array;
     /** Only a few times per second. */
     rotation?: Rotation;
+    cause?: Cause;
+    /** The collisions since the last frame (contacts.ts), if they are shown. */
+    contacts?: Float64Array;
 }
 
 export type FromWorker =

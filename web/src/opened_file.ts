@@ -5,7 +5,7 @@ import type {Host, Values} from "./host";
 import {button, element, withError} from "./page";
 import {Runs} from "./runs";
 import {checkpointLine} from "./symbols";
-import {symbols, texts} from "./texts";
+import {fill, symbols, texts} from "./texts";
 
 /** A result of `swirl run --json`, as far as the page reads it. */
 interface Result {
@@ -164,11 +164,11 @@ export class OpenedFile {
 
     async open(file: File): Promise<void> {
         this.close();
-        if (file.size > maxBytes) return this.fail(texts.opened.tooLarge(file.name, maxBytes / 1e6));
+        if (file.size > maxBytes) return this.fail(fill(texts.opened.tooLarge, {name: file.name, most: maxBytes / 1e6}));
         try {
             this.show(readFile(await file.arrayBuffer(), this.host.parameters()), file.name);
         } catch (error) {
-            if (error instanceof NotReadable) return this.fail(texts.opened[error.problem](file.name, error.what));
+            if (error instanceof NotReadable) return this.fail(fill(texts.opened[error.problem], {name: file.name, what: error.what}));
             throw error;
         }
     }
@@ -185,8 +185,8 @@ export class OpenedFile {
         const end = button("×", () => this.close(), "close-opened");
         end.setAttribute("aria-label", texts.opened.close);
         end.title = texts.opened.close;
-        const heading = opened.kind === "result" ? texts.opened.result(name)
-            : texts.opened.checkpoint(name, opened.events);
+        const heading = opened.kind === "result" ? fill(texts.opened.result, {name})
+            : fill(texts.opened.checkpoint, {name, events: opened.events});
         const status = element("p", {id: "opened-status", textContent: texts.opened.parametersSet});
         status.setAttribute("role", "status");
         this.place.hidden = false;
@@ -198,7 +198,7 @@ export class OpenedFile {
     /** Repeats the run to its last event and shows both results. */
     private async compare(given: Values, events: number, result: Result | undefined, status: HTMLElement): Promise<void> {
         if (events > maxRepeated) {
-            status.textContent = texts.opened.tooLong(events, maxRepeated);
+            status.textContent = fill(texts.opened.tooLong, {events, most: maxRepeated});
             if (result) this.place.append(comparison(result, undefined));
             return;
         }

@@ -1,6 +1,7 @@
 // Paints each disc by the sector of the cluster in which it is. The colours stay with the discs, so the
 // pattern shows how far the cluster has turned, and how it mixes.
 import {frameDisc, frameHead} from "./engine";
+import {centreOf} from "./strobe";
 
 /** Around the circle, neighbouring colours are similar; readers with any colour vision can tell opposite
  *  ones apart (after Okabe and Ito 2008, https://jfly.uni-koeln.de/color). */
@@ -43,13 +44,8 @@ const minOrder = 0.62; // a sector of 60° has 0.95, all angles alike 0
 
 /** The angle of each disc about the centre of mass, in turns. */
 function anglesOf(f: Float64Array): number[] {
-    const discs = f[10]!;
-    let [x, y] = [0, 0];
-    for (let i = 0; i < discs; ++i) {
-        x += f[frameHead + frameDisc * i]! / discs;
-        y += f[frameHead + frameDisc * i + 1]! / discs;
-    }
-    return Array.from({length: discs}, (_, i) => {
+    const [x, y] = centreOf(f);
+    return Array.from({length: f[10]!}, (_, i) => {
         const k = frameHead + frameDisc * i;
         return Math.atan2(f[k + 1]! - y, f[k]! - x) / (2 * Math.PI);
     });

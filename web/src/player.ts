@@ -2,9 +2,11 @@
 import type {Dish} from "./dish";
 import {minPeriods} from "./estimates";
 import type {Laboratory} from "./laboratory";
+import type {ToWorker} from "./messages";
 
-/** In the time-lapse, one image per period. */
-const lapsePace = 16; // periods per second
+/** In the time-lapse, one image per period. Next to another container it is slower, because a few discs turn fast. */
+const lapsePace = 16, comparedPace = 10; // periods per second
+const unseen = 10; // of these periods, so that the first image of two containers shows their directions
 const averagedInLapse = minPeriods; // after the warm-up, so that the average has an error
 /** A period of more discs takes too long for a time-lapse. */
 const lapseDiscs = 300;
@@ -20,6 +22,7 @@ export class Player {
     lapsesByItself = true;
     /** Period at which the time-lapse ends; 0: there is none. */
     private lapseEnd = 0;
+    private skips = false; // the warm-up
     private lapseBegin: ReturnType<typeof setTimeout> | undefined;
     private playsAfterError = false;
     private lastTick = 0;
@@ -28,6 +31,8 @@ export class Player {
     constructor(private readonly lab: Laboratory, private readonly dish: Dish, readonly reducedMotion: boolean) {
         this.isPlaying = !reducedMotion;
         lab.on("frame", () => {
+            if (this.skips) dish.repaint();
+            this.skips = false;
             if (this.lapseEnd > 0 && this.period >= this.lapseEnd - 1e-6) this.endLapse();
         });
         lab.on("begin", () => {
@@ -84,19 +89,22 @@ export class Player {
         if (this.lapsesByItself && !this.isSlow && (this.isPlaying || this.reducedMotion)) this.lapse();
     }
 
-    /** Runs until there are averages, or further; draws one image per period, or none with reduced motion. */
+    /** Runs until there are averages, or further; after the warm-up it draws one image per period, or none with reduced
+     *  motion. */
     lapse(): void {
-        const {lab} = this;
+        const {lab, dish} = this;
         if (!lab.last || lab.isByHand || this.lapseEnd > 0 || lab.last.frame[10]! > lapseDiscs) return;
         const now = Math.floor(this.period + 1e-6), warmup = Number(lab.averages?.warmup ?? 0);
         const end = Math.max(now, warmup) + averagedInLapse;
-        if (this.reducedMotion) {
-            lab.request({kind: "skip", periods: end - now});
-            return;
+        const skipped = this.reducedMotion ? end - now : warmup - now + (dish.compared?.follows ? unseen : 0);
+        if ((this.reducedMotion || now < warmup) && lab.request({kind: "skip", periods: skipped})) {
+            this.skips = true;
+            if (dish.compared?.follows) dish.compared.skip(skipped);
         }
+        if (this.reducedMotion) return;
         this.lapseEnd = end;
         this.isPlaying = true;
-        this.dish.isLapse = true;
+        dish.isLapse = true;
         this.report();
     }
 
@@ -114,23 +122,23 @@ export class Player {
 
     private animate(now: number): void {
         const {lab, dish} = this;
+        dish.animate();
         if (dish.holdsTime) this.lastTick = 0;
         if (!this.isPlaying || lab.isWaiting || !lab.last || dish.holdsTime) return;
         // After a pause, or a while in the background, time continues from here.
         const elapsed = this.lastTick > 0 ? Math.min(now - this.lastTick, 100) : 0;
         this.lastTick = now;
-        const periods = elapsed / 1000 * (this.lapseEnd > 0 ? lapsePace : this.isSlow ? this.pace / 3 : this.pace);
-        if (dish.compared) {
-            dish.compared.coloring = dish.coloring;
-            dish.compared.tick(periods);
-        }
-        if (lab.isByHand && dish.pointer) this.steerTo(dish.pointer, lab.last.frame, periods);
-        else lab.request({kind: "tick", periods, strobe: dish.strobe || dish.isLapse});
+        const pace = this.lapseEnd === 0 ? this.isSlow || dish.coloring === "contacts" ? this.pace / 3 : this.pace : dish.compared ? comparedPace : lapsePace;
+        const periods = elapsed / 1000 * pace, {compared} = dish;
+        const next = (frame: Float64Array): ToWorker => lab.isByHand && dish.pointer ? this.steerTo(dish.pointer, frame, periods)
+            : {kind: "tick", periods, strobe: dish.strobe || dish.isLapse};
+        lab.request(next(lab.last.frame));
+        if (compared?.last) compared.request(next(compared.last));
     }
 
     /** Moves the container straight to the pointer, at most four times as fast as on its path, and not
      *  out of the image. */
-    private steerTo([x, y]: [number, number], frame: Float64Array, periods: number): void {
+    private steerTo([x, y]: [number, number], frame: Float64Array, periods: number): ToWorker {
         const {lab} = this, amplitude = lab.value("amplitude");
         const period = lab.value("period"), duration = Math.max(periods, 1e-4) * period;
         const [fromX, fromY] = [frame[3]!, frame[4]!];
@@ -138,6 +146,6 @@ export class Player {
         const [dx, dy] = [x / outside - fromX, y / outside - fromY];
         const usual = 2 * Math.PI * (amplitude || 0.2 * lab.value("container_radius")) / period;
         const share = Math.min(1, 4 * usual * duration / (Math.hypot(dx, dy) || 1));
-        lab.request({kind: "steer", x: fromX + share * dx, y: fromY + share * dy, duration});
+        return {kind: "steer", x: fromX + share * dx, y: fromY + share * dy, duration};
     }
 }

@@ -15,6 +15,8 @@ export interface Curve {
     points: PlottedPoint[];
     /** Drawn in grey behind the others. */
     faint?: boolean;
+    /** A line without points, for which the axes have room. */
+    isReference?: boolean;
 }
 
 /** Marks on the plot in addition to its curves. */
@@ -103,7 +105,7 @@ export class PointsPlot {
 
     /** The range of an axis: its values with a margin, and for y the zero. */
     private range(axis: "x" | "y"): [number, number] {
-        const main = this.curves.filter((each) => !each.faint);
+        const main = this.curves.filter((each) => !each.faint || each.isReference);
         // Faint curves are cut where they would hide the others.
         const isKnown = axis === "y" && main.some((each) => each.points.length > 1);
         const points = [...(isKnown ? main : this.curves).flatMap((each) => each.points),
@@ -158,9 +160,10 @@ export class PointsPlot {
             for (const [k, curve] of this.curves.entries()) if (Boolean(curve.faint) === faint) {
                 context.strokeStyle = this.colorOf(k, curve);
                 context.globalAlpha = faint ? 0.5 : 0.8;
+                context.lineWidth = pixelsOf(curve.isReference ? 3 : 1);
                 stroke(context, curve.points.map((point) => [x(point.x), y(point.y)]));
                 context.globalAlpha = faint ? 0.6 : 1;
-                for (const point of curve.points) {
+                if (!curve.isReference) for (const point of curve.points) {
                     context.strokeStyle = this.colorOf(k, curve);
                     context.lineWidth = pixelsOf(1.5);
                     stroke(context, [[x(point.x), y(point.lower)], [x(point.x), y(point.upper)]]);

@@ -2,7 +2,7 @@
 // which OVITO, VMD and ASE can read.
 import {frameDisc, frameHead} from "./engine";
 import {button, element, save} from "./page";
-import {texts} from "./texts";
+import {fill, texts} from "./texts";
 
 /** In order of preference. Safari before 18.4 records MP4 only. */
 const movieTypes = ["video/webm;codecs=vp8", "video/webm", "video/mp4"];
@@ -96,7 +96,7 @@ export class Recording {
         const buttons: HTMLElement[] = [];
         if (this.movie && !this.frames) {
             const movie = this.movie, form = movie.type.split("/")[1]!;
-            buttons.push(button(texts.movie(movieNames[form]!), () => save(`swirl.${form}`, {bytes: movie}), "save-movie"));
+            buttons.push(button(fill(texts.movie, {form: movieNames[form]!}), () => save(`swirl.${form}`, {bytes: movie}), "save-movie"));
         }
         if (this.done.length > 0 && !this.frames)
             buttons.push(button(texts.positions, () => save("swirl.xyz", {bytes: positionsOf(this.done)}),

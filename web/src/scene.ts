@@ -1,14 +1,15 @@
 // Draws a frame on a canvas, in the lab frame or in the M-frame. The M-frame's origin is the centre
 // C of the container, and its −y axis points from S, the centre of the path, to C.
 import {drawBall, inRotatedAxes, type Orientation} from "./ball";
+import type {Contact} from "./contacts";
 import {frameDisc, frameHead, frameOrientation} from "./engine";
 import {drawLegend} from "./legend";
 import {drawMap, type MapLayer} from "./maps";
-import {drawEvent, drawForces, drawHeld, drawMarks, drawNext, drawTurns} from "./marks";
+import {drawContacts, drawEvent, drawForces, drawHeld, drawMarks, drawNext, drawSwirl, drawTurns} from "./marks";
 import {sectorColors} from "./paint";
 
 export type View = "lab" | "m";
-export type Coloring = "sector" | "spin" | "speed" | "pinned" | "id";
+export type Coloring = "sector" | "spin" | "contacts" | "speed" | "pinned" | "id";
 
 export interface DrawOptions {
     view: View;
@@ -22,6 +23,7 @@ export interface DrawOptions {
     room: number; // largest distance of the container from S, for the scale of the lab frame
     turns: number; // of the cluster; drawn as an arc in the lab frame
     held: number | undefined; // the disc selected by keys
+    contacts?: readonly Contact[]; // for the colouring by contacts
     isSmall?: boolean; // a thumbnail, without marks
     map?: MapLayer | undefined; // averages behind the discs, in the M-frame
     note?: string; // in the lower right corner
@@ -46,12 +48,13 @@ export function shown(frame: Frame, view: View, x: number, y: number): [number, 
     return [-dx * ey + dy * ex, -(dx * ex + dy * ey)];
 }
 
+const swirlInset = 6; // pixels of the page, from the edge to the arrow of the swirl
 const border = 20; // pixels of the page: for the arc outside the wall, and the marks on it
 
 /** Length units per pixel of the page, for an image of this width. */
 function unitsPerPixel(frame: Frame, look: {view: View; room: number; isSmall?: boolean}, width: number): number {
     const room = look.view === "lab" ? Math.max(look.room, Math.hypot(...frame.centre)) : 0;
-    return (frame.radius + room) / Math.max(0.5 * width - (look.isSmall ? 2 : border), 0.25 * width);
+    return (frame.radius + room) / Math.max(0.5 * width - (look.isSmall ? 2 : Math.min(border, 0.09 * width)), 0.25 * width);
 }
 
 /** The point of the lab frame at these coordinates of the window. */
@@ -110,7 +113,7 @@ function color(f: Float64Array, k: number, i: number, {coloring, sectors}: DrawO
     if (coloring === "pinned") return f[k + 7] === 1 ? pinnedColor : looseColor;
     const [vx, vy] = [f[k + 4]! - f[5]!, f[k + 5]! - f[6]!]; // relative to the container
     // Full colour at a spin of 1.3 Ω of the paper's container.
-    return `rgb(${diverging(coloring === "spin" ? 1.5 * f[k + 3]! : Math.hypot(vx, vy) - 1).join(" ")})`;
+    return `rgb(${diverging(coloring !== "speed" ? 1.5 * f[k + 3]! : Math.hypot(vx, vy) - 1).join(" ")})`;
 }
 
 const minBallRadius = 6; // pixels; the pattern of smaller spheres is invisible
@@ -132,6 +135,7 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
     context.fillRect(0, 0, size, size);
     context.setTransform(scale, 0, 0, -scale, size / 2, size / 2);
     const frameAngle = look.view === "m" ? Math.atan2(frame.down[0], -frame.down[1]) : 0;
+    if (look.view === "lab" && !look.isSmall) drawSwirl(context, (0.5 * size / ratio - swirlInset) * ratio / scale, palette, hair);
     drawContainer(context, frame, look, palette, frameAngle, hair);
     if (look.map) drawMap(context, look.map, frame.radius, look.dark);
     if (look.view === "lab" && !look.isSmall) {
@@ -142,6 +146,7 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
     drawTrails(context, f, look, hair);
     if (look.map) drawOutlines(context, f, frame, look, palette, hair);
     else drawDiscs(context, f, frame, look, frameAngle, scale, hair);
+    if (look.coloring === "contacts") drawContacts(context, f, frame, look, palette, hair);
     if (look.view === "m" && look.omega > 0) drawForces(context, f, frame, look.omega, hair);
     if (look.held !== undefined && look.held < frame.discs) drawHeld(context, f, frame, look, palette, look.held, hair);
     drawNext(context, f, frame, look, hair);

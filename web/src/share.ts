@@ -2,7 +2,7 @@
 import type {Dish} from "./dish";
 import {icon} from "./icons";
 import type {Laboratory} from "./laboratory";
-import {button, byId, element, save} from "./page";
+import {button, byId, element, paper, quiet, save} from "./page";
 import {Recording} from "./recording";
 import {tableOf} from "./series";
 import {pageEntries} from "./start";
@@ -14,6 +14,25 @@ const copyButton = (): HTMLButtonElement => byId("copy") as HTMLButtonElement;
 export function addressOf(given: Record<string, string>): string {
     const query = new URLSearchParams({...given, ...pageEntries}), text = query.toString();
     return text ? `?${text}` : location.pathname;
+}
+
+/** The containers side by side, as a picture with the address below it. */
+function pictureOf(address: string): string {
+    const shown = [...byId("views").querySelectorAll("canvas")], canvas = element("canvas"), row = 22 * (devicePixelRatio || 1);
+    canvas.width = shown.reduce((sum, {width}) => sum + width, 0);
+    canvas.height = Math.max(...shown.map(({height}) => height)) + row;
+    const context = canvas.getContext("2d")!;
+    context.fillStyle = paper();
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    let left = 0;
+    for (const each of shown) {
+        context.drawImage(each, left, 0);
+        left += each.width;
+    }
+    context.fillStyle = quiet();
+    context.font = `${0.55 * row}px system-ui, sans-serif`;
+    context.fillText(address, 0.4 * row, canvas.height - 0.4 * row, canvas.width - 0.8 * row);
+    return canvas.toDataURL("image/png");
 }
 
 export class Share {
@@ -31,9 +50,7 @@ export class Share {
         const menu = element("details", {},
             element("summary", {title: texts.share}, icon("share"), element("span", {textContent: texts.share})),
             element("div", {className: "menu"}, link, send,
-                button(texts.image, () => {
-                    if (dish.canvas) save("swirl.png", {href: dish.canvas.toDataURL("image/png")});
-                }, "save-image"),
+                button(texts.image, () => save("swirl.png", {href: pictureOf(address())}), "save-image"),
                 button(texts.table, () => save("rotation.csv", {text: tableOf(lab.averages), type: "text/csv"}), "save-table"),
                 button(texts.result, () => lab.send({kind: "result"}), "save-result"),
                 this.recording.panel));
@@ -66,7 +83,7 @@ export class Share {
         this.offerCommand();
     }
 
-    private async copy(text: string, from: HTMLButtonElement, label: string): Promise<void> {
+    async copy(text: string, from: HTMLButtonElement, label: string): Promise<void> {
         try {
             await navigator.clipboard.writeText(text);
         } catch {

@@ -3,7 +3,7 @@
 // notebook has no address of its own.
 
 /** Entries of the query that are not parameters of a run. */
-const ofThePage = ["lang", "embed", "lesson"];
+const ofThePage = ["lang", "embed", "lesson", "class", "beside", "view", "color", "pace", "strobe", "trails"];
 
 const entriesOf = (query: string): [string, string][] => [...new URLSearchParams(query)];
 const hasPage = typeof document !== "undefined";

@@ -1,9 +1,11 @@
 // The direction in which the cluster rotates: as a sentence, on a signed gauge and as numbers.
-import type {Rotation} from "./engine";
+import type {ComparedContainer} from "./compared";
+import {settingOf} from "./discovery";
+import type {Cause, Rotation} from "./engine";
 import {intervalOf, liveEstimate} from "./estimates";
 import type {Laboratory} from "./laboratory";
 import {byId, element, signed, withError} from "./page";
-import {symbols, texts} from "./texts";
+import {fill, symbols, texts} from "./texts";
 
 export type Direction = "with" | "against";
 export interface Finding {
@@ -29,8 +31,18 @@ export function findingOf(rotation: Rotation | undefined, turns: number, periods
         const late = early.slice(Math.floor(early.length / 2));
         if (late.length > 0) return of(late.reduce((sum, each) => sum + each, 0) / late.length);
     }
-    return of(periods > 0.25 ? turns / periods : null);
+    const counted = periods - (rotation && periods > rotation.warmup ? rotation.warmup : 0); // turns begin again with the averages
+    return of(counted > 0.25 ? turns / counted : null);
 }
+
+/** ϖ/Ω with its error, as far as it is known. */
+export function rotationText({mean, error}: Finding): string {
+    return mean !== null && error === null ? signed(mean, 2) : withError(mean, error, texts.notYet);
+}
+
+/** The text below a container: its rotation, and with `cause` how well the cluster grips the wall. */
+export const captionOf = (name: string, finding: Finding, cause?: Cause): string =>
+    (finding.mean === null ? name : fill(texts.comparedResult, {name, rotation: rotationText(finding)})) + (cause && cause.slip !== null ? `\n${fill(texts.slip, {slip: signed(cause.slip, 2)})}` : "");
 
 const gaugeFrom = -0.4, gaugeTo = 1.1; // ϖ/Ω; clusters without wall friction rotate at 1
 /** Square roots: counterrotation of some hundredths is visible, too. */
@@ -44,6 +56,8 @@ export class Verdict {
     private readonly needle = element("div", {className: "needle"});
     private readonly gauge = byId("gauge");
     private said = "";
+    /** The container next to the first. */
+    other: () => ComparedContainer | undefined = () => undefined;
 
     constructor(private readonly lab: Laboratory) {
         const mark = (at: number, text: string): HTMLElement => {
@@ -66,7 +80,7 @@ export class Verdict {
         lab.on("changed", () => this.clear());
         lab.on("averages", () => this.show());
         lab.on("error", () => this.say(texts.noSimulation));
-        lab.on("progress", (unit, done, all) => this.say(texts.running[unit](done, all)));
+        lab.on("progress", (unit, done, all) => this.say(fill(texts.running[unit], {done, all})));
     }
 
     /** Shows a text instead of the verdict until the next verdict. */
@@ -88,31 +102,43 @@ export class Verdict {
         const discs = Number(this.lab.given["discs"]);
         // Many discs, or discs close to the densest packing, take seconds.
         this.say(!this.lab.last && discs > 0
-            ? texts.placing(this.lab.counted(discs, this.lab.given)) : "…");
+            ? fill(texts.placing, {particles: this.lab.counted(discs, this.lab.given)}) : "…");
     }
 
     private show(): void {
         const {lab, finding} = this, n = lab.last?.frame[10] ?? 0, particles = lab.counted(n);
         this.drawGauge(finding);
         this.showNumbers();
-        if (lab.isByHand) return this.say(texts.byHandHeadline(signed(lab.last?.turns[0] ?? 0, 2)));
-        const {direction, isFirm, error} = finding, strong = element("strong");
-        if (!direction) return this.say(texts.undecided(particles));
-        strong.textContent = texts.sides[direction];
-        strong.className = direction;
-        const words = isFirm ? texts.verdict(n, particles)
-            : error !== null ? texts.nearZero(particles) : texts.soFar(particles);
-        const key = words.join(direction);
-        if (key === this.said) return;
-        this.said = key;
-        byId("headline").replaceChildren(words[0], strong, words[1]);
+        if (lab.isByHand) return this.say(fill(texts.byHandHeadline, {turns: signed(lab.last?.turns[0] ?? 0, 2)}));
+        const {direction, isFirm, error} = finding;
+        if (!direction) return this.say(fill(texts.undecided, {particles}));
+        const strong = (words: Record<Direction, string>, way: Direction): HTMLElement =>
+            element("strong", {textContent: words[way], className: way});
+        const other = this.other(), beside = other?.finding.direction;
+        // Both in one sentence, if only their numbers differ.
+        if (other && beside && settingOf(other.given) === settingOf(lab.given)) {
+            return this.write(fill(texts.both, {few: lab.counted(other.particles), many: n}),
+                              {one: strong(texts.ways, beside), other: strong(texts.ways, direction)});
+        }
+        const words = isFirm ? fill(texts.verdict, {n, particles})
+            : error !== null ? fill(texts.nearZero, {particles}) : fill(texts.soFar, {particles});
+        this.write(words, {direction: strong(texts.sides, direction)});
         byId("verdict").classList.toggle("firm", isFirm);
+    }
+
+    /** Shows a text with elements in place of the names in braces. */
+    private write(words: string, elements: Record<string, HTMLElement>): void {
+        const parts = words.split(/\{(\w+)\}/).map((each, k) => (k % 2 ? elements[each]! : each));
+        const text = words.replace(/\{(\w+)\}/g, (_, name: string) => elements[name]!.textContent!);
+        if (text === this.said) return;
+        this.said = text;
+        byId("headline").replaceChildren(...parts);
     }
 
     private drawGauge({mean, error, direction}: Finding): void {
         this.gauge.dataset["direction"] = direction ?? "";
         this.needle.hidden = this.band.hidden = mean === null;
-        this.gauge.setAttribute("aria-valuetext", this.rotationText());
+        this.gauge.setAttribute("aria-valuetext", rotationText(this.finding));
         this.gauge.setAttribute("aria-valuenow", String(mean ?? 0));
         if (mean === null) return;
         this.needle.style.left = percent(position(mean));
@@ -122,28 +148,23 @@ export class Verdict {
         this.band.classList.toggle("unknown", error === null);
     }
 
-    private rotationText(): string {
-        const {mean, error} = this.finding;
-        return mean !== null && error === null ? signed(mean, 2) : withError(mean, error, texts.notYet);
-    }
-
     private showNumbers(): void {
         const {lab} = this, {last, averages} = lab;
         if (!last) return;
         const [turns, rigid] = last.turns, time = last.frame[0]!;
         const differ = Math.abs(turns - rigid) > Math.max(0.1, 0.15 * Math.abs(turns));
         const pairs: [string, string, string, string][] = [
-            [symbols.rotation, this.rotationText(),
+            [symbols.rotation, rotationText(this.finding),
              texts.rotationHelp, "rotation"],
-            [texts.turned, texts.turns(signed(turns, 2)), texts.turnedHelp, "turned"],
+            [texts.turned, fill(texts.turns, {turns: signed(turns, 2)}), texts.turnedHelp, "turned"],
             [texts.periods, signed(time / lab.value("period"), 1), texts.periodsHelp, "period-count"],
         ];
         if (lab.isByHand) pairs.splice(0, 1), pairs.splice(1, 1); // no period, so no averages
-        const warmup = averages && averages.by_time.blocks === 0 && !lab.isByHand ? texts.warmup(averages.warmup) : "";
+        const warmup = averages && averages.by_time.blocks === 0 && !lab.isByHand ? fill(texts.warmup, {periods: averages.warmup}) : "";
         byId("numbers").replaceChildren(
             element("dl", {id: "estimates"}, ...pairs.map(([name, value, title, id]) => element("div", {title},
                 element("dt", {textContent: name}), element("dd", {id, textContent: value})))),
-            element("p", {id: "note", textContent: warmup || (differ ? texts.differ(signed(rigid, 2)) : "")}),
+            element("p", {id: "note", textContent: warmup || (differ ? fill(texts.differ, {rigid: signed(rigid, 2)}) : "")}),
             element("p", {id: "caution", textContent: this.caution()}));
     }
 

@@ -1,7 +1,7 @@
 // Runs the engine in a worker, so that the page never waits for it.
 import {Engine, UsageError, perRate} from "./engine";
 import type {Frame, FromWorker, ToWorker} from "./messages";
-import {workerTexts} from "./texts";
+import {fill, workerTexts} from "./worker_texts";
 
 /** Longest work per tick. Time that is not reached within it is skipped. */
 const tickBudget = 12; // milliseconds
@@ -18,6 +18,7 @@ let runNumber = 0;
 let lastAverages = -Infinity;
 let change: Record<string, string> | undefined; // takes effect at the end of the period
 let showsMaps = false;
+let showsContacts = false;
 let toFit: {given: Record<string, string>; tries: number} | undefined; // discs without room so far
 
 const send = (message: FromWorker): void => postMessage(message);
@@ -25,7 +26,7 @@ const send = (message: FromWorker): void => postMessage(message);
 function reject(error: unknown): void {
     engine = undefined;
     send({kind: "rejected", run: runNumber, message: error instanceof UsageError ? error.message :
-        workerTexts.stopped(String(error))});
+        fill(workerTexts.stopped, {error: String(error)})});
 }
 
 /** Throws if the command line would end the run with an error. */
@@ -41,15 +42,17 @@ function show(single = false): void {
     if (single) [frame.event, frame.next] = [engine.event(), engine.nextEvent()];
     if (single || performance.now() - lastAverages > averagesInterval) {
         frame.rotation = engine.rotation();
+        frame.cause = engine.cause();
         lastAverages = performance.now();
     }
+    if (showsContacts) frame.contacts = engine.contacts();
     postMessage(frame, {transfer: [frame.frame.buffer]});
 }
 
 /** Starts a simulation. Throws UsageError for parameters that are not valid. */
 function startSimulation(module: WebAssembly.Module, given: Record<string, string>): Engine {
     const discs = given["discs"] ?? "";
-    if (Number(discs) > maxDiscs) throw new UsageError(workerTexts.tooMany(discs, maxDiscs));
+    if (Number(discs) > maxDiscs) throw new UsageError(fill(workerTexts.tooMany, {discs, most: maxDiscs}));
     const simulation = new Engine(module);
     simulation.begin(given);
     return simulation;
@@ -237,6 +240,7 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                 break;
             case "measure":
                 showsMaps = data.maps;
+                showsContacts = data.contacts;
                 engine?.showMaps(showsMaps);
                 break;
             case "maps":

@@ -22,13 +22,13 @@ page.on("request", (request) => {
     if (!/^(file|data|blob):/.test(request.url())) requests.push(request.url());
 });
 await page.addInitScript({path: createRequire(import.meta.url).resolve("axe-core/axe.min.js")}); // the page runs its own script only
-// Records the circles that the page draws, in pixels of the canvas.
+// Records the full circles that the page draws, in pixels of the canvas.
 await page.addInitScript(() => {
     globalThis.drawnCircles = [];
     const arc = CanvasRenderingContext2D.prototype.arc;
     CanvasRenderingContext2D.prototype.arc = function (x, y, r, ...angles) {
         const {a, d, e, f} = this.getTransform();
-        globalThis.drawnCircles.push([a * x + e, d * y + f, a * r]);
+        if (angles[1] - angles[0] > 6.28) globalThis.drawnCircles.push([a * x + e, d * y + f, a * r]);
         return arc.call(this, x, y, r, ...angles);
     };
 });
@@ -77,7 +77,7 @@ const circlesOf = (list, radiusOf) => {
     return {radius, discs: small.filter(([, , r]) => Math.abs(r - radius) < 0.1)
         .map(([x, y]) => [(x - cx) / radius, (y - cy) / radius])};
 };
-// The widest circle of the page is the arc that counts turns, about the same centre.
+// The widest full circle of the page is the wall.
 const ofPage = circlesOf(await page.evaluate(() => { // of the last frame
     const circles = globalThis.drawnCircles;
     return circles.slice(circles.findLastIndex(([, , r]) => r === Math.max(...circles.map((c) => c[2]))));
@@ -224,6 +224,44 @@ assert.ok(seeds.every((seed) => /^\d{4}$/.test(seed)) && new Set(seeds).size > 1
 await page.click(".example:nth-of-type(1)"); // an example keeps it
 await page.waitForFunction((seed) => location.search === `?seed=${seed}&discs=8`, seeds[3]);
 assert.equal(await page.getAttribute(".example:nth-of-type(1)", "aria-pressed"), "true");
+
+// A new visitor sees few and many discs at once, which turn in opposite directions; a link has what it shows.
+await open("");
+await page.waitForFunction(() => document.getElementById("headline").textContent === "The same swirl: 8 discs turn with it, 48 against it.");
+assert.equal(await page.locator("#views canvas:visible").count(), 2);
+await page.waitForFunction(() => /^\?seed=\d{4}&beside=8$/.test(location.search));
+await page.locator("#discovery-plot [role=img][aria-label*='with 2 points']").waitFor(); // the points of both
+await requireAccessible("two containers");
+// A hand stirs both: the same circles turn them in opposite directions.
+await press("by-hand");
+const many = await page.locator("#views figure:not(#compared) canvas").boundingBox();
+for (let k = 0; k < 40; ++k) {
+    await page.mouse.move(many.x + many.width * (0.5 + 0.1 * Math.cos(k / 3)), many.y + many.height * (0.5 + 0.1 * Math.sin(k / 3)));
+    await page.waitForTimeout(20);
+}
+const stirred = await page.$$eval("#views figcaption", (all) => all.map((each) => each.textContent));
+assert.match(stirred[0], /^8 discs: .*\d turns$/);
+assert.match(stirred[1], /^48 discs: .*\d turns$/);
+await press("by-hand");
+await press("close-compared");
+assert.equal(await page.locator("#views canvas:visible").count(), 1);
+await page.waitForFunction(() => /^\?seed=\d{4}$/.test(location.search));
+await open("?mu=0.5&beside=5&view=both&color=spin&pace=3&trails=1");
+assert.equal(await page.locator("#views canvas:visible").count(), 3);
+assert.deepEqual(await page.$eval("#transport", (bar) => [bar.querySelector("#choose-view").value, bar.querySelector("#choose-coloring").value,
+    bar.querySelector("#trails").ariaPressed, Math.round(10 ** bar.querySelector("#speed").value)]), ["both", "spin", "true", 3]);
+for (const wrong of ["x", "0", "-3", "1e9", ""]) {
+    await open(`?discs=9&beside=${wrong}`);
+    await page.waitForFunction(() => /beside=.* from 1 to 300/.test(document.getElementById("error").textContent));
+    await page.waitForSelector('canvas[aria-label^="9 discs"]'); // the simulation runs
+}
+for (const wrong of ["pace=0", "pace=11", "pace=x", "view=top", "view=toString", "color=", "strobe=yes", "trails=2"]) {
+    await open(`?discs=9&${wrong}`);
+    await page.waitForFunction((given) => document.getElementById("error").textContent.startsWith(`The address contains ${given}, but it must be`), wrong);
+    await page.waitForSelector('canvas[aria-label^="9 discs"]');
+    await page.waitForFunction(() => location.search === "?discs=9");
+}
+
 assert.deepEqual([await seedOf("?seed=5"), await seedOf("?discs=9"), await seedOf("?discs=9&events=0")], ["5", undefined, undefined]);
 
 // Each slider shows its value in effect, given or not, or no value if this is a word or two coefficients.
@@ -646,8 +684,8 @@ for (const [button, name, begins] of [["#save-image", "swirl.png", "\x89PNG"],
     assert.ok(saved[name].toString("latin1").startsWith(begins), name);
 }
 
-// The image has the canvas's size; tests/cli/lab_test.py decodes it.
-assert.deepEqual([16, 20].map((at) => saved["swirl.png"].readUInt32BE(at)), canvasSize);
+// The image has the canvas, and a row with the address; tests/cli/lab_test.py decodes it.
+assert.deepEqual([16, 20].map((at) => saved["swirl.png"].readUInt32BE(at)), [canvasSize[0], canvasSize[1] + 22]);
 assert.ok(canvasSize[0] >= 300, `${canvasSize}`);
 
 // Positions are extended XYZ. Times increase, all discs are in the container, and no discs overlap.

@@ -2,7 +2,7 @@
 // PARAMETERS.json [FOLDER]. PARAMETERS is the engine's table; FOLDER has files of the command line. Exits with 1
 // and a message if a test fails.
 import assert from "node:assert/strict";
-import {mkdtempSync, readFileSync, rmSync} from "node:fs";
+import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {dirname, join} from "node:path";
 import {fileURLToPath, pathToFileURL} from "node:url";
@@ -19,40 +19,42 @@ const load = async (name) => {
     return import(pathToFileURL(outfile).href);
 };
 
-/** All keys of an object with those of its objects; functions are called with numbers and texts. */
-const shapeOf = (value, path = "") => {
-    if (typeof value === "function") return [[`${path}()`, value]];
-    if (typeof value !== "object" || value === null) return [[path, value]];
-    return Object.entries(value).flatMap(([key, each]) => shapeOf(each, `${path}.${key}`));
-};
+/** All keys of an object with those of its objects. */
+const shapeOf = (value, path = "") => typeof value !== "object" || value === null ? [[path, value]]
+    : Object.entries(value).flatMap(([key, each]) => shapeOf(each, `${path}.${key}`));
 /** Numbers, names of options and parameters, and commands in a text. */
 const marksIn = (text) => (text.replace(/(\d),(?=\d)/g, "$1.").match(/\d+(?:\.\d+)?|--[a-z-]+|\bmu_\w+|N_c|\.\/swirl \w+|ϖ/g) ?? []).sort();
 /** Words that are the same in both languages. */
-const sameInBoth = /^[\W\d_]*$|^(?:swirl|CSV|Link|Start|Name|Amplitude|\.\/swirl .*|sphere|N_c.*|[A-Zμe](?:_\w)?|Frustration)$/;
+const sameInBoth = /^[\W\d_]*$|^(?:swirl|CSV|Link|Start|Name|Amplitude|\.\/swirl .*|sphere|N_c.*|[A-Zμe](?:_\w)?|Frustration|s = .*γ.*)$/;
 
 try {
     // Both languages have the same keys, and their texts the same numbers and names.
-    const [en, de] = await Promise.all([load("texts.en"), load("texts.de")]);
-    const [english, german] = [en, de].map((each) => new Map(shapeOf({...each})));
+    const [en, de] = ["en", "de"].map((each) => JSON.parse(readFileSync(join(sources, `texts.${each}.json`), "utf-8")));
+    const [english, german] = [en, de].map((each) => new Map(shapeOf(each)));
     const described = [...german.keys()].filter((key) => key.startsWith(".texts.descriptions."));
-    assert.deepEqual([...german.keys()].filter((key) => !described.includes(key)).sort(), [...english.keys()].sort());
-    const arguments_ = [["48", "7", "3"], [48, 7, 3], [0, 19], [1, ["a", "b"]], [45, Infinity]];
+    assert.deepEqual([...german.keys()].filter((key) => !described.includes(key)).sort(), [...english.keys()].filter((key) => key !== ".texts.descriptions").sort());
+    /** The names in braces. */
+    const valuesIn = (text) => (text.match(/\{\w+(?=[|}])/g) ?? []).sort();
+    const {fill} = await load("worker_texts");
+    assert.equal(fill("{n|{n} disc is|{n} discs are} {x}, {y}", {n: 1, x: "a{n}", y: 2.5}), "1 disc is a{n}, 2.5");
+    assert.equal(fill("{n|{n} disc is|{n} discs are} {other}", {n: 2}), "2 discs are {other}");
     const untranslated = [];
-    for (const [key, value] of english) {
-        const other = german.get(key);
-        for (const given of typeof value === "function" ? arguments_ : [[]]) {
-            let [a, b] = [value, other];
-            if (typeof value === "function") {
-                try {
-                    [a, b] = [value(...given), other(...given)].map(String);
-                } catch {
-                    continue; // arguments of another type
-                }
-            }
-            if (typeof a !== "string" || key.endsWith("language")) continue;
-            assert.deepEqual(marksIn(b), marksIn(a), `${key}: '${b}' and '${a}' have other numbers or names`);
-            if (a === b && typeof value !== "function" && !key.includes(".given.") && !sameInBoth.test(a)) untranslated.push(`${key}: ${a}`);
-        }
+    for (const [key, a] of english) {
+        const b = german.get(key);
+        if (typeof a !== "string" || key.endsWith("language")) continue;
+        assert.deepEqual([...new Set(valuesIn(b))], [...new Set(valuesIn(a))], `${key}: '${b}' and '${a}' have other values`);
+        assert.deepEqual(marksIn(b), marksIn(a), `${key}: '${b}' and '${a}' have other numbers or names`);
+        if (a === b && !key.includes(".given.") && !sameInBoth.test(a.replace(/\{\w+\}/g, ""))) untranslated.push(`${key}: ${a}`);
+    }
+    // Each text with values is filled where the page uses it, with exactly these values.
+    const sourcesOf = Object.fromEntries(readdirSync(sources).filter((each) => each.endsWith(".ts")).map((each) => [each, readFileSync(join(sources, each), "utf-8")]));
+    const all = Object.values(sourcesOf).join("\n");
+    for (const [key, text] of english) {
+        const names = [...new Set(valuesIn(String(text)).map((each) => each.slice(1)))], name = key.split(".").at(-1);
+        if (names.length === 0 || /opened|running/.test(key)) continue; // chosen by a key
+        const calls = [...all.matchAll(new RegExp(`fill\\((?:\\w+\\.)*${name}, \\{([^]*?)\\}\\)`, "g"))].map(([, given]) => given);
+        assert.ok(calls.some((given) => names.filter((each) => !/^(one|other|direction)$/.test(each)).every((each) => new RegExp(`\\b${each}\\b`).test(given))),
+                  `${key} needs ${names}; the page gives ${calls}`);
     }
     assert.deepEqual(untranslated, []);
     // Descriptions and labels exist for exactly the parameters that the page shows.
@@ -60,8 +62,37 @@ try {
     assert.deepEqual(Object.keys(de.texts.descriptions).sort(), shown.sort());
     assert.deepEqual(Object.keys(en.texts.labels).sort(), shown);
 
+    // A pancake on the wall of the dish: the direction changes where s = R_c/R (docs/explanation/why.md).
+    const {pancakeGamma} = await load("cause");
+    assert.deepEqual([[1, 0.8], [0.8, 0.8], [0, 0.8]].map(([slip, size]) => 1 - pancakeGamma(slip, size)), [-0.25, 0, 1]);
+
+    // A dish in millimetres gives the parameters of the presets, which are the two readings of the paper's experiment.
+    const {givenFor, pooled} = await load("my_dish"), experiment = {container: 25.5, particle: 3, rate: 11.81 / (2 * Math.PI)};
+    assert.deepEqual(givenFor({...experiment, amplitude: 11.5}),
+                     {preset: "experiment", container_radius: "8.5", amplitude: "3.8333", period: "24.086", gravity: "1.5955"});
+    assert.deepEqual(givenFor({...experiment, amplitude: 5.75}).gravity, "6.382");
+    // Counted turns have the error of two readings of a mark; wrong lines are named.
+    const {measuredFrom, measuredFromLink, measuredText, rateOf} = await load("measured");
+    const counted = measuredFrom("8 4.5 20\n48 −0.7  20\n\n");
+    assert.deepEqual(counted, {rows: [[8, 4.5, 20], [48, -0.7, 20]], wrong: undefined});
+    assert.deepEqual(measuredFromLink(measuredText(counted.rows)), counted);
+    assert.equal(rateOf([8, 4.5, 20])[0], 0.225);
+    assert.ok(Math.abs(rateOf([8, 4.5, 20])[1] - 0.0059) < 1e-4); // √2/12 of a turn in 20 circles
+    for (const wrong of ["8 4", "x 4 20", "8 4 0", "8.5 4 20", "8 4 20 1", "8 1e99 20", "8 900 20", "-1 0 20", "8 4 Infinity"])
+        assert.deepEqual(measuredFrom(`8 4 20\n${wrong}`), {rows: [[8, 4, 20]], wrong}, wrong);
+    // Results of a class: each seed counts once, the error is that between pupils, and other parameters are omitted.
+    const isKnown = (name) => ["discs", "mu", "seed"].includes(name), link = (seed, points, more = "") => `https://x.org/lab.html?seed=${seed}${more}#points=${points}`;
+    const shared = [link(11, "8_0.1_0.01_200,48_-0.04_0.01_50"), link(12, "8_0.2_0.01_200", "&lang=de"), link(12, "8_0.2_0.01_200"),
+                    link(13, "8_0.9_0.01_200", "&mu=0.1"), "nonsense", "?seed=14"].join("\n");
+    const {points: ofClass, pupils, omitted} = pooled(shared, "", isKnown);
+    assert.deepEqual([pupils, omitted, [...ofClass.keys()]], [2, 3, [8, 48]]);
+    assert.ok(Math.abs(ofClass.get(8).mean - 0.15) < 1e-12);
+    // Student's t of two values, which the page has within a quarter: 12.7/1.96 × 0.05.
+    assert.ok(ofClass.get(8).error > 0.24 && ofClass.get(8).error < 0.33, `${ofClass.get(8).error}`);
+    assert.equal(ofClass.get(48).error, 0.01);
+
     // Error messages of the engine are in German, with their numbers.
-    const {translated} = await load("texts.engine.de");
+    const {translated} = await load("texts");
     const sudden = ["with restitution 0.5 the discs …", "friction has …"].map(
         (reason) => `the last 500 events took no measurable time (collapse after 1.25 periods): ${reason}`);
     for (const message of [...JSON.parse(readFileSync(join(files, "messages.json"), "utf-8")), ...sudden]) {
@@ -78,7 +109,7 @@ try {
     assert.match(translated("--mu is -0.5, but it must be a number from 0 to 1.5.", de.texts.labels), /^Reibung ist -0,5, .* von 0 bis 1,5 /);
     for (const [key, value] of [...german, ...english]) {
         const said = typeof value === "function" ? String(value) : String(value);
-        if (!/valuesHelp|curvesHelp|spheresHelp|explorer\.invalid|opened\.unknown|team\.|workerTexts\.control|descriptions/.test(key))
+        if (!/valuesHelp|curvesHelp|spheresHelp|explorer\.invalid|opened\.unknown|team\.|worker\.control|descriptions/.test(key))
             assert.doesNotMatch(said, /(?<!-)--[a-z]/, `${key} has an option of the command line`);
     }
     // One word for each thing, and a decimal comma, in German.
@@ -189,8 +220,8 @@ try {
 
     const {directionOf, rangeOf, ranges, steps} = await load("lesson");
     // A step shows the colours that its text names, and a moving wall is not shown with one image per period.
-    for (const [k, {text}] of en.lessonSteps.entries()) if (/Colours show the direction of the spin/.test(text)) assert.equal(steps[k].coloring, "spin");
-    assert.equal(steps.filter(({coloring}) => coloring === "spin").length, 1);
+    for (const [k, {text}] of en.lessonSteps.entries()) if (/Colours show the direction of the spin/.test(text)) assert.match(steps[k].coloring, /^(spin|contacts)$/);
+    assert.equal(steps.filter(({coloring}) => coloring === "contacts").length, 1);
     assert.equal(steps[3].isSlow, true);
     assert.deepEqual([steps[4].next.mu_disc, steps[4].next.mu_wall], ["0", "1"]);
     assert.deepEqual([directionOf(0.1, 0.01), directionOf(-0.1, 0.01), directionOf(0.015, 0.01)], [0, 1, 2]);

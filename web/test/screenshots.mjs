@@ -1,5 +1,5 @@
-// Writes the images of docs/how-to/browser_page.md: node screenshots.mjs FILE.html CHROMIUM FOLDER. Each shows the
-// page in one state; the exact number of periods depends on the machine. ffmpeg reduces their colours.
+// Writes the images of docs/how-to/browser_page.md: node screenshots.mjs FILE.html CHROMIUM FOLDER [NAME…]. Each shows the
+// page in one state, "preview" for link previews; the exact number of periods depends on the machine. ffmpeg reduces their colours.
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, rmSync, statSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -7,7 +7,7 @@ import {join} from "node:path";
 import {pathToFileURL} from "node:url";
 import {chromium} from "playwright-core";
 
-const [file, executablePath, folder] = process.argv.slice(2);
+const [file, executablePath, folder, ...wanted] = process.argv.slice(2);
 const address = pathToFileURL(file).href;
 const mostBytes = 120_000;
 
@@ -27,10 +27,20 @@ const setPace = (page, pace) => page.evaluate((value) => {
 
 /** Name, query, what happens, and options of the page. */
 const states = [
-    ["start", "", (page) => hasPeriods(page, 36)],
+    ["start", "", (page) => hasPeriods(page, 68)],
+    ["preview", "", (page) => hasPeriods(page, 60), {viewport: {width: 1200, height: 630}}],
     ["few", "?discs=8", (page) => hasPeriods(page, 36), {colorScheme: "dark"}],
-    ["time_lapse", "", (page) => hasPeriods(page, 12)],
-    ["strobe", "", async (page) => {
+    ["time_lapse", "?seed=1", (page) => hasPeriods(page, 40)],
+    ["cause", "", async (page) => {
+        await hasPeriods(page, 68);
+        await page.evaluate(() => {
+            document.getElementById("cause").open = true;
+            document.getElementById("show-contacts").click();
+        });
+        await page.waitForTimeout(1500);
+        await hasPeriods(page, 72);
+    }],
+    ["strobe", "?seed=1", async (page) => {
         await hasPeriods(page, 33);
         await choose(page, "choose-view", "both");
         await click(page, "strobe");
@@ -38,7 +48,7 @@ const states = [
         await setPace(page, 4);
         await hasPeriods(page, 52);
     }],
-    ["density", "", async (page) => {
+    ["density", "?seed=1", async (page) => {
         await choose(page, "choose-view", "density");
         await setPace(page, 10);
         await hasPeriods(page, 150);
@@ -56,18 +66,18 @@ const states = [
         await hasPeriods(page, 33);
         await page.evaluate(() => document.getElementById("curve").scrollIntoView({block: "end"}));
     }],
-    ["parameters", "", async (page) => {
+    ["parameters", "?seed=1", async (page) => {
         await hasPeriods(page, 33);
         await page.keyboard.press("m");
         await page.evaluate(() => document.getElementById("more").scrollIntoView({block: "center"}));
     }],
-    ["phone", "", (page) => hasPeriods(page, 36), {viewport: {width: 390, height: 844}, hasTouch: true}],
+    ["phone", "", (page) => hasPeriods(page, 68), {viewport: {width: 390, height: 844}, hasTouch: true}],
 ];
 
 const browser = await chromium.launch({executablePath, args: ["--no-sandbox", "--disable-gpu"]});
 const temporary = mkdtempSync(join(tmpdir(), "swirl-screenshots-"));
 try {
-    for (const [name, query, act, options] of states) {
+    for (const [name, query, act, options] of states.filter(([each]) => wanted.length === 0 || wanted.includes(each))) {
         const page = await browser.newPage({bypassCSP: true, viewport: {width: 1280, height: 800}, locale: "en-GB", ...options});
         await page.goto(address + query);
         await act(page);

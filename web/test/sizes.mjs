@@ -16,22 +16,25 @@ const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 for (const [width, height] of all ? [[1440, 900], [1024, 768], [768, 1024], [683, 384], [683, 800], [390, 844], [360, 640]]
                                   : [[683, 384], [360, 640]]) {
     for (const colorScheme of all ? ["light", "dark"] : ["light"]) {
-        for (const lang of all ? ["en", "de"] : ["de"]) {
-            const where = `${width} × ${height}, ${colorScheme}, ${lang}`;
+        for (const [lang, query] of (all ? ["en", "de"] : ["de"]).flatMap((each) => [[each, ""], [each, "&seed=1"]])) {
+            const isNew = query === "", where = `${width} × ${height}, ${colorScheme}, ${lang}, ${isNew ? "a new visitor" : "a link"}`;
             const page = await browser.newPage({bypassCSP: true, viewport: {width, height}, colorScheme, reducedMotion: "reduce"});
             await page.addInitScript({path: axe});
-            await page.goto(`${address}?lang=${lang}`);
+            await page.goto(`${address}?lang=${lang}${query}`);
             await page.waitForFunction(() => Number(document.getElementById("period-count")?.textContent.replace(",", ".")) >= 30,
                                        null, {timeout: 60_000});
             // Nothing extends beyond the page. The dish, the verdict and both main sliders are in the first screen.
             const wide = await page.evaluate(() => document.documentElement.scrollWidth);
             assert.ok(wide <= width, `${where}: the page is ${wide} wide`);
             // (A window of 384 pixels, that of a laptop at twice the size, is too low for all of them.)
-            for (const id of height > 400 ? ["views", "headline", "gauge", "play", "slider-discs", "slider-mu"] : ["views", "play"]) {
+            // A new visitor sees two dishes, the sentence, the plot and the hand.
+            const first = height <= 400 ? ["views", "play"] : isNew && width < 768 ? ["views", "headline", "play", "by-hand", "discovery-plot", "slider-discs"]
+                : ["views", "headline", "gauge", "play", "by-hand", "slider-discs", "slider-mu"];
+            for (const id of first) {
                 const {x, y, width: w, height: h} = await page.locator(`#${id}`).boundingBox();
                 assert.ok(x >= 0 && y >= 0 && x + w <= width && y + h <= height, `${where}: #${id} ends at ${x + w}, ${y + h}`);
             }
-            const dish = await page.locator("#views canvas").boundingBox();
+            const dish = await page.locator("#views canvas").last().boundingBox();
             assert.ok(dish.width >= 0.42 * Math.min(width, height), `${where}: the dish is ${dish.width} wide`);
             // A name is broken between words only: no word of a label is wider than its place.
             const broken = await page.$$eval("label, button, legend, summary, dt", (all) => all.filter((each) =>
@@ -48,7 +51,7 @@ for (const [width, height] of all ? [[1440, 900], [1024, 768], [768, 1024], [683
             // On a phone the dish stays while the controls scroll.
             await page.evaluate(() => scrollTo(0, 600));
             if (width < 768) {
-                const stays = await page.locator("#views canvas").boundingBox();
+                const stays = await page.locator("#views canvas").last().boundingBox();
                 assert.ok(stays.y >= 0, `${where}: the dish is at ${stays.y}`);
             }
             await page.evaluate(() => {

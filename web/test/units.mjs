@@ -19,7 +19,7 @@ const frame = (discs, {time = 0, centre = [0, 0], radius = 8.6} = {}) => new Flo
     [time, 0, 0, ...centre, 0, 0, radius, 1, 0, discs.length,
      ...discs.flatMap(([x, y, r = 1]) => [x, y, 0.25, -0.5, 1, 2, r, 0])]);
 
-/** Finds visible texts in a source other than texts.*.ts and symbols.ts: letters in the text, name or label of an element
+/** Finds visible texts in a source other than symbols.ts: letters in the text, name or label of an element
  *  or canvas; elsewhere strings of several words, or with letters that identifiers cannot have. */
 const shownBy = (source) => {
     const found = [], file = ts.createSourceFile("a.ts", source, ts.ScriptTarget.ES2022, true);
@@ -80,10 +80,10 @@ try {
     ]) assert.deepEqual(shownBy(source), wanted, source);
     const classes = new Set(readdirSync(sources).filter((each) => each.endsWith(".css"))
         .flatMap((each) => readFileSync(join(sources, each), "utf-8").match(/(?<=\.)[a-z][a-z-]*/g)));
-    for (const name of readdirSync(sources).filter((each) => each.endsWith(".ts") && !/^(texts\.|symbols)/.test(each))) {
+    for (const name of readdirSync(sources).filter((each) => each.endsWith(".ts") && !/^symbols/.test(each))) {
         const stray = shownBy(readFileSync(join(sources, name), "utf-8"))
             .filter((each) => !each.split(" ").every((word) => classes.has(word)));
-        assert.deepEqual(stray, [], `${name} has texts that belong in texts.en.ts`);
+        assert.deepEqual(stray, [], `${name} has texts that belong in texts.en.json`);
     }
     assert.deepEqual(shownByPage('<a title="So {{b}}" id="x">{{a}} <b>yes</b></a>'), ["So", "yes"]);
     assert.deepEqual(shownByPage(readFileSync(join(sources, "..", "index.html"), "utf-8")), []);
@@ -192,6 +192,26 @@ try {
     const kept = new Frames(), large = {length: 3e6}; // the size of a frame with 375,000 discs
     assert.deepEqual(Array.from({length: 6}, () => kept.add(large)), [true, true, true, true, true, false]);
     assert.equal(kept.all.length, 6);
+
+    // The time-lapse glides on arcs about the centre of mass, also by more than half a turn, and ends at the next image.
+    const {between, isWholePeriod, centreOf} = await load("strobe");
+    const [start, next] = [frame([[3, 0], [1, 0]]), frame([[2, -1], [2, 1]])]; // three quarters of a turn
+    assert.deepEqual(centreOf(start), [2, 0]);
+    assert.equal(between(start, next, 0.75, 1), next);
+    const halfway = between(start, next, 0.75, 0.5);
+    for (const [k, wanted] of [2 + Math.cos(0.75 * Math.PI), Math.sin(0.75 * Math.PI)].entries())
+        assert.ok(Math.abs(halfway[11 + k] - wanted) < 1e-12, `${halfway}`); // rounding of sines
+    assert.equal(between(start, frame([[2, -1]]), 0.75, 0.5).length, 19); // another number of discs appears at once
+    assert.deepEqual([0, 1e-9, 0.5, 1 - 1e-9].map((phase) => isWholePeriod([0, 0, 12 * phase], 12)), [true, true, false, true]);
+
+    // Contacts of the last fifteenth of a period are drawn; those of discs that were removed are not.
+    const {Contacts} = await load("contacts"), shownContacts = new Contacts();
+    shownContacts.add({frame: frame([[0, 0], [2, 0]], {time: 1}), contacts: new Float64Array([0.5, 0, 1, 1, 0.99, 1, 1, 0, 0.99, 0, 2, 1])}, 15);
+    assert.deepEqual(shownContacts.recent, [{i: 0, j: 1, sticks: true}, {i: 1, j: 1, sticks: false}]);
+    shownContacts.add({frame: frame([[0, 0], [2, 0]], {time: 1.9}), contacts: new Float64Array()}, 15);
+    assert.deepEqual(shownContacts.recent, [{i: 1, j: 1, sticks: false}]);
+    shownContacts.add({frame: frame([[0, 0]])}, 15);
+    assert.deepEqual(shownContacts.recent, []);
 
     const {periodsOf, meansOf, tableOf} = await load("series");
     const short = {warmup: 2, warmup_blocks: 2, periods_per_block: [1, 1], blocks: [5, 7, 1, 3, null],
