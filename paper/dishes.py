@@ -27,6 +27,11 @@ def dish_run(dish, discs):
             "amplitude": dish.amplitude * dish.radius, "speed": 1}
 
 
+def resolved(parameters):
+    """All parameters of a run."""
+    return json.loads(swirl._engine.resolve(parameters))
+
+
 def period_of(parameters):
     """The period of the swirl."""
-    return json.loads(swirl._engine.resolve(parameters))["period"]
+    return resolved(parameters)["period"]

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
+from chapters import cooling  # noqa: E402
 from coarse_zero import last_zero, zero_of_curve  # noqa: E402
 from jackknife import jackknife  # noqa: E402
 from micropolar import RELATIONS, Relation, fit_relation  # noqa: E402
+from swirled_state import densities, fit_hypotrochoids  # noqa: E402
 
 EXACT = 1e-12  # rounding errors of sums of a few hundred terms
 
@@ -97,3 +99,38 @@ def test_points_outside_the_range_or_with_a_missing_value_are_omitted():
     assert fit_relation(seeds, RELATIONS[1], 0.4, 0.6, 1).points == 380
     assert fit_relation(seeds, RELATIONS[1], 0.7, 0.8, 1).points == 0
     assert fit_relation([], Relation("", "", "", (), None), 0, 1, 1).points == 0
+
+
+def test_a_smooth_gas_cools_by_its_collisions_and_its_wall():
+    haff = cooling.CASES[0]
+    rate = (1 - 0.9 ** 2) / 2
+    # In a large dish the wall takes part in few collisions, so Haff's law remains.
+    assert haff.after(3, 1e14)[0] == pytest.approx(math.exp(-3 * rate), rel=1e-6)
+    assert haff.after(3, 1000)[0] < math.exp(-3 * rate)
+    # T = exp(−aτ), so the time in units of 1/ν is ∫ exp(aτ/2) dτ.
+    assert haff.time_of(3, 1e14) == pytest.approx((math.exp(1.5 * rate) - 1) / (rate / 2), rel=1e-6)
+
+
+def test_perfectly_rough_elastic_discs_keep_their_energy_and_share_it():
+    elastic = cooling.CASES[1]
+    for tau in (0.5, 3, 30):
+        translation, spins = elastic.after(tau, 1000)
+        assert translation + spins / 2 == pytest.approx(1, abs=EXACT)
+    # T = 1/(1 + 1/2) when T = T_s; after 30 collisions what remains of the difference is below e^{-10}.
+    assert (translation, spins) == pytest.approx((2 / 3, 2 / 3), abs=1e-4)
+
+
+def test_the_path_of_a_disc_of_a_rolling_cluster_is_recognised():
+    times = 2 * np.pi * np.arange(240)[:, None] / 60
+    paths = 3 * np.exp(1j * times) + np.array([1, 2j, 4]) * np.exp(-0.1j * times)
+    rotation, distance = fit_hypotrochoids(paths)
+    # ϖ is on the grid of the search; the distance is the root of a difference of squares, so of √ε.
+    assert rotation == pytest.approx(-0.1, abs=EXACT) and distance < 1e-6
+    assert fit_hypotrochoids(paths + 0.5 * np.exp(0.7j * times ** 2))[1] > 0.3
+
+
+def test_the_density_in_rings_counts_every_particle_once():
+    distance = np.sqrt(np.random.default_rng(1).uniform(0, 9, size=(50, 40)))
+    found = densities(distance)
+    rings = np.arange(len(found) + 1) / 5
+    assert np.sum(found * np.pi * np.diff(rings ** 2)) == pytest.approx(40, abs=1e-9)

@@ -1,0 +1,102 @@
+"""Zhao and Pöschel (arXiv 2008.12902 and 2107.14440) report that a uniform layer becomes unstable beyond a threshold of the
+amplitude: a dense region forms and travels around the dish. In denser layers a solid core rotates against the swirl, with
+a fluid layer at the wall."""
+
+import math
+
+import style
+import tables
+from coarse_zero import changes_of_sign, middle_zero, zero_of_curve
+from combine import over_seeds
+from curves import with_error
+from dishes import SPHERES_OF_CHAPTERS, resolved
+from figure import Figure
+from runs import length_of, lengths, text
+from study import Point
+from swirled_state import swirled_run
+
+LAYERS = (0.3, 0.45, 0.65)  # φ
+RADIUS = 17.0
+QUANTITIES = ("distance", "steady", "advance", "core", "layer", "rotation")
+# A layer is unstable if its distance exceeds that of random points by this factor.
+UNSTABLE = 2
+
+
+def points(settings):
+    made = []
+    for fraction in LAYERS:
+        for amplitude in (0.25, 1.0, 2.0) if settings.quick else (0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0):
+            discs = int(fraction * RADIUS * RADIUS + 0.5)
+            run = {**SPHERES_OF_CHAPTERS, "discs": discs, "container_radius": RADIUS, "amplitude": amplitude,
+                   "period": resolved(SPHERES_OF_CHAPTERS)["period"], **lengths(settings, (20, 2), (24, 8))}
+            made.append(Point(settings, f"instability_N{discs}_A{text(amplitude)}_{length_of(run)}",
+                              settings.chapter_seeds, run, work=swirled_run,
+                              cells={"packing_fraction": fraction, "discs": discs, "amplitude": amplitude}))
+    return made
+
+
+def distance_of_random_points(discs):
+    """The mean distance of the centre of mass from the middle of the dish, in R, of N independent points in the circle
+    that centres can reach. Each coordinate has the variance (R − r)²/4N."""
+    return (1 - 1 / RADIUS) * math.sqrt(math.pi / (8 * discs))
+
+
+def threshold_of(excess):
+    """The amplitude above which the layer is unstable, as a CurveZero; None if none is certain."""
+    for change in reversed(changes_of_sign(excess)):
+        if not change["to_counterrotation"]:  # rises above
+            return zero_of_curve(excess, middle_zero(excess, change))
+    return None
+
+
+def table(points, settings):
+    rows, thresholds, findings = [], [], []
+    for fraction in LAYERS:
+        excess = []
+        for point in points:
+            if point.cells["packing_fraction"] != fraction:
+                continue
+            row = dict(point.cells)
+            for name in QUANTITIES:
+                row[name], row[f"{name}_error"] = over_seeds([run[name] for run in point.runs])[:2]
+            rows.append({**row, "seeds": len(point.runs)})
+            random = distance_of_random_points(row["discs"])
+            excess.append((row["amplitude"], row["distance"] / random - UNSTABLE, row["distance_error"] / random))
+        found = threshold_of(excess)
+        value, error = (found.discs, found.error) if found else (math.nan, math.nan)
+        thresholds.append({"packing_fraction": fraction, "discs": row["discs"], "random_distance": random,
+                           "threshold": value, "threshold_error": error})
+        findings.append(f"φ = {fraction}: the centre of mass is farther from the middle than {UNSTABLE} times the distance "
+                        f"of random points "
+                        f"{f'from A/r = {with_error(value, error)} on' if found else 'at no certain amplitude'}.")
+    return {"": rows, "_thresholds": thresholds}, findings
+
+
+PANELS = (("distance", r"distance of the centre of mass $\langle|q|\rangle/R$"),
+          ("steady", r"part that turns with the swirl"),
+          ("core", r"rotation of the core ($\Omega$)"),
+          ("layer", r"rotation of the wall layer ($\Omega$)"))
+
+
+def draw_instability(table):
+    rows = style.read(table)
+    layers = list(dict.fromkeys(row["packing_fraction"] for row in rows))
+    drawing, panels = style.figure(style.PAGE, 5.2, ncols=2, nrows=2)
+    handles = []
+    for axes, (quantity, words) in zip(panels.flat, PANELS):
+        style.zero_line(axes)
+        handles = []
+        for k, layer in enumerate(layers):
+            here = sorted(tables.select(rows, packing_fraction=layer), key=lambda row: row["amplitude"])
+            handles.append(axes.errorbar(
+                style.column(here, "amplitude"), style.column(here, quantity),
+                yerr=style.column(here, f"{quantity}_error"), color=style.CYCLE[k], marker=style.MARKERS[k],
+                elinewidth=0.7, label=rf"$\varphi = {here[0]['packing_fraction']:g}$, $N = {here[0]['discs']:g}$"))
+        axes.set_ylabel(words)
+        axes.set_xlabel("amplitude $A/r$")
+    style.legend_of_all(drawing, handles, [handle.get_label() for handle in handles], ncol=3)
+    style.save(drawing, table)
+
+
+FIGURES = [Figure("instability", "chapters", "chapter: from which amplitude on is a layer of spheres unstable?", points,
+                  table, draw_instability)]
