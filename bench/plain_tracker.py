@@ -1,5 +1,5 @@
 """Baseline for `swirl track`: a simple version of trackpy's method, scored on the videos of
-docs/explanation/tracking_accuracy.md, whose ground truth is known.
+docs/results/tracking_accuracy.md, whose ground truth is known.
 
     SWIRL=build/tests/swirl /usr/bin/python3 bench/plain_tracker.py       (numpy and scipy; minutes)
 

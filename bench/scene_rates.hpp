@@ -1,4 +1,4 @@
-// Measures the event rate of the engine in the scenes of docs/explanation/performance.md, each next
+// Measures the event rate of the engine in the scenes of docs/results/performance.md, each next
 // to a baseline in the same run. The baselines are optimised, but lack the methods of this engine:
 // one searches all pairs (baselines/all_pairs.hpp), the other uses neighbour lists and a calendar
 // of events (baselines/neighbor_lists.hpp). Compare ratios, not rates: a rate depends on the

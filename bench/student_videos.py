@@ -1,6 +1,6 @@
 """Videos as students make them: swirl track, and on request trackpy, against the ground truth.
 
-    student_videos.py               the table of kinds in docs/explanation/tracking_accuracy.md (minutes)
+    student_videos.py               the table of kinds in docs/results/tracking_accuracy.md (minutes)
     student_videos.py --trackpy     with trackpy on the same videos; needs trackpy, pandas and scipy
     student_videos.py --kind NAME   this kind only; may be repeated
     student_videos.py --periods N   length of the videos [4]

@@ -1,4 +1,4 @@
-"""Fits a micropolar fluid to the fields of several runs, and predicts the rotation (docs/explanation/continuum.md).
+"""Fits a micropolar fluid to the fields of several runs, and predicts the rotation (docs/results/continuum.md).
 
     for s in 1 2 3 4 5 6 7 8; do
       swirl run --discs 497 --container-radius 34.4 --amplitude 7.568 --warmup 10 --periods 40 --seed $s \\

@@ -161,7 +161,7 @@ def rms(z):
 
 
 def report(rows, maps):
-    """A table for docs/explanation/paper.md. N_c of the authors has the error of one run."""
+    """A table for docs/results/paper.md. N_c of the authors has the error of one run."""
     def number(found, runs=1):
         return f"{found[0]:.2f} ± {found[1] * math.sqrt(runs):.2f}" if found else ""
     print("| quantity | values | median difference | rms of z | N_c, authors | N_c, swirl |\n|---|---|---|---|---|---|")

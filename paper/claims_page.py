@@ -1,16 +1,19 @@
-"""Writes the tables of claims in docs/explanation/paper.md from the tables of a full study.
+"""Writes the tables of claims in docs/results/paper.md, and docs/data/claims.csv with every number that was found,
+from the tables of a full study.
 
-    /usr/bin/python3 paper/claims_page.py out docs/explanation/paper.md
+    /usr/bin/python3 paper/claims_page.py out docs/results/paper.md
 """
 
+import csv
+import io
+import os
 import re
 import sys
 
 import atomic_file
-from claims.claim import UNTESTED
 from claims.settings import ALSO
 from report import ORDER, cell, judge
-from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
+from verdicts import FAILS, HOLDS, IN_PART
 
 
 def figure_of(j):
@@ -24,7 +27,7 @@ def verdict_of(j):
 def list_of(judged, *verdicts):
     """A row for each claim with one of these verdicts."""
     return ["| claim | found | figure |", "|---|---|---|",
-            *(f"| {k}: {cell(j.claim.statement)} | {cell(j.found)} | {figure_of(j)} |"
+            *(f"| {k}: {cell(j.claim.statement)} | {cell(j.found.split(ALSO)[0])} | {figure_of(j)} |"
               for k, j in judged if j.verdict in verdicts)]
 
 
@@ -35,16 +38,23 @@ def tables_of(judged):
         "# Comparison with the paper": ["| verdict | claims |", "|---|---|", *(
             f"| {verdict} | {found.count(verdict)} |" for verdict in ORDER if verdict in found)],
         "## The claims": [
-            "| no. | claim | judged on | figure | result | verdict |", "|---|---|---|---|---|---|",
-            *(f"| {k} | {cell(j.claim.statement)} | {j.claim.on} | {figure_of(j)} | {cell(j.found.split(ALSO)[0])} | "
-              f"{verdict_of(j)} |" for k, j in judged)],
+            "| no. | claim | judged on | figure | verdict |", "|---|---|---|---|---|",
+            *(f"| {k} | {cell(j.claim.statement)} | {j.claim.on} | {figure_of(j)} | {verdict_of(j)} |"
+              for k, j in judged)],
         "### Claims that do not hold": list_of(judged, FAILS),
-        "### Claims that hold in part": list_of(judged, IN_PART),
-        "### Claims that are undecided or not tested": list_of(judged, UNDECIDED, UNTESTED, UNTESTABLE, MISSING),
-        "### Verdicts that depend on the required size": [
-            "| claim | verdict | at half the size | at twice the size |", "|---|---|---|---|",
-            *(f"| {k}: {cell(j.claim.statement)} | {j.verdict} | {j.scaled[0.5]} | {j.scaled[2]} |"
-              for k, j in judged if j.depends_on_size)]}
+        "### Claims that hold in part": list_of(judged, IN_PART)}
+
+
+def csv_of(judged):
+    """Every claim with its verdicts and what was found, also for comparison."""
+    made = io.StringIO()
+    rows = csv.writer(made, lineterminator="\n")
+    rows.writerow(["claim", "statement", "judged_on", "figure", "verdict", "at_half_the_sizes", "at_twice_the_sizes",
+                   "result"])
+    for k, j in enumerate(judged, 1):
+        rows.writerow([k, j.claim.statement, j.claim.on, j.claim.figure or "", j.verdict,
+                       *(j.scaled.get(factor, j.verdict) for factor in (0.5, 2)), j.found])
+    return made.getvalue()
 
 
 def written(page, judged):
@@ -59,12 +69,15 @@ def written(page, judged):
 def main():
     if len(sys.argv) != 3:
         print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER PAGE\n"
-              "Writes the tables of claims in PAGE from the tables in FOLDER", file=sys.stderr)
+              "Writes the tables of claims in PAGE, and ../data/claims.csv next to it, from the tables in FOLDER",
+              file=sys.stderr)
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     folder, page = sys.argv[1:]
     with open(page, encoding="utf-8") as file:
         text = file.read()
-    atomic_file.write_or_exit(page, written(text, judge(folder)))
+    judged = judge(folder)
+    atomic_file.write_or_exit(page, written(text, judged))
+    atomic_file.write_or_exit(os.path.join(os.path.dirname(page), "..", "data", "claims.csv"), csv_of(judged))
 
 
 if __name__ == "__main__":

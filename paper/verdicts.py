@@ -19,7 +19,7 @@ Seeds are added until a claim is decided, so a claim is tested repeatedly. An er
 contains Student's factor for 95 % (replicates.hpp). The threshold multiplies this error, so it is stricter
 than an exact single test. That compensates for the repetition: with 8, 16 and 32 seeds, a value that lies
 exactly on its bound is decided in at most 0.6 % of all cases, whatever the scatter between seeds
-(tests/cli/verdicts_test.py, FalseDecisions; docs/explanation/paper.md has the table).
+(tests/cli/verdicts_test.py, FalseDecisions; docs/results/paper.md has the table).
 """
 
 import math

@@ -2,7 +2,7 @@
 the setting of the runs (settings.py).
 
 The SI's own criterion calls a disc pinned while it flies along the wall, however far from it. Its values are
-reported next to those of the residences and decide nothing (docs/explanation/paper.md).
+reported next to those of the residences and decide nothing (docs/results/paper.md).
 """
 
 import math

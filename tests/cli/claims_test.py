@@ -1,7 +1,10 @@
 """All claims: missing tables and points, required sizes, numbers, and the file of verdicts."""
 
+import csv
+import io
 import json
 import os
+import re
 import subprocess
 import unittest
 
@@ -42,15 +45,25 @@ class Catalogue(HandMadeTables):
                 self.assertEqual(claim.on, DISCS, claim.statement)
 
     def test_page_about_the_paper_lists_every_claim(self):
-        with open(os.path.join(SOURCE, "docs", "explanation", "paper.md"), encoding="utf-8") as file:
+        with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
             section = file.read().split("## The claims")[1].split("\n## ")[0]
         rows = [row.split(" | ")[:4] for row in section.splitlines() if row[:3].strip("| ").isdigit()]
         self.assertEqual(rows, [[f"| {k}", claim.statement.replace("|", "\\|"), claim.on,
                                  f"`{claim.figure}`" if claim.figure else "–"]
                                 for k, claim in enumerate(claims.CLAIMS, 1)])
 
+    def test_page_and_stored_results_have_the_same_verdicts(self):
+        with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
+            section = file.read().split("## The claims")[1].split("\n## ")[0]
+        page = [re.sub(r"\*| \(size\)", "", row.split(" | ")[4].rstrip(" |"))
+                for row in section.splitlines() if row[:3].strip("| ").isdigit()]
+        with open(os.path.join(SOURCE, "docs", "data", "claims.csv"), encoding="utf-8", newline="") as file:
+            stored = list(csv.DictReader(file))
+        self.assertEqual([row["verdict"] for row in stored], page)
+        self.assertEqual([row["statement"] for row in stored], [claim.statement for claim in claims.CLAIMS])
+
     def test_page_gets_its_tables_from_the_verdicts(self):
-        with open(os.path.join(SOURCE, "docs", "explanation", "paper.md"), encoding="utf-8") as file:
+        with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
             page = file.read()
         self.rotation("5b", "no-wall", [(n, -0.2) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)])
         judged = claims.all_judged(self.folder)
@@ -60,6 +73,10 @@ class Catalogue(HandMadeTables):
         self.assertIn(f"| {at}: Without wall friction there is never a transition. | ϖ/Ω is certainly not below", section)
         self.assertIn("| does not hold | 2 |", found)
         self.assertEqual(claims_page.written(found, judged), found)
+        stored = list(csv.DictReader(io.StringIO(claims_page.csv_of(judged))))
+        self.assertEqual([row["statement"] for row in stored], [claim.statement for claim in claims.CLAIMS])
+        self.assertEqual(stored[at - 1]["verdict"], "does not hold")
+        self.assertIn("ϖ/Ω is certainly not below", stored[at - 1]["result"])
         # Only tables change.
         self.assertEqual([line for line in page.splitlines() if line[:1] != "|"],
                          [line for line in found.splitlines() if line[:1] != "|"])

@@ -152,7 +152,7 @@ class Figures(HandMadeTables):
         return page_layout.figures_html(self.folder, list(figures), texts)
 
     def test_every_figure_has_a_caption_or_a_question(self):
-        with open(os.path.join(SOURCE, "docs", "explanation", "paper.md"), encoding="utf-8") as file:
+        with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
             text = file.read().split("## The figures")[1].split("\n## ")[0]
         names = [name.strip() for line in text.splitlines() if line.startswith("| ")
                  for name in line.split("|")[1].split(",") if name.strip() != "name"]

@@ -221,7 +221,7 @@ def share_decided(between, counts, repetitions, source):
 
 
 class FalseDecisions(unittest.TestCase):
-    """How often chance decides (the table in docs/explanation/paper.md)."""
+    """How often chance decides (the table in docs/results/paper.md)."""
 
     def test_runs_are_combined_as_by_the_program(self):
         # The numbers of tests/statistics/replicates_test.cpp, in units of the errors of the blocks.

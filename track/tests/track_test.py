@@ -2,7 +2,7 @@
 
     track_test.py            tests with small videos, a sample of them
     track_test.py --all      all of them
-    track_test.py --table    table of the four videos of docs/explanation/tracking_accuracy.md (minutes)
+    track_test.py --table    table of the four videos of docs/results/tracking_accuracy.md (minutes)
     track_test.py --spin     bias of measured spins against spin, noise and compression (minutes)
 """
 

@@ -120,8 +120,8 @@ try {
         assert.doesNotMatch(value, /\d\.\d/, `${key} has a decimal point`);
 
     // The lesson teaches what the report finds for discs: the numbers are those of
-    // docs/explanation/paper.md, "Discs compared with spheres".
-    const paper = readFileSync(join(sources, "..", "..", "docs", "explanation", "paper.md"), "utf-8");
+    // docs/results/paper.md, "Discs compared with spheres".
+    const paper = readFileSync(join(sources, "..", "..", "docs", "results", "paper.md"), "utf-8");
     const row = (start) => paper.split("\n").find((line) => line.startsWith(`| ${start}`));
     const wall = [...row("angular velocity in the pinned region").matchAll(/(0\.\d+) ± \S+ at N = (\d+)/g)].map(([, share, n]) => [n, Math.round(100 * share)]);
     const lowest = Number(/−(0\.\d+) ±/.exec(row("correlation of spins in collisions"))[1]).toFixed(2);

@@ -15,7 +15,7 @@
 //                          of rounding errors; the largest is reported
 //
 // The torque of the stress is σ_yx − σ_xy, twice its antisymmetric part. It drives the spin; see
-// docs/explanation/continuum.md. The dissipation is the loss of kinetic energy in collisions,
+// docs/results/continuum.md. The dissipation is the loss of kinetic energy in collisions,
 // spread along the branch vector as the stress is.
 //
 // Discs are sampled 73 times per period, collisions are all counted. Units: those of the snapshot.

@@ -316,7 +316,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Contacts of discs that have no friction",
      .details = "wall: with the wall. boundary: between two discs whose centres are both within "
                 "1.5 radii of the wall. bulk: all other contacts between discs. Other contacts "
-                "have the coefficients above (docs/explanation/beyond.md).",
+                "have the coefficients above (docs/results/beyond.md).",
      .group = parameter_group::particles,
      .read = read_frictionless,
      .write = write_frictionless,
