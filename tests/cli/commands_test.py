@@ -27,6 +27,32 @@ def help_of_script(name):
     return done.stdout
 
 
+def entries_of(help_text):
+    """The lines of a help text, each option with the lines that continue it."""
+    entries = []
+    for line in help_text.splitlines(keepends=True):
+        if entries and re.match(r" {20}", line) and entries[-1].startswith("  --"):
+            entries[-1] += line
+        else:
+            entries.append(line)
+    return entries
+
+
+def without_repetitions(helps):
+    """The helps, in which an option with the same text in an earlier section refers to that section."""
+    first = {}
+    for title, text in helps:
+        shown, group = [], []
+        for entry in entries_of(text):
+            section = first.setdefault(entry, title) if entry.startswith("  --") else title
+            entry = entry if section == title else f"  {'…':<30}  as for {section}\n"
+            if entry.startswith("  …") and entry in group:
+                continue
+            group = [] if entry == "\n" else [*group, entry]
+            shown.append(entry)
+        yield title, "".join(shown)
+
+
 def all_helps(**more):
     """Section title and help text, in the order of the page."""
     top = swirl("--help", **more).stdout
@@ -44,7 +70,7 @@ def page():
 
 class Commands(unittest.TestCase):
     def test_the_page_holds_the_help_of_every_command(self):
-        helps = list(all_helps())
+        helps = list(without_repetitions(all_helps()))
         text = page()
         if os.environ.get("SWIRL_WRITE_DOCS"):
             head = text[:text.index("\n## swirl\n")]
@@ -61,6 +87,10 @@ class Commands(unittest.TestCase):
             with self.subTest(title):
                 self.assertEqual(found[title], help_text,
                                  "rewrite the page with the command at the top of this file")
+
+    def test_the_page_describes_each_run_parameter_once(self):
+        for option in ("--restitution 0..1", "--vertical-disc 0..1", "--mu-wall NUMBER", "--floor-friction NUMBER"):
+            self.assertEqual(page().count(f"  {option} "), 1, option)
 
     def test_help_does_not_depend_on_the_terminal_or_the_locale(self):
         usual = dict(all_helps())
