@@ -67,10 +67,6 @@ def examples(text):
 
 
 class Help(unittest.TestCase):
-    def test_there_are_subcommands(self):
-        self.assertIn("run", subcommands())
-        self.assertIn("paper", subcommands())
-
     def test_every_help_has_examples_of_itself(self):
         self.assertTrue(examples(swirl("--help").stdout))
         for name in subcommands():
@@ -93,16 +89,6 @@ class Help(unittest.TestCase):
                     continue
                 for option in re.findall(r"(?<=\s)(--[a-z0-9-]+)", example):
                     self.assertIn(option, known, example)
-
-    def test_every_option_has_a_description(self):
-        for name in subcommands():
-            lines = swirl(name, "--help").stdout.splitlines()
-            for line, following in zip(lines, lines[1:] + [""]):
-                if not re.match(r"  (-\w,)?--", line):
-                    continue
-                described = re.search(r"\S\s{2,}\S", line) or re.match(r"\s{20,}\S", following) \
-                    or len(line) > 60
-                self.assertTrue(described, f"{name}: {line}")
 
     def test_descriptions_are_short_noun_phrases(self):
         seen = 0

@@ -121,21 +121,6 @@ class Precedence(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         return settings_in(done.stdout)
 
-    def test_an_option_overrides_related_parameters_of_the_file(self):
-        self.assertEqual(self.on_top_of([], "--mu", "0.7")["mu_disc"], "0.7")
-        self.assertEqual(self.on_top_of([], "--mu", "0.7")["mu_wall"], "0.7")
-        self.assertEqual(self.on_top_of(["--mu", "0.7"], "--mu-wall", "0")["mu_disc"], "0.7")
-        self.assertEqual(self.on_top_of([], "--periods", "50")["periods"], "50")
-        self.assertNotIn("periods", self.on_top_of(["--periods", "50"], "--events", "1e5"))
-        self.assertEqual(self.on_top_of([], "--path", "circle")["path"], '"circle"')
-        self.assertEqual(self.on_top_of(["--path", "circle"], "--sides", "9")["sides"], "9")
-        self.assertEqual(self.on_top_of(["--sides", "9"], "--path", "polygon")["sides"], "9")
-        faster = self.on_top_of([], "--speed", "2")
-        self.assertAlmostEqual(float(faster["period"]), 11.866071 / 2, places=6)
-        self.assertEqual(faster["amplitude"], PAPER["amplitude"])
-        wider = self.on_top_of([], "--speed", "2", "--period", "11.866071")
-        self.assertAlmostEqual(float(wider["amplitude"]), 2 * 1.892, places=6)
-
     def test_an_option_overrides_the_frame_times_of_the_file(self):
         recorded = ["--trajectory", self.path("a.h5"), "--frames", "8"]
         settings = self.on_top_of(recorded, "--frame-interval", "0.5")

@@ -346,12 +346,6 @@ class Sweep(InFolder):
             self.assertEqual([row.split(",")[0] for row in self.table(folder).splitlines()[1:]],
                              ["5", "6", "7", "8"])
 
-    def test_another_plan_in_the_same_folder_is_rejected(self):
-        self.whole()
-        done = swirl("sweep", "--discs", "5", "--out", self.path("whole"))
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("holds another sweep", done.stderr)
-
     def test_results_of_other_formats_and_damaged_ones_are_reported(self):
         self.whole()
         file = self.path("whole/results/000007.json")

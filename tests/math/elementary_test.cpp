@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "swirl/math/median.hpp"
 #include "swirl/math/normal_deviate.hpp"
 
 namespace swirl {
@@ -63,6 +64,12 @@ TEST(NormalDeviate, HappensWithExpOfMinusP) {
         for (int k = 0; k < n; ++k) count += happens_with_exp(p, random);
         EXPECT_NEAR(double(count) / n, std::exp(-p), 2.0 / std::sqrt(double(n))) << p;
     }
+}
+
+TEST(Median, IsTheMiddleNumberOrTheLargerOfTwo) {
+    EXPECT_EQ(median({3.0, 1.0, 2.0}), 2.0);
+    EXPECT_EQ(median({4.0, 1.0, 3.0, 2.0}), 3.0);
+    EXPECT_EQ(median({}), 0.0);
 }
 
 }  // namespace

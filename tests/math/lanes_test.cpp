@@ -115,6 +115,19 @@ TEST(Lanes, LoadsPairsAsColumns) {
     expect_pairs_become_columns<8>();
 }
 
+TEST(Lanes, LoadsFoursAsColumns) {
+    alignas(64) double fours[8][4];
+    const double* rows[8];
+    for (int k = 0; k < 8; ++k) {
+        for (int column = 0; column < 4; ++column) fours[k][column] = 10.0 * column + k;
+        rows[k] = fours[k];
+    }
+    Lanes<8> columns[4];
+    load_fours<8>(rows, columns);
+    for (int column = 0; column < 4; ++column)
+        for (int k = 0; k < 8; ++k) EXPECT_EQ(stored(columns[column]).value[k], 10.0 * column + k);
+}
+
 // The fourth number of each row may be any bits.
 TEST(Lanes, LoadsThreeOfFourFloatsAsColumns) {
     alignas(16) float fours[8][4];

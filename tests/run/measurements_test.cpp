@@ -69,20 +69,6 @@ TEST(Measurements, Take511SamplesPerPeriodAfterTheWarmUp) {
     EXPECT_EQ(sum(flow["visits"]), 30.0 * 511.0 * 25.0);
 }
 
-TEST(Measurements, TheRotationOfTheProfileIsThatOfTheRun) {
-    // ϖ_M = ϖ − Ω; the means of the slices, weighted with their visits, give the mean over the
-    // discs. The run samples 64 times per period, the profile 511 times: they agree within the
-    // error.
-    const MeasuredRun done = measured_run(short_run(), {"profile"});
-    const auto& profile = done.measured["profile"];
-    double total = 0.0;
-    for (std::size_t k = 0; k < profile["theta"].size(); ++k)
-        if (profile["visits"][k].get<double>() > 0.0)
-            total += profile["visits"][k].get<double>() * profile["varpi_m"][k].get<double>();
-    EXPECT_NEAR(total / sum(profile["visits"]) + 1.0, done.run.rotation.by_time.mean,
-                3.0 * done.run.rotation.by_time.error);
-}
-
 double mean_of(const nlohmann::ordered_json& number) { return number["mean"].get<double>(); }
 
 TEST(Measurements, RatesAreThoseOfTheEventsAfterTheWarmUp) {
@@ -97,35 +83,6 @@ TEST(Measurements, RatesAreThoseOfTheEventsAfterTheWarmUp) {
     EXPECT_NEAR(mean_of(rates["disc_wall_rate"]), with_wall, 1e-12);
     EXPECT_NEAR(mean_of(rates["mean_free_time"]), 1.0 / (with_discs + with_wall), 1e-12);
     EXPECT_GT(rates["mean_free_time"]["error"].get<double>(), 0.0);
-}
-
-TEST(Measurements, TheEnergyBudgetOfARunClosesToRoundOff) {
-    RunConfig config = short_run();
-    config.restitution = 0.95;
-    const auto energy = measured_run(config, {"energy"}).measured["energy"];
-    EXPECT_GT(mean_of(energy["wall_power"]), 0.0);
-    for (const char* loss : {"disc_friction_power", "wall_friction_power", "inelastic_power"})
-        EXPECT_GT(mean_of(energy[loss]), 0.0) << loss;
-    // Some 10⁴ changes, each with a relative error of 10⁻¹⁶.
-    EXPECT_LT(energy["unaccounted_share"].get<double>(), 1e-11);
-}
-
-TEST(Measurements, WallStressObeysCoulombsLaw) {
-    RunConfig config = short_run();
-    config.mu_wall = 0.3;
-    const auto wall = measured_run(config, {"wall"}).measured["wall"];
-    const auto& profile = wall["profile"];
-    double pressure = 0.0, traction = 0.0;
-    for (std::size_t k = 0; k < profile["theta"].size(); ++k) {
-        const double p = profile["pressure"][k].get<double>();
-        const double t = profile["traction"][k].get<double>();
-        EXPECT_LE(std::fabs(t), 0.3 * p + 1e-14);
-        pressure += p / 72.0;
-        traction += t / 72.0;
-    }
-    EXPECT_NEAR(pressure, mean_of(wall["pressure"]), 1e-12);
-    EXPECT_NEAR(traction, mean_of(wall["traction"]), 1e-12);
-    EXPECT_GT(pressure, 0.0);
 }
 
 /// All text that a result has in files and on the terminal.

@@ -307,6 +307,8 @@ TEST(Overridden, AmplitudePeriodOrSpeedOfTheFileIsRemoved) {
 TEST(Overridden, NamedInertiaAndMixtureAdaptToAnotherMass) {
     EXPECT_EQ(with_options({}, {{"mass", "2"}}).inertia, 20.0);
     EXPECT_EQ(with_options({{"inertia", "ring"}}, {{"mass", "2"}}).inertia, 2.0);
+    EXPECT_EQ(with_options({{"inertia", "ring"}}, {{"mass", "2"}, {"radius", "0.5"}}).inertia, 0.5);
+    EXPECT_EQ(with_options({{"inertia", "solid"}}, {{"mass", "2"}}).inertia, 1.0);
     EXPECT_EQ(with_options({{"inertia", "3"}}, {{"mass", "2"}}).inertia, 3.0);
     EXPECT_EQ(with_options({{"mixture", "2:0.5"}}, {{"mass", "2"}}).mixture->mass, 0.5);
     EXPECT_EQ(with_options({{"mixture", "2:0.5:3"}}, {{"mass", "2"}}).mixture->mass, 3.0);
