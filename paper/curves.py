@@ -178,3 +178,32 @@ def at_both_ends(points, what, words, quantity):
     known = [(at(p.result, "measured", *quantity.split(".")), p.cells["discs"]) for p in points]
     values = [f"{with_error(value)} at N = {discs}" for value, discs in known if number(at(value, "mean")) == number(at(value, "mean"))]
     return f"{what} ({words}): {values[0]}, {values[-1]}." if values else f"{what} ({words}): n/a."
+
+
+# --- Changes of sign ------------------------------------------------------------------------------
+
+def direction_of(change):
+    return "counterrotation" if change["to_counterrotation"] else "rotation"
+
+
+def sign_changes_sentence(curve):
+    """All changes of the sign, in the order of N."""
+    found = curve.crossings[curve.rate]
+    if not found["changes"]:
+        return curve.sentence()
+    times = len(found["changes"])
+    undetermined = f"; it is undetermined at N = {listed(found['undetermined'])}" if found["undetermined"] else ""
+    changes = ", ".join(f"to {direction_of(change)} {change['location']}" for change in found["changes"])
+    discs, mean, error = lowest_of(curve.points)
+    return (f"its sign changes {'once' if times == 1 else f'{times} times'}: {changes}{undetermined}; lowest is ϖ/Ω = "
+            f"{with_error(mean, error)} at N = {discs:.0f} ({RATE_WORDS[curve.rate]}).{curve.other_rates()}")
+
+
+def sign_change_rows(curve, cells):
+    """Every change of sign, and every N at which the sign is undetermined, in the order of N."""
+    found = curve.crossings[curve.rate]
+    rows = [(c["before"], 1, c["discs"], c["error"], c["lower"], c["upper"], c["before"], c["after"], direction_of(c))
+            for c in found["changes"]]
+    rows += [(n, 0, None, None, n, n, n, n, "undetermined") for n in found["undetermined"]]
+    columns = ("crossing", "crossing_error", "lower", "upper", "before", "after", "direction")
+    return [{**cells, **dict(zip(columns, row[2:]))} for row in sorted(rows, key=lambda row: row[:2])]

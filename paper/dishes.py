@@ -2,8 +2,15 @@
 
 import dataclasses
 import json
+import math
 
+import numpy as np
+from coarse_zero import changes_of_sign, middle_zero, zero_of_curve
+from combine import at, number
+from curves import CERTAIN, direction_of, rate_of, rows_of, with_error
 from engine import swirl
+from runs import length_of, lengths
+from study import Point
 
 SPHERES_OF_CHAPTERS = {"preset": "experiment-half", "mu": 0.2, "floor_friction": 0.3}
 
@@ -35,3 +42,132 @@ def resolved(parameters):
 def period_of(parameters):
     """The period of the swirl."""
     return resolved(parameters)["period"]
+
+
+# --- Runs with fluctuations ---------------------------------------------------------------------
+
+MEASURED = ("slip", "contact_network", "centre", "temperature")
+QUANTITIES = """slip.cluster_perimeter slip.cluster=slip contact_network.wall contact_network.coordination
+    contact_network.largest centre.distance centre.theta centre.elongation temperature.granular fluctuations.variance
+    fluctuations.correlation fluctuations.susceptibility fluctuations.binder""".split()
+
+
+def fluctuations(values, discs):
+    """Of a rate ϖ/Ω with mean m, from period to period: the variance; the integrated autocorrelation time in periods; N ·
+    variance · time, which is N times the variance of a long mean, times its periods; the Binder cumulant
+    1 − ⟨(ϖ−m)⁴⟩ / 3⟨(ϖ−m)²⟩², which is 0 for one normal state and 2/3 for two equal ones."""
+    mean, _, _, correlation = swirl._engine.estimate_of_series(list(values))
+    apart = np.asarray(values) - mean
+    square = np.mean((apart - apart.mean()) ** 2)
+    constant = not square > 1e-28 * np.mean(np.asarray(values) ** 2)  # a rounding error
+    binder = math.nan if constant else 1 - np.mean((apart - apart.mean()) ** 4) / (3 * square ** 2)
+    variance = 0.0 if constant else square * len(apart) / (len(apart) - 1)
+    return {"variance": variance, "correlation": correlation, "susceptibility": discs * variance * correlation,
+            "binder": binder}
+
+
+def fluctuating_run(parameters):
+    run = swirl.run(measure=list(MEASURED), series=True, **parameters)
+    found = fluctuations(run.series["rigid_by_time"][run.series["counted"] > 0], parameters["discs"])
+    result = json.loads(run.to_json())
+    result["measured"]["fluctuations"] = {name: {"mean": value, "error": None} for name, value in found.items()}
+    return result
+
+
+def dish_points(settings, dishes):
+    """A point for each pair of a dish and a packing fraction, and each number of discs once. In a large dish a period has
+    many events, and the rotation varies less."""
+    made = []
+    for dish, discs in dict.fromkeys((dish, dish.discs(fraction)) for dish, fraction in dishes):
+        R = dish.radius
+        run = {**dish_run(dish, discs),
+               **lengths(settings, (50 if R < 20 else 20, 2), (300 if R < 10 else 200 if R < 20 else 80 if R < 40 else 60, 5))}
+        made.append(Point(settings, f"{'spheres' if dish.spheres else 'dish'}_R{R:g}_A{dish.amplitude:g}_N{discs}_"
+                          f"{length_of(run)}", settings.chapter_seeds, run, work=fluctuating_run,
+                          cells={"container_radius": R, "amplitude_ratio": dish.amplitude,
+                                 "packing_fraction": discs / (R * R), "discs": discs}))
+    return made
+
+
+def shares_of_the_states(point):
+    """Where the seeds disagree, the shares of the seeds that certainly rotate and counterrotate: the mean over them is
+    that of no state."""
+    runs = [at(run, "rotation", "rigid_by_time") for run in point.runs] if at(point.result, "seeds", "disagree") else []
+    return {f"share_{name}": sum(sign * number(rate["mean"]) > CERTAIN * number(rate["error"]) for rate in runs) / len(runs)
+            if runs else None for name, sign in (("rotating", 1), ("counterrotating", -1))}
+
+
+# --- Changes of direction -----------------------------------------------------------------------
+
+def kind_of(change):
+    """The geometry of a change to counterrotation: "elongated" if the elongation of the cluster is above 1.2, otherwise
+    "wall" if discs occupy a tenth of the wall or more, otherwise "free". A change back to rotation: "back"."""
+    if change["direction"] == "rotation":
+        return "back"
+    return "elongated" if change["elongation"] > 1.2 else "wall" if change["occupied"] >= 0.1 else "free"
+
+
+def change_at(points, curve, found, radius):
+    """The row of a change between two N with certain and opposite signs, at its zero; the middle one of several."""
+    k, area = middle_zero(curve, found), radius * radius
+    zero = zero_of_curve(curve, k)
+    (a, mean_a, error_a), (b, mean_b, error_b) = curve[k:k + 2]
+    f, step = zero.fraction, b - a
+
+    def ends(*path):
+        return (number(at(point.result, "measured", *path)) for point in points[k:k + 2])
+
+    def between(*path):
+        left, right = ends(*path, "mean")
+        return (1 - f) * left + f * right
+
+    def error(*path):
+        left, right = ends(*path, "error")
+        return math.hypot((1 - f) * left, f * right)
+    wall, fraction = between("contact_network", "wall"), zero.discs / area
+    change = {"direction": direction_of(found), "kind": "", "packing_fraction": fraction,
+              "packing_fraction_error": zero.error / area, "interpolation_error": zero.interpolation / area,
+              "slope": (mean_b - mean_a) / step * area, "slope_error": math.hypot(error_a, error_b) / step * area,
+              "before": found["before"] / area, "after": found["after"] / area,
+              "largest": between("contact_network", "largest"), "wall": wall,
+              # A full layer has π/arcsin(r/(R − r)) discs, or nearly π(R − r)/r.
+              "occupied": wall * fraction * area / (math.pi * (radius - 1)),
+              "elongation": between("centre", "elongation"),
+              # (radius of the hull + distance of its centre from C) / R
+              "reach": (between("slip", "cluster_perimeter") / (2 * math.pi) + between("centre", "distance")) / radius}
+    change["kind"] = kind_of(change)
+    for name in ("susceptibility", "correlation", "binder"):
+        change[name], change[f"{name}_error"] = between("fluctuations", name), error("fluctuations", name)
+    return change
+
+
+CHANGE_COLUMNS = """container_radius amplitude_ratio direction kind packing_fraction packing_fraction_error
+    interpolation_error slope slope_error before after largest wall occupied elongation reach susceptibility
+    susceptibility_error correlation correlation_error binder binder_error""".split()
+
+
+def direction_changes(points):
+    """The changes of each dish, {(R/r, A/R): rows}, by the rate rigid_by_time."""
+    changes = {}
+    for dish in dict.fromkeys((p.cells["container_radius"], p.cells["amplitude_ratio"]) for p in points):
+        here = [p for p in points if (p.cells["container_radius"], p.cells["amplitude_ratio"]) == dish]
+        curve = [rate_of(point, "rigid_by_time") for point in here]
+        changes[dish] = [dict(zip(CHANGE_COLUMNS, (*dish, *change_at(here, curve, found, dish[0]).values())))
+                         for found in changes_of_sign(curve)]
+    return changes
+
+
+def words_of(change):
+    return (f"to {change['direction']} at φ = {with_error(change['packing_fraction'], change['packing_fraction_error'])} "
+            f"({100 * change['occupied']:.1f} % of the wall occupied, largest group {100 * change['largest']:.0f} %, "
+            f"elongation {change['elongation']:.2f})")
+
+
+def dish_tables(points, settings):
+    """The rows of the points, and the changes of direction."""
+    changes = direction_changes(points)
+    rows = [{**row, **shares_of_the_states(point)} for row, point in zip(rows_of(points, QUANTITIES), points)]
+    return ({"": rows, "_changes": ([row for all in changes.values() for row in all], CHANGE_COLUMNS)},
+            [f"R/r = {radius:g}, A/R = {amplitude:g}: "
+             f"{'; '.join(map(words_of, all)) or 'no certain change of direction'}."
+             for (radius, amplitude), all in changes.items()])

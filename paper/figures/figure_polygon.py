@@ -1,6 +1,31 @@
 """Beyond the paper: rotation against the number of sides of the container's path."""
 
 import style
+from curves import rate_of, rows_of, with_error
+from figure import Figure
+from paper_parameters import COUNTERROTATING_N, ROTATING_N
+from runs import sides
+from study import Point
+
+
+def points(settings):
+    """Vertices are events, too. A length in periods gives every path the same time."""
+    made = []
+    for discs, periods in ((ROTATING_N, 2000), (COUNTERROTATING_N, 300)):
+        periods = settings.periods(periods, 5)
+        for m in [6, 30, 300, 0] if settings.quick else [6, 10, 20, 30, 60, 100, 300, 0]:
+            made.append(Point(settings, f"polygon_M{m}_N{discs}_{periods}periods", settings.seeds_beyond,
+                              {"discs": discs, "periods": periods, **sides(m)}, cells={"sides": m, "discs": discs}))
+    return made
+
+
+def table(points, settings):
+    words = {}
+    for point in points:
+        m = point.cells["sides"]
+        words.setdefault(point.cells["discs"], []).append(
+            f"{with_error(*rate_of(point, 'by_time')[1:])} on {f'{m} sides' if m else 'the circle'}")
+    return {"": rows_of(points)}, [f"N = {discs}: ϖ/Ω by time = {', '.join(all)}." for discs, all in words.items()]
 
 
 def draw(table):
@@ -27,3 +52,7 @@ def draw(table):
     axes[-1][0].minorticks_off()
     axes[-1][0].set_xlabel("sides of the polygon $M$")
     style.save(drawing, table)
+
+
+FIGURES = [Figure("polygon", "beyond", "beyond the paper: the polygon's sides, and the true circle", points, table,
+                  draw)]

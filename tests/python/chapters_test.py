@@ -3,13 +3,17 @@
 import math
 import os
 import sys
+import types
 
 import numpy as np
 import pytest
 
 sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
-from chapters import cooling  # noqa: E402
+import curves  # noqa: E402
+from chapters import cooling, lifetimes  # noqa: E402
+from chapters.critical import power_law, verdict_on  # noqa: E402
 from coarse_zero import last_zero, zero_of_curve  # noqa: E402
+from dishes import fluctuations, shares_of_the_states  # noqa: E402
 from jackknife import jackknife  # noqa: E402
 from micropolar import RELATIONS, Relation, fit_relation  # noqa: E402
 from swirled_state import densities, fit_hypotrochoids  # noqa: E402
@@ -134,3 +138,48 @@ def test_the_density_in_rings_counts_every_particle_once():
     found = densities(distance)
     rings = np.arange(len(found) + 1) / 5
     assert np.sum(found * np.pi * np.diff(rings ** 2)) == pytest.approx(40, abs=1e-9)
+def test_a_power_law_is_recovered_and_two_sizes_have_none():
+    sizes = (8.6, 12, 17.2, 24)
+    exponent, error, factor, chi_square, count = power_law([(R, 3 * R ** 1.5, 0.01 * R ** 1.5) for R in sizes])
+    assert (exponent, factor, count) == pytest.approx((1.5, 3, 4), abs=EXACT) and chi_square < EXACT and error < 0.01
+    assert math.isnan(power_law([(R, R, 0.1) for R in sizes[:2]])[0])
+
+
+@pytest.mark.parametrize("slope, correlation, binder, verdict", [
+    ((1.0, 0.1), (0.9, 0.2), (0.0, 0.1), "critical"), ((0.1, 0.1), (0.0, 0.1), (0.0, 0.1), "crossover"),
+    ((1.0, 5.0), (0.0, 0.1), (0.0, 0.1), "undecided"),  # the error of the slope is no evidence
+    ((math.nan, math.nan), (0.0, 0.1), (0.0, 0.1), "undecided"), ((1.0, 0.1), (0.0, 0.1), (0.0, 0.1), "undecided"),
+    ((0.1, 0.1), (0.0, 0.1), (0.6, 0.05), "first order"),
+    ((math.nan, math.nan), (math.nan, math.nan), (math.nan, math.nan), "too few sizes to tell")])
+def test_missing_evidence_leaves_the_verdict_open(slope, correlation, binder, verdict):
+    assert verdict_on({"slope": slope, "correlation": correlation}, binder) == verdict
+
+
+def test_two_equal_states_have_the_binder_cumulant_of_two_thirds():
+    found = fluctuations([1.0, 1.0, -1.0, -1.0] * 25, 10)
+    assert (found["binder"], found["variance"]) == pytest.approx((2 / 3, 100 / 99), abs=EXACT)
+    assert math.isnan(fluctuations([0.1] * 100, 10)["binder"])
+
+
+def point_of(rates, disagree):
+    runs = [{"rotation": {"rigid_by_time": {"mean": mean, "error": 0.01}}} for mean in rates]
+    return types.SimpleNamespace(runs=runs, result={"seeds": {"disagree": disagree}})
+
+
+def test_seeds_in_two_states_are_counted_where_they_disagree():
+    assert shares_of_the_states(point_of([0.1, -0.1, -0.2, 0.01], True)) == {"share_rotating": 0.25,
+                                                                             "share_counterrotating": 0.5}
+    assert set(shares_of_the_states(point_of([0.1, -0.1], False)).values()) == {None}
+    runs = [{"periods": [40, 20], "exits": [1, 0], "sums": [4.0, -2.0], "last": last} for last in (1, 1, 0)]
+    rows = lifetimes.table([types.SimpleNamespace(runs=runs)], None)[0][""]
+    assert [row["share_ended"] for row in rows] == [1 / 3, 2 / 3]
+    assert [(row["lifetime"], row["rotation"]) for row in rows] == [(40, 0.1), (20, -0.1)]
+
+
+def test_the_sign_changes_of_a_curve_are_listed_in_order():
+    points = [types.SimpleNamespace(cells={"discs": n}, result={"rotation": {rate: {"mean": mean, "error": 0.01}
+                                                                             for rate in curves.RATES}})
+              for n, mean in ((8, 0.0), (20, 0.2), (28, -0.1), (36, 0.3), (44, 0.0))]
+    found = curves.sign_change_rows(curves.Curve("", points), {})
+    assert [(row["before"], row["after"], row["direction"]) for row in found] == [
+        (8, 8, "undetermined"), (20, 28, "counterrotation"), (28, 36, "rotation"), (44, 44, "undetermined")]

@@ -1,0 +1,144 @@
+"""Is the change of direction a critical phenomenon? The paper leaves it open. At each change of direction of a dish: the
+slope dϖ/dφ, the fluctuations, their correlation time and the Binder cumulant, against the size R/r of the dish. In a
+critical transition slope, fluctuations and correlation time grow with powers of the size. In a transition of first order
+two states coexist, so that the cumulant tends to 2/3. In a crossover none of this happens. The figure has two amplitudes:
+the paper's A/R = 0.22, and A/R = 0.4, where the same change exists in dishes of all sizes."""
+
+import math
+import os
+
+import chapter_drawings
+import numpy as np
+import style
+import tables
+from chapters.size import dishes_of_sizes
+from curves import CERTAIN, with_error
+from dishes import Dish, dish_points, dish_tables
+from figure import Figure
+from scipy.stats import t as student
+
+# Quantities at a change, and how sentences call them. Fluctuations do not decide: they grow with the size at every φ.
+QUANTITIES = {"slope": "slope", "susceptibility": "N var τ", "correlation": "correlation time"}
+DECISIVE = ("slope", "correlation")
+LARGEST_ERROR = 0.5  # of an exponent; a larger error leaves open whether the quantity grows
+TWO_STATES = 1 / 3  # half of the cumulant of two equal states
+
+
+def points(settings):
+    radii = (8.6, 12.0) if settings.quick else (6.0, 8.6, 12.0, 17.2, 24.0)
+    return dish_points(settings, dishes_of_sizes(settings) +
+                       [(Dish(radius, 0.4), fraction) for radius in radii for fraction in (0.46, 0.49)])
+
+
+def power_law(points):
+    """The fit y = a x^b to (x, y, error): b, its error, a, χ² of ln y, and the number of points. Least squares of the
+    logarithms, weighted by the relative errors. If the points scatter more than their errors explain, the error of b grows
+    with the scatter, and by Student's factor. Two points fit any law."""
+    x, y, error = np.array([p for p in points if min(p) > 0 and math.isfinite(p[1] / p[2])]).reshape(-1, 3).T
+    if len(x) < 3 or len(set(x)) < 2:
+        return math.nan, math.nan, math.nan, math.nan, len(x)
+    w, lx, ly = (y / error) ** 2, np.log(x), np.log(y)
+    apart = lx - np.sum(w * lx) / np.sum(w)
+    spread = np.sum(w * apart ** 2)
+    b = np.sum(w * apart * ly) / spread
+    a = np.sum(w * (ly - b * lx)) / np.sum(w)
+    chi_square, freedom = float(np.sum(w * (ly - a - b * lx) ** 2)), len(x) - 2
+    wider = math.sqrt(chi_square / freedom) * student.ppf(0.975, freedom) / student.ppf(0.975, 1e9)
+    return b, math.sqrt(1 / spread) * (wider if chi_square > freedom else 1), math.exp(a), chi_square, len(x)
+
+
+def verdict_on(laws, binder):
+    """By the largest cumulant and by the exponents of slope and correlation time. A missing or uncertain exponent leaves
+    the question open."""
+    if binder[0] - CERTAIN * binder[1] > TWO_STATES:
+        return "first order"
+    exponents = [laws[name][:2] for name in DECISIVE]
+    if not any(map(math.isfinite, np.ravel(exponents))):
+        return "too few sizes to tell"
+    if all(exponent > CERTAIN * error for exponent, error in exponents):
+        return "critical"
+    if all(exponent <= CERTAIN * error and error <= LARGEST_ERROR for exponent, error in exponents):
+        return "crossover"
+    return "undecided"
+
+
+def table(points, settings):
+    found, _ = dish_tables(points, settings)
+    transitions, rows, findings = {}, [], []
+    for change in found["_changes"][0]:
+        transitions.setdefault((change["amplitude_ratio"], change["kind"]), []).append(change)
+    for (amplitude, kind), changes in transitions.items():
+        laws = {name: power_law([(c["container_radius"], abs(c[name]) if name == "slope" else c[name], c[f"{name}_error"])
+                                 for c in changes]) for name in QUANTITIES}
+        binder = max(((c["binder"], c["binder_error"]) for c in changes if math.isfinite(c["binder"])),
+                     default=(math.nan, math.nan))
+        verdict = verdict_on(laws, binder)
+        rows += [dict(zip(SCALING_COLUMNS, (amplitude, kind, name, *law, verdict))) for name, law in laws.items()]
+        exponents = ", ".join(f"{words} {with_error(*laws[name][:2])}" for name, words in QUANTITIES.items())
+        findings.append(f"A/R = {amplitude:g}, {kind} ({len(changes)} sizes): {verdict}; exponents of R/r: {exponents}; "
+                        f"largest Binder cumulant {with_error(*binder)}.")
+    return {**found, "_scaling": (rows, SCALING_COLUMNS)}, findings
+
+
+SCALING_COLUMNS = "amplitude_ratio kind quantity exponent exponent_error factor chi_square sizes verdict".split()
+
+
+# --- Drawing ------------------------------------------------------------------------------------
+
+LABELS = (("slope", r"slope $|d(\varpi/\Omega)/d\varphi|$"),
+              ("susceptibility", r"$N\,\mathrm{var}(\varpi/\Omega)\,\tau$"),
+              ("correlation", r"correlation time $\tau$ (periods)"))
+KINDS = {"free": "free", "wall": "at the wall", "elongated": "elongated", "back": "back to rotation"}
+
+
+def against_packing(axes, rows, quantity, label):
+    chapter_drawings.curves(axes, rows, "container_radius", quantity, "$R/r$")
+    axes.set_xlabel(chapter_drawings.PACKING)
+    axes.set_ylabel(label)
+
+
+def against_size(axes, changes, scaling, quantity, label):
+    """One curve for each transition, with its power law."""
+    groups = sorted({(row["amplitude_ratio"], row["kind"]) for row in changes})
+    for k, (amplitude, kind) in enumerate(groups):
+        here = tables.select(changes, amplitude_ratio=amplitude, kind=kind)
+        x, y = (np.array(style.column(here, name)) for name in ("container_radius", quantity))
+        axes.errorbar(x, abs(y), yerr=style.column(here, quantity + "_error"), color=style.CYCLE[k],
+                      fmt=style.MARKERS[k], elinewidth=0.7, label=f"$A/R = {amplitude:g}$, {KINDS[kind]}")
+        law = tables.select(scaling, amplitude_ratio=amplitude, kind=kind, quantity=quantity)
+        if law and law[0]["exponent"] == law[0]["exponent"]:
+            ends = np.array([min(x), max(x)])
+            axes.plot(ends, law[0]["factor"] * ends ** law[0]["exponent"], color=style.CYCLE[k], linewidth=0.7,
+                      linestyle="--")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xticks([6, 12, 24, 60], ["6", "12", "24", "60"])
+    axes.xaxis.set_minor_locator(style.matplotlib.ticker.NullLocator())
+    axes.set_xlabel(r"container radius $R/r$")
+    axes.set_ylabel(label)
+
+
+def draw(table):
+    stem, ending = os.path.splitext(table)
+    rows = tables.select(style.read(table), amplitude_ratio=0.22)
+    changes, scaling = tables.read(f"{stem}_changes{ending}"), tables.read(f"{stem}_scaling{ending}")
+    drawing, axes = style.figure(style.PAGE, 4.9, ncols=3, nrows=2)
+    against_packing(axes[0][0], rows, "susceptibility", LABELS[1][1])
+    against_packing(axes[0][1], rows, "correlation", LABELS[2][1])
+    against_packing(axes[0][2], rows, "binder", "Binder cumulant")
+    for upper in axes[0][:2]:
+        upper.set_yscale("log")
+    axes[0][2].axhline(2 / 3, color=style.GREY, linewidth=0.6, linestyle=":")
+    axes[0][2].axhline(0, color=style.GREY, linewidth=0.6)
+    for lower, (quantity, label) in zip(axes[1], LABELS):
+        against_size(lower, changes, scaling, quantity, label)
+    for row, ncol in ((axes[0], 7), (axes[1], 3)):
+        # The legend is wider than its axes, so the layout only knows its height: two lines of a title.
+        row[1].set_title("\n")
+        if changes or row is axes[0]:
+            row[1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=ncol,
+                          columnspacing=1.0).set_in_layout(False)
+    style.save(drawing, table)
+
+
+FIGURES = [Figure("critical", "chapters", "chapter: is the change of direction a critical phenomenon?", points, table, draw)]

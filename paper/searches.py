@@ -1,0 +1,36 @@
+"""Searches for N_c as points of a figure."""
+
+import json
+
+from combine import number
+from curves import crossing_cells
+from engine import swirl
+from study import Point
+
+PARTS = ("N_c", "N_c_error", "N_c_lower", "N_c_upper")
+
+
+def search(parameters):
+    parameters = dict(parameters)
+    given = {name: parameters.pop(name) for name in ("min_discs", "max_discs", "tolerance", "min_periods")}
+    text, report = swirl._engine.crossing(parameters, rate="by_time", threads=1, command="", progress=None, **given)
+    return {**json.loads(text), "report": report}
+
+
+def search_point(settings, name, parameters, min_discs, max_discs, cells, tolerance=0.2, min_periods=100):
+    return Point(settings, name, 1, {**parameters, "min_discs": min_discs, "max_discs": max_discs, "tolerance": tolerance,
+                                     "min_periods": min_periods}, work=search, cells=cells)
+
+
+def search_cells(found):
+    def numbers(result):
+        return [number(result[part]) for part in PARTS]
+    steady = "not steady" if found["runs_not_steady"] else "too short to tell" if found["runs_too_short"] else "steady"
+    return {"crosses": found["verdict"] == "crosses",
+            **dict(zip(("crossing", "crossing_error", "lower", "upper"), numbers(found))), "runs": found["runs"],
+            "events": found["events"], "runs_not_steady": found["runs_not_steady"], "steady_state": steady,
+            **crossing_cells({rate: numbers(result) for rate, result in found["by_rate"].items()})}
+
+
+SEARCH_COLUMNS = [*"crosses crossing crossing_error lower upper runs events runs_not_steady steady_state".split(),
+                  *crossing_cells(dict.fromkeys(("by_event", "by_time", "rigid_by_event", "rigid_by_time"), range(4)))]
