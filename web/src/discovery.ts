@@ -22,7 +22,7 @@ export interface Visited {
 }
 
 /** ϖ/Ω for the default parameters, from four runs of 400 periods each (`swirl run --discs N`, seeds 1 to 4). */
-const reference: PlottedPoint[] = [
+export const reference: PlottedPoint[] = [
     [5, 0.184], [8, 0.145], [11, 0.11], [14, 0.087], [17, 0.079], [20, 0.064], [23, 0.05], [26, 0.038], [29, 0.03], [32, 0.021],
     [35, 0.01], [38, 0.001], [41, -0.011], [44, -0.025], [47, -0.036], [50, -0.041], [53, -0.027],
 ].map(([x, y]) => ({x: x!, y: y!, lower: y!, upper: y!}));

@@ -2,7 +2,9 @@
 // the result of the present one is known.
 import {searchCrossing, controlling, usualSearch} from "./crossing_search";
 import type {Host, Values} from "./host";
-import {button, element, signed, withError} from "./page";
+import {reference} from "./discovery";
+import {button, element, localized, signed, withError} from "./page";
+import type {PlottedPoint} from "./points_plot";
 import {Runs, estimates} from "./runs";
 import type {Coloring, View} from "./scene";
 import {pageEntry, setPageEntry} from "./start";
@@ -22,18 +24,20 @@ export interface Step {
     beside?: string;
     /** Shows the motion within a period. */
     isSlow?: boolean;
+    /** For teachers: the right option, and what long runs of the page's engine give. */
+    solution: [option: number, measured?: string];
     /** The experiment that its explanation proposes. */
     next?: Values;
 }
 
 export const steps: Step[] = [
-    {given: {discs: "8"}, view: "lab", kind: "direction"},
-    {given: {discs: "48"}, view: "lab", kind: "direction"},
-    {given: {discs: "28"}, view: "lab", kind: "crossing"},
-    {given: {discs: "48"}, view: "m", kind: 0, isSlow: true}, // one image per period would show the wall at rest
-    {given: {discs: "48", mu_disc: "1", mu_wall: "0"}, view: "both", kind: "direction",
+    {given: {discs: "8"}, view: "lab", kind: "direction", solution: [0, "0.145 ± 0.005"]},
+    {given: {discs: "48"}, view: "lab", kind: "direction", solution: [1, "−0.0365 ± 0.0003"]},
+    {given: {discs: "28"}, view: "lab", kind: "crossing", solution: [2, "38.4 ± 0.1"]},
+    {given: {discs: "48"}, view: "m", kind: 0, isSlow: true, solution: [0]}, // one image per period would show the wall at rest
+    {given: {discs: "48", mu_disc: "1", mu_wall: "0"}, view: "both", kind: "direction", solution: [0, "1.000 ± 0.002"],
      next: {discs: "48", mu_disc: "0", mu_wall: "1"}},
-    {given: {discs: "48"}, view: "lab", kind: 1, coloring: "contacts", beside: "8", isSlow: true},
+    {given: {discs: "48"}, view: "lab", kind: 1, coloring: "contacts", beside: "8", isSlow: true, solution: [1]},
 ];
 
 /** The options for N_c: first and last number of discs. */
@@ -208,7 +212,8 @@ function teachingPanel(): HTMLElement {
     commands.setAttribute("role", "region");
     return element("details", {id: "teaching"}, element("summary", {textContent: texts.lesson.teaching}),
         element("p", {textContent: texts.lesson.worksheetHelp}),
-        element("div", {className: "bar"}, button(texts.lesson.worksheet, printWorksheet, "lesson-worksheet")),
+        element("div", {className: "bar"}, button(texts.lesson.worksheet, () => printWorksheet(), "lesson-worksheet"),
+                button(texts.lesson.solutions, () => printWorksheet(true), "lesson-solutions")),
         element("h3", {textContent: texts.lesson.team}), element("p", {textContent: team.intro}),
         element("ol", {}, ...team.points.map((each) => element("li", {textContent: each}))), commands,
         element("p", {textContent: team.more}), element("ul", {}, ...pages));
@@ -251,27 +256,30 @@ function tableWith(head: string[], rows: number): HTMLTableElement {
         ...Array.from({length: rows}, () => element("tr", {}, ...head.map(() => element("td", {textContent: "\u00a0"})))));
 }
 
-/** The worksheet as an element. */
-export function worksheetPage(): HTMLElement {
+/** The worksheet as an element, empty or with solutions. */
+export function worksheetPage(isSolved = false): HTMLElement {
+    const blank = "________ ± ________";
     const question = (step: number): HTMLElement => {
-        const {kind} = steps[step]!, at = lessonSteps[step]!;
+        const {kind, solution: [right, measured = blank]} = steps[step]!, at = lessonSteps[step]!;
         const options = kind === "direction" ? texts.lesson.directions
             : kind === "crossing" ? ranges.map(rangeText) : at.options ?? [];
         return element("section", {},
             element("h2", {textContent: `${step + 1}. ${at.title}`}), element("p", {textContent: at.text}),
             element("p", {}, element("strong", {textContent: at.question})),
-            element("p", {}, `${worksheet.prediction}: `, ...options.map((option) => element("span", {className: "box"}, `☐ ${option}`))),
+            element("p", {}, `${worksheet.prediction}: `, ...options.map((option, k) =>
+                element("span", {className: "box"}, `${isSolved && k === right ? "☒" : "☐"} ${option}`))),
             ...(typeof kind === "number" ? [] : [element("p", {className: "fill"}, `${worksheet.measured}: `,
-                kind === "crossing" ? symbols.crossing : symbols.rotation, " = ________ ± ________")]),
-            element("p", {textContent: `${worksheet.explanation}:`}), ...lines(2));
+                kind === "crossing" ? symbols.crossing : symbols.rotation,
+                ` = ${isSolved ? localized(measured) : blank}`)]),
+            element("p", {textContent: `${worksheet.explanation}:`}), ...(isSolved ? [element("p", {textContent: at.explanation})] : lines(2)));
     };
     return element("section", {id: "worksheet"},
         element("header", {}, element("h1", {textContent: worksheet.title}),
                 element("p", {textContent: `${worksheet.name}: ____________________  ${worksheet.date}: __________`})),
         ...steps.slice(0, 3).map((_, k) => question(k)),
         element("section", {}, element("h2", {textContent: worksheet.table}),
-                pointsTable(), element("p", {textContent: worksheet.graph}), graph(),
-                element("p", {textContent: `${worksheet.crossing} ________ ± ________`})),
+                pointsTable(isSolved ? reference.filter(({x}) => x % 6 === 5) : []), element("p", {textContent: worksheet.graph}), graph(),
+                element("p", {textContent: `${worksheet.crossing} ${isSolved ? localized(steps[2]!.solution[1]!) : blank}`})),
         ...steps.slice(3).map((_, k) => question(k + 3)),
         element("section", {}, element("h2", {textContent: worksheet.experiment}), element("p", {textContent: worksheet.experimentText}),
                 tableWith([worksheet.number, worksheet.turns, worksheet.direction], 5),
@@ -279,16 +287,16 @@ export function worksheetPage(): HTMLElement {
 }
 
 /** Two rows: N, and ϖ/Ω with its error. */
-function pointsTable(): HTMLTableElement {
-    const row = (name: string): HTMLElement => element("tr", {}, element("th", {textContent: name, scope: "row"}),
-        ...Array.from({length: 9}, () => element("td", {textContent: "\u00a0"})));
-    return element("table", {className: "points"}, row(symbols.discs), row(symbols.rotation), row("±"));
+function pointsTable(points: PlottedPoint[]): HTMLTableElement {
+    const row = (name: string, of: (point: PlottedPoint) => string = () => ""): HTMLElement => element("tr", {}, element("th", {textContent: name, scope: "row"}),
+        ...Array.from({length: 9}, (_, k) => element("td", {textContent: points[k] ? of(points[k]) : "\u00a0"})));
+    return element("table", {className: "points"}, row(symbols.discs, ({x}) => String(x)), row(symbols.rotation, ({y}) => signed(y, 3)), row("±"));
 }
 
 /** Prints the worksheet instead of the page. */
-export function printWorksheet(): void {
+export function printWorksheet(isSolved = false): void {
     document.getElementById("worksheet")?.remove();
-    document.body.append(worksheetPage());
+    document.body.append(worksheetPage(isSolved));
     document.body.classList.add("prints-worksheet");
     addEventListener("afterprint", () => {
         document.body.classList.remove("prints-worksheet");

@@ -130,10 +130,13 @@ export class Player {
         this.lastTick = now;
         const pace = this.lapseEnd === 0 ? this.isSlow || dish.coloring === "contacts" ? this.pace / 3 : this.pace : dish.compared ? comparedPace : lapsePace;
         const periods = elapsed / 1000 * pace, {compared} = dish;
-        const next = (frame: Float64Array): ToWorker => lab.isByHand && dish.pointer ? this.steerTo(dish.pointer, frame, periods)
-            : {kind: "tick", periods, strobe: dish.strobe || dish.isLapse};
+        const next = (frame: Float64Array, more = periods): ToWorker => lab.isByHand && dish.pointer
+            ? this.steerTo(dish.pointer, frame, periods) : {kind: "tick", periods: more, strobe: dish.strobe || dish.isLapse};
         lab.request(next(lab.last.frame));
-        if (compared?.last) compared.request(next(compared.last));
+        if (!compared?.last) return;
+        // Both are at the same point of their paths.
+        const behind = (lab.last.frame[2]! - compared.last[2]!) / lab.value("period");
+        compared.request(next(compared.last, Math.max(0, periods + behind - Math.round(behind))));
     }
 
     /** Moves the container straight to the pointer, at most four times as fast as on its path, and not

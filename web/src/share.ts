@@ -7,6 +7,7 @@ import {Recording} from "./recording";
 import {tableOf} from "./series";
 import {pageEntries} from "./start";
 import {texts} from "./texts";
+import {encode} from "uqr";
 
 const copyButton = (): HTMLButtonElement => byId("copy") as HTMLButtonElement;
 
@@ -35,6 +36,30 @@ function pictureOf(address: string): string {
     return canvas.toDataURL("image/png");
 }
 
+/** Shows a link as a QR code, dark on light whatever the theme. */
+function showCode(link: string): void {
+    const content = element("div", {id: "qr"});
+    try {
+        const {size, data} = encode(link, {ecc: "L", border: 4}), scale = Math.max(2, Math.floor(320 / size));
+        const canvas = element("canvas", {width: scale * size, height: scale * size}), context = canvas.getContext("2d")!;
+        canvas.setAttribute("role", "img");
+        canvas.setAttribute("aria-label", link);
+        context.fillStyle = "#fff";
+        context.fillRect(0, 0, canvas.width, canvas.height);
+        context.fillStyle = "#000";
+        for (const [y, row] of data.entries()) for (const [x, isDark] of row.entries())
+            if (isDark) context.fillRect(scale * x, scale * y, scale, scale);
+        content.append(canvas);
+    } catch {
+        content.append(element("p", {textContent: texts.qrTooLong}));
+    }
+    const dialog = element("dialog", {}, content, element("code", {textContent: link}), button(texts.close, () => dialog.close()));
+    dialog.setAttribute("aria-label", texts.qr);
+    dialog.addEventListener("close", () => dialog.remove());
+    document.body.append(dialog);
+    dialog.showModal();
+}
+
 export class Share {
     private readonly recording: Recording;
 
@@ -46,10 +71,12 @@ export class Share {
         // The reader may close the dialog of the system, which rejects.
         const send = button(texts.send, () => void navigator.share({title: document.title, url: address()}).catch(() => {}), "send-link");
         link.hidden = location.protocol === "about:"; // a frame in a notebook has no address
+        const code = button(texts.qr, () => showCode(address() + location.hash), "show-qr");
+        code.hidden = link.hidden;
         send.hidden = link.hidden || !("share" in navigator);
         const menu = element("details", {},
             element("summary", {title: texts.share}, icon("share"), element("span", {textContent: texts.share})),
-            element("div", {className: "menu"}, link, send,
+            element("div", {className: "menu"}, link, send, code,
                 button(texts.image, () => save("swirl.png", {href: pictureOf(address())}), "save-image"),
                 button(texts.table, () => save("rotation.csv", {text: tableOf(lab.averages), type: "text/csv"}), "save-table"),
                 button(texts.result, () => lab.send({kind: "result"}), "save-result"),

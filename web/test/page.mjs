@@ -643,7 +643,77 @@ const shared = await phoneShare.evaluate(() => {
     return globalThis.shared;
 });
 assert.match(shared.url, /\?discs=9&seed=3$/);
+// The QR code has the three finder patterns of seven modules, with its border.
+await phoneShare.evaluate(() => document.getElementById("show-qr").click());
+const finders = await phoneShare.$eval("#qr canvas", (canvas) => {
+    const context = canvas.getContext("2d"), isDark = (x, y) => context.getImageData(x, y, 1, 1).data[0] === 0;
+    let border = 0;
+    while (!isDark(border, border)) ++border;
+    const module = border / 4, size = canvas.width / module;
+    const ringAt = (x, y) => [0, 1, 2, 3, 4, 5, 6].map((k) => Number(isDark((x + k + 0.5) * module, (y + 3 + 0.5) * module))).join("");
+    return [Number.isInteger(size), ringAt(4, 4), ringAt(size - 11, 4), ringAt(4, size - 11)];
+});
+assert.deepEqual(finders, [true, "1011101", "1011101", "1011101"]);
 await phoneShare.close();
+
+// The page stores nothing but its address: it works where storage is blocked, and two tabs do not disturb each other.
+const tabs = await browser.newContext({bypassCSP: true});
+await tabs.addInitScript(() => {
+    for (const name of ["localStorage", "sessionStorage", "indexedDB"])
+        Object.defineProperty(globalThis, name, {get: () => { throw new DOMException("blocked", "SecurityError"); }});
+});
+const [left, right] = [await tabs.newPage(), await tabs.newPage()];
+for (const [tab, discs] of [[left, 9], [right, 12]]) {
+    tab.setDefaultTimeout(180_000);
+    tab.on("pageerror", (error) => errors.push(error.message));
+    await tab.goto(`${address}?discs=${discs}`);
+    await tab.waitForSelector(`canvas[aria-label^="${discs} discs"]`);
+}
+await left.fill("#parameter-discs", "10");
+await left.waitForFunction(() => location.search === "?discs=10");
+assert.deepEqual([await right.inputValue("#parameter-discs"), await right.evaluate(() => location.search)], ["12", "?discs=12"]);
+await tabs.close();
+
+// A single disc is a pancake: it rolls on the wall, so its own turns are shown (docs/explanation/why.md).
+await open("?discs=1&radius=7");
+await page.waitForFunction(() => document.getElementById("headline").textContent === "1 disc, so far: against the swirl.");
+await page.waitForFunction(() => Number(document.getElementById("period-count").textContent) > 60);
+const rolled = Number((await text("rotation")).replace("−", "-"));
+assert.ok(rolled < -0.05 && rolled > 1 - 8.6 / 7, `${rolled}`); // it slips while it bounces at the vertices of the path
+
+// Counted turns and a dish in millimetres.
+await page.evaluate(() => { document.getElementById("my-dish").open = true; });
+await page.fill("#my-points", "8 4.4 20\n48 −0.7 20");
+await page.waitForFunction(() => location.hash === "#counted=8_4.4_20,48_-0.7_20");
+await page.fill("#my-points", "8 x 20");
+await page.waitForFunction(() => /^The point '8 x 20' must be three numbers/.test(document.getElementById("error").textContent));
+await page.click("#my-text");
+await page.waitForFunction(() => ["preset experiment", "container-radius 8.5", "amplitude 3.8333"].every(
+    (option) => document.getElementById("command").textContent.includes(`--${option} `)));
+assert.match(await text("my-found"), /--gravity 1\.59/);
+for (const [field, value, said] of [["particle", "30", /radius 30 does not fit into a dish of radius 25.5/], ["rate", "x", /'x', .* 0.05 to 20 Hz/],
+                                    ["container", "", /'', .* 0.1 to 1000 mm/], ["amplitude", "-3", /'-3'/], ["rate", "1e9", /'1e9'/]]) {
+    await page.click("#my-text");
+    await page.fill(`#my-${field}`, value);
+    await page.click("#my-show");
+    assert.match(await text("my-found"), said);
+}
+// A class link gives each phone its own seed and then vanishes from the address.
+const classSeeds = [];
+for (let k = 0; k < 3; ++k) {
+    await open("?discs=9&seed=7&class=1");
+    await page.waitForFunction(() => /^\?discs=9&seed=\d{4}$/.test(location.search));
+    classSeeds.push(await page.evaluate(() => location.search));
+}
+assert.ok(new Set(classSeeds).size > 1, `${classSeeds}`);
+await page.evaluate(() => {
+    document.getElementById("my-dish").open = true;
+    Object.defineProperty(navigator, "clipboard", {value: {writeText: async (copiedText) => { globalThis.classLink = copiedText; }}, configurable: true});
+});
+await page.click("#class-link");
+assert.match(await page.evaluate(() => globalThis.classLink), /\?discs=9&class=1$/);
+await page.fill("#class-results", "?seed=1#points=8_0.1_0.01_200\n?seed=2#points=8_0.2_0.01_200\n?mu=0.1#points=8_0.2_0.01_200");
+assert.equal(await text("class-found"), "Results of 2 seeds give 1 points. Lines without points, or with other parameters: 1.");
 
 // A browser that records MP4 only saves a movie of that kind.
 const apple = await browser.newPage({bypassCSP: true});

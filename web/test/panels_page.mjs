@@ -177,6 +177,15 @@ for (let step = 1; step <= 6; ++step) {
 await page.waitForFunction(() => !/lesson/.test(location.search));
 assert.equal(await page.$("#lesson h2"), null);
 assert.equal(await page.isVisible("#headline"), true);
+// The solutions have the right options, the measured values and the explanations.
+await page.evaluate(() => { globalThis.print = () => {}; document.getElementById("lesson-solutions").click(); });
+const solved = await page.textContent("#worksheet");
+assert.equal(solved.match(/☒/g).length, 6);
+for (const shown of ["−0.0365 ± 0.0003", "38.4 ± 0.1", "☒ 35 to 44 discs", "Gears would have a spin correlation of −1", "0.184"])
+    assert.ok(solved.includes(shown), shown);
+await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+assert.equal(await page.$("#worksheet"), null);
+
 // The worksheet replaces the page in print, and disappears after it.
 await page.click("#teaching summary");
 await page.evaluate(() => { globalThis.print = () => {}; });
