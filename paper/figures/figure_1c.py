@@ -74,7 +74,7 @@ def lab_container(axes, centre, reach):
 def draw_frames(table):
     rows = style.read(table)
     shown = min(rows, key=lambda row: math.hypot(row["x"] - 5.4, row["y"] + 2.2))  # its arrows have space there
-    drawing, (lab, m, forces) = style.figure(style.PAGE, 2.6, ncols=3)
+    drawing, (lab, m, forces) = style.figure(style.PAGE, 2.7, ncols=3)
     centre = np.array([shown["centre_x"], shown["centre_y"]])
     lab_container(lab, centre, 1.1 * (R + A))
     lab.add_patch(style.plt.Circle((0, 0), R + A, fill=False, color=style.GREY, linestyle=":"))
