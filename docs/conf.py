@@ -36,21 +36,53 @@ html_math_renderer = "mathtext"
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]
 
-# The pages themselves have no Sphinx directives, since they are also read as plain Markdown.
-CONTENTS = [("Tutorials", "tutorials/*"), ("How-to guides", "how-to/*"), ("Reference", "reference/*"),
-            ("Explanation", "explanation/*")]
-PROJECT = ["/README", "/gallery", "/examples/index", "/CONTRIBUTING", "/CHANGELOG", "/SECURITY"]
+# The public address of the site, which the picture of a link preview needs (web/site.sh).
+ADDRESS = os.environ.get("SWIRL_SITE_ADDRESS", "")
+PROJECT = ["/README", "/gallery", "/examples/index"]
 
 
 def add_contents(app, docname, source):
-    """Appends the tables of contents to the home page. Pages in src, bench and tests are in none."""
-    if docname.startswith(("src/", "bench/", "tests/")):
+    """Appends the tables of contents to the home page: its own lists, in their order. Pages in src, bench and tests
+    are in none. The pages themselves have no Sphinx directives, since they are also read as plain Markdown."""
+    if docname.startswith(("src/", "bench/", "tests/", "track/")):
         source[0] = f"---\norphan: true\n---\n{source[0]}"
     if docname != root_doc:
         return
-    project = [name for name in PROJECT if os.path.exists(f"{app.srcdir}{name}.md")]
-    for caption, pages in [*CONTENTS, ("Project", "\n".join(project))]:
-        source[0] += f"\n```{{toctree}}\n:caption: {caption}\n:glob:\n:hidden:\n\n{pages}\n```\n"
+    for section in re.findall(r"^## (.*\n(?:.*\n)*?)(?=^## |\Z)", f"{source[0]}\n", re.M):
+        caption, _, text = section.partition("\n")
+        pages = re.findall(r"^- .*?\]\((.*?)\.md\)", text, re.M)
+        pages += [name for name in PROJECT if caption == "Project" and os.path.exists(f"{app.srcdir}{name}.md")]
+        if pages:
+            listed = "\n".join(f"/{page[3:]}" if page.startswith("../") else page for page in pages)
+            source[0] += f"\n```{{toctree}}\n:caption: {caption.split(':')[0]}\n:hidden:\n\n{listed}\n```\n"
+
+
+SUBSCRIPT = re.compile(r"(?<!\w)([A-Za-zϖμωφθτρηΓσ])_([A-Za-zθ]{1,3})(?!\w)")
+
+
+def set_subscripts(app, doctree, docname):
+    """N_c, which plain Markdown shows as it is, with a subscript."""
+    for text in list(doctree.findall(nodes.Text)):
+        if any(isinstance(above, (nodes.literal, nodes.literal_block, nodes.raw, nodes.math, nodes.math_block))
+               for above in (text.parent, text.parent.parent)) or not SUBSCRIPT.search(text):
+            continue
+        parts = SUBSCRIPT.split(text)
+        made = [nodes.Text(parts[0])]
+        for symbol, index, rest in zip(parts[1::3], parts[2::3], parts[3::3]):
+            made += [nodes.Text(symbol), nodes.subscript("", index), nodes.Text(rest)]
+        text.parent.replace(text, made)
+
+
+def describe_page(app, pagename, templatename, context, doctree):
+    """Title, text and picture for pages that link to this one (Open Graph)."""
+    first = doctree and next((each.astext() for each in doctree.findall(nodes.paragraph)), "")
+    tags = {"title": f"{re.sub('<[^>]+>', '', context.get('title') or project)} – swirl",
+            "description": " ".join((first or "Why a few marbles in a swirled dish reverse.").split())[:300],
+            "type": "website"}
+    if ADDRESS:
+        tags["image"] = f"{ADDRESS}preview.png"
+    context["metatags"] = context.get("metatags", "") + "".join(
+        f'<meta property="og:{name}" content="{escape(text)}" />' for name, text in tags.items())
 
 
 def resolve_folder(app, env, node, contnode):
@@ -64,9 +96,13 @@ def resolve_folder(app, env, node, contnode):
     return contnode
 
 
+SIZE = 10  # of the formula's letters, in the units of its lengths
+
+
 def math_svg(formula):
     """The formula as SVG by matplotlib, since MathJax would need a network."""
     from matplotlib import rc_context
+    from matplotlib.font_manager import FontProperties
     from matplotlib.mathtext import math_to_image
     formula = " ".join(formula.split())
     # mathtext needs braces for the arguments of fonts and fractions.
@@ -75,9 +111,12 @@ def math_svg(formula):
     formula = re.sub(r"\\(ge|le)(?![a-z])", r"\\\1q", formula)  # names that matplotlib has
     image = BytesIO()
     with rc_context({"svg.fonttype": "path", "mathtext.fontset": "cm", "svg.hashsalt": "swirl"}):
-        math_to_image(f"${formula}$", image, dpi=72, format="svg")
-    text = image.getvalue().decode()
-    return f'<span role="img" aria-label="{escape(formula)}" class="formula">{text[text.index("<svg"):]}</span>'
+        depth = math_to_image(f"${formula}$", image, FontProperties(size=SIZE), dpi=72, format="svg")
+    # Lengths relative to the size of the text, and the formula's base line on that of the text.
+    text = re.sub(r'(width|height)="([\d.]+)pt"', lambda length: f'{length[1]}="{float(length[2]) / SIZE:.3f}em"',
+                  image.getvalue().decode())
+    return (f'<span role="img" aria-label="{escape(formula)}" class="formula" style="vertical-align: '
+            f'{-depth / SIZE:.3f}em">{text[text.index("<svg"):]}</span>')
 
 
 def visit_math(self, node):
@@ -86,7 +125,7 @@ def visit_math(self, node):
 
 
 def visit_math_block(self, node):
-    self.body.append(f'<div class="formula-block">{math_svg(node.astext())}</div>')
+    self.body.append(f'<div class="formula-block">{math_svg(node.astext().replace("frac{", "dfrac{"))}</div>')
     raise nodes.SkipNode
 
 
@@ -122,4 +161,6 @@ def setup(app):
     app.connect("build-finished", bundle_theme)
     app.connect("source-read", add_contents)
     app.connect("missing-reference", resolve_folder)
+    app.connect("doctree-resolved", set_subscripts)
+    app.connect("html-page-context", describe_page)
     app.add_html_math_renderer("mathtext", (visit_math, None), (visit_math_block, None))

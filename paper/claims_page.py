@@ -13,7 +13,7 @@ import sys
 import atomic_file
 from claims.settings import ALSO
 from report import ORDER, cell, judge
-from verdicts import FAILS, HOLDS, IN_PART
+from verdicts import FAILS, HOLDS
 
 
 def figure_of(j):
@@ -41,8 +41,7 @@ def tables_of(judged):
             "| no. | claim | judged on | figure | verdict |", "|---|---|---|---|---|",
             *(f"| {k} | {cell(j.claim.statement)} | {j.claim.on} | {figure_of(j)} | {verdict_of(j)} |"
               for k, j in judged)],
-        "### Claims that do not hold": list_of(judged, FAILS),
-        "### Claims that hold in part": list_of(judged, IN_PART)}
+        "### Claims that do not hold": list_of(judged, FAILS)}
 
 
 def csv_of(judged):

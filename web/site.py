@@ -56,11 +56,11 @@ DISH = """```{raw} html
 
 
 def front_page(source):
-    """The documentation's front page begins with the live dish."""
+    """The documentation's front page begins with its name, its purpose and the live dish."""
     path = os.path.join(source, "docs", "index.md")
     with open(path, encoding="utf-8") as opened:
-        heading, rest = opened.read().split("\n", 1)
-    write(path, f"{heading}\n\n{DISH}{rest}")
+        heading, purpose, rest = opened.read().split("\n\n", 2)
+    write(path, f"{heading}\n\n{purpose}\n\n{DISH}\n{rest}")
 
 
 def output_markdown(output, folder, name):

@@ -103,7 +103,7 @@ elif ! "$python" "$home/web/notebooks.py" "$temporary/notebooks" "$home"/example
 fi
 # Other versions of Sphinx and of its theme make other pages, so Debian's are used.
 if ! "$(system_python)" -B "$home/web/site.py" "$home" "$source" "$temporary/gallery" "$temporary/notebooks" >"$log" 2>&1 ||
-    ! sphinx-build -q -W --keep-going -c "$source/docs" -d "$temporary/doctrees" "$source" "$site" >"$log" 2>&1; then
+    ! SWIRL_SITE_ADDRESS=$address sphinx-build -q -W --keep-going -c "$source/docs" -d "$temporary/doctrees" "$source" "$site" >"$log" 2>&1; then
     tail -n 20 "$log" >&2
     give_up "the site could not be built (see above)."
 fi

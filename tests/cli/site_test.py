@@ -36,6 +36,9 @@ page.on("request", (request) => {
 for (const file of files) {
     await page.goto(pathToFileURL(file).href);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    const broken = await page.evaluate(() => [...document.querySelectorAll("article td, article th")].filter(
+        (cell) => getComputedStyle(cell).overflowWrap !== "normal").length);
+    if (broken) errors.push(`${file} has ${broken} cells whose words may break`);
     if (wide > 360) errors.push(`${file} is ${wide} wide at a width of 360`);
 }
 const search = files.find((file) => file.endsWith("/search.html"));
@@ -102,6 +105,32 @@ class Site(unittest.TestCase):
             self.assertIn(page, self.pages)
             if page != home:
                 self.assertIn(page, listed)
+
+    def test_the_sidebar_has_the_order_of_the_index(self):
+        with open(os.path.join(SOURCE, "docs", "index.md"), encoding="utf-8") as opened:
+            listed = re.findall(r"^- .*?\]\(([a-z-]+/\w+)\.md\)", opened.read(), re.M)
+        with open(os.path.join(self.site, "docs", "index.html"), encoding="utf-8") as opened:
+            sidebar = opened.read().split('class="sidebar-tree"')[1].split("</aside>")[0]
+        self.assertGreater(len(listed), 30)
+        self.assertEqual([link for link in re.findall(r'href="([a-z-]+/\w+)\.html"', sidebar) if link in listed], listed)
+
+    def test_the_front_page_begins_with_name_purpose_and_the_live_dish(self):
+        with open(os.path.join(self.site, "docs", "index.html"), encoding="utf-8") as opened:
+            text = opened.read().split("<article", 1)[1]
+        parts = [text.index(part) for part in ("<h1>swirl", "many against it", "<iframe", "<h2>Questions")]
+        self.assertEqual(parts, sorted(parts))
+
+    def test_pages_have_a_title_and_a_text_for_links_to_them(self):
+        with open(os.path.join(self.site, "docs", "explanation", "why.html"), encoding="utf-8") as opened:
+            text = opened.read()
+        self.assertIn('<meta property="og:title" content="Why it reverses – swirl"', text)
+        self.assertRegex(text, '<meta property="og:description" content="For everyone. Move a dish')
+
+    def test_symbols_have_subscripts_and_formulas_the_size_of_the_text(self):
+        with open(os.path.join(self.site, "docs", "explanation", "why.html"), encoding="utf-8") as opened:
+            text = opened.read()
+        self.assertIn("R<sub>c</sub>", text)
+        self.assertRegex(text, r'class="formula" style="vertical-align: -[0-9.]+em"><svg [^>]*width="[0-9.]+em"')
 
     def test_the_home_page_leads_to_the_documentation(self):
         with open(os.path.join(self.site, "index.html"), encoding="utf-8") as opened:

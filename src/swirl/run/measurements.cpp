@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "swirl/io/table.hpp"
 #include "swirl/run/failure.hpp"
@@ -157,11 +158,18 @@ std::string measurement_markdown() {
     };
     RunResult().report(line);
     std::string tables = "| table | columns (unit) | description |\n|---|---|---|\n";
+    std::map<std::string, std::string> first;  // the table that lists these columns
     for (const auto& [name, report] : empty_reports()) {
         for (const ReportRow& row : report.rows) line(name, row);
-        for (const ReportTable& table : report.tables)
-            tables += fmt::format("| {} | {} | {} |\n", full_name(name, table.name),
-                                  columns_text(table), table.description);
+        for (const ReportTable& table : report.tables) {
+            const std::string full = full_name(name, table.name), columns = columns_text(table);
+            const auto [there, is_new] = first.emplace(columns, full);
+            tables += fmt::format(
+                "| {} | {} | {} |\n", full,
+                is_new ? columns
+                       : fmt::format("{}, … as {}", table.columns.front().name, there->second),
+                table.description);
+        }
     }
     return names + "\n" + rows + "\n" + tables;
 }
