@@ -119,6 +119,11 @@ class Prose(unittest.TestCase):
         words = len(words_of(text))
         self.assertTrue(400 <= words <= 600, words)
 
+    def test_the_index_answers_25_questions_of_five_readers(self):
+        text = (SOURCE / "docs/index.md").read_text(encoding="utf-8").split("## Questions")[1].split("\n## ")[0]
+        self.assertEqual(len(re.findall(r"^\| \*\*", text, re.M)), 5)
+        self.assertGreaterEqual(len(re.findall(r"^\| [^*|]+ \| \[.*\]\(", text, re.M)), 25)
+
     def test_the_documentation_is_short(self):
         words = sum(len(words_of(page.read_text(encoding="utf-8"))) for page in DOCUMENTS)
         self.assertLessEqual(words, 45_000)
