@@ -456,6 +456,16 @@ class Laboratory(unittest.TestCase):
                                    check=True, capture_output=True, text=True)
             self.assertGreater(int(asked.stdout), 5)
 
+    def test_the_page_in_firefox(self):
+        firefox = shutil.which("firefox-esr") or shutil.which("firefox")
+        if not firefox:
+            self.skipTest("this test needs firefox")
+        run = json.loads(swirl("run", "--discs", "28", "--mu", "0.5", "--seed", "3", "--events", "20000", "--json", "-",
+                               "--quiet").stdout)
+        done = subprocess.run(["node", "--experimental-websocket", os.path.join(SOURCE, "web", "test", "firefox.mjs"), self.page,
+                               firefox, run["state_hash"]], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def assert_shows_discs(self, path, discs):
         """The image has a light background and colours from blue to grey to orange, which cover the area of the
         discs within a fifth. (Rims and orientation marks are dark.)"""

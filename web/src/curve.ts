@@ -1,12 +1,11 @@
 // The rotation rate period by period, with a mark where a parameter was changed.
 import type {Rotation} from "./engine";
 import type {Laboratory} from "./laboratory";
-import {accent, byId, element, ink, line, localized, quiet} from "./page";
-import {Plot} from "./plot";
+import {Chart, type ChartPoint} from "./chart";
+import {accent, byId, element, localized, quiet} from "./page";
 import {meansOf, periodsOf} from "./series";
 import {fill, symbols, texts} from "./texts";
 
-const height = 150;
 /** The axis ends here: a disc that passes the centre of mass makes single periods many times as large. */
 const clippedAt = 1.5;
 const remembered = 200; // periods before the last change
@@ -26,32 +25,25 @@ export function joined(earlier: Columns, rotation: Rotation | undefined): Column
 export class Curve {
     private readonly place = byId("curve");
     private readonly note = element("p", {className: "quiet"});
-    private readonly plot: Plot;
+    private readonly chart: Chart;
     private earlier: Columns = [[], [], []];
     private shown: Columns = [[], [], []];
-    private marks: {at: number; text: string}[] = [];
+    private notes: {at: number; text: string}[] = [];
     private before: Record<string, string> = {}; // the parameters of the last values
 
     constructor(private readonly lab: Laboratory) {
-        this.plot = new Plot({
-            width: 300, height,
-            x: {color: ink},
-            y: {label: symbols.rotation, color: ink, grid: line, size: 40, labelSize: 18, range: (low, high) =>
-                [Math.max(Math.min(low, -0.1) - 0.05, -clippedAt), Math.min(Math.max(high, 0.1) + 0.05, clippedAt)]},
-            lines: [{color: quiet, width: 1}, {color: accent, width: 2}],
-            draw: (plot) => this.drawMarks(plot),
-        }, this.place);
+        this.chart = new Chart(this.place, {height: 150, x: (low, high) => [low, high], y: (low, high) =>
+            [Math.max(Math.min(low, -0.1) - 0.05, -clippedAt), Math.min(Math.max(high, 0.1) + 0.05, clippedAt)]});
         this.place.append(this.note);
         this.clear();
         lab.on("begin", () => this.clear());
         lab.on("changed", (byParameters) => { if (byParameters) this.mark(); else this.clear(); });
         lab.on("averages", (rotation) => this.show(rotation));
-        addEventListener("resize", () => this.resize());
     }
 
     private clear(): void {
         this.earlier = this.shown = [[], [], []];
-        this.marks = [];
+        this.notes = [];
         this.before = this.lab.configuration;
         this.place.hidden = true;
     }
@@ -64,8 +56,8 @@ export class Curve {
         this.before = configuration;
         this.earlier = this.shown.map((column) => column.slice(-remembered)) as Columns;
         if (at === 0 || changes.length === 0) return;
-        if (this.marks.at(-1)?.at === at) this.marks.pop();
-        this.marks.push({at, text: changes.join(", ")});
+        if (this.notes.at(-1)?.at === at) this.notes.pop();
+        this.notes.push({at, text: changes.join(", ")});
     }
 
     private show(rotation: Rotation): void {
@@ -73,35 +65,12 @@ export class Curve {
         const columns = joined(this.earlier, rotation), blocks = columns[0].length;
         if (this.lab.isByHand || blocks === this.shown[0].length) return;
         this.shown = columns;
-        if (this.place.hidden !== blocks < 2) {
-            this.place.hidden = blocks < 2;
-            this.resize();
-        }
-        this.plot.setData(columns);
+        this.place.hidden = blocks < 2;
+        const of = (values: (number | null)[]): ChartPoint[] => columns[0].map((x, k) => ({x, y: values[k] ?? NaN}));
         const beyond = columns[1].filter((each) => Math.abs(each ?? 0) > clippedAt).length;
         this.note.textContent = beyond > 0 ? fill(texts.clipped, {n: beyond, at: clippedAt}) : texts.perPeriod;
-    }
-
-    private drawMarks(plot: Plot): void {
-        const {context, area} = plot;
-        context.fillStyle = context.strokeStyle = ink();
-        context.lineWidth = devicePixelRatio;
-        context.font = `${11 * devicePixelRatio}px Inter, system-ui, sans-serif`;
-        for (const {at, text} of this.marks) {
-            const x = plot.at(at, "x");
-            if (x < area.left) continue;
-            context.beginPath();
-            context.moveTo(x, area.top);
-            context.lineTo(x, area.top + area.height);
-            context.stroke();
-            const isLate = x > area.left + 0.6 * area.width;
-            context.textAlign = isLate ? "right" : "left";
-            context.textBaseline = "alphabetic";
-            context.fillText(text, x + (isLate ? -4 : 4) * devicePixelRatio, area.top + 10 * devicePixelRatio);
-        }
-    }
-
-    private resize(): void {
-        if (!this.place.hidden) this.plot.setWidth(this.place.clientWidth || 300);
+        this.chart.show(["", symbols.rotation], [{name: "", points: of(columns[1]), line: {width: 1, color: quiet}},
+                                                 {name: "", points: of(columns[2]), line: {width: 2, color: accent}}],
+                        {notes: this.notes}, texts.perPeriod);
     }
 }

@@ -6,8 +6,8 @@ import {intervalOf, liveEstimate} from "./estimates";
 import type {Host, Values} from "./host";
 import {measuredFromLink, measuredPoints, measuredText, rateOf, type Measured} from "./measured";
 import {addressOf} from "./share";
-import {button, element, save, withError} from "./page";
-import {PointsPlot, type Curve, type PlottedPoint} from "./points_plot";
+import {button, element, quiet, save, withError} from "./page";
+import {Chart, type ChartCurve, type ChartPoint} from "./chart";
 import {Runs, estimates, seedsPerPoint} from "./runs";
 import {startParameters} from "./start";
 import {fill, symbols, texts} from "./texts";
@@ -22,7 +22,7 @@ export interface Visited {
 }
 
 /** ϖ/Ω for the default parameters, from four runs of 400 periods each (`swirl run --discs N`, seeds 1 to 4). */
-export const reference: PlottedPoint[] = [
+export const reference: ChartPoint[] = [
     [5, 0.184], [8, 0.145], [11, 0.11], [14, 0.087], [17, 0.079], [20, 0.064], [23, 0.05], [26, 0.038], [29, 0.03], [32, 0.021],
     [35, 0.01], [38, 0.001], [41, -0.011], [44, -0.025], [47, -0.036], [50, -0.041], [53, -0.027],
 ].map(([x, y]) => ({x: x!, y: y!, lower: y!, upper: y!}));
@@ -74,7 +74,7 @@ export function tableOf(settings: Map<string, Setting>, measured: readonly Measu
 
 const titled = (made: HTMLButtonElement, title: string): HTMLButtonElement => Object.assign(made, {title});
 
-const asPlotted = (x: number, {mean, error}: {mean: number; error: number}): PlottedPoint =>
+const asPlotted = (x: number, {mean, error}: {mean: number; error: number}): ChartPoint =>
     ({x, y: mean, lower: mean - intervalOf(error), upper: mean + intervalOf(error)});
 
 export class Discovery {
@@ -83,11 +83,11 @@ export class Discovery {
     readonly settings = new Map<string, Setting>();
     measured: readonly Measured[] = [];
     private pooled: Setting = new Map();
-    private readonly plot: PointsPlot;
+    private readonly plot: Chart;
     private readonly finding = element("p", {id: "discovery-finding"});
     private readonly runs: Runs;
     private present: {setting: string; discs: number; given: Values} | undefined;
-    private live: PlottedPoint | undefined;
+    private live: ChartPoint | undefined;
     private readonly under = new Set<string>(); // names of points whose first run is under way
     private refining = false;
     private found: Crossing | undefined;
@@ -106,7 +106,7 @@ export class Discovery {
                     element("p", {textContent: texts.discovery.help})));
         // A frame without an address, as in a notebook, has no link.
         document.getElementById("discovery-link")!.hidden = location.protocol === "about:";
-        this.plot = new PointsPlot(plotPlace, innerWidth < 480 ? 165 : 210);
+        this.plot = new Chart(plotPlace, {height: innerWidth < 480 ? 165 : 210});
         this.draw();
     }
 
@@ -203,11 +203,11 @@ export class Discovery {
 
     private draw(): void {
         const present = this.present?.setting ?? "";
-        const curves: Curve[] = [...this.settings].filter(([name]) => name !== present).map(([name, points]) =>
-            ({name: this.nameOf(name), points: this.plotted(points), faint: true}));
+        const curves: ChartCurve[] = [...this.settings].filter(([name]) => name !== present).map(([name, points]) =>
+            ({name: this.nameOf(name), points: this.plotted(points), isFaint: true}));
         curves.unshift({name: this.nameOf(present), points: this.plotted(this.settings.get(present) ?? new Map())});
         if (present === "") curves[0]!.name = texts.discovery.yours;
-        if (present === "") curves.push({name: texts.discovery.reference, points: reference, isReference: true, faint: true});
+        if (present === "") curves.push({name: texts.discovery.reference, points: reference, isFaint: true, line: {width: 3, color: quiet}});
         if (this.pooled.size > 0) curves.push({name: texts.discovery.ofClass, points: this.plotted(this.pooled)});
         if (this.measured.length > 0) curves.push({name: texts.discovery.counted, points: measuredPoints(this.measured)});
         const text = this.findingText();
@@ -219,7 +219,7 @@ export class Discovery {
                        fill(texts.discovery.description, {points: this.settings.get(present)?.size ?? 0, finding: text}));
     }
 
-    private plotted(points: Setting): PlottedPoint[] {
+    private plotted(points: Setting): ChartPoint[] {
         return [...points].sort(([a], [b]) => a - b).map(([n, point]) => asPlotted(n, point));
     }
 

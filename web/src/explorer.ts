@@ -4,8 +4,8 @@ import {UsageError, rates, type Crossing, type Parameter} from "./engine";
 import {controlling, searchCrossing, usualSearch} from "./crossing_search";
 import {intervalOf} from "./estimates";
 import {optionsOf, type Host, type Values} from "./host";
-import {button, element, localized, save, shownList, typedList, withError} from "./page";
-import {PointsPlot, type Curve} from "./points_plot";
+import {button, element, localized, save, shownList, signed, typedList, withError} from "./page";
+import {Chart, type ChartCurve, type ChartPoint} from "./chart";
 import {Runs, estimates, seedsFrom, seedsPerPoint, type Crossings, type Estimates} from "./runs";
 import {commands as commandOf} from "./symbols";
 import {fill, symbols, texts} from "./texts";
@@ -141,7 +141,7 @@ export class Explorer {
     private readonly findings = element("div", {id: "explorer-findings", className: "findings", tabIndex: 0});
     private readonly command = element("code", {id: "explorer-command"});
     private readonly start = button(texts.start, () => this.toggle(), "explorer-start");
-    private readonly plot: PointsPlot;
+    private readonly plot: Chart;
     private runs: Runs | undefined;
     private points: Point[] = [];
     private shown: {x: string; quantity: Quantity; curves: CurveValues[]} =
@@ -172,7 +172,7 @@ export class Explorer {
                 button(texts.explorer.table, () => this.saveTable(), "explorer-table"),
                 button(texts.explorer.picture, () => this.savePicture(), "explorer-picture")));
         this.command.parentElement!.hidden = true;
-        this.plot = new PointsPlot(plotPlace, 280);
+        this.plot = new Chart(plotPlace, {height: 280});
         place.append(this.panel);
         this.panel.addEventListener("toggle", () => { if ((this.panel as HTMLDetailsElement).open) this.draw(); });
     }
@@ -328,7 +328,7 @@ export class Explorer {
 
     private draw(): void {
         const {x, quantity, curves} = this.shown;
-        const shown: Curve[] = curves.map((curve) => ({name: curve.name, points: this.points
+        const shown: ChartCurve[] = curves.map((curve) => ({name: curve.name, points: this.points
             .filter((point) => point.curve === curve && point.done).sort((a, b) => a.x - b.x)
             .flatMap((point) => plottedPoint(point, quantity))}));
         const found = shown.reduce((sum, {points}) => sum + points.length, 0);
@@ -388,11 +388,11 @@ export class Explorer {
 export function crossingText(found: Crossing): string {
     if (found.verdict !== "crosses") return texts.verdicts[found.verdict];
     return found.discs === null ? fill(texts.bracket, {lower: found.lower!, upper: found.upper!})
-        : fill(texts.crossing, {discs: withError(found.discs, found.error, ""), lower: found.lower!, upper: found.upper!});
+        : fill(texts.crossing, {discs: withError(found.discs, found.error, ""), lower: signed(found.lower!, 1), upper: signed(found.upper!, 1)});
 }
 
 /** 95 % intervals. A point without a result is not drawn. */
-function plottedPoint(point: Point, quantity: Quantity): Curve["points"] {
+function plottedPoint(point: Point, quantity: Quantity): ChartPoint[] {
     if (quantity === "crossing") {
         const found = point.crossings?.[controlling];
         if (found?.verdict !== "crosses" || found.lower === null || found.upper === null) return [];

@@ -4,7 +4,7 @@ import {searchCrossing, controlling, usualSearch} from "./crossing_search";
 import type {Host, Values} from "./host";
 import {reference} from "./discovery";
 import {button, element, localized, signed, withError} from "./page";
-import type {PlottedPoint} from "./points_plot";
+import type {ChartPoint} from "./chart";
 import {Runs, estimates} from "./runs";
 import type {Coloring, View} from "./scene";
 import {pageEntry, setPageEntry} from "./start";
@@ -287,8 +287,8 @@ export function worksheetPage(isSolved = false): HTMLElement {
 }
 
 /** Two rows: N, and ϖ/Ω with its error. */
-function pointsTable(points: PlottedPoint[]): HTMLTableElement {
-    const row = (name: string, of: (point: PlottedPoint) => string = () => ""): HTMLElement => element("tr", {}, element("th", {textContent: name, scope: "row"}),
+function pointsTable(points: ChartPoint[]): HTMLTableElement {
+    const row = (name: string, of: (point: ChartPoint) => string = () => ""): HTMLElement => element("tr", {}, element("th", {textContent: name, scope: "row"}),
         ...Array.from({length: 9}, (_, k) => element("td", {textContent: points[k] ? of(points[k]) : "\u00a0"})));
     return element("table", {className: "points"}, row(symbols.discs, ({x}) => String(x)), row(symbols.rotation, ({y}) => signed(y, 3)), row("±"));
 }

@@ -1,5 +1,5 @@
 // Turns that were counted at a real dish: points with the error of counting.
-import type {PlottedPoint} from "./points_plot";
+import type {ChartPoint} from "./chart";
 
 /** Number of particles, turns of the cluster (negative: against the swirl), and circles of the dish. */
 export type Measured = [number, number, number];
@@ -30,7 +30,7 @@ export const measuredFromLink = (text: string): ReturnType<typeof measuredFrom> 
 /** ϖ/Ω of a row and its standard error. */
 export const rateOf = ([, turns, circles]: Measured): [number, number] => [turns / circles, readingError / circles];
 
-export function measuredPoints(rows: readonly Measured[]): PlottedPoint[] {
+export function measuredPoints(rows: readonly Measured[]): ChartPoint[] {
     return rows.map((row) => {
         const [y, error] = rateOf(row);
         return {x: row[0], y, lower: y - 1.96 * error, upper: y + 1.96 * error};

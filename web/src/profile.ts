@@ -1,34 +1,25 @@
 // The angular velocity of the discs against the angle in the M-frame, next to that of the wall, as in the
 // paper's Figure 3.
+import {Chart} from "./chart";
 import type {Laboratory} from "./laboratory";
 import type {Maps} from "./messages";
-import {accent, element, ink, line, quiet} from "./page";
-import {Plot} from "./plot";
+import {accent, element, quiet} from "./page";
 import {symbols, texts} from "./texts";
-
-const height = 220;
 
 export class Profile {
     private readonly place = element("div", {id: "profile-plot"});
-    private plot: Plot | undefined;
-    readonly panel = element("details", {id: "profile-panel"},
-        element("summary", {textContent: texts.profile}), this.place);
+    readonly panel = element("details", {id: "profile-panel"}, element("summary", {textContent: texts.profile}), this.place);
+    private chart: Chart | undefined;
 
     constructor(lab: Laboratory) {
-        lab.on("maps", (maps) => { if (this.panel.open) this.show(maps); });
+        lab.on("maps", ({profile}) => { if (this.panel.open) this.show(profile); });
     }
 
-    private show({profile}: Maps): void {
-        const known = [...profile.theta.keys()].filter((k) => Number.isFinite(profile.varpi[k]!));
-        const column = (values: Float64Array): number[] => known.map((k) => values[k]!);
-        const width = this.place.clientWidth || 400;
-        this.plot ??= new Plot({
-            width, height,
-            x: {label: texts.theta, color: ink, grid: line, range: () => [0, 360]},
-            y: {label: symbols.rotationM, color: ink, grid: line},
-            lines: [{color: accent, width: 2}, {color: quiet, width: 1, dash: [5, 4]}],
-        }, this.place);
-        this.plot.setWidth(width);
-        this.plot.setData([column(profile.theta), column(profile.varpi), column(profile.wall)]);
+    private show({theta, varpi, wall}: Maps["profile"]): void {
+        this.chart ??= new Chart(this.place, {height: 220, x: () => [0, 360]});
+        const of = (values: Float64Array) => [...theta].map((x, k) => ({x, y: values[k]!})).filter((_, k) => Number.isFinite(varpi[k]!));
+        this.chart.show([texts.theta, symbols.rotationM], [
+            {name: texts.discs, points: of(varpi), line: {width: 2, color: accent}},
+            {name: texts.wall, points: of(wall), line: {width: 1, color: quiet, dash: [5, 4]}}], {}, texts.profile);
     }
 }

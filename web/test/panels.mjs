@@ -146,7 +146,7 @@ try {
     assert.equal(languageOf("xx", ["de"]), "en");
     assert.equal(languageOf(null, []), "en");
 
-    const {ticksOf, labelsOf} = await load("plot");
+    const {ticksOf, labelsOf} = await load("chart");
     assert.deepEqual(ticksOf(0, 1, 5), [0, 0.2, 0.4, 0.6, 0.8, 1]);
     assert.deepEqual(ticksOf(-0.31, 0.29, 6), [-0.3, -0.2, -0.1, 0, 0.1, 0.2]);
     assert.deepEqual(ticksOf(7, 53, 5), [10, 20, 30, 40, 50]);
