@@ -18,37 +18,22 @@ export interface Shown {
     beside?: string | undefined;
 }
 
-export interface Host {
-    /** The table of parameters. */
-    parameters(): Parameter[];
-    /** Whether the engine has a parameter of this name. */
-    isParameter(name: string): boolean;
-    /** The parameters that were set; all others have their defaults. */
-    given(): Values;
-    /** These values with the present seed. */
-    withSeed(given: Values): Values;
-    /** All parameters of the present simulation. */
-    configuration(): Values;
-    /** Sets the parameters and starts their simulation. */
-    show(given: Values, how?: Shown): void;
-    /** Whether the page shows the motion within a period; see Player. */
-    setSlow(on: boolean): void;
-    /** Lets time advance, unless the reader wants less motion. */
-    play(): void;
-    /** Whether time advances. */
-    playing(): boolean;
-    /** A worker that gets the engine. */
-    newWorker(): Worker;
-}
+/** What the panels need of the page. */
+export type Host = ReturnType<typeof hostOf>;
 
-export function hostOf(lab: Laboratory, dish: Dish, player: Player, transport: Transport): Host {
+export function hostOf(lab: Laboratory, dish: Dish, player: Player, transport: Transport) {
     return {
-        parameters: () => lab.parameters,
+        /** The table of parameters. */
+        parameters: (): Parameter[] => lab.parameters,
         isParameter: lab.isParameter,
-        given: () => lab.given,
-        withSeed: (given) => lab.withSeed(given),
-        configuration: () => lab.configuration,
-        show: (given, {view, coloring, isPaused = false, beside} = {}) => {
+        /** The parameters that were set; all others have their defaults. */
+        given: (): Values => lab.given,
+        /** These values with the present seed. */
+        withSeed: (given: Values): Values => lab.withSeed(given),
+        /** All parameters of the present simulation. */
+        configuration: (): Values => lab.configuration,
+        /** Sets the parameters and starts their simulation. */
+        show: (given: Values, {view, coloring, isPaused = false, beside}: Shown = {}): void => {
             const {discs: _, ...others} = given;
             if (beside) dish.compare({...others, discs: beside}, lab.counted(Number(beside), given), true);
             else if (dish.compared) dish.compare();
@@ -57,10 +42,13 @@ export function hostOf(lab: Laboratory, dish: Dish, player: Player, transport: T
             player.setPlaying(!isPaused && !player.reducedMotion);
             lab.set(given, {all: true, restart: true});
         },
-        setSlow: (on) => { player.isSlow = on; },
-        play: () => player.setPlaying(!player.reducedMotion),
-        playing: () => player.isPlaying,
-        newWorker: () => lab.newWorker(),
+        /** Whether the page shows the motion within a period; see Player. */
+        setSlow: (on: boolean): void => { player.isSlow = on; },
+        /** Lets time advance, unless the reader wants less motion. */
+        play: (): void => player.setPlaying(!player.reducedMotion),
+        playing: (): boolean => player.isPlaying,
+        /** A worker that gets the engine. */
+        newWorker: (): Worker => lab.newWorker(),
     };
 }
 

@@ -154,7 +154,7 @@ for (let step = 1; step <= 6; ++step) {
     // The predictions: against, against it or never, and so on; only the second is right.
     assert.match(outcome, step === 2 ? /was different|was right/ : /was/);
     // The colours and the motion are those of the text.
-    assert.equal(await page.inputValue("#choose-coloring"), step === 6 ? "spin" : "sector");
+    assert.equal(await page.inputValue("#choose-coloring"), step === 6 ? "contacts" : "sector");
     const marks = await page.evaluate(() => new Promise((resolve) => { // of the wall in the M-frame
         const seen = new Set(), begun = performance.now(), {lineTo} = CanvasRenderingContext2D.prototype;
         CanvasRenderingContext2D.prototype.lineTo = function (x, y) {
