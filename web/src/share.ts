@@ -17,7 +17,7 @@ export function addressOf(given: Record<string, string>): string {
     return text ? `?${text}` : location.pathname;
 }
 
-/** The containers side by side, as a picture with the address below it. */
+/** The containers side by side, as a picture with the address below it; that of a local file has no folders. */
 function pictureOf(address: string): string {
     const shown = [...byId("views").querySelectorAll("canvas")], canvas = element("canvas"), row = 22 * (devicePixelRatio || 1);
     canvas.width = shown.reduce((sum, {width}) => sum + width, 0);
@@ -77,7 +77,7 @@ export class Share {
         const menu = element("details", {},
             element("summary", {title: texts.share}, icon("share"), element("span", {textContent: texts.share})),
             element("div", {className: "menu"}, link, send, code,
-                button(texts.image, () => save("swirl.png", {href: pictureOf(address())}), "save-image"),
+                button(texts.image, () => save("swirl.png", {href: pictureOf(address().replace(/^file:.*\//, ""))}), "save-image"),
                 button(texts.table, () => save("rotation.csv", {text: tableOf(lab.averages), type: "text/csv"}), "save-table"),
                 button(texts.result, () => lab.send({kind: "result"}), "save-result"),
                 this.recording.panel));
