@@ -96,7 +96,9 @@ def resolve_folder(app, env, node, contnode):
     return contnode
 
 
-SIZE = 10  # of the formula's letters, in the units of its lengths
+# The size of the text, in the units of a formula's lengths. The formula's letters are larger: their small letters
+# have the height of those of the text.
+SIZE = 10
 
 
 def math_svg(formula):
@@ -111,7 +113,7 @@ def math_svg(formula):
     formula = re.sub(r"\\(ge|le)(?![a-z])", r"\\\1q", formula)  # names that matplotlib has
     image = BytesIO()
     with rc_context({"svg.fonttype": "path", "mathtext.fontset": "cm", "svg.hashsalt": "swirl"}):
-        depth = math_to_image(f"${formula}$", image, FontProperties(size=SIZE), dpi=72, format="svg")
+        depth = math_to_image(f"${formula}$", image, FontProperties(size=1.2 * SIZE), dpi=72, format="svg")
     # Lengths relative to the size of the text, and the formula's base line on that of the text.
     text = re.sub(r'(width|height)="([\d.]+)pt"', lambda length: f'{length[1]}="{float(length[2]) / SIZE:.3f}em"',
                   image.getvalue().decode())
