@@ -9,7 +9,7 @@
 #include "swirl/io/checksum.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/statistics/replicates.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl::python {
 namespace {

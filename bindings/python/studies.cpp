@@ -12,9 +12,10 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/study/collected_sweep.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/map.hpp"
 #include "swirl/study/map_plan.hpp"
+#include "swirl/study/search_folder.hpp"
 #include "swirl/study/sweep.hpp"
 
 namespace swirl::python {
@@ -103,43 +104,50 @@ py::tuple collect(const std::string& folder) {
                            : loop_table(plan, collected.loops, collected.loop_quantities).csv());
 }
 
-CrossingSettings crossing_settings(const py::dict& given, std::int64_t minimum,
-                                   std::int64_t maximum, double tolerance,
-                                   const std::string& rate) {
+/// The parameters of all runs but their number of discs.
+ParameterTexts search_parameters(const py::dict& given, std::int64_t minimum,
+                                 std::int64_t maximum) {
     if (minimum < 1 || maximum < minimum || static_cast<double>(maximum) > max_discs)
         throw UsageError(fmt::format(
             "min_discs is {} and max_discs {}, but min_discs must be at least 1 and max_discs at "
             "least min_discs.",
             minimum, maximum));
-    if (!(tolerance > 0.0))
-        throw UsageError(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
     ParameterTexts texts = texts_of(given);
     texts.try_emplace("events", default_search_events);
     reject_listed_sizes(texts);
-    texts["discs"] = std::to_string(maximum);  // the largest number must fit into the container
+    return texts;
+}
+
+py::tuple crossing(const std::optional<std::string>& folder, const py::dict& given,
+                   std::int64_t minimum, std::int64_t maximum, double tolerance,
+                   const std::string& rate, unsigned threads, const std::string& command,
+                   const ProgressCallback& callback, std::int64_t min_periods) {
+    ParameterTexts texts = search_parameters(given, minimum, maximum);
+    if (!(tolerance > 0.0))
+        throw UsageError(fmt::format("tolerance is {}, but it must be above 0.", tolerance));
     CrossingSettings settings;
     settings.rate = rate_named(rate);
-    settings.config = resolve(texts);
-    require_crossing(settings.config);
     settings.from = minimum;
     settings.to = maximum;
     settings.tolerance = tolerance;
-    return settings;
-}
-
-py::tuple crossing(const py::dict& given, std::int64_t minimum, std::int64_t maximum,
-                   double tolerance, const std::string& rate, unsigned threads,
-                   const std::string& command, const ProgressCallback& callback,
-                   std::int64_t min_periods) {
-    CrossingSettings settings = crossing_settings(given, minimum, maximum, tolerance, rate);
     settings.min_periods = min_periods;
+    texts["discs"] = std::to_string(maximum);  // the largest number must fit into the container
+    settings.config = resolve(texts);
+    validate(settings);
+    std::optional<SearchFolder> stored;
+    if (folder) {
+        const SweepPlan plan = search_plan(texts, minimum, maximum);
+        write_plan(*folder, plan);
+        stored.emplace(*folder, plan, plan.parameters(0));
+    }
     std::atomic<bool> stop = false;
     LatestProgress<std::string, double> latest;
     CrossingControl control;
     control.stop = &stop;
     control.threads = threads;
     control.progress = [&](const std::string& stage, double speed) { latest.report(stage, speed); };
-    const CrossingSearch search = interruptible(
+    if (stored) control.stored = &*stored;
+    const CrossingResult search = interruptible(
         stop, [&] { return search_crossing(settings, control); },
         [&] { latest.forward_to(callback); });
     return py::make_tuple(crossing_json(settings, search, command),
@@ -170,10 +178,6 @@ void write_map_plan(const std::string& folder, const py::dict& x, const py::dict
     settings.to = maximum;
     settings.parameters = texts_of(given);
     const SweepPlan plan = make_map_plan(settings);
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed)
-        throw Failure(fmt::format("cannot create the folder '{}': {}.", folder, failed.message()));
     write_plan(folder, plan);
 }
 
@@ -223,14 +227,8 @@ void bind_studies(py::module_& module) {
                                    return axes;
                                })
         .def("points", &points_of)
-        .def("write", [](const SweepPlan& plan, const std::string& folder) {
-            std::error_code failed;
-            std::filesystem::create_directories(folder, failed);
-            if (failed)
-                throw Failure(
-                    fmt::format("cannot create the folder '{}': {}.", folder, failed.message()));
-            write_plan(folder, plan);
-        });
+        .def("write",
+             [](const SweepPlan& plan, const std::string& folder) { write_plan(folder, plan); });
     module.def("grow", [](const std::string& folder, const py::dict& more, std::int64_t replicas,
                           const std::vector<std::string>& measured) {
         const SweepPlan before = read_plan(folder);
@@ -238,9 +236,9 @@ void bind_studies(py::module_& module) {
     });
     module.def("sweep", &sweep);
     module.def("collect", &collect);
-    module.def("crossing", &crossing, py::arg("parameters"), py::arg("min_discs"),
-               py::arg("max_discs"), py::arg("tolerance"), py::arg("rate"), py::arg("threads"),
-               py::arg("command"), py::arg("progress"),
+    module.def("crossing", &crossing, py::arg("folder"), py::arg("parameters"),
+               py::arg("min_discs"), py::arg("max_discs"), py::arg("tolerance"), py::arg("rate"),
+               py::arg("threads"), py::arg("command"), py::arg("progress"),
                py::arg("min_periods") = CrossingSettings{}.min_periods);
     module.def("write_map_plan", &write_map_plan);
     module.def("grow_map", &grow_map);

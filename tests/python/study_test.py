@@ -139,6 +139,21 @@ def test_crossing_equals_that_of_the_command_line():
     assert str(ours) in done.stderr + ours.sentence and ours.sentence.startswith("N_c = ")
 
 
+def test_a_crossing_and_the_command_line_continue_each_other(tmp_path):
+    call = dict(min_discs=34, max_discs=40, tolerance=2.0, mu=1, events=4000, warmup=2)
+    ours = swirl.crossing(tmp_path / "search", **call)
+    made = {file: file.stat().st_mtime_ns for file in (tmp_path / "search/results").iterdir()}
+    assert len(made) == ours.found["runs"]
+    done = command("crossing", "--from", 34, "--to", 40, "--tolerance", 2, "--mu", 1, "--events", 4000, "--warmup", 2,
+                   "--out", tmp_path / "search", "--json", "-", "--quiet")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["N_c"] == ours.found["N_c"]
+    assert swirl.crossing(tmp_path / "search", **call).found["points"] == ours.found["points"]
+    assert {file: file.stat().st_mtime_ns for file in (tmp_path / "search/results").iterdir()} == made
+    with pytest.raises(swirl.Failure, match="another"):
+        swirl.crossing(tmp_path / "search", **{**call, "mu": 0.5})
+
+
 @pytest.mark.parametrize("wrong, kind", [
     (dict(min_discs=10, max_discs=5), ValueError), (dict(tolerance=0), ValueError), (dict(min_discs=0), ValueError),
     (dict(discs=40), TypeError), (dict(mu=[0.1, 1]), TypeError), (dict(max_discs=2.5), TypeError),

@@ -17,7 +17,7 @@
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/run.hpp"
 #include "swirl/statistics/replicates.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 namespace {
@@ -173,7 +173,7 @@ TEST_P(SlowCalibrationOfTheCrossing, TheIntervalContainsTheCrossingForTwoRanges)
     precise.config.events = 500'000;
     precise.tolerance = 0.08;  // at most a quarter of the tested errors
     precise.seeds = 8;
-    const CrossingSearch best = search_crossing(precise);
+    const CrossingResult best = search_crossing(precise);
     ASSERT_EQ(best.crossing().verdict, Crossing::Verdict::crosses);
     const double reference = best.crossing().discs;
     std::vector<Estimate> found;
@@ -188,10 +188,10 @@ TEST_P(SlowCalibrationOfTheCrossing, TheIntervalContainsTheCrossingForTwoRanges)
                                                                    const RunControl& inner) {
             return (*runs)(config, inner);
         };
-        const CrossingSearch a = search_crossing(one, control);
+        const CrossingResult a = search_crossing(one, control);
         one.from = GetParam().other_from;
         one.to = GetParam().other_to;
-        const CrossingSearch b = search_crossing(one, control);
+        const CrossingResult b = search_crossing(one, control);
         if (!a.crossing().last() || !a.crossing().last()->resolved()) {
             ++undecided;
             continue;

@@ -11,7 +11,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/map_plan.hpp"
 #include "swirl/study/search_folder.hpp"
 #include "swirl/study/sweep_plan.hpp"
@@ -140,7 +140,7 @@ TEST(SearchOptions, ASearchMakesTheRunsOfItsOptionsOrRefusesThem) {
             ParameterTexts largest = texts;
             largest["discs"] = std::to_string(settings.to);
             settings.config = resolve(largest);
-            const CrossingSearch search = search_crossing(settings, control);
+            const CrossingResult search = search_crossing(settings, control);
             EXPECT_THAT(expected.refusals, testing::IsEmpty()) << options;
             EXPECT_EQ(search.failed(), 0) << options;
             if (settings.from <= 25 && settings.to >= 26) {
@@ -230,11 +230,11 @@ TEST(SearchOptions, AFolderHoldsTheRunsOfASearch) {
         return search_crossing(settings, control);
     };
     SearchFolder folder(scratch.folder(), plan, texts);
-    const CrossingSearch first = search(&folder);
+    const CrossingResult first = search(&folder);
     EXPECT_EQ(made, int(first.runs));
-    const CrossingSearch again = search(&folder), without = search(nullptr);
+    const CrossingResult again = search(&folder), without = search(nullptr);
     EXPECT_EQ(made, 2 * int(first.runs));
-    for (const CrossingSearch* other : {&again, &without}) {
+    for (const CrossingResult* other : {&again, &without}) {
         EXPECT_EQ(other->runs, first.runs);
         EXPECT_EQ(other->events, first.events);
         EXPECT_EQ(other->crossing().discs, first.crossing().discs);

@@ -146,7 +146,7 @@ class Crossing:
         return self.sentence
 
 
-def crossing(*, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.3,
+def crossing(out: Optional[PathName] = None, *, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.3,
              rate: str = "by_time", threads: int = 0,
              progress: Union[bool, Callable[[str, float], object], None] = None,
              **parameters: Any) -> Crossing:
@@ -159,7 +159,9 @@ def crossing(*, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.3,
                              **parameters}
     if rate != "by_time":
         given["rate"] = rate
-    text, sentence = _engine.crossing(parameters, _count("min_discs", min_discs, 1),
+    if out is not None:
+        given["out"] = os.fspath(out)
+    text, sentence = _engine.crossing(None if out is None else os.fspath(out), parameters, _count("min_discs", min_discs, 1),
                                       _count("max_discs", max_discs, 1), float(tolerance), rate,
                                       _count("threads", threads, 0), call_text("crossing", given),
                                       callback)
@@ -301,6 +303,7 @@ with_parameters(crossing, """Searches the number of discs at which rotation chan
 
     c.by_rate["rigid_by_time"]["N_c"]
 
+out: folder for the runs, in the format of the command line; a repeated call continues.
 min_discs, max_discs: range of the search. tolerance: target standard error of N_c. rate: the rotation
     rate that decides: by_event, by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
     [one per core]. progress: True to print, or a function of (current stage, events per second).

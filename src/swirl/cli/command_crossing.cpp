@@ -10,7 +10,7 @@
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/search_folder.hpp"
 #include "swirl/study/sweep_folder.hpp"
 #include "swirl/study/sweep_plan.hpp"
@@ -39,7 +39,7 @@ struct SearchTask {
 };
 
 /// What a call has found so far.
-struct CrossingResults {
+struct CallResults {
     std::vector<std::string> parameters;  // columns
     Table table;
     std::vector<std::string> objects;  // JSON of each search
@@ -75,7 +75,7 @@ std::vector<SearchTask> tasks_of(const CrossingCall& call, const SweepPlan& plan
 }
 
 void validate_call(const CrossingCall& call) {
-    validate_range(call.settings);
+    validate_range(call.settings.from, call.settings.to);
     if (call.threads < 0 || call.threads > max_threads)
         throw UsageError(fmt::format(
             "--threads is {}, but it must be a whole number from 1 to {}, or 0 for all cores.",
@@ -93,7 +93,7 @@ void validate_outputs(const CrossingCall& call) {
     reject_same_files({call.config_file, call.json, call.table});
 }
 
-CrossingSearch search_with_progress(const CrossingCall& call, const SearchTask& task,
+CrossingResult search_with_progress(const CrossingCall& call, const SearchTask& task,
                                     StoredRuns* stored) {
     ProgressLine line(task.name.empty() ? "crossing" : task.name, call.quiet);
     CrossingControl control;
@@ -111,7 +111,7 @@ CrossingSearch search_with_progress(const CrossingCall& call, const SearchTask& 
     return search_crossing(task.settings, control);
 }
 
-std::string points_text(const RunConfig& config, const CrossingSearch& search) {
+std::string points_text(const RunConfig& config, const CrossingResult& search) {
     std::string text;
     for (std::size_t k = 0; k < search.points().size(); ++k) {
         const RotationPoint& p = search.points()[k];
@@ -124,7 +124,7 @@ std::string points_text(const RunConfig& config, const CrossingSearch& search) {
 }
 
 std::string report_text(const CrossingCall& call, const SearchTask& task,
-                        const CrossingSearch& search) {
+                        const CrossingResult& search) {
     const std::string prefix = task.name.empty() ? "" : task.name + ": ";
     const std::string text =
         prefix + crossing_report(task.settings, search) + "\n" + other_crossings_report(search);
@@ -134,7 +134,7 @@ std::string report_text(const CrossingCall& call, const SearchTask& task,
                        short_duration(search.seconds));
 }
 
-void print_report(const CrossingCall& call, const SearchTask& task, const CrossingSearch& search) {
+void print_report(const CrossingCall& call, const SearchTask& task, const CrossingResult& search) {
     const std::string text = report_text(call, task, search);
     if (!call.uses_stdout())
         print_all(text);
@@ -144,7 +144,7 @@ void print_report(const CrossingCall& call, const SearchTask& task, const Crossi
 }
 
 /// If stopped, prints what the search has found so far.
-CrossingSearch search_or_report(const CrossingCall& call, const SearchTask& task,
+CrossingResult search_or_report(const CrossingCall& call, const SearchTask& task,
                                 const std::optional<SweepPlan>& plan) {
     std::optional<SearchFolder> folder;
     if (plan) folder.emplace(call.out, *plan, task.parameters);
@@ -168,8 +168,8 @@ std::optional<SweepPlan> plan_in_folder(const CrossingCall& call) {
     return plan;
 }
 
-CrossingResults empty_results(const SweepPlan& plan) {
-    CrossingResults results{{}, Table({}), {}, 0};
+CallResults empty_results(const SweepPlan& plan) {
+    CallResults results{{}, Table({}), {}, 0};
     for (const SweepAxis& axis : plan.axes)
         if (axis.name != "discs") results.parameters.push_back(axis.name);
     std::vector<std::string> columns = results.parameters;
@@ -179,7 +179,7 @@ CrossingResults empty_results(const SweepPlan& plan) {
     return results;
 }
 
-void add_result(CrossingResults& results, const SearchTask& task, const CrossingSearch& search) {
+void add_result(CallResults& results, const SearchTask& task, const CrossingResult& search) {
     std::vector<Table::Cell> row;
     for (const std::string& name : results.parameters) row.emplace_back(task.parameters.at(name));
     add_crossings(row, search.crossings, search.rate);
@@ -193,7 +193,7 @@ void add_result(CrossingResults& results, const SearchTask& task, const Crossing
 }
 
 /// An object for a single search, an array for those of a list.
-std::string json_of(const CrossingResults& results, bool is_single) {
+std::string json_of(const CallResults& results, bool is_single) {
     return is_single ? results.objects.front()
                      : fmt::format("[\n{}]\n", fmt::join(results.objects, ","));
 }
@@ -207,9 +207,9 @@ void run_searches(const CrossingCall& call) {
     validate_outputs(call);
     const std::optional<SweepPlan> stored = plan_in_folder(call);
     const bool is_single = tasks.size() == 1;
-    CrossingResults results = empty_results(plan);
+    CallResults results = empty_results(plan);
     for (const SearchTask& task : tasks) {
-        const CrossingSearch search = search_or_report(call, task, stored);
+        const CrossingResult search = search_or_report(call, task, stored);
         add_result(results, task, search);
         if (!call.json.empty() && call.json != "-")
             write_output(call.json, json_of(results, is_single));

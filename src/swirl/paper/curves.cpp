@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "swirl/run/report.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 

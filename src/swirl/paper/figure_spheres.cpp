@@ -16,7 +16,7 @@
 #include "swirl/paper/points.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 namespace {

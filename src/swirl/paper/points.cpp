@@ -111,7 +111,7 @@ PaperTask crossing_task(const std::string& key, const CrossingSettings& search) 
                 CrossingControl inner;
                 inner.stop = control.stop;
                 inner.threads = 1;
-                const CrossingSearch found = search_crossing(search, inner);
+                const CrossingResult found = search_crossing(search, inner);
                 Json numbers = Json::array();
                 for (const Crossing& c : found.crossings)
                     for (const double value : {c.discs, c.error, c.lower, c.upper})

@@ -10,7 +10,7 @@
 #include "swirl/paper/paper.hpp"
 #include "swirl/paper/paper_parameters.hpp"
 #include "swirl/statistics/replicates.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 

@@ -14,7 +14,7 @@
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/statistics/replicates.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/disagreement.hpp"
 #include "swirl/study/hysteresis.hpp"
 #include "swirl/study/point_result.hpp"

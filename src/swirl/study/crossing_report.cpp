@@ -8,7 +8,7 @@
 #include "swirl/run/json.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/disagreement.hpp"
 
 namespace swirl {
@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// "2 runs failed and are excluded: 1 of 3 at N = 47, 1 of 3 at N = 48. …", or nothing.
-std::string failures_report(const CrossingSearch& search) {
+std::string failures_report(const CrossingResult& search) {
     if (search.failures.empty()) return {};
     const std::int64_t failed = search.failed();
     std::string where;
@@ -53,7 +53,7 @@ Json crossing_json(const Crossing& c) {
             {"undetermined", c.undetermined}};
 }
 
-Json points_json(const CrossingSearch& s) {
+Json points_json(const CrossingResult& s) {
     Json points = Json::array();
     for (std::size_t k = 0; k < s.points().size(); ++k) {
         Json point{{"discs", s.points()[k].discs},
@@ -71,7 +71,7 @@ Json points_json(const CrossingSearch& s) {
 }
 
 /// Why the search stopped with an error above the tolerance.
-std::string stop_reason(const CrossingSettings& settings, const CrossingSearch& search) {
+std::string stop_reason(const CrossingSettings& settings, const CrossingResult& search) {
     if (search.within_tolerance) return {};
     if (search.stopped)
         return fmt::format(" The search was stopped before --tolerance {} was reached.",
@@ -102,13 +102,13 @@ std::string later_change_note(const Crossing& c) {
 }
 
 /// "between N = 8 and 20 the lowest is ϖ/Ω = 0.21 ± 0.01 at N = 20"
-std::string evidence(const CrossingSearch& search, const char* which, const RotationPoint& point) {
+std::string evidence(const CrossingResult& search, const char* which, const RotationPoint& point) {
     return fmt::format("between N = {:.0f} and {:.0f} the {} is ϖ/Ω = {} at N = {:.0f}",
                        search.points().front().discs, search.points().back().discs, which,
                        with_error(point.mean, point.error), point.discs);
 }
 
-std::string crossing_sentence(const CrossingSettings& settings, const CrossingSearch& search) {
+std::string crossing_sentence(const CrossingSettings& settings, const CrossingResult& search) {
     const Crossing& c = search.crossing();
     const std::string rate = rotation_rates[search.rate].description;
     const std::string remarks = stop_reason(settings, search) + later_change_note(c);
@@ -118,7 +118,7 @@ std::string crossing_sentence(const CrossingSettings& settings, const CrossingSe
                        c.upper, rate, remarks);
 }
 
-std::string verdict_report(const CrossingSettings& settings, const CrossingSearch& search) {
+std::string verdict_report(const CrossingSettings& settings, const CrossingResult& search) {
     if (search.points().empty())
         return fmt::format("Undecided: every run between N = {} and {} failed.", settings.from,
                            settings.to);
@@ -233,7 +233,7 @@ void add_crossings(std::vector<Table::Cell>& row, const Crossings& crossings, st
     row.emplace_back(spaced(crossings[rate].undetermined));
 }
 
-std::string crossing_json(const CrossingSettings& settings, const CrossingSearch& s,
+std::string crossing_json(const CrossingSettings& settings, const CrossingResult& s,
                           const std::string& command) {
     Json failures = Json::array();
     for (const FailedRuns& f : s.failures)
@@ -260,7 +260,7 @@ std::string crossing_json(const CrossingSettings& settings, const CrossingSearch
     return json.dump(2) + "\n";
 }
 
-std::string other_crossings_report(const CrossingSearch& search) {
+std::string other_crossings_report(const CrossingResult& search) {
     const Crossing& c = search.crossing();
     std::string text;
     if (c.changes.size() > 1) {
@@ -279,7 +279,7 @@ std::string other_crossings_report(const CrossingSearch& search) {
     return text;
 }
 
-std::vector<std::string> warnings(const CrossingSearch& search) {
+std::vector<std::string> warnings(const CrossingResult& search) {
     std::vector<std::string> all;
     const char* const decisive = search.crossing().last() ? " that N_c depends on" : "";
     if (search.not_steady > 0)
@@ -297,7 +297,7 @@ std::vector<std::string> warnings(const CrossingSearch& search) {
     return all;
 }
 
-std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search) {
+std::string crossing_report(const CrossingSettings& settings, const CrossingResult& search) {
     return verdict_report(settings, search) + other_rates_report(search.crossings, search.rate) +
            failures_report(search);
 }

@@ -13,7 +13,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/study/collected_sweep.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/point_result.hpp"
 #include "swirl/study/sweep_folder.hpp"
 

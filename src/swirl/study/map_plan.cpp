@@ -10,7 +10,7 @@
 #include "swirl/physics/container_path.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 namespace {
@@ -145,7 +145,7 @@ void validate_settings(const MapSettings& s) {
     if (s.parameters.contains("discs"))
         throw UsageError(
             "--discs is given, but the search for N_c varies it.\nhint: use --from and --to.");
-    validate_range({.config = {}, .from = s.from, .to = s.to});
+    validate_range(s.from, s.to);
 }
 
 /// The axes x and y have numbers. Every other parameter has one value, and the numbers of discs of
@@ -176,7 +176,7 @@ void validate_axes(const SweepPlan& plan) {
     for (const std::string& value : discs->values)
         numbers.push_back(read_whole_number(value).value_or(0));
     std::sort(numbers.begin(), numbers.end());
-    validate_range({.config = {}, .from = numbers.front(), .to = numbers.back()});
+    validate_range(numbers.front(), numbers.back());
     for (std::size_t k = 0; k + 1 < numbers.size(); ++k)
         if (numbers[k + 1] != numbers[k] + 1)
             throw UsageError(fmt::format("the numbers of discs jump from {} to {}.", numbers[k],
@@ -229,7 +229,7 @@ SweepAxis added_numbers(const SweepPlan& plan, const MapGrowth& growth) {
             "the range is --from {} --to {}, but the searches of this map cover {} to "
             "{} discs, and the range can only grow.\nhint: use another folder for a smaller range.",
             from, to, least, most));
-    validate_range({.config = {}, .from = from, .to = to});
+    validate_range(from, to);
     SweepAxis added{"discs", {}};
     for (std::int64_t n = from; n <= to; ++n)
         if (n < least || n > most) added.values.push_back(std::to_string(n));

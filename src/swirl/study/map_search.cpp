@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <optional>
 
 #include "swirl/run/reading.hpp"
+#include "swirl/statistics/crossing_search.hpp"
 #include "swirl/statistics/replicates.hpp"
-#include "swirl/statistics/zero_crossing.hpp"
 
 namespace swirl {
 namespace {
 
-constexpr std::size_t first_runs = 2, coarse_step = 5, min_coarse_cells = 3, coarse_numbers = 5;
+constexpr std::size_t first_runs = 2, coarse_step = 5, min_coarse_cells = 3;
+constexpr std::int64_t coarse_numbers = 5;
 
 /// Ranks of two values of an axis.
 struct Interval {
@@ -118,14 +119,6 @@ std::vector<std::size_t> points_by_index(const SweepPlan& plan) {
     return points;
 }
 
-/// The runs at one point so far, combined.
-struct PointRuns {
-    bool complete = false;
-    Estimate value = {};
-    double periods = 0.0;
-    std::int64_t runs = 0, failed = 0;
-};
-
 class MapSearch {
   public:
     using FindRun = std::function<const MapRun*(std::size_t)>;
@@ -138,13 +131,12 @@ class MapSearch {
           discs_(plan, target_.is_of_crossing() ? "discs" : ""),
           point_at_(points_by_index(plan)),
           sites_(x_.size() * y_.size()),
-          counts_(sites_.size()) {
+          searches_(sites_.size()) {
         for (const SweepStage& stage : plan.before)
             max_runs_of_.push_back(static_cast<std::size_t>(stage.replicas));
         max_runs_of_.push_back(static_cast<std::size_t>(plan.replicas));
         if (!target_.is_of_crossing()) return;
-        first_number_ =
-            static_cast<double>(*read_whole_number(plan.axis("discs")->values[discs_.smallest()]));
+        first_number_ = *read_whole_number(plan.axis("discs")->values[discs_.smallest()]);
     }
 
     /// A map that has grown repeats its search stage by stage, so all its runs are used.
@@ -178,8 +170,6 @@ class MapSearch {
 
   private:
     using Neighbours = std::vector<const MapSite*>;
-    /// Key: index of the number of discs. Value: number of runs.
-    using Counts = std::map<std::size_t, std::size_t>;
 
     std::optional<MapSite>& at(std::size_t i, std::size_t j) { return sites_[j * x_.size() + i]; }
 
@@ -210,7 +200,7 @@ class MapSearch {
             if (sites_[k] && (sites_[k]->verdict == "undetermined" ||
                               sites_[k]->verdict == "undecided" || target_.is_of_crossing())) {
                 MapSite s{.x = sites_[k]->x, .y = sites_[k]->y};
-                decide(s, counts_[k]);
+                decide(s, searches_[k], {});
                 sites_[k] = std::move(s);
             }
     }
@@ -224,15 +214,13 @@ class MapSearch {
         std::optional<MapSite>& known = at(i, j);
         if (known) return;
         MapSite s{.x = i, .y = j};
-        Counts& counts = counts_[j * x_.size() + i];
-        if (target_.is_of_crossing()) counts = first_numbers(neighbours);
-        decide(s, counts);
+        decide(s, searches_[j * x_.size() + i], neighbours);
         known = std::move(s);
     }
 
-    void decide(MapSite& s, Counts& counts) {
+    void decide(MapSite& s, std::optional<CrossingSearch>& search, const Neighbours& neighbours) {
         if (target_.is_of_crossing())
-            find_crossing_at(s, counts);
+            find_crossing_at(s, search, neighbours);
         else
             find_value_at(s);
     }
@@ -284,105 +272,107 @@ class MapSearch {
             for (const Interval& x : halves(c.x, x_middle)) cells.push_back({x, y});
     }
 
-    /// The first `count` runs at a point; asks for those that are missing.
-    PointRuns runs_at(const MapSite& s, std::size_t number, std::size_t count) {
-        const std::size_t first = x_.offset(s.x) + y_.offset(s.y) + discs_.offset(number);
-        PointRuns all{.complete = true};
+    /// A run at a site; asks for it if it is missing.
+    const MapRun* run_at(const MapSite& s, std::size_t number, std::size_t replica) {
+        const std::size_t index = x_.offset(s.x) + y_.offset(s.y) + discs_.offset(number) + replica;
+        const std::size_t point = point_at_.empty() ? index : point_at_[index];
+        const MapRun* const run = find_run_(point);
+        if (!run) missing_.push_back(point);
+        return run;
+    }
+
+    /// The mean over the first `count` runs; nothing if some are missing.
+    std::optional<Estimate> mean_at(MapSite& s, std::size_t count) {
         std::vector<Estimate> values;
-        bool direction = false;
+        bool direction = false, complete = true;
+        s.runs = s.failed = 0;
+        s.periods = 0.0;
         for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t point = point_at_.empty() ? first + k : point_at_[first + k];
-            const MapRun* const run = find_run_(point);
-            if (!run) {
-                missing_.push_back(point);
-                all.complete = false;
-                continue;
-            }
-            (run->failed ? all.failed : all.runs) += 1;
+            const MapRun* const run = run_at(s, 0, k);
+            complete = complete && run;
+            if (!run) continue;
+            (run->failed ? s.failed : s.runs) += 1;
             if (run->failed) continue;
-            all.periods += run->periods;
+            s.periods += run->periods;
             direction = direction || run->direction;
             values.push_back(run->value);
         }
-        all.value = (direction ? several_directions(values) : ensemble(values)).estimate;
-        return all;
+        if (!complete) return {};
+        return (direction ? several_directions(values) : ensemble(values)).estimate;
     }
 
-    std::size_t more_than(std::size_t runs) const { return std::min(2 * runs, max_runs_); }
-
     void find_value_at(MapSite& s) {
-        for (std::size_t count = first();; count = more_than(count)) {
-            const PointRuns all = runs_at(s, 0, count);
-            s.value = all.value;
-            s.periods = all.periods;
-            s.runs = all.runs;
-            s.failed = all.failed;
-            if (!all.complete) return;
+        for (std::size_t runs = first();; runs = std::min(2 * runs, max_runs_)) {
+            const std::optional<Estimate> mean = mean_at(s, runs);
+            if (!mean) return;
+            s.value = *mean;
             const double distance = s.value.mean - target_.level;
-            const bool certain = std::abs(distance) > certain_sign * s.value.error;
-            if (!certain && count < max_runs_) continue;
+            const int sign = certain_sign_of(distance, s.value.error);
+            if (sign == 0 && runs < max_runs_) continue;
             s.decided = true;
             s.verdict = s.runs == 0 ? "failed"
-                        : !certain  ? "undetermined"
-                                    : (distance > 0.0 ? "above" : "below");
+                        : sign == 0 ? "undetermined"
+                                    : (sign > 0 ? "above" : "below");
             return;
         }
     }
 
-    void add_coarse_numbers(Counts& counts) const {
-        const std::size_t length = numbers_.b - numbers_.a;
-        for (std::size_t k = 0; k < coarse_numbers; ++k)
-            counts.try_emplace(numbers_.a + length * k / (coarse_numbers - 1), first());
-    }
-
-    /// Next to the N_c of the neighbours, if all have one.
-    Counts first_numbers(const Neighbours& neighbours) const {
-        Counts counts;
-        const bool all_cross =
-            !neighbours.empty() && std::all_of(neighbours.begin(), neighbours.end(),
-                                               [](auto* n) { return n->verdict == "crosses"; });
-        if (!all_cross) {
-            add_coarse_numbers(counts);
-            return counts;
-        }
+    /// The rules of a search that begins next to the N_c of the neighbours, if all have one.
+    CrossingRules rules_for(const Neighbours& neighbours) const {
+        CrossingRules rules{.from = number(numbers_.a),
+                            .to = number(numbers_.b),
+                            .tolerance = target_.tolerance,
+                            .seeds = std::int64_t(first()),
+                            .max_runs = std::int64_t(max_runs_)};
+        rules.rounds = rules.sign_rounds = std::numeric_limits<int>::max();  // only max_runs limits
+        rules.longer_runs = rules.every_change = false;
+        rules.coarse_numbers = coarse_numbers;
+        if (neighbours.empty()) return rules;
         double least = neighbours.front()->value.mean, most = least;
         for (const MapSite* n : neighbours) {
+            if (n->verdict != "crosses") return rules;
             least = std::min(least, n->value.mean);
             most = std::max(most, n->value.mean);
         }
-        return {{index_of(std::floor(least) - 1.0), first()},
-                {index_of(std::ceil(most) + 1.0), first()}};
+        const auto in_range = [&](double n) {
+            return std::clamp(std::int64_t(n), rules.from, rules.to);
+        };
+        rules.start = {in_range(std::floor(least) - 1.0), in_range(std::ceil(most) + 1.0)};
+        return rules;
     }
 
     std::size_t first() const { return std::min(first_runs, max_runs_); }
-    double number(std::size_t index) const { return first_number_ + static_cast<double>(index); }
-    std::size_t index_of(double discs) const {
-        const double index =
-            std::clamp(std::round(discs - first_number_), static_cast<double>(numbers_.a),
-                       static_cast<double>(numbers_.b));
-        return static_cast<std::size_t>(index);
+    std::int64_t number(std::size_t index) const { return first_number_ + std::int64_t(index); }
+
+    /// The next stage continues the search of this one.
+    void find_crossing_at(MapSite& s, std::optional<CrossingSearch>& search,
+                          const Neighbours& neighbours) {
+        if (search)
+            search->extend(number(numbers_.a), number(numbers_.b), std::int64_t(max_runs_));
+        else
+            search.emplace(rules_for(neighbours));
+        s.decided = true;
+        while (s.decided) {
+            const std::vector<ProposedRun> runs = search->next();
+            if (runs.empty()) break;
+            for (const ProposedRun& run : runs) s.decided = take_run(s, *search, run) && s.decided;
+        }
+        for (const auto& [discs, group] : search->groups()) {
+            s.runs += std::int64_t(group.finished.size());
+            s.failed += group.failed;
+            for (const SearchedRun& run : group.finished) s.periods += run.length;
+        }
+        set(s, search->crossing());
     }
 
-    /// Extends the counts, so that the next stage begins with all runs of this one.
-    void find_crossing_at(MapSite& s, Counts& counts) {
-        do {
-            s.runs = s.failed = 0;
-            s.periods = 0.0;
-            bool complete = true;
-            std::vector<RotationPoint> points;
-            for (const auto& [n, count] : counts) {
-                const PointRuns all = runs_at(s, n, count);
-                s.runs += all.runs;
-                s.failed += all.failed;
-                s.periods += all.periods;
-                complete = complete && all.complete;
-                points.push_back({number(n), all.value.mean, all.value.error});
-            }
-            if (!complete) return;
-            const Crossing crossing = find_crossing(points);
-            set(s, crossing);
-            s.decided = !ask_for_more(counts, crossing, points);
-        } while (!s.decided);
+    /// False if the run is missing.
+    bool take_run(const MapSite& s, CrossingSearch& search, const ProposedRun& proposed) {
+        const MapRun* const run =
+            run_at(s, std::size_t(proposed.discs - first_number_), std::size_t(proposed.replica));
+        if (!run) return false;
+        const SearchedRun result{{run->value}, run->periods};
+        search.take(proposed, run->failed ? nullptr : &result);
+        return true;
     }
 
     static void set(MapSite& s, const Crossing& crossing) {
@@ -405,56 +395,6 @@ class MapSearch {
         }
     }
 
-    /// Adds numbers of discs or runs; false if N_c is known as well as it will be.
-    bool ask_for_more(Counts& counts, const Crossing& crossing,
-                      const std::vector<RotationPoint>& points) const {
-        const SignChange* const change = crossing.last();
-        if (change && !change->resolved()) return add_middle(counts, *change);
-        if (!change && add_beyond(counts, points)) return true;
-        const auto in_bracket = [&](double n) {
-            return change && change->before <= n && n <= change->after;
-        };
-        bool more = false;
-        const auto double_runs = [&](double n) {
-            std::size_t& count = counts.at(index_of(n));
-            more = more || count < max_runs_;
-            count = more_than(count);
-        };
-        for (const double n : crossing.undetermined)
-            if (!in_bracket(n)) double_runs(n);
-        if (more || !change || crossing.error <= target_.tolerance) return more;
-        for (const RotationPoint& p : points)
-            if (in_bracket(p.discs)) double_runs(p.discs);
-        return more;
-    }
-
-    /// The number without runs that is nearest to the middle of a bracket.
-    bool add_middle(Counts& counts, const SignChange& change) const {
-        const auto nearest = middle_number(
-            static_cast<std::int64_t>(index_of(change.before)),
-            static_cast<std::int64_t>(index_of(change.after)),
-            [&](std::int64_t n) { return !counts.contains(static_cast<std::size_t>(n)); });
-        if (nearest) counts.emplace(static_cast<std::size_t>(*nearest), first());
-        return nearest.has_value();
-    }
-
-    /// If the search began next to the N_c of the neighbours and did not find that of this site:
-    /// adds numbers farther out, and finally those of a site without neighbours.
-    bool add_beyond(Counts& counts, const std::vector<RotationPoint>& points) const {
-        const std::size_t before = counts.size();
-        const std::size_t low = counts.begin()->first, high = counts.rbegin()->first;
-        const std::size_t step = std::max<std::size_t>(2, (high - low) / 2);
-        const auto certain = [](const RotationPoint& p, double sign) {
-            return sign * p.mean > certain_sign * p.error;
-        };
-        const auto [least, most] = numbers_;
-        if (!certain(points.front(), 1.0))
-            counts.try_emplace(low > least + step ? low - step : least, first());
-        if (!certain(points.back(), -1.0)) counts.try_emplace(std::min(high + step, most), first());
-        if (counts.size() == before) add_coarse_numbers(counts);
-        return counts.size() > before;
-    }
-
     const MapTarget target_;
     const FindRun& find_run_;
     const MapAxis x_, y_, discs_;              // discs_: one value, if the map is not of N_c
@@ -462,10 +402,10 @@ class MapSearch {
     std::vector<std::size_t> max_runs_of_;     // by stage
     std::size_t stage_ = 0, max_runs_ = 0;
     Interval numbers_;  // ranks of the numbers of discs in this stage
-    double first_number_ = 0.0;
+    std::int64_t first_number_ = 0;
     std::vector<Interval> coarse_x_, coarse_y_;
     std::vector<std::optional<MapSite>> sites_;
-    std::vector<Counts> counts_;  // of the sites, for N_c
+    std::vector<std::optional<CrossingSearch>> searches_;  // of the sites, for N_c
     std::vector<std::size_t> missing_;
 };
 

@@ -10,7 +10,7 @@
 
 #include <filesystem>
 
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/sweep_plan.hpp"
 
 namespace swirl {
@@ -21,8 +21,8 @@ SweepPlan search_plan(ParameterTexts given, std::int64_t from, std::int64_t to);
 /// The runs of one search in the folder: that with these parameters, which are values of the plan.
 class SearchFolder : public StoredRuns {
   public:
-    SearchFolder(std::filesystem::path folder, const SweepPlan& plan, ParameterTexts parameters)
-        : folder_(std::move(folder)), plan_(plan), parameters_(std::move(parameters)) {}
+    SearchFolder(std::filesystem::path folder, SweepPlan plan, ParameterTexts parameters)
+        : folder_(std::move(folder)), plan_(std::move(plan)), parameters_(std::move(parameters)) {}
 
     std::optional<SearchRun> find(std::int64_t discs, std::int64_t replica,
                                   const std::vector<std::string>& config_texts) override;
@@ -32,7 +32,7 @@ class SearchFolder : public StoredRuns {
     std::size_t point_of(std::int64_t discs, std::int64_t replica) const;
 
     const std::filesystem::path folder_;
-    const SweepPlan& plan_;
+    const SweepPlan plan_;
     const ParameterTexts parameters_;
 };
 

@@ -22,7 +22,7 @@
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/parse_json.hpp"
 #include "swirl/run/ramp.hpp"
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/map_plan.hpp"
 #include "swirl/study/sweep_folder.hpp"
 

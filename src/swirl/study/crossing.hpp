@@ -1,34 +1,9 @@
 // `swirl crossing`: finds N_c, the number of discs at which rotation changes into counterrotation,
-// with few events. Definition of N_c and its interval: statistics/zero_crossing.hpp.
-//
-// 1. Coarse scan: `seeds` runs with different seeds at about eight numbers of discs in the range. A
-//    run has the given number of events and at least fifty periods after the warm-up, because
-//    a few periods of a dense container do not show its mean.
-// 2. Narrowing: runs of the same length at the middle of each bracket, until every number in it has
-//    runs. This is done for all four rotation rates.
-// 3. Signs: numbers outside every bracket with an undetermined sign get more runs until the sign is
-//    certain, at most four times. Those that stay undetermined are reported.
-// 4. Tolerance: the numbers in the bracket of N_c get more runs until the error of N_c is below the
-//    tolerance. A number gets more runs at most `rounds` times. Then the search stops, and its
-//    report says so.
-//
-// More runs are `seeds` runs twice as long as the ones before. If the replicates at a number scatter
-// more than their errors explain, longer runs do not help, for example because each seed draws
-// other sizes. From then on, more runs there are as many as before, of the same length.
-//
-// After each step the search narrows again. One rotation rate controls steps 3 and 4; the other
-// three are evaluated from the same runs. The runs at a number near N_c depend on the runs made
-// there, not on the range. Therefore two ranges find the same N_c if they contain its bracket with
-// certain signs. If the bracket ends at the end of the range, with an undetermined sign, the
-// replicates differ, and N_c agrees within its error.
-//
-// A failed run (a collapse by friction, docs/explanation/physics.md) is excluded, counted and
-// reported. A number of discs at which every run failed has no point. If it lies in a bracket, N_c
-// is not determined, and the bracket is reported.
-//
-// Runs at one number of discs are combined with their periods as weights. The error is the one
-// within and between them (statistics/replicates.hpp). The runs made depend on their results and
-// the seed, never on the number of threads.
+// with few events. Which runs the search needs: statistics/crossing_search.hpp. Here they are made:
+// a run has at least the given number of events and fifty periods after the warm-up, because a
+// few periods of a dense container do not show its mean. Failed runs (a collapse by friction,
+// docs/explanation/physics.md) are reported. The runs made depend on their results and the seed,
+// never on the number of threads.
 //
 // Rates count in the direction of the swirl, so a clockwise path has the N_c of its mirror image.
 #pragma once
@@ -43,23 +18,20 @@
 #include "swirl/measure/rotation_crossings.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/run.hpp"
+#include "swirl/statistics/crossing_search.hpp"
 
 namespace swirl {
 
 /// Default number of events of the first runs: fewer than for a single run.
 inline constexpr const char* default_search_events = "2e4";
-/// Maximum number of runs at one number of discs.
-inline constexpr std::int64_t max_search_runs = 1000;
 
-struct CrossingSettings {
-    RunConfig config;  // events: those of the first runs; the number of discs is ignored
-    std::int64_t from = 5, to = 48;
-    double tolerance = 0.3;           // target standard error of N_c
-    std::size_t rate = default_rate;  // index in rotation_rates: controls steps 3 and 4
-    int rounds = 10;                  // maximum of step 4 at one number of discs
-    int seeds = 3;                    // runs of one step at one number of discs
-    std::int64_t min_periods = 50;    // of the first runs, after the warm-up
-    std::int64_t step = 0;            // of the coarse scan; 0: about eight numbers
+struct CrossingSettings : CrossingRules {
+    CrossingSettings() {
+        curves = rotation_rates.size();
+        rate = default_rate;  // index in rotation_rates
+    }
+    RunConfig config = {};          // events: those of the first runs; discs is ignored
+    std::int64_t min_periods = 50;  // of the first runs, after the warm-up
 };
 
 /// Failed runs at one number of discs.
@@ -67,7 +39,7 @@ struct FailedRuns {
     std::int64_t discs, failed, runs;  // `failed` of `runs`
 };
 
-struct CrossingSearch {
+struct CrossingResult {
     std::size_t rate = default_rate;      // that controlled the search
     Crossings crossings;                  // for each of rotation_rates
     RotationCurves curves;                // for each of rotation_rates, in the order of N
@@ -123,9 +95,9 @@ class StoredRuns {
 /// The search was stopped. Holds what it has found so far.
 class StoppedSearch : public Interrupted {
   public:
-    StoppedSearch(const std::string& message, CrossingSearch so_far)
+    StoppedSearch(const std::string& message, CrossingResult so_far)
         : Interrupted(message), search(std::move(so_far)) {}
-    CrossingSearch search;
+    CrossingResult search;
 };
 
 struct CrossingControl {
@@ -139,7 +111,7 @@ struct CrossingControl {
 };
 
 /// Throws UsageError if the range is empty.
-void validate_range(const CrossingSettings& settings);
+void validate_range(std::int64_t from, std::int64_t to);
 /// Throws UsageError if the range is empty, a number of discs in it cannot be run, or another
 /// setting is invalid.
 void validate(const CrossingSettings& settings);
@@ -157,7 +129,7 @@ inline double swirl_sign(const RunConfig& config) { return config.clockwise ? -1
 
 /// Validates the settings and searches. Throws StoppedSearch when stopped. The result has no points
 /// if every run failed.
-CrossingSearch search_crossing(const CrossingSettings& settings,
+CrossingResult search_crossing(const CrossingSettings& settings,
                                const CrossingControl& control = {});
 
 /// "crosses", "always rotates", "always counterrotates" or "undecided".
@@ -181,11 +153,11 @@ std::string spaced(const std::vector<double>& discs);
 
 /// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0) …" or that there is none, with the evidence; N_c of the
 /// other rates; and the failed runs.
-std::string crossing_report(const CrossingSettings& settings, const CrossingSearch& search);
+std::string crossing_report(const CrossingSettings& settings, const CrossingResult& search);
 /// A line for each change of sign if there are several, and the numbers with an undetermined sign.
-std::string other_crossings_report(const CrossingSearch& search);
+std::string other_crossings_report(const CrossingResult& search);
 /// Reasons to distrust N_c: runs that are not steady or too short, disagreeing replicates.
-std::vector<std::string> warnings(const CrossingSearch& search);
+std::vector<std::string> warnings(const CrossingResult& search);
 
 /// Columns of a table of crossings: verdict, N_c, N_c_error, N_c_lower, N_c_upper (95 %) for the
 /// rate in column `rate`; the same numbers for each of rotation_rates; the number of sign changes,
@@ -194,7 +166,7 @@ std::vector<std::string> crossing_columns();
 void add_crossings(std::vector<Table::Cell>& row, const Crossings& crossings, std::size_t rate);
 
 /// All results, and the command that made them.
-std::string crossing_json(const CrossingSettings& settings, const CrossingSearch& search,
+std::string crossing_json(const CrossingSettings& settings, const CrossingResult& search,
                           const std::string& command);
 
 }  // namespace swirl

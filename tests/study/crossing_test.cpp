@@ -1,4 +1,4 @@
-#include "swirl/study/crossing_search.hpp"
+#include "swirl/study/crossing.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -64,12 +64,12 @@ TEST(CrossingSearch, FindsTheSameForEveryRangeThatContainsTheCrossing) {
         CrossingSettings settings;
         settings.config.seed = 1000 * seed;
         settings.to = 53;
-        const CrossingSearch first = search_crossing(settings, planted(bent, 0.002));
+        const CrossingResult first = search_crossing(settings, planted(bent, 0.002));
         ASSERT_TRUE(first.crossing().last() && first.crossing().last()->resolved());
         for (const auto& [from, to] : {std::pair(5, 50), {5, 52}, {20, 55}, {43, 51}}) {
             settings.from = from;
             settings.to = to;
-            const CrossingSearch other = search_crossing(settings, planted(bent, 0.002));
+            const CrossingResult other = search_crossing(settings, planted(bent, 0.002));
             for (std::size_t r = 0; r < rotation_rates.size(); ++r) {
                 if (r >= 2 && from > 40) continue;  // the rigid body crosses below this range
                 EXPECT_EQ(other.crossings[r].discs, first.crossings[r].discs) << from << to << r;
@@ -119,7 +119,7 @@ TEST(CrossingSearch, ContinuesUntilTheToleranceIsReached) {
     CrossingSettings settings;
     for (const double tolerance : {0.3, 0.1, 0.03}) {
         settings.tolerance = tolerance;
-        const CrossingSearch search = search_crossing(settings, planted(bent, 0.004));
+        const CrossingResult search = search_crossing(settings, planted(bent, 0.004));
         EXPECT_TRUE(search.within_tolerance) << tolerance;
         EXPECT_LE(search.crossing().error, tolerance);
         EXPECT_THAT(crossing_report(settings, search), Not(HasSubstr("stopped")));
@@ -131,7 +131,7 @@ TEST(CrossingSearch, ReportsWhyItStoppedBeforeTheTolerance) {
     settings.tolerance = 0.001;
     settings.rounds = 4;
     settings.min_periods = 100;  // so that four rounds resolve the bracket
-    const CrossingSearch search = search_crossing(settings, planted(bent, 0.004));
+    const CrossingResult search = search_crossing(settings, planted(bent, 0.004));
     EXPECT_FALSE(search.within_tolerance);
     EXPECT_GT(search.crossing().error, 0.001);
     EXPECT_THAT(crossing_report(settings, search),
@@ -144,7 +144,7 @@ TEST(CrossingSearch, ReportsWhyItStoppedBeforeTheTolerance) {
 TEST(CrossingSearch, EachRateHasACrossingAndOneControlsTheSearch) {
     CrossingSettings settings;
     const auto straight = [](double n) { return -0.01 * (n - 38.3); };
-    const CrossingSearch by_time = search_crossing(settings, planted(straight, 0.001));
+    const CrossingResult by_time = search_crossing(settings, planted(straight, 0.001));
     EXPECT_NEAR(by_time.crossings[1].discs, 38.3, 0.5);
     EXPECT_NEAR(by_time.crossings[3].discs, 36.3, 0.5);
     EXPECT_EQ(by_time.crossing().discs, by_time.crossings[1].discs);
@@ -152,7 +152,7 @@ TEST(CrossingSearch, EachRateHasACrossingAndOneControlsTheSearch) {
     EXPECT_THAT(crossing_report(settings, by_time), HasSubstr("By the other rates: "));
     EXPECT_THAT(crossing_report(settings, by_time), HasSubstr(" (rigid body, by event)"));
     settings.rate = rate_named("rigid_by_time");
-    const CrossingSearch rigid = search_crossing(settings, planted(straight, 0.001));
+    const CrossingResult rigid = search_crossing(settings, planted(straight, 0.001));
     EXPECT_NEAR(rigid.crossing().discs, 36.3, 0.5);
     EXPECT_THAT(crossing_report(settings, rigid), HasSubstr("; rigid body, by time)"));
     EXPECT_THROW(rate_named("rigid"), UsageError);
@@ -166,7 +166,7 @@ TEST(CrossingSearch, ReportsABracketWhereAllRunsFail) {
         if (c.discs == 38 || c.discs == 39) throw Failure("frictional collapse");
         return make(c, inner);
     };
-    const CrossingSearch search = search_crossing(settings, control);
+    const CrossingResult search = search_crossing(settings, control);
     EXPECT_TRUE(std::isnan(search.crossing().discs));
     EXPECT_EQ(search.crossing().lower, 37.0);
     EXPECT_EQ(search.crossing().upper, 40.0);
@@ -183,7 +183,7 @@ TEST(CrossingSearch, ListsAllSignChangesAndUndeterminedNumbers) {
     CrossingSettings settings;
     settings.from = 16;
     settings.step = 2;
-    const CrossingSearch search = search_crossing(settings, planted(wave, 0.001, 0.0));
+    const CrossingResult search = search_crossing(settings, planted(wave, 0.001, 0.0));
     ASSERT_EQ(search.crossing().changes.size(), 3u);
     EXPECT_EQ(search.crossing().last()->before, 32.0);
     EXPECT_EQ(search.crossing().undetermined, std::vector<double>{40.0});
@@ -195,7 +195,7 @@ TEST(CrossingSearch, ListsAllSignChangesAndUndeterminedNumbers) {
 }
 
 TEST(CrossingSearch, FindsTheOnsetOfCounterrotation) {
-    const CrossingSearch search = search_crossing(short_search(1.0));
+    const CrossingResult search = search_crossing(short_search(1.0));
     ASSERT_EQ(search.crossing().verdict, Crossing::Verdict::crosses);
     // Long runs give 37 to 38; these are short.
     EXPECT_NEAR(search.crossing().discs, 37.5, 4.0);
@@ -206,8 +206,8 @@ TEST(CrossingSearch, DoesNotDependOnTheNumberOfCores) {
     CrossingControl one, three;
     one.threads = 1;
     three.threads = 3;
-    const CrossingSearch a = search_crossing(short_search(1.0), one);
-    const CrossingSearch b = search_crossing(short_search(1.0), three);
+    const CrossingResult a = search_crossing(short_search(1.0), one);
+    const CrossingResult b = search_crossing(short_search(1.0), three);
     EXPECT_EQ(a.crossing().discs, b.crossing().discs);
     EXPECT_EQ(a.events, b.events);
 }
@@ -217,7 +217,7 @@ TEST(CrossingSearch, ReportsEvidenceIfThereIsNoCrossing) {
     settings.config.mu_wall = 0.0;
     settings.from = 8;
     settings.to = 20;  // dilute: short runs suffice
-    const CrossingSearch search = search_crossing(settings);
+    const CrossingResult search = search_crossing(settings);
     EXPECT_EQ(search.crossing().verdict, Crossing::Verdict::always_rotates);
     const std::string report = crossing_report(settings, search);
     EXPECT_THAT(report, HasSubstr("No crossing: the discs always rotate"));
@@ -225,7 +225,7 @@ TEST(CrossingSearch, ReportsEvidenceIfThereIsNoCrossing) {
 }
 
 TEST(CrossingSearch, JsonKeysOfTheNumberOfDiscsAreNc) {
-    CrossingSearch found;
+    CrossingResult found;
     found.crossings[default_rate].discs = 36.5;
     found.crossings[default_rate].error = 0.25;
     const std::string json = crossing_json(CrossingSettings{}, found, "swirl crossing");
@@ -239,7 +239,7 @@ TEST(CrossingSearch, EveryRunCoversTheRequestedPeriods) {
     CrossingSettings settings = short_search(1.0);
     settings.from = 46;
     settings.rounds = 0;
-    const CrossingSearch search = search_crossing(settings);
+    const CrossingResult search = search_crossing(settings);
     EXPECT_EQ(search.too_short, 0);
     EXPECT_EQ(search.runs, 6u);  // two seeds at each of 46, 47, 48
     EXPECT_GT(search.events, 6u * 50u * 2000u);
@@ -267,7 +267,7 @@ TEST(CrossingSearch, FailedRunsAreExcludedCountedAndReported) {
     settings.from = 51;
     settings.to = 56;
     settings.config.seed = 2;
-    const CrossingSearch search = search_crossing(settings);
+    const CrossingResult search = search_crossing(settings);
     ASSERT_FALSE(search.failures.empty());
     ASSERT_FALSE(search.points().empty());
     ASSERT_EQ(search.points().size(), search.runs_made.size());
@@ -327,7 +327,7 @@ TEST(CrossingSearch, TheRateNearestToZeroIsTheEvidence) {
 }
 
 TEST(CrossingSearch, WithoutACrossingNoRunsDecideOnIt) {
-    CrossingSearch search;
+    CrossingResult search;
     search.not_steady = search.too_short = search.disagreeing = 2;
     for (const std::string& warning : warnings(search)) EXPECT_THAT(warning, Not(HasSubstr("N_c")));
     search.crossings[search.rate].changes.push_back({38.0, 39.0, true});
@@ -352,7 +352,7 @@ TEST(CrossingSearch, ScatteringReplicatesGetMoreSeedsAndNotLongerRuns) {
         return r;
     };
     const CrossingSettings settings;  // tolerance 0.3
-    const CrossingSearch search = search_crossing(settings, control);
+    const CrossingResult search = search_crossing(settings, control);
     EXPECT_TRUE(search.within_tolerance);
     EXPECT_NEAR(search.crossing().discs, 38.3, 3.0 * settings.tolerance);
     // Chance may hide the scatter of the first three seeds once, but not twice.

@@ -1,0 +1,131 @@
+// The search for N_c: which runs to make next, from the results so far. It makes no run itself:
+// next() proposes the runs of a step, take() receives their results. `swirl crossing`, `swirl map`,
+// Python and the browser page share it. Definition of N_c and its interval: zero_crossing.hpp.
+//
+// 1. Coarse scan: `seeds` runs with different seeds at about `coarse_numbers` numbers of discs in
+//    the range, or at the numbers of `start`. If these do not bracket N_c, the scan goes beyond
+//    them, and finally covers the range.
+// 2. Narrowing: runs at the middle of each bracket, until every number in it has runs. This is done
+//    for all curves.
+// 3. Signs: numbers outside every bracket with an undetermined sign get more runs until the sign is
+//    certain, at most `sign_rounds` times.
+// 4. Tolerance: the numbers in the bracket of N_c get more runs until the error of N_c is below the
+//    tolerance, at most `rounds` times. All numbers of a bracket get more runs together. If each
+//    got runs until its sign is certain, it would stop where chance moves it away from zero, and
+//    the interval of N_c would be too narrow.
+//
+// More runs are `seeds` runs twice as long as the ones before. If the replicates at a number scatter
+// more than their errors explain, longer runs do not help, for example because each seed draws
+// other sizes. From then on, more runs there are as many as before, of the same length. Without
+// `longer_runs`, this holds from the start.
+//
+// After each step the search narrows again. One curve (`rate`) controls steps 3 and 4; the others
+// are evaluated from the same runs. The runs at a number near N_c depend on the runs made there,
+// not on the range. Therefore two ranges find the same N_c if they contain its bracket with certain
+// signs. If the bracket ends at the end of the range, with an undetermined sign, the replicates
+// differ, and N_c agrees within its error.
+//
+// A failed run is excluded and counted. A number of discs at which every run failed has no point.
+// If it lies in a bracket, N_c is not determined.
+//
+// Runs at one number of discs are combined with their lengths as weights (replicates.hpp). What is
+// proposed depends on the rules and the results alone, not on the order in which a step's results
+// come. So a search can be repeated from stored results.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "swirl/statistics/replicates.hpp"
+#include "swirl/statistics/zero_crossing.hpp"
+
+namespace swirl {
+
+/// Default maximum of runs at one number of discs.
+inline constexpr std::int64_t max_search_runs = 1000;
+
+struct CrossingRules {
+    std::int64_t from = 5, to = 48;    // numbers of discs
+    double tolerance = 0.3;            // target standard error of N_c
+    std::size_t curves = 1, rate = 0;  // number of curves, and the one that controls the search
+    std::int64_t seeds = 3;            // runs of one step at one number of discs
+    std::int64_t max_runs = max_search_runs;  // at one number of discs
+    int rounds = 10;                          // maximum of step 4 at one number of discs
+    int sign_rounds = 4;                      // maximum of step 3
+    bool longer_runs = true;
+    std::set<std::int64_t> start = {};  // replaces the numbers of the coarse scan
+    std::int64_t coarse_numbers = 8;
+    std::int64_t step = 0;     // of the coarse scan in discs, instead of a number of them
+    std::int64_t at_once = 1;  // so many missing numbers of a bracket are run together
+    bool every_change = true;  // otherwise only the bracket of N_c is narrowed
+};
+
+/// A run that the search proposes: `doublings` times twice as long as the first ones.
+struct ProposedRun {
+    std::int64_t discs, replica;
+    int doublings;
+};
+
+/// The result of a run: its mean by each curve, and its length (in any unit).
+struct SearchedRun {
+    std::vector<Estimate> rates;
+    double length;
+};
+
+class CrossingSearch {
+  public:
+    /// The runs at one number of discs.
+    struct Group {
+        std::vector<SearchedRun> finished = {};
+        std::int64_t failed = 0;
+        int rounds = 0;         // of more runs
+        int doublings = 0;      // of the length, by these rounds
+        bool scatters = false;  // the replicates disagree, so more runs are no longer
+        std::int64_t attempted() const { return std::int64_t(finished.size()) + failed; }
+    };
+    using Numbers = std::set<std::int64_t>;  // of discs
+
+    explicit CrossingSearch(CrossingRules rules) : rules_(std::move(rules)) {}
+
+    /// The runs of the next step; those with many discs come first, because they take longest.
+    /// Empty at the end of the search. Needs the results of all runs proposed before.
+    std::vector<ProposedRun> next();
+    /// "coarse scan", "narrowing" or "more runs": the step of the last proposal.
+    const char* stage() const { return stage_; }
+
+    /// The result of a proposed run; null if it failed. At one number of discs in ascending order
+    /// of the replicas.
+    void take(const ProposedRun& run, const SearchedRun* result);
+
+    /// A larger range or more runs at one number: the search continues.
+    void extend(std::int64_t from, std::int64_t to, std::int64_t max_runs);
+
+    const std::map<std::int64_t, Group>& groups() const { return groups_; }  // by number of discs
+    Ensemble combined(const Group& group, std::size_t rate) const;
+    /// The points of a curve; numbers without a finished run have none.
+    std::vector<RotationPoint> curve(std::size_t rate) const;
+    Crossing crossing(std::size_t rate) const { return find_crossing(curve(rate)); }
+    /// Of the controlling curve.
+    Crossing crossing() const { return crossing(rules_.rate); }
+    bool is_within_tolerance() const { return is_within_tolerance(crossing()); }
+    /// The numbers in the bracket of N_c; all numbers if there is no bracket.
+    Numbers decisive_numbers(const Crossing& crossing) const;
+
+  private:
+    Numbers coarse_numbers() const;
+    Numbers missing_in_brackets() const;
+    Numbers beyond_the_scan(const Crossing& crossing) const;
+    Numbers numbers_for_more_runs(const Crossing& crossing) const;
+    bool has_rounds_left(std::int64_t number, int max_rounds) const;
+    bool is_within_tolerance(const Crossing& crossing) const;
+    void begin_round(Group& group) const;
+    std::vector<ProposedRun> runs_at(const char* stage, const Numbers& numbers);
+
+    CrossingRules rules_;
+    const char* stage_ = "coarse scan";
+    std::map<std::int64_t, Group> groups_;
+};
+
+}  // namespace swirl
