@@ -33,6 +33,7 @@
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/statistics/crossing_search.hpp"
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/statistics/zero_crossing.hpp"
 
@@ -187,6 +188,33 @@ std::vector<RotationPoint> curve_of_runs() {
         curve.push_back({discs, e.mean, e.error});
     }
     return curve;
+}
+
+/// A run of a search: N, the periods after the warm-up, and for each rotation rate mean, error and
+/// effective number of samples, NaN if it failed. The first rate controls the search.
+constexpr std::size_t search_width = 2 + 3 * rotation_rates.size();
+
+/// A search whose runs so far are those in `numbers`, in ascending order of the replicas at each N.
+/// Proposes its next runs.
+std::vector<ProposedRun> repeat(CrossingSearch& search) {
+    std::map<std::int64_t, std::vector<const double*>> made;
+    for (std::size_t k = 0; k + search_width <= numbers.size(); k += search_width)
+        made[std::int64_t(numbers[k])].push_back(&numbers[k]);
+    for (;;) {
+        std::vector<ProposedRun> next = search.next();
+        if (next.empty() || made[next.front().discs].size() <= std::size_t(next.front().replica))
+            return next;
+        for (const ProposedRun& proposed : next) {
+            const double* const given = made[proposed.discs][std::size_t(proposed.replica)];
+            SearchedRun run{{}, given[1]};
+            for (std::size_t at = 2; at < search_width; at += 3) {
+                Estimate e{.mean = given[at], .error = given[at + 1]};
+                e.effective_samples = given[at + 2];
+                run.rates.push_back(e);
+            }
+            search.take(proposed, std::isnan(run.rates.front().mean) ? nullptr : &run);
+        }
+    }
 }
 
 std::string_view name_of(Crossing::Verdict verdict) {
@@ -535,6 +563,34 @@ EXPORTED(crossing) std::uint32_t crossing() {
                       .add("after", change ? change->after : not_available)
                       .add("undetermined", '[' + undetermined + ']')
                       .add("points", '[' + points + ']')
+                      .text());
+}
+
+/// Memory for `count` runs of a search (search_width).
+EXPORTED(search_runs) double* search_runs(std::uint32_t count) {
+    numbers.resize(search_width * std::size_t{count});
+    return numbers.data();
+}
+/// JSON of the runs that the search makes next (N, replica, doublings of the length), and whether
+/// N_c is within the tolerance. The rules are made for a page: one run at a time at each number,
+/// and few of them.
+EXPORTED(search) std::uint32_t search(double from, double to, double tolerance, double rounds) {
+    CrossingRules rules{.from = std::int64_t(from),
+                        .to = std::int64_t(to),
+                        .tolerance = tolerance,
+                        .curves = rotation_rates.size(),
+                        .seeds = 1};
+    rules.rounds = int(rounds);
+    rules.sign_rounds = 2;
+    rules.at_once = 3;
+    CrossingSearch search(rules);
+    std::string runs;
+    for (const ProposedRun& run : repeat(search))
+        runs += fmt::format("{}[{},{},{}]", runs.empty() ? "" : ",", run.discs, run.replica,
+                            run.doublings);
+    return answer(JsonObject()
+                      .add("runs", '[' + runs + ']')
+                      .add("within_tolerance", search.is_within_tolerance() ? "true" : "false")
                       .text());
 }
 

@@ -532,7 +532,8 @@ class Laboratory(unittest.TestCase):
     def test_the_units_of_discovery_explorer_lesson_and_files(self):
         folder = self.files()
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "panels.mjs"),
-                               os.path.join(folder, "parameters.json"), folder], capture_output=True, text=True)
+                               os.path.join(folder, "parameters.json"),
+                               os.path.join(SOURCE, "build/wasm/swirl.wasm"), folder], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     @slow("discovery, explorer and lesson make hundreds of runs; their units are tested without a browser")

@@ -100,6 +100,8 @@ interface Exports {
     values(): number;
     runs(count: number): number;
     crossing(): number;
+    search_runs(count: number): number;
+    search(from: number, to: number, tolerance: number, rounds: number): number;
 }
 
 /** The evaluation of runs with different N by one rotation rate, as `swirl crossing` does it. */
@@ -122,6 +124,23 @@ export interface Crossing {
 
 /** One run for the evaluation: N, ϖ/Ω, error, periods after the warm-up, effective number of samples. */
 export type RunNumbers = [number, number, number, number, number];
+
+export interface SearchRules {
+    from: number;
+    to: number;
+    /** Target standard error of N_c. */
+    tolerance: number;
+    /** Further runs at one number of discs, at most. */
+    rounds: number;
+}
+/** A run of a search for N_c: N, periods after the warm-up, and for each of `rates` mean, error and effective number
+ *  of samples; NaN if the run collapsed. */
+export type SearchedNumbers = number[];
+/** The next runs of a search: N, replicate, and how often their length is doubled; none at its end. */
+export interface NextRuns {
+    runs: [number, number, number][];
+    within_tolerance: boolean;
+}
 
 /** The layout of a frame: numbers in its head, per disc, and per orientation (a quaternion; only spheres
  *  have one). */
@@ -238,6 +257,12 @@ export class Engine {
         const at = this.out.runs(runs.length);
         new Float64Array(this.out.memory.buffer, at, 5 * runs.length).set(runs.flat());
         return JSON.parse(this.answer(this.out.crossing())) as Crossing;
+    }
+    /** The next runs of a search for N_c, after those in `made`. */
+    search({from, to, tolerance, rounds}: SearchRules, made: readonly SearchedNumbers[]): NextRuns {
+        const numbers = made.flat(), at = this.out.search_runs(made.length);
+        new Float64Array(this.out.memory.buffer, at, numbers.length).set(numbers);
+        return JSON.parse(this.answer(this.out.search(from, to, tolerance, rounds))) as NextRuns;
     }
     /** All parameters, including those that were not given. */
     configuration(): Record<string, string> {

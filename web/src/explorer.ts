@@ -276,6 +276,7 @@ export class Explorer {
         const settings = {...usualSearch, to: densestSearch(configuration), seed: Number(seed ?? usualSearch.seed)};
         const found = await searchCrossing(settings, {
             run: (n, replicate, length) => runs.run({...given, discs: String(n), seed: String(replicate)}, length),
+            search: (rules, made) => runs.search(rules, made),
             crossings: (all) => runs.crossings(all),
         }, (made) => {
             point.runs = made;

@@ -151,6 +151,7 @@ export class Lesson {
         const {discs: _, ...others} = given;
         const {crossings} = await searchCrossing(usualSearch, {
             run: (n, seed, periods) => runs.run({...others, discs: String(n), seed: String(seed)}, periods),
+            search: (rules, made) => runs.search(rules, made),
             crossings: (all) => runs.crossings(all),
         });
         const {discs, error} = crossings[controlling];

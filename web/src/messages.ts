@@ -1,5 +1,5 @@
 // The messages between the page and its worker.
-import type {Cause, Crossing, Parameter, Rate, Rotation, RunNumbers} from "./engine";
+import type {Cause, Crossing, NextRuns, Parameter, Rate, Rotation, RunNumbers, SearchedNumbers, SearchRules} from "./engine";
 
 export type ToWorker =
     | {kind: "engine"; bytes: ArrayBuffer}
@@ -27,7 +27,8 @@ export type ToWorker =
     | {kind: "point"; given: Record<string, string>; periods: number}
     /** Runs to exactly this event; answered by its result. */
     | {kind: "repeat"; given: Record<string, string>; events: number}
-    | {kind: "crossing"; runs: Record<Rate, RunNumbers[]>};
+    | {kind: "crossing"; runs: Record<Rate, RunNumbers[]>}
+    | {kind: "search"; rules: SearchRules; made: SearchedNumbers[]};
 
 /** Averages in cells of the M-frame, and against θ. */
 export interface Maps {
@@ -77,4 +78,5 @@ export type FromWorker =
     /** A collapsed run has no averages. */
     | {kind: "point"; rotation: Rotation; collapsed: boolean}
     | {kind: "crossing"; crossings: Record<Rate, Crossing>}
+    | {kind: "search"; next: NextRuns}
     | Frame;

@@ -1,5 +1,6 @@
 // Whole runs in the background, on all cores. Each worker makes one run at a time.
-import {UsageError, perRate, type Crossing, type Estimate, type Rate, type Rotation, type RunNumbers} from "./engine";
+import {UsageError, perRate, rates, type Crossing, type Estimate, type NextRuns, type Rate, type Rotation, type RunNumbers,
+        type SearchedNumbers, type SearchRules} from "./engine";
 import {estimateOf, type MeanWithError} from "./estimates";
 import type {FromWorker, ToWorker} from "./messages";
 import {engineMessage} from "./texts";
@@ -16,6 +17,8 @@ export interface EvaluatedRun {
     rotation: Record<Rate, MeanWithError & Partial<Estimate>>;
     seed?: string;
 }
+/** A run of a search; a collapsed one has no rotation. */
+export type SearchedRun = Pick<EvaluatedRun, "discs" | "periods"> & FinishedRun;
 export type Crossings = Record<Rate, Crossing>;
 export type Estimates = Record<Rate, MeanWithError>;
 
@@ -41,6 +44,12 @@ export function seedsFrom(first = "1", count = seedsPerPoint): string[] {
 function numbersOf(discs: number, periods: number, {mean, error, effective_samples}: EvaluatedRun["rotation"][Rate]): RunNumbers[] {
     return mean === null || error === null ? [] : [[discs, mean, error, periods, effective_samples ?? 0]];
 }
+
+export const searchedNumbers = (made: SearchedRun[]): SearchedNumbers[] => made.map(({discs, periods, rotation}) => [
+    discs, periods, ...rates.flatMap((rate) => {
+        const {mean, error, effective_samples: samples}: Partial<EvaluatedRun["rotation"][Rate]> = rotation?.[rate] ?? {};
+        return [mean ?? NaN, error ?? NaN, samples ?? 0];
+    })]);
 
 interface Task {
     message: ToWorker;
@@ -89,6 +98,13 @@ export class Runs {
             ({discs, periods, rotation}) => numbersOf(discs, periods, rotation[rate])))});
         if (answer.kind !== "crossing") throw new Error(answer.kind);
         return answer.crossings;
+    }
+
+    /** The next runs of a search for N_c. */
+    async search(rules: SearchRules, made: SearchedRun[]): Promise<NextRuns> {
+        const answer = await this.ask({kind: "search", rules, made: searchedNumbers(made)});
+        if (answer.kind !== "search") throw new Error(answer.kind);
+        return answer.next;
     }
 
     /** The result of a run to exactly this event, as JSON. Rejects with UsageError. */

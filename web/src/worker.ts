@@ -258,6 +258,9 @@ onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
                     send({kind: "crossing", crossings: perRate((rate) => evaluation.crossing(data.runs[rate]))});
                 }
                 break;
+            case "search":
+                if (module) send({kind: "search", next: new Engine(module).search(data.rules, data.made)});
+                break;
             case "step":
                 if (!engine) break;
                 engine.runEvents(1);

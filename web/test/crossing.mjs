@@ -16,7 +16,7 @@ const load = async (name) => {
     return import(pathToFileURL(outfile).href);
 };
 try {
-    const {Engine, perRate} = await load("engine"), {searchCrossing, usualSearch} = await load("crossing_search");
+    const {Engine, perRate} = await load("engine"), {searchCrossing, usualSearch} = await load("crossing_search"), {searchedNumbers} = await load("runs");
     const module = await WebAssembly.compile(readFileSync(wasm)), begun = process.cpuUsage().user;
     const seconds = () => process.cpuUsage().user / 1e6;
     let events = 0, onTwoCores = 0, round = [0, 0];
@@ -30,7 +30,8 @@ try {
             round[round[0] <= round[1] ? 0 : 1] += seconds() - began;
             return {rotation: run.problem(true) ? undefined : run.rotation()};
         },
-        crossings: async (all) => (onTwoCores += Math.max(...round), round = [0, 0], all) && perRate((rate) => new Engine(module).crossing(all.map(({discs, periods, rotation}) =>
+        search: async (rules, made) => (onTwoCores += Math.max(...round), round = [0, 0], new Engine(module).search(rules, searchedNumbers(made))),
+        crossings: async (all) => perRate((rate) => new Engine(module).crossing(all.map(({discs, periods, rotation}) =>
             [discs, rotation[rate].mean, rotation[rate].error, periods, rotation[rate].effective_samples ?? 0]))),
     });
     const {verdict, discs, error, lower, upper} = crossings.by_time;

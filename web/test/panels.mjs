@@ -1,5 +1,5 @@
 // Unit tests of discovery, explorer, search, lesson, opened files, plots and texts: node panels.mjs
-// PARAMETERS.json [FOLDER]. PARAMETERS is the engine's table; FOLDER has files of the command line. Exits with 1
+// PARAMETERS.json SWIRL.wasm [FOLDER]. PARAMETERS is the engine's table; FOLDER has files of the command line. Exits with 1
 // and a message if a test fails.
 import assert from "node:assert/strict";
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
@@ -8,7 +8,7 @@ import {dirname, join} from "node:path";
 import {fileURLToPath, pathToFileURL} from "node:url";
 import {build} from "esbuild";
 
-const [table, files] = process.argv.slice(2);
+const [table, wasm, files] = process.argv.slice(2);
 const parameters = JSON.parse(readFileSync(table, "utf-8"));
 const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "src");
 const folder = mkdtempSync(join(tmpdir(), "swirl-panels-"));
@@ -232,43 +232,26 @@ try {
     for (const [k, {kind}] of steps.entries()) if (typeof kind === "number")
         assert.ok(kind < en.lessonSteps[k].options.length);
 
-    // The search for N_c: runs of a known line ϖ = slope (38.4 − N), with errors of white noise. The evaluation is
-    // that of the line between two neighbours.
-    const {searchCrossing, usualSearch} = await load("crossing_search");
+    // The search for N_c: runs of a known line ϖ = slope (38.4 − N), with errors of white noise.
+    const {searchCrossing, usualSearch} = await load("crossing_search"), {searchedNumbers} = await load("runs");
+    const {Engine, perRate} = await load("engine"), module = await WebAssembly.compile(readFileSync(wasm));
     const line = (n) => 0.004 * (38.4 - n);
-    const evaluated = (runs) => {
-        const by = new Map();
-        for (const {discs, periods, rotation} of runs) by.set(discs, [...(by.get(discs) ?? []), [periods, rotation.by_time]]);
-        const all = [...by].sort(([a], [b]) => a - b).map(([n, each]) => {
-            const total = each.reduce((sum, [periods]) => sum + periods, 0);
-            return [n, each[0][1].mean, 0.02 / Math.sqrt(total)];
-        });
-        const sign = ([, mean, error]) => (Math.abs(mean) > 3 * error ? Math.sign(mean) : 0);
-        const before = all.findLast((point) => sign(point) > 0)?.[0] ?? null, after = all.find((point) => sign(point) < 0)?.[0] ?? null;
-        const undetermined = all.filter((point) => sign(point) === 0).map(([n]) => n);
-        const crosses = before !== null && after !== null;
-        const known = crosses && all.filter(([n]) => n >= before && n <= after).length === after - before + 1;
-        const near = all.findLast(([n]) => n <= 38) ?? all[0];
-        return {verdict: crosses ? "crosses" : undetermined.length ? "undecided" : before ? "always_rotates" : "always_counterrotates",
-                discs: known ? 38.4 : null, error: known ? near[2] / 0.004 : null, lower: before, upper: after, before, after,
-                undetermined, points: all};
-    };
     const searched = async (mean, settings = {}) => {
         const calls = [];
         const found = await searchCrossing({...usualSearch, ...settings}, {
             run: async (discs, seed, periods) => {
                 calls.push([discs, seed, periods]);
                 const one = {mean: mean(discs), error: 0.02 / Math.sqrt(periods), effective_samples: periods, blocks: periods};
-                return {rotation: {by_time: one, by_event: one, rigid_by_time: one, rigid_by_event: one}};
+                return {rotation: perRate(() => one)};
             },
-            crossings: async (runs) => {
-                const one = evaluated(runs);
-                return {by_time: one, by_event: one, rigid_by_time: one, rigid_by_event: one};
-            }});
+            search: async (rules, made) => new Engine(module).search(rules, searchedNumbers(made)),
+            crossings: async (runs) => perRate(() => new Engine(module).crossing(
+                runs.map(({discs, periods, rotation: {by_time: {mean, error}}}) => [discs, mean, error, periods, periods]))),
+        });
         return {found, calls};
     };
     const {found, calls} = await searched(line);
-    assert.equal(found.crossings.by_time.discs, 38.4);
+    assert.ok(Math.abs(found.crossings.by_time.discs - 38.4) < 1e-9); // rounding
     assert.ok(found.withinTolerance && found.crossings.by_time.error <= usualSearch.tolerance);
     assert.equal(found.runs, calls.length);
     // A number gets each seed once, and a repeated run is twice as long as the one before.
