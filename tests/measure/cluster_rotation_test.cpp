@@ -202,6 +202,95 @@ TEST(ClusterRotation, FollowsTheCentreOfMassThroughWallImpulses) {
     }
 }
 
+/// Discs i and j exchange a random impulse.
+Event collide(Snapshot& s, std::size_t i, std::size_t j, const Vec2& impulse) {
+    Disc a = s.disc(i).at(s.clock), b = s.disc(j).at(s.clock);
+    a.velocity = a.velocity - (1.0 / a.mass) * impulse;
+    b.velocity = b.velocity + (1.0 / b.mass) * impulse;
+    s.set(i, a);
+    s.set(j, b);
+    return {0,
+            s.clock,
+            EventKind::disc_disc,
+            static_cast<std::uint32_t>(i),
+            static_cast<std::uint32_t>(j),
+            {},
+            {},
+            0.0};
+}
+
+TEST(ClusterRotation, ExactMeanByTimeIsThatOfVeryManySamples) {
+    for (const std::size_t n : {2u, 5u, 9u}) {
+        Snapshot s = held_earlier(random_discs(n, 70 + n));
+        Noise noise(n);
+        for (std::size_t i = 0; i < n; ++i) s.mass[i] = 2.0 + noise();
+        ClusterRotation rotation;
+        rotation.sample(s, anything);
+        rotation.begin_angles(s);
+        rotation.sample_by_time(s);
+        const double begin = s.clock;
+        double sum = 0.0;
+        for (int k = 0; k < 60; ++k) {
+            const double flight = 0.5 * (1.0 + noise()), before = s.clock;
+            // Simpson's rule with intervals that fit the closest approach, 0.1 or more of speed 1.
+            constexpr int intervals = 20000;
+            for (int m = 0; m <= intervals; ++m) {
+                s.clock = before + flight * m / intervals;
+                const double weight = m == 0 || m == intervals ? 1.0 : m % 2 == 1 ? 4.0 : 2.0;
+                sum += weight * cluster_rotation(s).individual * flight / (3.0 * intervals);
+            }
+            const std::size_t i = static_cast<std::size_t>(k) % n;
+            rotation.follow(s, k % 3 == 0 ? push(s, i, unit_circle(noise()), noise(), noise())
+                                          : collide(s, i, (i + 1) % n, {noise(), noise()}));
+        }
+        rotation.end_angles(s);
+        const double exact = rotation.open_means()[default_rate] * 2.0 * pi / s.period;
+        EXPECT_NEAR(exact, sum / (s.clock - begin), 1e-6) << n;
+    }
+}
+
+// Two discs on the x axis turn about their centre of mass along a square, a quarter turn per side.
+TEST(ClusterRotation, ExactMeanByTimeCountsFullTurns) {
+    for (const int turns : {1, -1}) {
+        Snapshot s = empty_container();
+        add_disc(s, {1.0, 0.0}, {});
+        add_disc(s, {-1.0, 0.0}, {});
+        const auto aim = [&](int side) {
+            const Vec2 along = quarter_turns(turns * side, {-1.0, double(turns)});
+            for (std::size_t i = 0; i < 2; ++i) {
+                Disc d = s.disc(i).at(s.clock);
+                d.velocity = i == 0 ? along : -1.0 * along;
+                s.set(i, d);
+            }
+            Event event = collision;
+            event.clock = s.clock;
+            return event;
+        };
+        aim(0);
+        ClusterRotation rotation;
+        rotation.sample(s, anything);
+        rotation.begin_angles(s);
+        rotation.sample_by_time(s);
+        for (int side = 1; side <= 4 * 25; ++side) {
+            s.clock = side;
+            rotation.follow(s, aim(side));
+        }
+        rotation.end_angles(s);
+        const double in_omega = turns * 2.0 * pi * 25 / 100.0 * s.period / (2.0 * pi);
+        EXPECT_NEAR(rotation.open_means()[default_rate], in_omega, 1e-13 * s.period);
+    }
+}
+
+TEST(ClusterRotation, ExactMeanByTimeOfOneDiscIsNaN) {
+    Snapshot s = random_discs(1, 1);
+    ClusterRotation rotation;
+    rotation.begin_angles(s);
+    rotation.sample_by_time(s);
+    s.clock = 1.0;
+    rotation.end_angles(s);
+    EXPECT_TRUE(std::isnan(rotation.open_means()[default_rate]));
+}
+
 TEST(ClusterRotation, FollowingIsBitwiseEqualForEveryWidth) {
     for (const std::size_t n : {5u, 8u, 13u, 48u, 55u}) {
         Snapshot s = held_earlier(random_discs(n, n));

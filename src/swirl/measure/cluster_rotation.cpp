@@ -68,13 +68,15 @@ void apply_wall_impulse(RotationCentre& c, const Event& event) {
 SWIRL_INLINE RotationSample sample_of(const Snapshot& s, const RotationCentre& c,
                                       const RotationKernel& kernel) {
     const double closest = 0x1p-40 * s.container_radius, closest_square = closest * closest;
-    if (s.size() >= lanes) {
+    if (s.size() >= lanes || (s.size() >= 2 && !s.are_spheres())) {
         const RotationRates rates =
-            s.are_spheres() ? kernel.rates_of_spheres(s.x.data(), s.y.data(), s.vx.data(),
-                                                      s.vy.data(), s.held_at.data(), c, s.clock,
-                                                      closest_square, {s.ax.data(), s.ay.data()})
-                            : kernel.rates(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(),
-                                           s.held_at.data(), c, s.clock, closest_square);
+            s.size() < lanes ? kernel.rates_of_few(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(),
+                                                   s.held_at.data(), c, s.clock, closest_square)
+            : s.are_spheres() ? kernel.rates_of_spheres(s.x.data(), s.y.data(), s.vx.data(),
+                                                        s.vy.data(), s.held_at.data(), c, s.clock,
+                                                        closest_square, {s.ax.data(), s.ay.data()})
+                              : kernel.rates(s.x.data(), s.y.data(), s.vx.data(), s.vy.data(),
+                                             s.held_at.data(), c, s.clock, closest_square);
         // Otherwise a disc is on the centre of mass, or a state is NaN.
         const bool is_number = rates[0] - rates[0] == 0.0;
         if (is_number) return {rates[0], rates[1]};
@@ -99,10 +101,10 @@ RotationSample cluster_rotation(const Snapshot& snapshot, Width width) {
 }
 
 void ClusterRotation::follow_centre(const Snapshot& snapshot, const Event& event) {
-    if (event.kind == EventKind::path_vertex)
-        centre_ = centre_of(snapshot, *kernel_);
-    else
+    if (event.kind == EventKind::disc_wall)
         apply_wall_impulse(centre_, event);
+    else if (snapshot.periods > event.periods || !angles_.are_followed(snapshot.size()))
+        centre_ = centre_of(snapshot, *kernel_);
 }
 
 RotationSample ClusterRotation::sample(const Snapshot& snapshot) {
@@ -126,21 +128,41 @@ RotationSample ClusterRotation::sample_by_time(const Snapshot& snapshot) {
     return sample;
 }
 
+void ClusterRotation::begin_angles(const Snapshot& snapshot) {
+    centre_ = centre_of(snapshot, *kernel_);
+    angles_.begin(snapshot, centre_.position);
+}
+
+/// Collisions end the flights of two discs. An impulse of the wall bends those of all discs, seen
+/// from the centre of mass.
+void ClusterRotation::follow_angles(const Snapshot& snapshot, const Event& event) {
+    if (event.kind == EventKind::path_vertex) return;
+    const Vec2 centre = centre_.position + (event.clock - centre_.held_at) * centre_.velocity;
+    if (event.kind == EventKind::disc_wall) return angles_.fly_all(snapshot, centre);
+    angles_.fly(snapshot, event.i, centre);
+    angles_.fly(snapshot, event.j, centre);
+}
+
+void ClusterRotation::end_angles(const Snapshot& snapshot) {
+    const Vec2 centre = centre_.position + (snapshot.clock - centre_.held_at) * centre_.velocity;
+    time_.individual = angles_.end(snapshot, centre) * time_.samples;
+}
+
 ClusterRotation::ClusterRotation(Width width) : kernel_(&kernel_for(width)) {}
 
 void ClusterRotation::OpenBlock::close_into(BlockSeries& individual_series,
-                                            BlockSeries& rigid_series, double events_of_a_sample) {
-    const double per_omega = period / (2.0 * pi) * events_of_a_sample;
-    const double weight = samples * events_of_a_sample;
+                                            BlockSeries& rigid_series, double weight_of_a_sample) {
+    const double per_omega = period / (2.0 * pi) * weight_of_a_sample;
+    const double weight = samples * weight_of_a_sample;
     individual_series.add(weight > 0.0 ? individual * per_omega : 0.0, weight);
     rigid_series.add(weight > 0.0 ? rigid * per_omega : 0.0, weight);
     *this = {};
 }
 
-void ClusterRotation::close_block(std::uint64_t events_of_a_sample) {
+void ClusterRotation::close_block(std::uint64_t events_of_a_sample, double weight_by_time) {
     event_.close_into(individual_by_event_, rigid_by_event_,
                       static_cast<double>(events_of_a_sample));
-    time_.close_into(individual_by_time_, rigid_by_time_, 1.0);
+    time_.close_into(individual_by_time_, rigid_by_time_, weight_by_time);
 }
 
 std::array<double, rotation_rates.size()> ClusterRotation::open_means() const {

@@ -41,7 +41,7 @@ struct RotationAcceleration {
     const double *ax, *ay;
 };
 
-/// The kernel for one vector width and at least eight discs. The columns of the snapshot are
+/// The kernel for one vector width and at least eight discs, or for fewer in `rates_of_few`. The columns of the snapshot are
 /// separate arguments, since then they stay in registers.
 struct RotationKernel {
     /// The centre of mass at `clock`.
@@ -52,6 +52,10 @@ struct RotationKernel {
     RotationRates (*rates)(const double* x, const double* y, const double* vx, const double* vy,
                            const double* held_at, const RotationCentre& centre, double clock,
                            double closest_square);
+    RotationRates (*rates_of_few)(const double* x, const double* y, const double* vx,
+                                  const double* vy, const double* held_at,
+                                  const RotationCentre& centre, double clock,
+                                  double closest_square);
     /// The same for spheres, which may be accelerated.
     RotationCentre (*centre_of_spheres)(const double* x, const double* y, const double* vx,
                                         const double* vy, const double* held_at, const double* mass,
@@ -100,6 +104,17 @@ struct Eight {
         for (int p = 0; p < parts; ++p)
             e.part[p] = *reinterpret_cast<const Unaligned*>(from + p * per_part);
         return e;
+    }
+    /// The first `count` < 8 lanes; the others are 0, and their memory is not read.
+    SWIRL_INLINE static Eight load_first(const double* from, std::ptrdiff_t count) {
+#if SWIRL_ROTATION_REGISTER == 64
+        const auto mask = static_cast<unsigned char>((1u << count) - 1u);
+        return {{__builtin_ia32_loadupd512_mask(from, Register{}, mask)}};
+#else
+        double all[lanes] = {};
+        for (std::ptrdiff_t k = 0; k < count; ++k) all[k] = from[k];
+        return load(all);
+#endif
     }
 };
 
@@ -260,6 +275,13 @@ struct RateSums {
 // Lane k of `last_lanes + left` is 1 for the last `left` of eight lanes.
 constexpr double last_lanes[2 * lanes] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
 
+// Lane k of `first_lanes + lanes - count` is 1 for the first `count` of eight lanes, and that of
+// `far_lanes + lanes - count` is 0 there.
+constexpr double first_lanes[2 * lanes] = {1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
+constexpr double far = 0x1p900;
+constexpr double far_lanes[2 * lanes] = {0,   0,   0,   0,   0,   0,   0,   0,
+                                         far, far, far, far, far, far, far, far};
+
 /// If the number of discs is not a multiple of eight, the last `left` discs are loaded together
 /// with those before them, which then have weight 0.
 struct Rows {
@@ -306,6 +328,25 @@ SWIRL_INLINE RotationRates rates_of(const Columns& c, const RotationCentre& abou
     return above / below;
 }
 
+/// The other lanes are far away, so they change no sum and not the minimum.
+SWIRL_INLINE RotationRates rates_of_few_discs(const Columns& c, const RotationCentre& about,
+                                              double clock_now, double closest_square) {
+    const auto load = [&](const double* column) __attribute__((always_inline)) {
+        return Eight::load_first(column, about.discs);
+    };
+    const Eight clock = Eight::all(clock_now), elapsed = clock - load(c.held_at);
+    const Eight vx = load(c.vx), vy = load(c.vy);
+    const Discs discs{load(c.x) + elapsed * vx, load(c.y) + elapsed * vy, vx, vy};
+    const Eight counts = Eight::load(first_lanes + lanes - about.discs);
+    const Eight far = Eight::load(far_lanes + lanes - about.discs);
+    Arm arm = Centre(about, clock).arm(discs);
+    arm.l = arm.l * counts;
+    const Eight individual = arm.l / (arm.q + far), minimum = arm.q + far;
+    const Double2 above = sums(where_above(minimum, closest_square, individual), arm.l);
+    const Double2 below{static_cast<double>(about.discs), sums(arm.q * counts, arm.q * counts)[0]};
+    return above / below;
+}
+
 RotationCentre centre(const double* x, const double* y, const double* vx, const double* vy,
                       const double* held_at, const double* mass, std::ptrdiff_t size,
                       double clock) {
@@ -323,6 +364,11 @@ RotationRates rates(const double* x, const double* y, const double* vx, const do
                     double closest_square) {
     return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square, NoAcceleration{});
 }
+RotationRates rates_of_few(const double* x, const double* y, const double* vx, const double* vy,
+                           const double* held_at, const RotationCentre& about, double clock,
+                           double closest_square) {
+    return rates_of_few_discs({x, y, vx, vy, held_at}, about, clock, closest_square);
+}
 RotationRates rates_of_spheres(const double* x, const double* y, const double* vx, const double* vy,
                                const double* held_at, const RotationCentre& about, double clock,
                                double closest_square, const RotationAcceleration& acceleration) {
@@ -332,7 +378,7 @@ RotationRates rates_of_spheres(const double* x, const double* y, const double* v
 
 }  // namespace
 
-const RotationKernel kernel{centre, rates, centre_of_spheres, rates_of_spheres};
+const RotationKernel kernel{centre, rates, rates_of_few, centre_of_spheres, rates_of_spheres};
 
 }  // namespace SWIRL_ROTATION_TARGET
 #endif

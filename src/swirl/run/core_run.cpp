@@ -37,6 +37,7 @@ CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, Observation
       snapshot_(simulation_.snapshot()),
       event_(),
       rotation_times_(rotation_samples, config.period),
+      few_rotation_times_(rotation_samples_of_few, config.period),
       observation_times_(samples_per_period, config.period),
       events_to_check_(events_until_check()),
       watch_(simulation_.size(), mark()),
@@ -52,6 +53,7 @@ CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, Observation
     result_.config = config;
     result_.energy_at_start = start.energy;
     result_.invariant_at_start = start.invariant;
+    begin_angles(0);
 }
 
 bool CoreRun::complete() const {
@@ -78,7 +80,8 @@ void CoreRun::execute_event() {
 
 /// At all sample times up to this one, before the next event.
 void CoreRun::sample_by_time(double clock) {
-    while (rotation_times_.next(snapshot_, path_, clock)) {
+    SampleTimes& times = follows_angles() ? few_rotation_times_ : rotation_times_;
+    while (times.next(snapshot_, path_, clock)) {
         rotation().sample_by_time(snapshot_);
         spin().add(mean_spin(snapshot_));
         if (series_) series_->sample(snapshot());
@@ -228,8 +231,11 @@ void CoreRun::sample_by_event() {
 /// Closes the blocks of the period that has ended, and ends the warm-up or the run if it is time.
 void CoreRun::begin_period() {
     sample_by_event();
+    const bool exact = follows_angles();
+    if (exact) rotation().end_angles(snapshot_);
     if (series_) add_period_to_series();
-    rotation().close_block(events_per_sample_);
+    constexpr double few = rotation_samples_of_few;
+    rotation().close_block(events_per_sample_, exact ? rotation_samples / few : 1.0);
     spin().close_block();
     if (observes()) observation_->close_block();
     if (!warm_ && is_warmup_over()) {
@@ -247,7 +253,14 @@ void CoreRun::begin_period() {
             events_per_rotation_sample(simulation_.size(), events - events_before_);
         events_to_sample_ = std::min(events_to_sample_, events_per_sample_);
     }
+    begin_angles(events - events_before_);
     events_before_ = events;
+}
+
+/// The period that begins has the exact mean rotation by time if the last one had few events.
+void CoreRun::begin_angles(std::uint64_t events) {
+    if (events_per_sample_ == 1 && events < events_of_exact_means && !snapshot_.are_spheres())
+        rotation().begin_angles(snapshot_);
 }
 
 /// The blocks of the period are still open.

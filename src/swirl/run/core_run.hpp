@@ -115,7 +115,7 @@ class CoreRun {
     template <class Visitor>
     void fields(Visitor&& visit) {
         sample_by_event();
-        visit(warm_, rotation_times_, in_warmup_, after_warmup_);
+        visit(warm_, rotation_times_, few_rotation_times_, in_warmup_, after_warmup_);
         visit(result_.warmup, result_.warmup_events, result_.max_overlap);
         visit(result_.energy_at_start, result_.invariant_at_start);
         visit(spin_in_warmup_, spin_after_, next_warmup_test_);
@@ -141,6 +141,8 @@ class CoreRun {
     void update_flights();
     void update_snapshot();
     void sample_by_time(double clock);
+    void begin_angles(std::uint64_t events);
+    bool follows_angles() { return rotation().follows_angles(snapshot_); }
     void begin_period();
     void add_period_to_series();
     void continue_ramps();
@@ -158,7 +160,7 @@ class CoreRun {
     Simulation simulation_;
     Snapshot snapshot_, synchronised_;
     Event event_;
-    SampleTimes rotation_times_, observation_times_;
+    SampleTimes rotation_times_, few_rotation_times_, observation_times_;
     int events_to_check_;  // until the next check
     CollapseWatch watch_;
     ClusterRotation in_warmup_, after_warmup_;

@@ -6,7 +6,8 @@
 // ramp, and one for each row of the measurements of the run, evaluated for this period alone. The
 // value is n/a if a measurement needs more than one period.
 //
-// Energy and centre are means over the 64 samples by time of the rotation (cluster_rotation.hpp).
+// Energy and centre are means over the samples by time of the rotation, 64 or 16 per period
+// (cluster_rotation.hpp).
 // A value that is not available is NaN, and an empty cell in the file.
 #pragma once
 
