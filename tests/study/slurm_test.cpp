@@ -8,6 +8,7 @@ namespace swirl {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 SlurmJob job(const std::string& time = "", const std::string& partition = "") {
     return {.nodes = 4, .cpus = 2, .time = time, .partition = partition};
@@ -18,6 +19,30 @@ TEST(SlurmScript, QuotesTheFolderAndDoublesItsPercentSigns) {
     EXPECT_THAT(text, HasSubstr("#SBATCH --output=\"/a b/50 %%/log/%A_%a.log\"\n"));
     EXPECT_THAT(text, HasSubstr("--out '/a b/50 %' "));
     EXPECT_THAT(text, HasSubstr("#SBATCH --time=2:00:00\n#SBATCH --partition=day\n"));
+}
+
+TEST(SlurmScript, PassesFurtherOptionsToSbatch) {
+    SlurmJob with = job();
+    with.sbatch = {"account=physics", "--mem=4G", "-C", "exclusive"};
+    EXPECT_THAT(slurm_script(with, "/a"),
+                HasSubstr("#SBATCH --account=physics\n#SBATCH --mem=4G\n#SBATCH -C\n"
+                          "#SBATCH --exclusive\n"));
+    for (const char* text : {"", "mem=4G\ntouch x", "mem=$(touch x)", "=4G", "mem 4G"}) {
+        with.sbatch = {text};
+        EXPECT_THROW(slurm_script(with, "/a"), UsageError) << text;
+    }
+}
+
+// A task of one core must not keep a whole node from others, nor start a run for each of its cores.
+TEST(SlurmScript, UsesTheCoresThatSlurmGives) {
+    for (const int cpus : {0, 2}) {
+        SlurmJob with = job();
+        with.cpus = cpus;
+        const std::string text = slurm_script(with, "/a");
+        EXPECT_THAT(text, Not(HasSubstr("exclusive")));
+        EXPECT_EQ(text.find("#SBATCH --cpus-per-task=2\n") != text.npos, cpus == 2);
+        EXPECT_THAT(text, HasSubstr(" --threads \"$SLURM_CPUS_ON_NODE\"\n"));
+    }
 }
 
 TEST(SlurmScript, LineBreaksInOptionsAreRejected) {

@@ -19,6 +19,15 @@ std::string error_of(const ParameterTexts& texts) {
     return "";
 }
 
+// Other programs take FROM:TO:STEP.
+TEST(SweepPlan, StepAtTheEndOfARangeIsExplained) {
+    using testing::HasSubstr;
+    EXPECT_THAT(error_of({{"mu", "0.1:1:0.1"}}), HasSubstr("hint: write 0.1:0.1:1."));
+    EXPECT_THAT(error_of({{"discs", "5:48:2"}}), HasSubstr("hint: write 5:2:48."));
+    for (const char* range : {"5:10:48", "5:10:12", "1:1:1", "0:0.5:0.7"})
+        EXPECT_EQ(error_of({{range[0] == '0' ? "mu" : "discs", range}}), "") << range;
+}
+
 // Results of different versions are comparable only if the seeds are unchanged.
 TEST(SweepPlan, SeedsOfPointsAreUnchanged) {
     const SweepPlan plan = make_plan({{"discs", "5,6"},

@@ -63,12 +63,15 @@ void add_cluster_options(Subcommand& subcommand, ShareOptions& options, bool wit
                             "After the part, run points that no process works on", cluster);
     subcommand.add_flag("--slurm", options.slurm,
                         "Submit a Slurm job array instead of running here", cluster);
-    subcommand.add_option("--nodes", options.nodes,
-                          "Number of tasks of the array, one node each [1]", "N", cluster);
-    subcommand.add_option("--cpus", options.cpus, "Cores per task [the whole node]", "N", cluster);
+    subcommand.add_option("--nodes", options.nodes, "Number of tasks of the array [1]", "N",
+                          cluster);
+    subcommand.add_option("--cpus", options.cpus, "Cores per task [the default of the cluster]",
+                          "N", cluster);
     subcommand.add_option("--time", options.job.time,
                           "Time limit of a task, in the format of sbatch", "TIME", cluster);
     subcommand.add_option("--partition", options.job.partition, "Slurm partition", "NAME", cluster);
+    subcommand.add_option("--sbatch", options.job.sbatch,
+                          "Further option of sbatch, such as mem=4G; repeatable", "ARG", cluster);
 }
 
 }  // namespace swirl

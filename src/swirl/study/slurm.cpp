@@ -69,6 +69,18 @@ std::string sbatch_path(const fs::path& path) {
     return quoted;  // the caller adds the rest of the path and the closing mark
 }
 
+/// A line of the script for an option of sbatch, with or without its dashes.
+std::string sbatch_line(const std::string& option) {
+    validate_characters("--sbatch", option, "-_.,:=+/@%[]*",
+                        "an option of sbatch, such as account=physics");
+    const bool is_name =
+        !option.empty() && std::isalpha(static_cast<unsigned char>(option.front()));
+    if (!is_name && !option.starts_with("-"))
+        throw UsageError(fmt::format(
+            "--sbatch is '{}', but it must begin with the name of an option of sbatch.", option));
+    return fmt::format("#SBATCH {}{}\n", is_name ? "--" : "", option);
+}
+
 /// The tasks may start in another directory.
 fs::path absolute_folder(const fs::path& folder) { return fs::absolute(folder).lexically_normal(); }
 
@@ -81,20 +93,19 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder, const char
     validate_characters("--partition", job.partition, "_-.,", "the name of a partition");
     std::string text = "#!/bin/bash\n#SBATCH --job-name=swirl\n";
     text += fmt::format("#SBATCH --array=1-{}\n#SBATCH --nodes=1\n#SBATCH --ntasks=1\n", job.nodes);
-    text += job.cpus > 0 ? fmt::format("#SBATCH --cpus-per-task={}\n", job.cpus)
-                         : std::string("#SBATCH --exclusive\n");
+    if (job.cpus > 0) text += fmt::format("#SBATCH --cpus-per-task={}\n", job.cpus);
     if (!job.time.empty()) text += fmt::format("#SBATCH --time={}\n", job.time);
     if (!job.partition.empty()) text += fmt::format("#SBATCH --partition={}\n", job.partition);
+    for (const std::string& option : job.sbatch) text += sbatch_line(option);
     // A minute before its time limit, or when it is preempted, a task saves the state of its runs
     // and ends. Slurm restarts a task whose node fails.
     text += "#SBATCH --requeue\n#SBATCH --signal=TERM@60\n";
     text += fmt::format("#SBATCH --output={}/%A_%a.log\"\n#SBATCH --open-mode=append\n",
                         sbatch_path(sweep / "log"));
     text +=
-        fmt::format("exec {} {} --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\"",
+        fmt::format("exec {} {} --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --threads ",
                     shell_word(program.string()), command, shell_word(sweep.string()), job.nodes);
-    text += job.cpus > 0 ? fmt::format(" --threads {}\n", job.cpus) : std::string("\n");
-    return text;
+    return text + "\"$SLURM_CPUS_ON_NODE\"\n";
 }
 
 std::string submit(const std::string& script, const fs::path& folder) {

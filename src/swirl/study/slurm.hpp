@@ -6,13 +6,15 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace swirl {
 
 struct SlurmJob {
-    int nodes = 1;                // tasks of the array, one node each
-    int cpus = 0;                 // per task; 0: the whole node
-    std::string time, partition;  // options of sbatch; empty: the cluster's default
+    int nodes = 1;                         // tasks of the array
+    int cpus = 0;                          // per task; 0: the cluster's default
+    std::string time, partition;           // options of sbatch; empty: the cluster's default
+    std::vector<std::string> sbatch = {};  // further options: "--account=physics"
 };
 
 /// The job script. `command` is the subcommand that each task calls with its part. Throws

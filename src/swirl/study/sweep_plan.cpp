@@ -98,6 +98,11 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
     if (parts.size() > 3) reject("it has more than three parts");
     const double from = parts.front(), to = parts.back();
     const double step = parts.size() == 3 ? parts[1] : 1.0;
+    if (parts.size() == 3 && parts[1] > from && to > 0.0 && step > to - from &&
+        to <= parts[1] - from)
+        throw UsageError(fmt::format(
+            "{} is '{}', but the step is in the middle: FROM:STEP:TO.\nhint: write {}:{}:{}.",
+            option_name(name), text, with_digits(from), with_digits(to), with_digits(step)));
     if (!(step > 0.0) || to < from) reject("it is not ascending");
     const double count = std::floor((to - from) / step + 1e-9) + 1.0;
     if (count > 1e6) reject("it has more than a million values");
