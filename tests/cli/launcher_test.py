@@ -315,6 +315,12 @@ swirl run
 ## swirl movie
 
 No block of text.
+
+## swirl python
+
+```text
+Usage: swirl python [ARGUMENTS OF PYTHON]
+```
 """)
         run = "Usage: swirl run [OPTIONS]\n\n## not a heading\n"
         for call, code, text in ((["run", "--help"], 0, run), (["run", "--discs", "4", "-h"], 0, run),
@@ -337,6 +343,22 @@ No block of text.
         self.assertEqual(done.stdout.split()[:1], ["first"])
         self.assertIn("note: this is the help of the last build", done.stderr)
         self.assertFalse(os.path.exists(self.path("started")))
+
+    def test_only_changes_of_the_packages_of_the_build_make_it_stale(self):
+        with open(self.path("cmake/launcher.sh"), encoding="utf-8") as file:
+            launcher = file.read()
+        self.write("cmake/launcher.sh", launcher.replace("/var/lib/dpkg", self.path("dpkg")))
+        packages = [self.path("dpkg/info/" + name) for name in ("g++.list", "cmake:amd64.list", "other.list")]
+        for name in [self.path("dpkg/status"), *packages]:
+            self.write(name, "")
+        self.assertEqual(self.word(), "first")
+        for name, builds in ((self.path("dpkg/status"), False), (packages[2], False), (packages[0], True),
+                             (packages[1], True)):
+            with self.subTest(name):
+                os.utime(name)
+                self.assertEqual("sources have changed" in self.call("run", "--help").stderr, builds)
+                self.assertEqual(self.call().returncode, 0)
+                self.assertNotIn("note", self.call("run", "--help").stderr)
 
     def test_without_dpkg_it_lists_what_is_missing(self):
         everything = self.path("bin")
