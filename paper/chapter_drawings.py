@@ -1,70 +1,64 @@
 """What the figures of the chapters have in common: curves over the packing fraction, and maps of the changes of
 direction."""
 
-import os
-
 import numpy as np
 
 import style
 import tables
+from curves import CERTAIN
 
 PACKING = r"packing fraction $\varphi = N r^2/R^2$"
 CHANGES = (("counterrotation", "v", style.BLUE, "to counterrotation"),
            ("rotation", "^", style.RED, "back to rotation"))
-
-
-def changes_of(table):
-    """The rows of the second table, which lists the changes of direction; it may be empty."""
-    stem, ending = os.path.splitext(table)
-    return tables.read(f"{stem}_changes{ending}")
-
-
-def colors_of(values):
-    """A colour for each value, from dark to light."""
-    colors = style.plt.get_cmap("viridis")
-    return {value: colors(0.93 * k / max(len(values) - 1, 1)) for k, value in enumerate(values)}
+DOT = 0.3  # in Ω: the rate of the largest dots
 
 
 def curves(axes, rows, parameter, quantity, label):
-    """The quantity against the packing fraction, a curve for each value of the parameter."""
+    """The quantity against the packing fraction, a curve for each value of the parameter, from dark to light."""
     values = sorted({row[parameter] for row in rows})
-    colors = colors_of(values)
+    colors = style.plt.get_cmap("viridis")
     for k, value in enumerate(values):
         here = sorted(tables.select(rows, **{parameter: value}), key=lambda row: row["packing_fraction"])
-        axes.errorbar(style.column(here, "packing_fraction"), style.column(here, quantity),
-                      yerr=style.column(here, quantity + "_error"), color=colors[value],
-                      marker=style.MARKERS[k % len(style.MARKERS)], markersize=2.6, elinewidth=0.7,
-                      linewidth=0.8, label=f"{label} = {value:g}")
-    style.ring(axes, rows, "packing_fraction", quantity)
+        style.curve(axes, here, "packing_fraction", quantity, color=colors(0.93 * k / max(len(values) - 1, 1)),
+                    marker=style.MARKERS[k % len(style.MARKERS)], markersize=2.6, linewidth=0.8, label=f"{label} = {value:g}")
 
 
-def sign_map(axes, rows, changes, parameter, logarithmic):
+def dots(axes, rows, parameter, color, words):
+    """Dots whose area grows with the rate."""
+    size = [2 + 60 * min(abs(row["rigid_by_time"]), DOT) for row in rows]
+    axes.scatter(style.column(rows, parameter), style.column(rows, "packing_fraction"), s=size, color=color, alpha=0.35,
+                 linewidths=0, label=words)
+
+
+def sign_map(axes, rows, changes, parameter):
     """The sign of the rotation at every point, and the changes of direction with their errors."""
     for sign, color, words in ((1, style.RED, "rotates"), (-1, style.BLUE, "counterrotates")):
-        here = [row for row in rows if sign * row["rigid_by_time"] > 3 * row["rigid_by_time_error"]]
-        size = [2 + 60 * min(abs(row["rigid_by_time"]), 0.3) for row in here]
-        axes.scatter(style.column(here, parameter), style.column(here, "packing_fraction"), s=size,
-                     color=color, alpha=0.35, linewidths=0, label=words)
-    unknown = [row for row in rows if not abs(row["rigid_by_time"]) > 3 * row["rigid_by_time_error"]]
-    axes.plot(style.column(unknown, parameter), style.column(unknown, "packing_fraction"), "x",
-              color=style.GREY, markersize=2.5, label="sign undetermined")
+        here = [row for row in rows if sign * row["rigid_by_time"] > CERTAIN * row["rigid_by_time_error"]]
+        if here:
+            dots(axes, here, parameter, color, words)
+    for rate in (0.02, DOT):  # the key of the areas
+        axes.scatter([], [], s=2 + 60 * rate, color=style.GREY, linewidths=0,
+                     label=rf"$|\varpi|/\Omega = {rate:g}$" + (" or more" if rate == DOT else ""))
+    unknown = [row for row in rows if not abs(row["rigid_by_time"]) > CERTAIN * row["rigid_by_time_error"]]
+    if unknown:
+        axes.plot(style.column(unknown, parameter), style.column(unknown, "packing_fraction"), "x",
+                  color=style.GREY, markersize=2.5, label="sign undetermined")
     for direction, marker, color, words in CHANGES:
         here = tables.select(changes, direction=direction)
-        axes.errorbar(style.column(here, parameter), style.column(here, "packing_fraction"),
-                      yerr=style.column(here, "packing_fraction_error"), fmt=marker, color=style.BLACK,
-                      markerfacecolor=color, markeredgewidth=0.6, markersize=4.5, elinewidth=0.7,
-                      label=words)
-    if logarithmic:
-        values = sorted({row[parameter] for row in rows})
-        axes.set_xscale("log")
-        axes.set_xticks(values, [f"{value:g}" for value in values], rotation=60)
-        axes.minorticks_off()
+        if here:
+            axes.errorbar(style.column(here, parameter), style.column(here, "packing_fraction"),
+                          yerr=style.column(here, "packing_fraction_error"), fmt=marker, color=style.BLACK,
+                          markerfacecolor=color, markeredgewidth=0.6, markersize=4.5, elinewidth=0.7, label=words)
+    values = sorted({row[parameter] for row in rows})
+    axes.set_xscale("log")
+    axes.set_xticks(values, [f"{value:g}" for value in values], rotation=60)
+    axes.minorticks_off()
 
 
-def dishes(table, parameter, words, label, logarithmic):
+def dishes(table, parameter, words, label):
     """A complete figure: curves on the left and the map of changes on the right; a row for each dish radius if the
     parameter is another one."""
-    rows, changes = style.read(table), changes_of(table)
+    rows, changes = style.read(table), tables.companion(table, "_changes")
     radii = [None] if parameter == "container_radius" else sorted({row["container_radius"] for row in rows})
     drawing, axes = style.figure(style.PAGE, 3.4 * len(radii), ncols=2, nrows=len(radii), squeeze=False)
     for (left, right), radius in zip(axes, radii):
@@ -72,17 +66,11 @@ def dishes(table, parameter, words, label, logarithmic):
         marks = changes if radius is None else tables.select(changes, container_radius=radius)
         style.zero_line(left)
         curves(left, here, parameter, "rigid_by_time", label)
-        left.set_yscale("symlog", linthresh=0.1, linscale=2)
-        ticks = [-0.1, -0.05, 0, 0.05, 0.1, 0.3, 1]
-        rates = style.column(here, "rigid_by_time")
-        low, high = np.nanmin(rates), np.nanmax(rates)
-        left.set_yticks([t for t in ticks if low - 0.05 <= t <= high + 0.05])
-        left.yaxis.set_major_formatter(lambda y, _: f"{y:g}".replace("-", "−"))
-        left.minorticks_off()
+        style.fine_near_zero(left, style.column(here, "rigid_by_time"))
         left.set_xlabel(PACKING)
         left.set_ylabel(r"rotation $\varpi/\Omega$, rigid body, by time")
         style.legend(left, ncol=4, title=None if radius is None else f"$R/r = {radius:g}$")
-        sign_map(right, here, marks, parameter, logarithmic)
+        sign_map(right, here, marks, parameter)
         right.set_xlabel(words)
         right.set_ylabel(PACKING)
         style.legend(right, ncol=3)

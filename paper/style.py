@@ -39,13 +39,13 @@ GREY = "#7f7f7f"
 CYCLE = [BLUE, RED, GREEN, PINK, ORANGE, SKY, BLACK, GREY]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "<"]
 
-# Settings of the figures with spheres and discs: label, colour, marker. Discs have open symbols.
+# Settings of the figures with spheres and discs: label, colour, marker. Discs have dotted lines.
 LOOKS = {
     "smooth": ("smooth spheres", {"color": BLUE, "marker": "o"}),
     "rough": ("roughened spheres", {"color": RED, "marker": "s"}),
     "half": ("smooth, half the amplitude", {"color": GREY, "marker": "v", "linestyle": "--"}),
-    "high": (r"discs, $\mu = 1$", {"color": ORANGE, "marker": "D", "fillstyle": "none", "linestyle": ":"}),
-    "low": (r"discs, $\mu = 0.1$", {"color": SKY, "marker": "^", "fillstyle": "none", "linestyle": ":"}),
+    "high": (r"discs, $\mu = 1$", {"color": ORANGE, "marker": "D", "linestyle": ":"}),
+    "low": (r"discs, $\mu = 0.1$", {"color": SKY, "marker": "^", "linestyle": ":"}),
 }
 
 SETTINGS = {
@@ -102,38 +102,32 @@ def not_steady(rows):
             if row.get("steady_state", "steady") not in ("steady", "failed")]
 
 
-def ring(axes, rows, x, y):
-    """Rings around the points whose steady state is not verified, and a note that explains them. `y` names a
-    column or is a function of the row."""
-    value = y if callable(y) else lambda row: row[y]
-    marked = not_steady(rows)
-    if not marked:
-        return
-    axes.plot(column(marked, x), [value(row) for row in marked], "o", markersize=6.5,
-              markerfacecolor="none", markeredgecolor=BLACK, markeredgewidth=0.5, zorder=4)
-    note(axes.figure, "ring: steady state not verified")
-
-
 def note(drawing, text):
-    """A remark below the figure."""
-    drawing.supxlabel(text, fontsize=SMALLEST, color="0.3")
+    """A remark below the figure, once."""
+    notes = drawing.__dict__.setdefault("notes", [])
+    if text not in notes:
+        notes.append(text)
+        drawing.supxlabel("; ".join(notes), fontsize=SMALLEST, color="0.3")
 
 
 def note_not_steady(drawing, rows):
-    """For maps and profiles, which cannot have rings: a note with the numbers of discs."""
+    """For maps and profiles, which have no symbols: a note with the numbers of discs."""
     numbers = sorted({row["discs"] for row in not_steady(rows)})
     if numbers:
         note(drawing, "steady state not verified: N = " + ", ".join(f"{n:.0f}" for n in numbers))
 
 
 def curve(axes, rows, x, y, **look):
-    """One line with errors, and rings where the run is not steady. If no run has an average, only its label."""
+    """One line with errors; its symbols are open where the run is not steady. If no run has an average, only its label."""
     if not np.isfinite(column(rows, y)).any():
         axes.errorbar([], [], **look)
         return
-    axes.errorbar(column(rows, x), column(rows, y), yerr=column(rows, y + "_error"),
-                  elinewidth=0.7, **look)
-    ring(axes, rows, x, y)
+    line = axes.errorbar(column(rows, x), column(rows, y), yerr=column(rows, y + "_error"), **({"elinewidth": 0.7} | look))[0]
+    marked = not_steady(rows)
+    if marked:
+        axes.plot(column(marked, x), column(marked, y), line.get_marker(), color=line.get_color(),
+                  markersize=line.get_markersize(), markerfacecolor="white", markeredgewidth=0.6, zorder=line.get_zorder())
+        note(axes.figure, "open: steady state not verified")
 
 
 def rotation_curves(table, parameter, symbol):
@@ -145,42 +139,48 @@ def rotation_curves(table, parameter, symbol):
     rotation_figure(table, curves, ncol=3)
 
 
-def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=None, **more):
-    """A complete figure: rotation against the number of `of`; `curves` are rows and their style. Above `fine` the
-    scale is coarser, if there are points."""
+def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=False, **more):
+    """A complete figure: rotation against the number of `of`; `curves` are rows and their style. With `fine`, the
+    scale is fine near zero."""
     drawing, axes = figure(width, height)
     zero_line(axes)
     for rows, look in curves:
         curve(axes, rows, "discs", "by_time", **look)
     if fine:
-        coarser_above(axes, fine, [row for rows, _ in curves for row in rows])
+        fine_near_zero(axes, [row["by_time"] for rows, _ in curves for row in rows])
     rotation_axes(axes, of=of)
     legend(axes, **more)
     save(drawing, table)
 
 
-COARSER = 6  # factor between the two scales
+LINEAR = 0.1  # rotation rates: linear up to ±0.1, logarithmic beyond
+RATE_TICKS = (-0.1, -0.05, 0, 0.05, 0.1, 0.3, 1)
 
 
-def coarser_above(axes, level, rows):
-    """Shows all points, with a fine scale near zero: above the level, which a dotted line marks, the scale of ϖ is
-    coarser."""
-    ends = [row["by_time"] + sign * (row["by_time_error"] if row["by_time_error"] >= 0 else 0)
-            for row in rows if row["by_time"] == row["by_time"] for sign in (-1, 1)]
-    if not ends or max(ends) <= level:
+def fine_near_zero(axes, rates):
+    """Shows all rates with a fine scale near zero. Dotted lines mark where the scale becomes logarithmic."""
+    low, high = np.nanmin([*rates, 0]), np.nanmax([*rates, 0])
+    if max(high, -low) <= LINEAR:
         return
-    axes.set_yscale("function", functions=(
-        lambda y: np.where(y <= level, y, level + (y - level) / COARSER),
-        lambda z: np.where(z <= level, z, level + (z - level) * COARSER)))
-    axes.set_ylim(min(ends) - 0.02, max(ends) + 0.02 * COARSER)
-    step = 0.05
-    axes.set_yticks([step * k for k in range(math.ceil(min(ends) / step), math.ceil(level / step))]
-                    + [0.2 * k for k in range(2, 6) if level + 0.1 < 0.2 * k < max(ends) + 0.1])
-    axes.yaxis.set_major_formatter(
-        matplotlib.ticker.FuncFormatter(lambda y, _: f"{y:.2f}".replace("-", "−")))
-    axes.axhline(level, color=GREY, linewidth=0.7, linestyle=":", zorder=0)
-    axes.annotate(f"coarser\nabove {level:g}", (1.0, level), xycoords=("axes fraction", "data"),
-                  fontsize=SMALLEST, color="0.3", ha="left", va="center")
+    axes.set_yscale("symlog", linthresh=LINEAR, linscale=2)
+    axes.set_yticks([t for t in RATE_TICKS if low - 0.05 <= t <= high + 0.05])
+    axes.yaxis.set_major_formatter(lambda y, _: f"{y:g}".replace("-", "−"))
+    axes.minorticks_off()
+    for level, side, beyond in ((LINEAR, "above", high), (-LINEAR, "below", -low)):
+        if beyond > LINEAR:
+            axes.axhline(level, color=GREY, linewidth=0.7, linestyle=":", zorder=0)
+            axes.annotate(f"logarithmic {side} {level:g}".replace("-", "−"), (1.0, level), (0, 2 if level > 0 else -2),
+                          xycoords=("axes fraction", "data"), textcoords="offset points", fontsize=SMALLEST,
+                          color="0.3", ha="right", va="bottom" if level > 0 else "top")
+
+
+def mark_crossing(axes, crossings, curve, color):
+    """A dashed line at the N_c of a curve, from the table of crossings. Returns the words for its label."""
+    for row in select(crossings, curve=curve):
+        if math.isfinite(row["crossing"]):
+            axes.axvline(row["crossing"], color=color, linewidth=0.8, linestyle="--", zorder=0)
+            return f", $N_c = {row['crossing']:.1f}$"
+    return ""
 
 
 def legend(axes, ncol=2, **more):

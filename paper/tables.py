@@ -1,6 +1,7 @@
 """Reads the tables that `swirl paper` writes, with Python's standard library only."""
 
 import csv
+import os
 
 # The columns of the rotation rates.
 RATES = ("by_time", "by_event", "rigid_by_time", "rigid_by_event")
@@ -19,6 +20,13 @@ def read(table):
 
     with open(table, newline="") as file:
         return [{name: value(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
+
+
+def companion(table, ending):
+    """The rows of a second table of a figure, such as figure_5b_crossings.csv; none if it does not exist."""
+    stem, kind = os.path.splitext(table)
+    file = f"{stem}{ending}{kind}"
+    return read(file) if os.path.exists(file) else []
 
 
 def select(rows, **columns):

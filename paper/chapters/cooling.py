@@ -235,7 +235,7 @@ def deviations(axes, rows, case, look, name):
 
 def draw(table):
     rows = style.read(table)
-    rates = tables.read(table.replace(".csv", "_rates.csv"))
+    rates = tables.companion(table, "_rates")
     drawing, panels = style.figure(style.PAGE, 5.4, ncols=2, nrows=2)
     cases = list(dict.fromkeys(row["case"] for row in rows))
     handles = []

@@ -5,7 +5,6 @@ two states coexist, so that the cumulant tends to 2/3. In a crossover none of th
 the paper's A/R = 0.22, and A/R = 0.4, where the same change exists in dishes of all sizes."""
 
 import math
-import os
 
 import chapter_drawings
 import numpy as np
@@ -119,9 +118,8 @@ def against_size(axes, changes, scaling, quantity, label):
 
 
 def draw(table):
-    stem, ending = os.path.splitext(table)
     rows = tables.select(style.read(table), amplitude_ratio=0.22)
-    changes, scaling = tables.read(f"{stem}_changes{ending}"), tables.read(f"{stem}_scaling{ending}")
+    changes, scaling = tables.companion(table, "_changes"), tables.companion(table, "_scaling")
     drawing, axes = style.figure(style.PAGE, 4.9, ncols=3, nrows=2)
     against_packing(axes[0][0], rows, "susceptibility", LABELS[1][1])
     against_packing(axes[0][1], rows, "correlation", LABELS[2][1])

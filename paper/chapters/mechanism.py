@@ -132,7 +132,7 @@ def gears_table(points, settings):
 
 def draw_gears(table):
     rows = style.read(table)
-    ranks = {row["predictor"].split(".")[1]: row for row in tables.read(table.replace(".csv", "_ranks.csv"))}
+    ranks = {row["predictor"].split(".")[1]: row for row in tables.companion(table, "_ranks")}
     drawing, panels = style.figure(style.PAGE, 4.6, ncols=2, nrows=2)
     values = sorted({row["mu"] for row in rows})
     for axes, (name, words) in zip(panels.flat, PANELS):
@@ -158,7 +158,6 @@ SMOOTH_CONTACTS = {"none": ("friction everywhere", "friction everywhere"),
                    "wall": ("no friction with the wall", "none with the wall"),
                    "boundary": ("no friction between discs at the wall", "none between discs at the wall"),
                    "bulk": ("no friction between other discs", "none between other discs")}
-TICKS = (-0.1, -0.05, 0, 0.05, 0.1, 0.3, 1)
 
 
 def contacts_points(settings):
@@ -194,9 +193,7 @@ def draw_contacts(table):
         style.curve(axes, style.select(rows, frictionless=kind), "discs", "by_time", label=words,
                     color=style.CYCLE[k], marker=style.MARKERS[k])
     style.rotation_axes(axes)
-    axes.set_yscale("symlog", linthresh=0.1, linscale=2)
-    axes.set_yticks(TICKS, [f"{tick:g}".replace("-", "−") for tick in TICKS])
-    axes.minorticks_off()
+    style.fine_near_zero(axes, style.column(rows, "by_time"))
     style.legend(axes, ncol=2)
     style.save(drawing, table)
 

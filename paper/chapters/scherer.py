@@ -135,7 +135,7 @@ def draw_scherer(table):
     panels[0, 1].set_ylabel(r"rotation $\varpi/\Omega$")
     numbers = sorted({row["discs"] for row in rows})
     chosen = [numbers[round(share * (len(numbers) - 1))] for share in (0.2, 0.5, 0.75, 1.0)]
-    draw_rings(panels[1, 0], tables.read(table.replace(".csv", "_rings.csv")), chosen)
+    draw_rings(panels[1, 0], tables.companion(table, "_rings"), chosen)
     against_number(panels[1, 1], rows, "path_distance", settings)
     panels[1, 1].set_ylabel("rms distance from hypotrochoids ($r$)")
     panels[1, 1].set_ylim(bottom=0)

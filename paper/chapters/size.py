@@ -46,11 +46,11 @@ def sphere_points(settings):
 
 
 def draw_size(table):
-    chapter_drawings.dishes(table, "container_radius", r"container radius $R/r$", "$R/r$", logarithmic=True)
+    chapter_drawings.dishes(table, "container_radius", r"container radius $R/r$", "$R/r$")
 
 
 def draw_amplitude(table):
-    chapter_drawings.dishes(table, "amplitude_ratio", r"amplitude $A/R$", "$A/R$", logarithmic=True)
+    chapter_drawings.dishes(table, "amplitude_ratio", r"amplitude $A/R$", "$A/R$")
 
 
 FIGURES = [Figure("size", "chapters", "chapter: the direction of rotation in containers of different sizes", size_points,

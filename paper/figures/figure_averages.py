@@ -42,8 +42,6 @@ def draw(table):
         difference.plot(style.column(curve, "discs"),
                         [row["by_event"] - row["by_time"] for row in curve], color=color,
                         marker=marker)
-        style.ring(both, curve, "discs", "by_event")
-        style.ring(difference, curve, "discs", lambda row: row["by_event"] - row["by_time"])
     both.set_ylabel(r"$\varpi/\Omega$")
     both.plot([], [], color=style.GREY, linestyle=":", marker="o", fillstyle="none",
               label="by time (filled: by event)")

@@ -8,8 +8,6 @@ from figure import Figure
 from runs import HALF, ROUGH, SMOOTH, length_of, lengths, numbers_of_spheres, paper_run, point, with_periods
 from study import Point
 
-FINE = 0.16  # in Ω: coarser scale above, where only small N rotate
-
 
 def points(settings):
     """From N = 24 on the runs are those of Figures 1 to 4."""
@@ -49,7 +47,7 @@ def draw(table):
     rows = style.read(table)
     curves = [(style.select(rows, setting=name), {"label": label} | look)
               for name, (label, look) in style.LOOKS.items() if style.select(rows, setting=name)]
-    style.rotation_figure(table, curves, of="spheres", width=style.PAGE, height=3.4, fine=FINE, ncol=3)
+    style.rotation_figure(table, curves, of="spheres", width=style.PAGE, height=3.4, fine=True, ncol=3)
 
 
 FIGURES = [Figure("spheres", "rolling", "spheres that roll: rotation against N, smooth, rough and half the amplitude",

@@ -16,6 +16,7 @@ sys.path.insert(0, os.path.join(SOURCE, "paper"))
 import catalogue  # noqa: E402
 import draw  # noqa: E402
 import style  # noqa: E402
+import tables  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 from matplotlib.text import Text  # noqa: E402
@@ -230,6 +231,24 @@ class Drawings(unittest.TestCase):
             drawing = self.drawn(name, [row | none for row in TABLES[name]])
             self.assertTrue(drawing.axes[0].get_legend() or drawing.legends, name)
 
+    def test_open_symbols_alone_mark_unverified_states(self):
+        drawing = self.drawn("5b", TABLES["5b"])
+        open_points = [line for line in drawing.axes[0].lines if line.get_markerfacecolor() == "white"]
+        self.assertEqual(len(open_points), len(FRICTIONS))
+        drifting = sum(row["steady_state"] == "drifting" for row in TABLES["5b"])
+        self.assertEqual(sum(len(line.get_xdata()) for line in open_points), drifting)
+        self.assertIn("open: steady state not verified", drawing.notes)
+        steady = self.drawn("5b", [row | {"steady_state": "steady"} for row in TABLES["5b"]])
+        self.assertFalse([line for line in steady.axes[0].lines if line.get_markerfacecolor() == "white"])
+
+    def test_figure_5b_marks_the_crossings(self):
+        with mock.patch.object(tables, "companion", lambda table, ending: [
+                {"curve": "high", "crossing": 38.24}, {"curve": "low", "crossing": math.nan}]):
+            drawing = self.drawn("5b", TABLES["5b"])
+        labels = [text.get_text() for text in drawing.axes[0].get_legend().get_texts()]
+        self.assertEqual([label for label in labels if "N_c" in label], [r"high ($\mu = 1$), $N_c = 38.2$"])
+        self.assertTrue(any(set(line.get_xdata()) == {38.24} for line in drawing.axes[1].lines))
+
     def test_figure_5b_shows_the_crossings_enlarged(self):
         rows = [row for row in TABLES["5b"] if row["setting"] != "high"]
         rows += list(rotation(range(24, 49), low=-0.07, setting="high"))  # the averages by event reach −0.05
@@ -275,7 +294,7 @@ class Drawings(unittest.TestCase):
         near = curves("setting", SPHERES, range(8, 56, 4))
         near = [row | {"by_time": -0.05} for row in near]
         self.assertEqual(self.drawn("spheres", near).axes[0].get_yscale(), "linear")
-        self.assertEqual(self.drawn("spheres", TABLES["spheres"]).axes[0].get_yscale(), "function")
+        self.assertEqual(self.drawn("spheres", TABLES["spheres"]).axes[0].get_yscale(), "symlog")
 
 
 if __name__ == "__main__":
