@@ -80,6 +80,8 @@ engineOf(process.argv[1]).then((make) => {
                 rotation: JSON.parse(engine.answer(engine.out.rotation())),
                 result: JSON.parse(engine.answer(engine.out.result())),
                 turns: [...new Float64Array(engine.out.memory.buffer, engine.out.turns(), 2)],
+                cause: [...new Float64Array(engine.out.memory.buffer, engine.out.cause(), 10)],
+                contacts: engine.out.contacts() / 4,
                 problem: engine.answer(engine.out.problem(1)),
                 command: engine.answer(engine.out.command()),
                 asked: engine.asked});
@@ -357,6 +359,23 @@ class Laboratory(unittest.TestCase):
         full, answers = self.discs({}, steps(59))
         self.assertEqual(answers[1], 1 + 59 - len(full))
         self.assertLess(len(full), 59)
+
+    def test_the_cause_has_the_values_of_the_command_line(self):
+        for discs in (12, 48):
+            with self.subTest(discs=discs):
+                there = self.engine([{"given": {"discs": str(discs), "measure": ""}, "events": 0,
+                                      "steps": [["advance_to", 220 * 11.866071, 10 ** 9]]}])["said"][0]
+                here = json.loads(swirl("run", "--discs", str(discs), "--periods", "220", "--warmup", "20", "--measure",
+                                        "slip,frustration", "--json", "-", "--quiet").stdout)["measured"]
+                rows = [here["slip"]["cluster"], here["slip"]["cluster_perimeter"],
+                        *(here["frustration"][name] for name in ("spin_correlation", "disc_sticking", "wall_sticking"))]
+                for k, row in enumerate(rows):
+                    # Both have eight samples per period, but at other phases; every collision counts for both.
+                    limit = 4 * row["error"] if k < 3 else 1e-3
+                    self.assertAlmostEqual(there["cause"][2 * k], row["mean"], delta=limit, msg=str(row))
+                    self.assertLess(abs(math.log(there["cause"][2 * k + 1] / row["error"])), math.log(3), str(row))
+                self.assertGreater(there["contacts"], 100)
+                self.assertLessEqual(there["contacts"], 4096)
 
     def test_turns_are_the_rotation_rate_times_the_periods(self):
         period = 11.866071
