@@ -11,7 +11,8 @@ from program import SOURCE, InFolder
 # Programs in the PATH. The last argument of sphinx-build is the output folder.
 PROGRAMS = {
     "web/lab.sh": 'for a; do case $a in *.html) echo \'<meta charset="utf-8">\' >"$a" ;; esac; done',
-    "bin/sphinx-build": '[ -z "${FAIL-}" ] || exit 1\nfor a; do :; done\necho "$PAGE" >"$a/index.html"',
+    "bin/sphinx-build": '[ -z "${FAIL-}" ] || exit 1\nfor a; do :; done\n'
+                        'echo "$PAGE${SWIRL_SITE_ADDRESS:+ at $SWIRL_SITE_ADDRESS}" >"$a/index.html"',
     # Call number AT sends SIGNAL to the calling shell, before or after its rename.
     "bin/mv": """count=$(($(cat "$COUNT" 2>/dev/null || echo 0) + 1))
 echo $count >"$COUNT"
@@ -87,6 +88,7 @@ class SiteNames(InFolder):
         for tag in (f'<link rel="canonical" href="{at}lab.html">', f'<meta property="og:image" content="{at}preview.png">'):
             self.assertIn(tag, read("lab.html"))
         self.assertEqual(read("preview.png"), "picture")
+        self.assertEqual(self.page(), f"page at {at}")  # docs/conf.py makes the tags of the documentation
         self.assertEqual(self.make("page").returncode, 0)
         self.assertFalse({"sitemap.txt", "robots.txt", "preview.png"} & set(os.listdir(self.site)))
         self.assertNotIn("canonical", read("lab.html"))
