@@ -30,6 +30,7 @@ function(swirl_vector_sources variable)
       "-mavx512f;-mavx512vl;-mavx512dq;-mavx512bw;-mprefer-vector-width=512;$<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized>;${once}")
     set_source_files_properties(${avx2_sources} ${avx512_sources} PROPERTIES
       SKIP_UNITY_BUILD_INCLUSION ON)
+    list(FILTER sources EXCLUDE REGEX "_${omitted_width}\\.cpp$")
   else()
     list(FILTER sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
   endif()

@@ -176,6 +176,7 @@ build_now() {
     # ctime, so it gets a new date.
     [ ! -e "$stamp" ] || (cd "$home" && find $sources -type f -cnewer "$stamp" ! -newer "$stamp" \
         -exec touch {} + 2>/dev/null) || true
+    [ "$1" != release ] || settings="-DSWIRL_ONLY_WIDEST=ON $settings" # only for this machine
     [ -e "$stamp" ] || say "building the program, only once; this takes $long on two cores"
     touch "$stamp.building"
     log=$folder/build.log

@@ -4,8 +4,10 @@ namespace swirl {
 
 AllPairsSearch all_pairs_search(Width width) {
     width = width_meant(width);
-#if defined(SWIRL_HAS_WIDE_VECTORS)
+#if defined(SWIRL_HAS_AVX512)
     if (width == Width::avx512) return all_pairs_search_avx512;
+#endif
+#if defined(SWIRL_HAS_AVX2)
     if (width == Width::avx2) return all_pairs_search_avx2;
 #endif
     return all_pairs_search_baseline;

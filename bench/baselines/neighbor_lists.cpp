@@ -42,8 +42,10 @@ bool is_well_inside(const Vec2& apart, double clearance) {
 
 ListSearch list_search(Width width) {
     width = width_meant(width);
-#if defined(SWIRL_HAS_WIDE_VECTORS)
+#if defined(SWIRL_HAS_AVX512)
     if (width == Width::avx512) return list_search_avx512;
+#endif
+#if defined(SWIRL_HAS_AVX2)
     if (width == Width::avx2) return list_search_avx2;
 #endif
     return list_search_baseline;

@@ -2,6 +2,7 @@
 `cmake --build --preset release`, and then the program runs. Builds the whole program."""
 
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -30,6 +31,21 @@ class ReleasePreset(unittest.TestCase):
             commit = output_of("git rev-parse --short=7 HEAD").strip()
             self.assertIn(commit, output_of("build/release/swirl --version"))
             self.assertEqual(output_of("git status --porcelain"), "")
+
+    def test_a_build_for_one_machine_has_at_most_one_loop_of_wide_vectors(self):
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            flags = set(file.read().split())
+        avx512 = {"avx512f", "avx512vl", "avx512dq", "avx512bw"} <= flags
+        widest = ["avx512"] if avx512 else ["avx2"] if "avx2" in flags else []
+        for only, widths in (("ON", widest), ("OFF", ["avx2", "avx512"])):
+            with tempfile.TemporaryDirectory() as folder:
+                for command in (["cmake", "--preset", "release", "-B", folder, f"-DSWIRL_ONLY_WIDEST={only}"],
+                                ["ninja", "-C", folder, "-t", "commands", "swirl"]):
+                    done = subprocess.run(command, cwd=SOURCE, capture_output=True, text=True)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                for file in ("event_loop", "cluster_rotation"):
+                    self.assertEqual(sorted(set(re.findall(rf"{file}_(avx\d+)\.cpp\.o -c", done.stdout))), sorted(widths))
+                self.assertIn("event_loop_baseline.cpp.o -c", done.stdout)
 
 
 if __name__ == "__main__":

@@ -14,8 +14,10 @@ const EventLoops& event_loops(const InitialState& scene, Width width) {
     width = width_meant(width);
     if (scene.frictionless == Frictionless::boundary || scene.frictionless == Frictionless::bulk)
         return event_loops_partial_friction;
-#if defined(SWIRL_HAS_WIDE_VECTORS)
+#if defined(SWIRL_HAS_AVX512)
     if (width == Width::avx512) return event_loops_avx512;
+#endif
+#if defined(SWIRL_HAS_AVX2)
     if (width == Width::avx2) return event_loops_avx2;
 #endif
     return event_loops_baseline;

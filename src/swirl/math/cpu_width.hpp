@@ -5,10 +5,12 @@
 
 #include <cstdint>
 
-// True if code for AVX2 and AVX-512 is part of this build. The sanitizer build omits it by default
-// (SWIRL_WIDE_VECTORS in cmake/options.cmake).
-#if defined(__x86_64__) && !defined(SWIRL_BASELINE_ONLY)
-#define SWIRL_HAS_WIDE_VECTORS 1
+// Defined if code for AVX2, and for AVX-512, is part of this build (cmake/options.cmake).
+#if defined(__x86_64__) && !defined(SWIRL_BASELINE_ONLY) && !defined(SWIRL_WITHOUT_AVX2)
+#define SWIRL_HAS_AVX2 1
+#endif
+#if defined(__x86_64__) && !defined(SWIRL_BASELINE_ONLY) && !defined(SWIRL_WITHOUT_AVX512)
+#define SWIRL_HAS_AVX512 1
 #endif
 
 namespace swirl {
@@ -25,10 +27,12 @@ inline constexpr const char* baseline_name = "baseline";
 
 /// True if this build has code of that width and this processor can run it.
 inline bool has_width(Width width) {
-#if defined(SWIRL_HAS_WIDE_VECTORS)
+#if defined(SWIRL_HAS_AVX512)
     if (width == Width::avx512)
         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+#endif
+#if defined(SWIRL_HAS_AVX2)
     if (width == Width::avx2) return __builtin_cpu_supports("avx2");
 #endif
     return width == Width::baseline || width == Width::best;

@@ -86,8 +86,10 @@ SWIRL_INLINE RotationSample sample_of(const Snapshot& s, const RotationCentre& c
 
 const RotationKernel& kernel_for(Width width) {
     width = has_width(width) ? width_meant(width) : Width::baseline;
-#if defined(SWIRL_HAS_WIDE_VECTORS)
+#if defined(SWIRL_HAS_AVX512)
     if (width == Width::avx512) return rotation_avx512::kernel;
+#endif
+#if defined(SWIRL_HAS_AVX2)
     if (width == Width::avx2) return rotation_avx2::kernel;
 #endif
     return rotation_baseline::kernel;
