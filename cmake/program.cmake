@@ -38,12 +38,6 @@ set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer
 swirl_layer(run -O1 PUBLIC swirl_io)
 swirl_layer(render -O2 PUBLIC swirl_run PkgConfig::cairo)
 swirl_layer(study -O1 PUBLIC swirl_run Threads::Threads)
-# `swirl paper` and `swirl experiment`. Without this layer they are listed in the help, and report what
-# is missing.
-option(SWIRL_PAPER "Build `swirl paper` and `swirl experiment`" ON)
-if(SWIRL_PAPER)
-  swirl_layer(paper -O1 PUBLIC swirl_study swirl_render)
-endif()
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper ${PROJECT_BINARY_DIR}/share/swirl/paper SYMBOLIC)
@@ -54,10 +48,12 @@ target_include_directories(swirl_track_tables PUBLIC ${PROJECT_SOURCE_DIR})
 target_link_libraries(swirl_track_tables PRIVATE ${hdf5_library})
 target_include_directories(swirl_track_tables SYSTEM PRIVATE ${hdf5_include})
 swirl_part(swirl_track_synthetic track/synthetic -O2 PUBLIC swirl_track_tables)
-if(SWIRL_PAPER)
-  swirl_part(swirl_track_experiment track/experiment -O1 PUBLIC swirl_track_tables swirl_paper)
+# Without this part, `swirl experiment` is listed in the help, and reports what is missing.
+option(SWIRL_EXPERIMENT "Build `swirl experiment`" ON)
+if(SWIRL_EXPERIMENT)
+  swirl_part(swirl_track_experiment track/experiment -O1 PUBLIC swirl_track_tables swirl_study)
 endif()
-cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON SWIRL_PAPER OFF)
+cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON SWIRL_EXPERIMENT OFF)
 # Debian's package with the CMake files of OpenCV depends on all of OpenCV, so they are not used.
 find_path(opencv_include opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
 find_library(opencv_core_library opencv_core)
@@ -82,14 +78,12 @@ set_source_files_properties(src/swirl/run/version.cpp PROPERTIES COMPILE_DEFINIT
 file(GLOB app_sources CONFIGURE_DEPENDS src/swirl/cli/*.cpp track/cli/*.cpp)
 add_executable(swirl ${app_sources})
 target_link_libraries(swirl PRIVATE swirl_study swirl_track_synthetic CLI11::CLI11)
-if(SWIRL_PAPER)
-  target_link_libraries(swirl PRIVATE swirl_paper swirl_track_experiment)
+if(SWIRL_EXPERIMENT)
+  target_link_libraries(swirl PRIVATE swirl_track_experiment)
   # Outside the batches, so that adding this part later compiles nothing else of the command line again.
-  set_source_files_properties(src/swirl/cli/command_paper.cpp track/cli/command_experiment.cpp
-    PROPERTIES COMPILE_DEFINITIONS SWIRL_PAPER=1)
+  set_source_files_properties(track/cli/command_experiment.cpp PROPERTIES COMPILE_DEFINITIONS SWIRL_EXPERIMENT=1)
 endif()
-set_source_files_properties(src/swirl/cli/command_paper.cpp track/cli/command_experiment.cpp
-  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(track/cli/command_experiment.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 if(SWIRL_CAMERA)
   target_link_libraries(swirl PRIVATE swirl_track_video)
   target_compile_definitions(swirl PRIVATE SWIRL_CAMERA=1)

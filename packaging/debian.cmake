@@ -22,7 +22,8 @@ function(listed_packages sections excluded result)
   set(${result} ${found} PARENT_SCOPE)
 endfunction()
 listed_packages("images" "" needed)
-listed_packages("figures;movies" "${needed}" recommended)
+listed_packages("figures;movies;paper" "${needed}" recommended)
+list(APPEND recommended python3-swirl)
 list(JOIN needed ", " CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS)
 list(JOIN recommended ", " CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS)
 
@@ -56,7 +57,7 @@ if(TARGET swirl_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= ${major}.${minor}), python3 (<< ${major}.${next}), python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib, swirl")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-matplotlib, python3-scipy, python3-jinja2, swirl")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "Python module swirl: simulations, measurements and sweeps as numpy arrays.")
 endif()

@@ -1,9 +1,14 @@
-"""All figures: the files of paper/figures and paper/chapters."""
+"""All figures: the files of paper/figures and paper/chapters. As a script, it lists them, or
+checks the names in its arguments."""
 
+import difflib
 import glob
 import importlib
 import os
 import re
+import sys
+
+from console import Problem
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 # The first words of each figure in its file, which can be listed without importing it.
@@ -15,7 +20,8 @@ ORDER = ("ball states times 5b-steady averages friction inertia restitution tang
          "condensation spheres spheres_friction spheres_few spheres_ingredients spheres_ingredients_rough size amplitude "
          "critical hysteresis lifetimes torque gears contacts material_inertia material_friction material_tangential "
          "spheres_packing spheres_size fields closure cooling scherer instability").split()
-GROUP_ORDER = ("paper", "beyond", "rolling", "chapters")
+GROUPS = {"paper": "the figures of the paper", "beyond": "parameters, averages and times that the paper does not show",
+          "rolling": "spheres that roll on the floor", "chapters": "questions that the paper leaves open"}
 
 
 def entries():
@@ -27,7 +33,7 @@ def entries():
                 module = f"{folder}.{os.path.basename(file)[:-len('.py')]}"
                 found += [(*entry, module) for entry in ENTRY.findall(text.read())]
     return sorted(found, key=lambda entry: (
-        GROUP_ORDER.index(entry[1]), SORTED_AS.get(entry[0], entry[0]) if entry[1] == "paper" else "",
+        list(GROUPS).index(entry[1]), SORTED_AS.get(entry[0], entry[0]) if entry[1] == "paper" else "",
         ORDER.index(entry[0]) if entry[0] in ORDER else len(ORDER), entry[0]))
 
 
@@ -40,8 +46,38 @@ def drawing(name):
     return importlib.import_module(f"figures.figure_{drawn_as.get(name, name)}").draw
 
 
+def check(names):
+    """Raises Problem if one of these names is not that of a figure, of a group, or "all"."""
+    known = ["all", *GROUPS, *(entry[0] for entry in entries())]
+    for name in names:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            raise Problem(f"--figure is '{name}', but it must be one of: {', '.join(known)}." +
+                          (f"\nhint: did you mean '{near[0]}'?" if near else ""), 2)
+
+
 def named(names):
     """The figures with these names, which may be names of groups or "all"; each once."""
+    check(names)
     wanted = [entry for name in names for entry in entries() if name in ("all", entry[0], entry[1])]
     return [next(figure for figure in importlib.import_module(module).FIGURES if figure.name == name)
             for name, _, _, module in dict.fromkeys(wanted)]
+
+
+def main():
+    if sys.argv[1:]:
+        try:
+            return check(sys.argv[1:])
+        except Problem as problem:
+            print(problem, end="")
+            sys.exit(problem.code)
+    print("Groups of figures:\n  all                 all figures, and the report")
+    for name, description in GROUPS.items():
+        print(f"  {name:<19} {description}")
+    print("\nFigures:")
+    for name, _, description, _ in entries():
+        print(f"  {name:<19} {description}")
+
+
+if __name__ == "__main__":
+    main()

@@ -14,7 +14,7 @@ class Figure:
     ending "" is that of the table figure_NAME.csv; `draw(file)` draws this table to PNG and PDF next to it."""
 
     name: str
-    group: str  # one of GROUPS
+    group: str  # one of catalogue.GROUPS
     description: str  # one line
     points: Callable
     table: Callable
@@ -29,7 +29,3 @@ class Figure:
             rows, columns = rows if isinstance(rows, tuple) else (rows, None)
             write_table(files[-1], rows, columns)
         return findings, files
-
-
-GROUPS = {"paper": "the figures of the paper", "beyond": "parameters, averages and times that the paper does not show",
-          "rolling": "spheres that roll on the floor", "chapters": "questions that the paper leaves open"}

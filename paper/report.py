@@ -5,7 +5,9 @@ folder.
 """
 
 import html
+import json
 import os
+import sys
 
 import atomic_file
 import verdicts
@@ -13,7 +15,7 @@ from captions import CONTRADICTIONS, by_section, figure_texts, image_of, questio
 from claims import all_judged
 from claims.claim import UNTESTED
 from first_page import crossings_of_one_setting, main_results
-from html_page import bullets, described_folder, opening, pairs, rich, table, td, write
+from html_page import bullets, described_folder, opening, pairs, rich, table, td
 from page_layout import figures_html
 from point_names import in_words
 from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
@@ -221,13 +223,23 @@ def pdf(folder, about, judged):
     return report_pdf(folder, TITLE, opening, sections)
 
 
-def main():
-    folder, about = described_folder("paper.json", "swirl paper --out", "Writes report.md, report.html and report.pdf")
+def write_all(folder):
+    """Writes the report from paper.json and the tables."""
+    with open(os.path.join(folder, "paper.json"), encoding="utf-8") as file:
+        about = json.load(file)
     judged = judge(folder)
-    for name, text in (("report.md", markdown(about, judged, crossings_of_one_setting(folder), main_results(folder))),
-                       ("report.html", page(folder, about, judged))):
-        write(os.path.join(folder, name), text)
-    atomic_file.write_or_exit(os.path.join(folder, "report.pdf"), pdf(folder, about, judged))
+    atomic_file.write(os.path.join(folder, "report.md"),
+                      markdown(about, judged, crossings_of_one_setting(folder), main_results(folder)))
+    atomic_file.write(os.path.join(folder, "report.html"), page(folder, about, judged))
+    atomic_file.write(os.path.join(folder, "report.pdf"), pdf(folder, about, judged))
+
+
+def main():
+    folder, _ = described_folder("paper.json", "swirl paper --out", "Writes report.md, report.html and report.pdf")
+    try:
+        write_all(folder)
+    except OSError as error:
+        sys.exit(f"'{error.filename}' cannot be written: {error.strerror}.")
 
 
 if __name__ == "__main__":

@@ -32,6 +32,10 @@ class Settings:
     seeds_of_point: dict = dataclasses.field(default_factory=dict)  # more seeds, until a claim is decided
 
     @property
+    def workers(self):
+        return self.threads or len(os.sched_getaffinity(0))
+
+    @property
     def default_seeds(self):
         return 3 if self.quick else 8
 
@@ -189,8 +193,7 @@ def make(points, settings, progress=lambda fraction: None, part=(1, 1)):
     left = [task for task in tasks if task.result is None]
     total, done = sum(task.cost() for task in left) or 1.0, 0.0
     if left:
-        workers = settings.threads or len(os.sched_getaffinity(0))
-        with multiprocessing.Pool(min(workers, len(left)), worker, (os.getpid(),)) as pool:
+        with multiprocessing.Pool(min(settings.workers, len(left)), worker, (os.getpid(),)) as pool:
             jobs = [(k, task, out) for k, task in enumerate(left)]
             for k, stored in pool.imap_unordered(do, jobs):
                 left[k].result, left[k].seconds = stored["result"], stored["seconds"]

@@ -14,9 +14,9 @@ CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
 file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
 add_executable(swirl ${sources})
-option(SWIRL_PAPER "" ON)
+option(SWIRL_EXPERIMENT "" ON)
 option(SWIRL_CAMERA "" ON)
-target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_PAPER},${SWIRL_CAMERA}")
+target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_EXPERIMENT},${SWIRL_CAMERA}")
 """
 PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
  "binaryDir": "${sourceDir}/build/release"}]}"""
@@ -40,6 +40,7 @@ class Launcher(InFolder):
         super().setUp()
         os.makedirs(self.path("src"))
         os.makedirs(self.path("cmake"))
+        os.makedirs(self.path("bindings/python"))
         self.copy("swirl")
         self.copy("cmake/launcher.sh")
         self.write("packages", "[build]\ng++\ncmake\nninja-build\n[figures]\n")
@@ -184,18 +185,19 @@ class Launcher(InFolder):
         self.assertEqual(process.returncode, -signal.SIGTERM)
 
     def parts(self, subcommand, *arguments):
-        """The built parts of the program, paper and camera, and whether the call built anything."""
+        """The built parts of the program, experiment and camera, and whether the call built anything."""
         # The small program ends with exit code 0 for the name of a subcommand.
         done = self.call(subcommand, *(arguments or ("parts",)))
         return done.stdout.split()[:1], "building" in done.stderr
 
     def test_each_part_is_built_on_first_use_and_stays(self):
+        self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
         for subcommand, parts, builds in (
                 ("run", "OFF,OFF", True), ("run", "OFF,OFF", False), ("movie", "OFF,OFF", False),
-                ("synthetic-video", "OFF,OFF", False), ("paper", "ON,OFF", True),
-                ("paper", "ON,OFF", False), ("run", "ON,OFF", False), ("track", "ON,ON", True),
-                ("track", "ON,ON", False), ("paper", "ON,ON", False), ("experiment", "ON,ON", False),
-                ("run", "ON,ON", False)):
+                ("synthetic-video", "OFF,OFF", False), ("paper", "OFF,OFF", True),  # the Python module
+                ("paper", "OFF,OFF", False), ("run", "OFF,OFF", False), ("track", "ON,ON", True),
+                ("track", "ON,ON", False), ("paper", "ON,ON", True), ("paper", "ON,ON", False),
+                ("experiment", "ON,ON", False), ("run", "ON,ON", False)):
             with self.subTest(subcommand, parts=parts):
                 self.assertEqual(self.parts(subcommand), ([parts], builds))
         self.write_program("second")
@@ -204,16 +206,11 @@ class Launcher(InFolder):
 
     def test_help_and_a_usage_error_add_no_part(self):
         self.assertEqual(self.parts("run"), (["OFF,OFF"], True))
-        self.write("docs/reference/commands.md", "## swirl paper\n```text\nFigures: 1b\n```\n")
-        # A program without the figures does not know their names, so the help is that of the docs.
-        self.assertEqual(self.call("paper", "--help").stdout, "Figures: 1b\n")
         for subcommand in ("paper", "track", "experiment"):
             with self.subTest(subcommand):
                 self.assertEqual(self.parts(subcommand, "--wrong"), ([], False))
                 self.assertEqual(self.parts(subcommand, "--help")[1], False)
                 self.assertEqual(self.parts("run"), (["OFF,OFF"], False))
-        self.assertEqual(self.parts("paper"), (["ON,OFF"], True))
-        self.assertEqual(self.call("paper", "--help").stdout.split()[0], "first")
 
     def test_works_through_a_link(self):
         os.symlink(self.path("swirl"), self.path("link"))
@@ -422,6 +419,7 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
         self.assertEqual([name for name in os.listdir(self.path("build")) if name.startswith(".building")], [])
 
     def test_packages_of_a_subcommand_are_installed_once(self):
+        self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
         self.write("packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n"
                                "[images]\ng++\n")
         self.stand_in("id", "echo 0\n")

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from program import InFolder, SWIRL, main, some, swirl
+from program import SOURCE, InFolder, SWIRL, main, some, swirl
 
 HANG = 300  # seconds: a program that ignores the signal fails the test instead of blocking it
 PER_SECOND = os.sysconf("SC_CLK_TCK")
@@ -104,11 +104,11 @@ class Stop(InFolder):
         self.assertEqual(self.left_behind(), made)
 
     def test_while_figures_are_drawn(self):
-        os.mkdir(self.path("figures"))
-        with open(self.path("figures/draw.py"), "w", encoding="utf-8") as script:
-            script.write("import os, sys, time\n"
-                         "open(os.path.join(os.path.dirname(sys.argv[0]), str(os.getpid())), 'w')\n"
-                         "time.sleep(3600)\n")  # beyond the time limit of this test
+        shutil.copytree(os.path.join(SOURCE, "paper"), self.path("figures"))
+        with open(self.path("figures/style.py"), "a", encoding="utf-8") as script:
+            script.write("\n\ndef save(*_):\n    import time\n"
+                         f"    open(os.path.join({self.path('figures')!r}, str(os.getpid())), 'w').close()\n"
+                         "    time.sleep(3600)\n")  # beyond the time limit of this test
         for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             started = Started(self.folder, "paper", "--figure", "5b", "--quick", "--events", "2000", "--quiet",
                               "--out", self.path("out"), SWIRL_FIGURES=self.path("figures"))

@@ -212,7 +212,7 @@ def replicates(means):
 def share_decided(between, counts, repetitions, source):
     """How often a value exactly on its bound is decided, although no verdict is correct there. The runs differ by
     `between` times the errors of their blocks. Seeds are added until the value is decided
-    (add_seeds_to_undecided in src/swirl/paper/paper.cpp)."""
+    (add_seeds_to_undecided in paper/command.py)."""
     decided = 0
     for _ in range(repetitions):
         means = [source.gauss(0, math.hypot(1, between)) for _ in range(counts[-1])]

@@ -13,7 +13,7 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
 
 # The lowest layer first.
 ENGINE_PROGRAM = ("math", "physics", "engine", "statistics", "measure", "io", "run", "render", "study",
-                  "paper", "cli")
+                  "cli")
 TRACK = ("track/tables", "track/video", "track/synthetic", "track/experiment", "track/cli")
 LAYERS = (*ENGINE_PROGRAM[:ENGINE_PROGRAM.index("cli")], *TRACK, "cli")
 # Layers that use the standard library only, and compile for WebAssembly.
@@ -94,7 +94,7 @@ def code_of(file):
 
 # Layers of which the compiler gets several files at once (and the command line, whose files write one
 # function for each kind of call).
-COMPILED_AT_ONCE = ("measure", "io", "run", "render", "study", "paper",
+COMPILED_AT_ONCE = ("measure", "io", "run", "render", "study",
                     *(part for part in TRACK if part != "track/cli"))
 DEFINITIONS = (
     # A function, up to its brace; a type; a constant.

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "pixels.hpp"
-#include "swirl/render/frame_diagram.hpp"
 #include "swirl/render/sheet.hpp"
 
 namespace swirl {
@@ -313,19 +312,6 @@ TEST(Scene, SliceIsAtItsAngle) {
     EXPECT_GT(green_over_red(-4.0, 4.0), 30);
     EXPECT_LT(green_over_red(4.0, 4.0), 30);
     EXPECT_LT(green_over_red(-4.0, -4.0), 30);
-}
-
-TEST(FrameDiagram, ShowsTheForcesInTheThirdPart) {
-    Snapshot s = container(0.13);
-    add_disc(s, {5.0, 0.0});
-    const Theme theme = light_theme();
-    Canvas canvas(Size{1200, 450});
-    draw_frame_diagram(canvas, theme, s, 0);
-    const Patch centrifugal = patch_of(canvas, theme.centrifugal);
-    EXPECT_GT(centrifugal.count, 500.0);
-    EXPECT_GT(centrifugal.middle.x, 800.0);  // of 1200 pixels
-    EXPECT_GT(patch_of(canvas, theme.coriolis).count, 50.0);
-    EXPECT_GT(patch_of(canvas, theme.velocity).count, 50.0);
 }
 
 TEST(Sheet, EverySizeCanBeDrawnInBothThemes) {

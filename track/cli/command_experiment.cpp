@@ -43,9 +43,9 @@ struct ExperimentCall {
     bool spin = false, no_simulation = false, quiet = false;
 };
 
-#ifndef SWIRL_PAPER
+#ifndef SWIRL_EXPERIMENT
 
-void make_experiment_report(const ExperimentCall&) { throw_no_paper_support("experiment"); }
+void make_experiment_report(const ExperimentCall&) { throw_no_experiment_support(); }
 
 #else
 
@@ -225,9 +225,9 @@ void make_experiment_report(ExperimentCall& call) {
     ExperimentResult result;
     {
         ProgressLine line("simulation", call.quiet);
-        PaperControl control;
+        ExperimentControl control;
         control.stop = &stop_signal();
-        control.progress = [&](double fraction, double) { line.show(fraction, "runs"); };
+        control.progress = [&](double fraction) { line.show(fraction, "runs"); };
         result = make_experiment(videos, call.settings, control);
     }
     if (call.json == "-")
@@ -241,7 +241,7 @@ void make_experiment_report(ExperimentCall& call) {
                         videos.size() - std::size_t(good), videos.size()));
 }
 
-#endif  // SWIRL_PAPER
+#endif  // SWIRL_EXPERIMENT
 
 void add_experiment_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExperimentCall>();

@@ -242,8 +242,8 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
         throw Failure(
             fmt::format("'{}' already exists.\nhint: use --overwrite to replace it.", call.out));
 
-    const std::atomic<bool>& stop = stop_signal();
-    const Playback playback = simulated(config, &stop).open();
+    const std::atomic<bool>& stopped = stop_signal();
+    const Playback playback = simulated(config, &stopped).open();
     CameraView view(camera);
     MovieWriter writer(call.out, MovieFormat::mp4, camera.size, call.fps, call.quality);
     GroundTruth truth;
@@ -251,7 +251,7 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
                       static_cast<std::size_t>(camera.size.height));
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
     for (std::int64_t k = 0; k < frames; ++k) {
-        if (stop.load()) throw Interrupted("stopped before the last frame; no video was written.");
+        if (stopped.load()) throw Interrupted("stopped before the last frame; no video was written.");
         Snapshot s = playback(call.from + double(k) / double(camera.frames_per_period));
         if (call.still) bring_container_to_rest(s);
         writer.write(planes.of(view.render(s)));
@@ -281,12 +281,12 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
 
 void add_synthetic_video_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SyntheticVideoCall>();
-    const char* group = "Video";
+    const char* section = "Video";
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
-        subcommand.add_option(name, into, description)->type_name(type)->group(group);
+        subcommand.add_option(name, into, description)->type_name(type)->group(section);
     };
     const auto flag = [&](const char* name, bool& into, const char* description) {
-        subcommand.add_flag(name, into, description)->group(group);
+        subcommand.add_flag(name, into, description)->group(section);
     };
     add("--out", call->out, "FILE.mp4", "Video; its ground truth is written next to it");
     add("--length", call->periods, "PERIODS", "Duration, in periods [3]");
@@ -296,7 +296,7 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     add("--quality", call->quality, "N", "Compression: 0 lossless, 18 good, 35 poor [18]");
     flag("--overwrite", call->overwrite, "Replace an existing video");
     flag("--quiet", call->quiet, "No progress line and no summary");
-    group = "Camera";
+    section = "Camera";
     add("--camera", call->preset, "NAME",
         "Preset: laboratory, phone, bad, steel, student [laboratory]");
     add("--scale", call->scale, "NUMBER", "Image scale, pixels per disc radius");

@@ -10,9 +10,9 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
-#include "swirl/paper/curves.hpp"
-#include "swirl/paper/result_store.hpp"
-#include "swirl/paper/seed_ensemble.hpp"
+#include "track/experiment/curves.hpp"
+#include "track/experiment/result_store.hpp"
+#include "track/experiment/seed_ensemble.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parallel_for.hpp"
@@ -67,12 +67,18 @@ double position_error(const ContainerVideo& video) {
 }
 const char* kind_of(bool smooth) { return smooth ? "smooth" : "rough"; }
 
+/// One simulation. Its result is stored in OUT/parts/KEY.json.
+struct Task {
+    std::string key;
+    std::function<Json(const RunControl&)> work;
+};
+
 /// The simulation for one or several videos.
 struct Counterpart {
     bool smooth;
     RunConfig config;
     CameraSampling sampling;
-    std::vector<PaperTask> runs;
+    std::vector<Task> runs;
     Json result = nullptr;
 };
 
@@ -87,7 +93,7 @@ class Experiment {
                 if (videos[k].good()) add_counterpart(k);
     }
 
-    void simulate(const PaperControl& control, ExperimentResult& result);
+    void simulate(const ExperimentControl& control, ExperimentResult& result);
     std::vector<fs::path> write_tables() const;
     std::vector<std::string> findings() const;
     Json json() const;
@@ -179,7 +185,7 @@ void Experiment::add_counterpart(std::size_t k) {
     for (int seed = 0; seed < settings_.seeds; ++seed) {
         RunConfig config = made.config;
         config.seed += static_cast<std::uint64_t>(seed);
-        made.runs.push_back({fmt::format("{}_seed{}", key, config.seed), double(config.events),
+        made.runs.push_back({fmt::format("{}_seed{}", key, config.seed),
                              [config, sampling = made.sampling](const RunControl& control) {
                                  return camera_sampled_run(config, sampling,
                                                            measurements_of_a_video(), control);
@@ -189,12 +195,12 @@ void Experiment::add_counterpart(std::size_t k) {
     counterparts_.push_back(std::move(made));
 }
 
-void Experiment::simulate(const PaperControl& control, ExperimentResult& result) {
+void Experiment::simulate(const ExperimentControl& control, ExperimentResult& result) {
     const ResultStore store(settings_.out);
-    std::vector<const PaperTask*> left;
+    std::vector<const Task*> left;
     std::map<std::string, Json> done;
     for (const Counterpart& c : counterparts_)
-        for (const PaperTask& task : c.runs) {
+        for (const Task& task : c.runs) {
             ++result.runs;
             if (auto part = store.find(task.key)) {
                 done[task.key] = (*part)["result"];
@@ -215,7 +221,7 @@ void Experiment::simulate(const PaperControl& control, ExperimentResult& result)
                 shares[k] = p.fraction;
                 double sum = 0.0;
                 for (const double share : shares) sum += share;
-                if (control.progress) control.progress(sum / double(shares.size()), 0.0);
+                if (control.progress) control.progress(sum / double(shares.size()));
             };
             Json found;
             const auto begin = std::chrono::steady_clock::now();
@@ -233,7 +239,7 @@ void Experiment::simulate(const PaperControl& control, ExperimentResult& result)
         control.threads);
     for (Counterpart& c : counterparts_) {
         std::vector<Json> seeds;
-        for (const PaperTask& task : c.runs) seeds.push_back(done.at(task.key));
+        for (const Task& task : c.runs) seeds.push_back(done.at(task.key));
         c.result = seed_ensemble(seeds);
     }
 }
@@ -517,7 +523,7 @@ void check(const ExperimentSettings& settings) {
 }
 
 ExperimentResult make_experiment(const std::vector<ContainerVideo>& videos,
-                                 const ExperimentSettings& settings, const PaperControl& control) {
+                                 const ExperimentSettings& settings, const ExperimentControl& control) {
     ExperimentResult result;
     Experiment experiment(videos, settings);
     if (settings.simulate) experiment.simulate(control, result);

@@ -3,13 +3,14 @@
 // like the video (camera_sampled_run.hpp).
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "swirl/paper/paper.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/run.hpp"
+#include "track/experiment/results.hpp"
 
 namespace swirl {
 
@@ -45,10 +46,16 @@ struct ExperimentResult {
     Json json;
 };
 
+struct ExperimentControl {
+    const std::atomic<bool>* stop = nullptr;
+    unsigned threads = 0;                           // 0: all cores
+    std::function<void(double fraction)> progress;  // share of all simulations
+};
+
 /// Throws UsageError before any work if the parameters are invalid, Failure, and Interrupted;
 /// finished runs are stored in OUT/parts.
 void check(const ExperimentSettings& settings);
 ExperimentResult make_experiment(const std::vector<ContainerVideo>& videos,
-                                 const ExperimentSettings& settings, const PaperControl& control);
+                                 const ExperimentSettings& settings, const ExperimentControl& control);
 
 }  // namespace swirl

@@ -1,166 +1,68 @@
-// swirl paper: the paper's figures and the report on its claims.
+// swirl paper: the paper's figures and the report on its claims. Python plans the runs, draws and
+// judges (paper/, on the Python module); this file checks the options.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
-#include "swirl/cli/progress_line.hpp"
-#include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/sweep_options.hpp"
-#include "swirl/paper/movies.hpp"
-#include "swirl/paper/paper.hpp"
+#include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/json.hpp"
 #include "swirl/run/parameters.hpp"
-#include "swirl/run/report.hpp"
+#include "swirl/run/version.hpp"
+#include "swirl/study/python_script.hpp"
 
 namespace swirl {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// The runs of a point until its claims are decided (Settings.max_seeds in paper/study.py).
+constexpr int max_seeds = 32, max_seeds_quick = 12;
+
 struct PaperCall {
-    PaperSettings settings;
     std::string config_file, out = "out", events, seed;
     std::optional<int> seeds;
     std::vector<std::string> figures;
     ShareOptions share;
-    bool quiet = false, movies = false;
-
-    bool is_all() const {
-        return figures.empty() || std::find(figures.begin(), figures.end(), "all") != figures.end();
-    }
+    bool quick = false, quiet = false, movies = false;
 };
 
-#ifndef SWIRL_PAPER
-
-void make_paper(const PaperCall&) { throw_no_paper_support("paper"); }
-
-std::string figure_list() { return "Figures: `./swirl paper --help` lists them."; }
-
-#else
-
-void make_movies(const PaperCall& call) {
-    PaperMoviesSettings settings;
-    settings.out = call.out;
-    settings.quick = call.settings.quick;
-    settings.seed = call.settings.seed;
-    PaperMovies made;
-    {
-        ProgressLine line("movies", call.quiet);
-        PaperMoviesControl control;
-        control.stop = &stop_signal();
-        control.progress = [&](double fraction, const std::string& name) {
-            line.show(fraction, name);
-        };
-        made = make_paper_movies(settings, control);
-    }
-    std::string text;
-    if (made.reused > 0)
-        text = fmt::format("{} of {} movies are from an earlier call.\n", made.reused,
-                           made.files.size() - 1);
-    for (const auto& file : made.files) text += fmt::format("wrote {}\n", file.string());
-    print_all(text);
-}
-
-/// All other figures are made; a figure that could not be made makes the call fail.
-void reject_missing(const PaperResult& result) {
-    std::string names;
-    for (const MadeFigure& figure : result.figures)
-        if (!figure.problem.empty())
-            names += fmt::format("{}{}", names.empty() ? "" : ", ", figure.name);
-    if (!names.empty())
-        throw Failure(fmt::format(
-            "figures that could not be made: {}; the reasons are listed above.", names));
-}
-
-/// The findings and the files of the figures, and the report if all figures were made.
-std::string report_on(const PaperResult& result, const PaperCall& call) {
-    std::string text;
-    std::vector<std::filesystem::path> files;
-    for (const MadeFigure& figure : result.figures) {
-        for (const std::string& finding : figure.outcome.findings)
-            text += result.figures.size() == 1 ? finding + "\n"
-                                               : fmt::format("{:<26}{}\n", figure.name, finding);
-        files.insert(files.end(), figure.outcome.files.begin(), figure.outcome.files.end());
-    }
-    if (call.is_all())
-        for (const auto& file : write_report(result, call.settings, command_line(), &stop_signal()))
-            files.push_back(file);
-    // Failed runs are listed with each figure. Figures share runs, so their number is printed here.
-    if (result.failed > 0 && result.figures.size() > 1)
-        text += fmt::format("{} runs failed; see above.\n", result.failed);
-    text += fmt::format(
-        "{} runs{} in {}.\n", result.tasks,
-        result.reused > 0 ? fmt::format(", {} of them from an earlier call,", result.reused) : "",
-        short_duration(result.seconds));
-    if (call.is_all())
-        text += fmt::format("wrote {} and {} more files in the same folder\n",
-                            files.back().string(), files.size() - 1);
-    else
-        for (const auto& file : files) text += fmt::format("wrote {}\n", file.string());
-    return text;
-}
-
-void make_paper(PaperCall& call) {
-    call.settings.out = call.out;
-    if (call.seeds) {
-        const int budget = call.settings.max_seeds();
-        if (*call.seeds < 2 || *call.seeds > budget)
+nlohmann::ordered_json json_of(const PaperCall& call) {
+    if (call.seeds)
+        if (const int most = call.quick ? max_seeds_quick : max_seeds;
+            *call.seeds < 2 || *call.seeds > most)
             throw UsageError(
-                fmt::format("--seeds is {}, but it must be from 2 to {}.", *call.seeds, budget));
-        call.settings.first_seeds = *call.seeds;
-    }
-    if (!call.events.empty()) call.settings.events = resolve({{"events", call.events}}).events;
-    if (!call.seed.empty()) call.settings.seed = resolve({{"seed", call.seed}}).seed;
+                fmt::format("--seeds is {}, but it must be from 2 to {}.", *call.seeds, most));
+    ParameterTexts given{{"events", call.events.empty() ? "1e6" : call.events}};
+    if (!call.seed.empty()) given["seed"] = call.seed;
+    const RunConfig config = resolve(given);
     const SweepShare share = call.share.share();
-    const std::vector<PaperFigure> figures =
-        call.is_all() ? paper_figures() : figures_named(call.figures);
-    make_folder(call.out);
-    if (call.movies) {
-        make_movies(call);
-        if (call.figures.empty()) return;
-    }
-
-    PaperResult result;
-    {
-        const std::string what =
-            figures.size() == 1 ? fmt::format("Figure {}", figures.front().name) : "paper";
-        ProgressLine line(what, call.quiet);
-        PaperControl control;
-        control.stop = &stop_signal();
-        control.threads = share.threads;
-        control.progress = [&](double fraction, double rate) {
-            line.show(fraction, short_number(rate) + " events/s");
-        };
-        // Claims are decided only if all figures are made.
-        result = call.share.part.empty()
-                     ? make_figures(figures, call.settings, control, call.is_all())
-                     : run_share(figures, call.settings, control, {share.part, share.parts});
-    }
-    if (!call.share.part.empty()) {
-        print_all(fmt::format("{} runs of part {} in {}; stored in '{}'.\n", result.tasks,
-                              call.share.part, short_duration(result.seconds),
-                              (call.settings.out / "parts").string()));
-        if (result.failed > 0) throw Failure(fmt::format("{} runs failed.", result.failed));
-        return;
-    }
-    print_all(report_on(result, call));
-    reject_missing(result);
+    nlohmann::ordered_json json{{"figures", call.figures},
+                                {"out", call.out},
+                                {"quick", call.quick},
+                                {"quiet", call.quiet},
+                                {"movies", call.movies},
+                                {"events", config.events},
+                                {"seed", config.seed},
+                                {"threads", share.threads},
+                                {"first_seeds", call.seeds.value_or(0)},
+                                {"command", command_line()},
+                                {"version", version()},
+                                {"build", build_description()},
+                                {"defaults", config_json(config)},
+                                {"program", system::program_file().string()}};
+    if (!call.share.part.empty()) json["part"] = {share.part, share.parts};
+    // In the build tree the module is next to the program; an installed one is where Python looks.
+    if (const fs::path module = system::program_file().parent_path() / "python";
+        fs::exists(module))
+        json["module"] = module.string();
+    return json;
 }
-
-std::string figure_list() {
-    std::string text = "Groups of figures:\n  all                 all figures, and the report";
-    for (const FigureGroup& group : figure_groups)
-        text += fmt::format("\n  {:<19} {}", group.name, group.description);
-    text += "\n\nFigures:";
-    for (const PaperFigure& figure : paper_figures())
-        text += fmt::format("\n  {:<19} {}", figure.name, figure.description);
-    return text;
-}
-
-#endif  // SWIRL_PAPER
 
 void add_paper_command(Subcommand& subcommand) {
     const auto call = std::make_shared<PaperCall>();
@@ -170,7 +72,7 @@ void add_paper_command(Subcommand& subcommand) {
         ->type_name("FILE.toml");
     subcommand.add_option("--figure", call->figures, "Figures or groups to make [all]; repeatable")
         ->type_name("NAME");
-    subcommand.add_flag("--quick", call->settings.quick,
+    subcommand.add_flag("--quick", call->quick,
                         "Fewer points and seeds, in runs of the same length");
     subcommand.add_flag("--movies", call->movies,
                         "Movies of the paper, and movies.html that plays them");
@@ -192,7 +94,12 @@ void add_paper_command(Subcommand& subcommand) {
     subcommand.set_examples({"swirl paper --figure 5b --quick",
                              "swirl paper --figure 5b --out fig5b",
                              "swirl paper --figure chapters --quick", "swirl paper --quick"});
-    subcommand.explain(figure_list() + "\n");
+    subcommand.explain([] { return output_of_python_script("catalogue.py").text; });
+    subcommand.check([call] {
+        if (call->figures.empty()) return;
+        const ScriptOutput found = output_of_python_script("catalogue.py", call->figures);
+        if (found.status == 2) throw UsageError(found.text);
+    });
     subcommand.callback([call, &subcommand] {
         ParameterTexts parameters;
         if (!call->config_file.empty())
@@ -201,7 +108,7 @@ void add_paper_command(Subcommand& subcommand) {
              {std::pair("events", &call->events), std::pair("seed", &call->seed)})
             if (const auto found = parameters.find(name); found != parameters.end())
                 if (into->empty()) *into = found->second;
-        make_paper(*call);
+        become_python_script("__main__.py", {json_of(*call).dump()});
     });
 }
 

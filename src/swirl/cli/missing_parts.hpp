@@ -13,11 +13,11 @@ namespace swirl {
         "does both.");
 }
 
-/// `command` is the subcommand that was called.
-[[noreturn]] inline void throw_no_paper_support(const char* command) {
-    throw Failure(std::string("this build cannot make the paper's figures (SWIRL_PAPER is OFF).\n"
-                              "hint: ./swirl ") +
-                  command + " builds what is missing; so does cmake with -DSWIRL_PAPER=ON.");
+[[noreturn]] inline void throw_no_experiment_support() {
+    throw Failure(
+        "this build cannot compare videos with simulations (SWIRL_EXPERIMENT is OFF).\n"
+        "hint: ./swirl experiment builds what is missing; so does cmake with "
+        "-DSWIRL_EXPERIMENT=ON.");
 }
 
 }  // namespace swirl

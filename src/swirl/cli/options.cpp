@@ -16,7 +16,7 @@ void Subcommand::set_examples(const std::vector<std::string>& examples) {
 }
 
 std::string Subcommand::footer() const {
-    return explanation_.empty() ? examples_ : explanation_ + "\n" + examples_;
+    return explanation_ ? explanation_() + "\n" + examples_ : examples_;
 }
 
 }  // namespace swirl

@@ -70,8 +70,14 @@ class Subcommand {
     bool is_main(const Option& option) const;
     /// Complete commands, shown at the end of the help.
     void set_examples(const std::vector<std::string>& examples);
-    /// A text in the help before the examples.
-    void explain(std::string text) { explanation_ = std::move(text); }
+    /// A text in the help before the examples; a function makes it when it is shown.
+    void explain(std::string text) {
+        explanation_ = [text = std::move(text)] { return text; };
+    }
+    void explain(std::function<std::string()> text) { explanation_ = std::move(text); }
+    /// Throws UsageError for a wrong call that the parser cannot recognise. ./swirl calls it before it
+    /// installs packages for the action.
+    void check(std::function<void()> test) { check_ = std::move(test); }
     /// The action, called after all options are set. It reports errors by exceptions
     /// (run/failure.hpp).
     void callback(std::function<void()> action) { action_ = std::move(action); }
@@ -81,6 +87,9 @@ class Subcommand {
     /// The end of the full help.
     std::string footer() const;
     const std::string& examples() const { return examples_; }
+    void check() const {
+        if (check_) check_();
+    }
     void act() const { action_(); }
 
   private:
@@ -91,8 +100,9 @@ class Subcommand {
 
     std::deque<Option> options_;
     std::vector<std::string> main_options_;
-    std::string explanation_, examples_;
-    std::function<void()> action_;
+    std::function<std::string()> explanation_;
+    std::string examples_;
+    std::function<void()> check_, action_;
 };
 
 }  // namespace swirl

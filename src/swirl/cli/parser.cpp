@@ -264,7 +264,7 @@ Call parse(int argc, char** argv) {
         added = app.add_subcommand(command->name(), command->description());
         command->add_options(subcommand);
         add_to(*added, subcommand, Options::all);
-        added->footer(wrapped(subcommand.footer(), help_width()));
+        added->footer([here = &subcommand] { return wrapped(here->footer(), help_width()); });
     }
     app.footer(
         "Examples:\n  swirl run --discs 48\n  swirl paper --figure 5b --quick\n  swirl run --help");
@@ -286,7 +286,10 @@ Call parse(int argc, char** argv) {
     for (auto& [added, subcommand] : *subcommands)
         if (added->parsed()) note_given(*added, subcommand);
     for (const auto& [added, subcommand] : *subcommands)
-        if (added->parsed()) call.act = [subcommands, chosen = &subcommand] { chosen->act(); };
+        if (added->parsed()) {
+            call.check = [subcommands, chosen = &subcommand] { chosen->check(); };
+            call.act = [subcommands, chosen = &subcommand] { chosen->act(); };
+        }
     return call;
 }
 

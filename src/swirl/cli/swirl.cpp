@@ -50,6 +50,7 @@ int main_or_throw(int argc, char** argv) {
         std::fputs(call.usage.c_str(), stderr);
         return 2;
     }
+    if (call.check) call.check();
     // ./swirl checks a call in this way before it installs packages for it.
     if (std::getenv("SWIRL_PARSE_ONLY")) return 0;
     (void)swirl::selected_width();  // rejects an invalid SWIRL_SIMD before any work

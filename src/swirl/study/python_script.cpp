@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <system_error>
 
@@ -45,6 +46,14 @@ struct ProcessResult {
     std::string output;  // of stdout and stderr
 };
 
+/// The words as execv() takes them.
+std::vector<char*> pointers_to(const std::vector<std::string>& words) {
+    std::vector<char*> argv;
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    return argv;
+}
+
 /// Starts a child in its own process group: Ctrl-C reaches only this program, which then ends the
 /// child.
 pid_t start(const std::vector<std::string>& words, int output) {
@@ -60,9 +69,7 @@ pid_t start(const std::vector<std::string>& words, int output) {
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-    std::vector<char*> argv;
-    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
+    std::vector<char*> argv = pointers_to(words);
     pid_t child = 0;
     const int error =
         posix_spawn(&child, argv[0], &actions, &attributes, argv.data(), system::environment());
@@ -154,12 +161,18 @@ fs::path figures_folder() {
         (program.parent_path() / "../share/swirl/paper").lexically_normal().string()));
 }
 
-void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
-                       const std::atomic<bool>* stop) {
+/// The command line of a script.
+static std::vector<std::string> command_of(const std::string& script,
+                                           const std::vector<std::string>& arguments) {
     std::vector<std::string> words{interpreter(), "-I",   "-B",
                                    "-c",          runner, (figures_folder() / script).string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    const ProcessResult result = run_program(words, stop);
+    return words;
+}
+
+void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
+                       const std::atomic<bool>* stop) {
+    const ProcessResult result = run_program(command_of(script, arguments), stop);
     if (stop != nullptr && stop->load())
         throw Interrupted("stopped while figures were drawn; the tables are written.");
     if (WIFEXITED(result.status) && WEXITSTATUS(result.status) == 0) return;
@@ -170,6 +183,25 @@ void run_python_script(const std::string& script, const std::vector<std::string>
     throw Failure(
         fmt::format("paper/{} failed; the tables are written: {}", script,
                     result.output.empty() ? "no reason given." : last_message(result.output)));
+}
+
+ScriptOutput output_of_python_script(const std::string& script,
+                                     const std::vector<std::string>& arguments) {
+    try {
+        const ProcessResult result = run_program(command_of(script, arguments), nullptr);
+        return {WIFEXITED(result.status) ? WEXITSTATUS(result.status) : -1, result.output};
+    } catch (const Failure& failure) {
+        return {-1, failure.what()};
+    }
+}
+
+void become_python_script(const std::string& script, const std::vector<std::string>& arguments) {
+    std::vector<std::string> words = command_of(script, arguments);
+    std::fflush(nullptr);
+    std::vector<char*> argv = pointers_to(words);
+    execv(argv[0], argv.data());
+    throw Failure(fmt::format("'{}' cannot be started: {}.\nhint: install the Debian package python3.",
+                              words.front(), std::generic_category().message(errno)));
 }
 
 }  // namespace swirl

@@ -18,4 +18,16 @@ std::filesystem::path figures_folder();
 void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
                        const std::atomic<bool>* stop = nullptr);
 
+/// The exit status of a script and what it prints; −1 and the reason if it cannot be started.
+struct ScriptOutput {
+    int status;
+    std::string text;
+};
+ScriptOutput output_of_python_script(const std::string& script,
+                                     const std::vector<std::string>& arguments = {});
+
+/// Replaces this program by a script. Throws Failure if that is not possible.
+[[noreturn]] void become_python_script(const std::string& script,
+                                       const std::vector<std::string>& arguments);
+
 }  // namespace swirl

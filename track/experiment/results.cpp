@@ -1,6 +1,4 @@
-#include "swirl/paper/results.hpp"
-
-#include "swirl/run/report.hpp"
+#include "track/experiment/results.hpp"
 
 namespace swirl {
 
@@ -23,57 +21,13 @@ Table::Cell whole(const Json& value) {
     return not_available;
 }
 
-std::string mean_in_words(const Json& average) {
-    return with_error(number(at(average, {"mean"})), number(at(average, {"error"})));
-}
-
 void add_mean(std::vector<Table::Cell>& row, const Json& average) {
     for (const char* part : {"mean", "error"}) row.emplace_back(number(at(average, {part})));
-}
-
-std::vector<std::string> rotation_columns() {
-    return joined(
-        number_columns({"by_event", "by_time", "rigid_by_event", "rigid_by_time"}),
-        {"effective_samples", "events", "periods", "warmup_periods", "steady_state", "point",
-         "seeds", "averaged_runs", "steady_runs", "drifting_runs", "jumping_runs", "switching_runs",
-         "too_short_to_average", "scatter", "seeds_disagree", "seed", "state_hash"});
-}
-
-void add_rotation(std::vector<Table::Cell>& row, const Json& r) {
-    for (const char* average : {"by_event", "by_time", "rigid_by_event", "rigid_by_time"})
-        add_mean(row, at(r, {"rotation", average}));
-    row.emplace_back(number(at(r, {"rotation", "by_event", "effective_samples"})));
-    row.push_back(whole(at(r, {"events", "total"})));
-    row.emplace_back(number(at(r, {"periods"})));
-    row.push_back(whole(at(r, {"warmup", "periods"})));
-    row.emplace_back(steadiness(r));
-    row.emplace_back(name_of_point(r));
-    row.push_back(whole(at(r, {"seeds", "runs"})));
-    row.push_back(averaged_runs(r));
-    for (const char* count : {"steady", "drifting", "jumping", "switching", "too_short_to_average"})
-        row.push_back(whole(at(r, {"seeds", count})));
-    row.emplace_back(number(at(r, {"seeds", "scatter"})));
-    row.emplace_back(std::int64_t{at(r, {"seeds", "disagree"}) == true});
-    row.push_back(whole(at(r, {"config", "seed"})));
-    const Json& hash = at(r, {"state_hash"});
-    row.emplace_back(hash.is_string() ? hash.get<std::string>() : "");
-}
-
-Table::Cell averaged_runs(const Json& r) { return whole(at(r, {"seeds", "averaged"})); }
-
-std::string name_of_point(const Json& result) {
-    const Json& name = at(result, {"point"});
-    return name.is_string() ? name.get<std::string>() : "";
 }
 
 std::string steadiness(const Json& result) {
     const Json& verdict = at(result, {"steady_state", "verdict"});
     return verdict.is_string() ? verdict.get<std::string>() : "failed";
-}
-
-void add_estimate(std::vector<Table::Cell>& row, const Estimate& estimate) {
-    row.emplace_back(estimate.mean);
-    row.emplace_back(estimate.error);
 }
 
 std::vector<std::string> number_columns(const std::vector<std::string>& quantities) {

@@ -1,4 +1,4 @@
-#include "swirl/paper/seed_ensemble.hpp"
+#include "track/experiment/seed_ensemble.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "swirl/io/checksum.hpp"
-#include "swirl/paper/results.hpp"
+#include "track/experiment/results.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/statistics/replicates.hpp"
 

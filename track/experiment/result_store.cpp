@@ -1,4 +1,4 @@
-#include "swirl/paper/result_store.hpp"
+#include "track/experiment/result_store.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "swirl/paper/curves.hpp"
+#include "track/experiment/curves.hpp"
 
 #include <fmt/format.h>
 
@@ -27,74 +27,6 @@ const RotationPoint* highest_of(std::span<const RotationPoint> curve) {
     for (const RotationPoint& p : curve)
         if (std::isfinite(p.mean) && (!highest || p.mean > highest->mean)) highest = &p;
     return highest;
-}
-
-std::int64_t count_counterrotating(std::span<const RotationPoint> points) {
-    return std::count_if(points.begin(), points.end(),
-                         [](const RotationPoint& p) { return p.mean < -3.0 * p.error; });
-}
-
-void NamedCurve::add(double discs, const Json& result) {
-    for (std::size_t r = 0; r < curves.size(); ++r)
-        curves[r].push_back(rotation_point(discs, result, rotation_rates[r].name));
-}
-
-// --- Curves of a figure ---------------------------------------------------------------------
-
-FigureCurve curve_of(const Friction& friction) {
-    return {friction.name,
-            {std::string(friction.name), friction.mu_disc, friction.mu_wall},
-            friction.words};
-}
-
-void CurveFigure::add_points(const std::vector<std::int64_t>& numbers) {
-    for (std::size_t c = 0; c < curves.size(); ++c)
-        for (const std::int64_t n : numbers) points.push_back({c, n});
-}
-
-std::vector<NamedCurve> CurveFigure::named_curves(const std::vector<Json>& results) const {
-    std::vector<NamedCurve> named;
-    for (const FigureCurve& curve : curves) named.push_back({curve.name, rate});
-    for (std::size_t k = 0; k < points.size(); ++k)
-        named[points[k].curve].add(static_cast<double>(points[k].discs), results[k]);
-    return named;
-}
-
-void CurveFigure::write_points(const std::vector<Json>& results, const fs::path& out,
-                               FigureOutcome& outcome) const {
-    Table table(
-        joined(joined(joined(columns, {"discs"}), number_columns(measured)), rotation_columns()));
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        std::vector<Table::Cell> row = curves[points[k].curve].cells;
-        row.emplace_back(points[k].discs);
-        add_numbers(row, measured, results[k]);
-        add_rotation(row, results[k]);
-        table.add(std::move(row));
-    }
-    outcome.write(table, name, out);
-}
-
-void CurveFigure::write_crossings(const std::vector<Json>& results, const fs::path& out,
-                                  FigureOutcome& outcome) const {
-    outcome.files.push_back(out / ("figure_" + name + "_crossings.csv"));
-    swirl::write_crossings(named_curves(results), outcome.files.back());
-}
-
-std::string CurveFigure::at_both_ends(std::size_t curve, const std::string& what,
-                                      const std::string& quantity,
-                                      const std::vector<Json>& results) const {
-    const std::size_t dot = quantity.find('.');
-    const std::string measurement = quantity.substr(0, dot), name = quantity.substr(dot + 1);
-    std::vector<std::string> values;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        if (points[k].curve != curve) continue;
-        const Json& found = at(results[k], {"measured", measurement, name});
-        if (std::isnan(number(at(found, {"mean"})))) continue;
-        values.push_back(fmt::format("{} at N = {}", mean_in_words(found), points[k].discs));
-    }
-    if (values.empty()) return fmt::format("{} ({}): n/a.", what, curves[curve].words);
-    return fmt::format("{} ({}): {}, {}.", what, curves[curve].words, values.front(),
-                       values.back());
 }
 
 // --- Crossings ------------------------------------------------------------------------------
@@ -134,7 +66,7 @@ std::string crossing_sentence(const NamedCurve& curve) {
            other_rates_report(crossings, curve.rate);
 }
 
-std::vector<std::string> rates_columns() {
+static std::vector<std::string> rates_columns() {
     std::vector<std::string> columns;
     for (const RotationRate& rate : rotation_rates)
         for (const char* part : {"", "_error", "_lower", "_upper"})
