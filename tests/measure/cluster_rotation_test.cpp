@@ -377,5 +377,18 @@ TEST(ClusterRotation, MergedEqualsOneLongRun) {
     EXPECT_EQ(first.by_event().size(), 10u);
 }
 
+// A sample reads all discs; every event is sampled up to 128 discs.
+TEST(ClusterRotation, ManyDiscsAreSampledAfterEveryFewEvents) {
+    EXPECT_EQ(events_per_rotation_sample(1), 1u);
+    EXPECT_EQ(events_per_rotation_sample(128), 1u);
+    EXPECT_EQ(events_per_rotation_sample(129), 33u);  // ⌈129/4⌉
+    EXPECT_EQ(events_per_rotation_sample(499), 125u);
+    EXPECT_EQ(events_per_rotation_sample(500), 250u);  // ⌈500/2⌉
+    // At least 128 samples of the 2048 events or more of a period, and all of fewer events.
+    EXPECT_EQ(events_per_rotation_sample(48, 2047), 1u);
+    EXPECT_EQ(events_per_rotation_sample(48, 2048), 16u);
+    EXPECT_EQ(events_per_rotation_sample(500, 2048), 250u);
+}
+
 }  // namespace
 }  // namespace swirl

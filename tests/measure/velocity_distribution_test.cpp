@@ -93,5 +93,18 @@ TEST(VelocityDistribution, OmitsDiscsAtRestEqualSpinsAndMissingSpins) {
     EXPECT_TRUE(std::isnan(row_of(VelocityDistribution(), "speed").mean));
 }
 
+// Speeds from 0 to 4 and spins from −4 to 4, in steps of 0.1.
+TEST(VelocityDistribution, TablesHaveTheirRange) {
+    Report report;
+    VelocityDistribution().report(report);
+    ASSERT_EQ(report.tables.size(), 2u);
+    EXPECT_EQ(report.tables[0].rows(), 40u);
+    EXPECT_EQ(report.tables[1].rows(), 80u);
+    EXPECT_NEAR(report.tables[0].at(0, 0), 0.05, 1e-15);
+    EXPECT_NEAR(report.tables[0].at(39, 0), 3.95, 1e-15);
+    EXPECT_NEAR(report.tables[1].at(0, 0), -3.95, 1e-15);
+    EXPECT_NEAR(report.tables[1].at(79, 0), 3.95, 1e-14);
+}
+
 }  // namespace
 }  // namespace swirl

@@ -113,6 +113,15 @@ TEST(WallResidences, DiscFarFromTheWallIsNotPinned) {
     EXPECT_NEAR(residences.share(2).mean, 1.0, 1e-12);  // the widest layer: r > 6.9
 }
 
+TEST(WallResidences, LongOnesAreInTheLastBinOfTheLengths) {
+    WallResidences residences;
+    for (int k = 0; k < 4 * samples; ++k)  // 3 periods; the last bin begins at 2
+        residences.sample(at_sample(k, {{0.0, k >= 50 && k < 50 + 3 * samples ? 7.6 : 3.0}}));
+    residences.close_block();
+    EXPECT_EQ(residences.length_share(WallResidences::length_bins - 1).mean, 1.0);
+    EXPECT_EQ(residences.length_share(0).mean, 0.0);
+}
+
 TEST(WallResidences, OneThatBeganBeforeTheFirstSampleHasNoBeginning) {
     WallResidences residences;
     for (int k = 0; k < 200; ++k)

@@ -57,5 +57,16 @@ TEST(Orientation, StaysNormalised) {
     EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1.0, 1e-15);
 }
 
+// The steps of a sphere that slides are for the change of its spin; here there is none.
+TEST(Orientation, SphereThatRollsTurnsInOneStep) {
+    const Quaternion from = unit({0.5, -0.3, 0.7, 0.1});
+    const Quaternion found = turned_for(from, 2.0, {0.4, -0.6}, 0.3, {0.0, 0.0}),
+                     once = unit(turn_by(0.8, -1.2, 0.6) * from);
+    EXPECT_EQ(found.w, once.w);
+    EXPECT_EQ(found.x, once.x);
+    EXPECT_EQ(found.y, once.y);
+    EXPECT_EQ(found.z, once.z);
+}
+
 }  // namespace
 }  // namespace swirl

@@ -205,5 +205,18 @@ TEST(SteadyState, LinesCostTwoDegreesOfFreedomEach) {
     EXPECT_EQ(slow.freedom, estimate_of(drift).effective_samples - 4.0);
 }
 
+TEST(SteadyState, ConstantSeriesHasNoChange) {
+    const std::vector<double> same(100, 0.25);
+    EXPECT_EQ(transient(same).size, 0.0);
+    EXPECT_EQ(most_likely_change(same).size, 0.0);
+}
+
+// Batches of +1 and −1 in turn: every batch that is dropped makes the error of the mean larger.
+TEST(Mser5, DropsNothingOfASteadySeries) {
+    std::vector<double> blocks;
+    for (int k = 0; k < 200; ++k) blocks.push_back(k / 5 % 2 ? 1.0 : -1.0);
+    EXPECT_EQ(mser5_truncation(blocks), 0u);
+}
+
 }  // namespace
 }  // namespace swirl

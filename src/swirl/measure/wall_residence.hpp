@@ -89,7 +89,7 @@ class WallResidences {
         ReportTable sensitivity{
             "sensitivity",
             "these quantities for other layers and minimum lengths of a residence",
-            {{"layer", "r"},
+            {{"layer", "1"},
              {"min_length", "T"},
              {"pinning", "°", with_error_column},
              {"pinned_concentration", "1"},
