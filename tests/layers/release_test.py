@@ -47,7 +47,7 @@ class Release(unittest.TestCase):
 
     def test_python_takes_the_version_from_cmake(self):
         text = text_of("pyproject.toml")
-        self.assertIn('dynamic = ["version"]', text)
+        self.assertRegex(text, r'(?m)^dynamic = \["version"')
         self.assertIn('input = "CMakeLists.txt"', text)
         pattern = re.search(r"^regex = '(.*)'$", text, re.M)[1]
         self.assertEqual(re.search(pattern, text_of("CMakeLists.txt"))["value"], cmake_version())

@@ -53,13 +53,16 @@ def test_sdist_contains_the_sources_and_no_build(sdist):
         top = sdist.name[:-len(".tar.gz")]
         metadata = archive.extractfile(f"{top}/PKG-INFO").read().decode()
     tracked = set(output_of("git", "-C", SOURCE, "ls-files").split("\n")) - {""}
-    hidden = {name for name in tracked if name.startswith((".ci/", ".github/"))}
+    hidden = {name for name in tracked if name.startswith((".ci/", ".github/")) or name.endswith((".png", ".gif"))}
+    assert sdist.stat().st_size <= 3e6
     assert tracked - hidden <= names, sorted(tracked - hidden - names)
     assert not {name for name in names if name.startswith(("build/", "out/", ".git/", ".github/"))}
     for line in ("Name: swirl", "License", "Requires-Python: >=3.9", "Requires-Dist: numpy",
                  "Provides-Extra: plots", "Provides-Extra: tables", "Classifier: ", "Keywords: ",
                  "Project-URL: ", "Description-Content-Type: text/markdown"):
         assert line in metadata, line
+    # The package index has no files of the tree.
+    assert not re.findall(r"\]\((?!https?://|#)", metadata)
 
 
 @pytest.fixture(scope="module")
