@@ -2,6 +2,7 @@
 import {defineConfig} from "vite";
 import {viteSingleFile} from "vite-plugin-singlefile";
 import {createHash} from "node:crypto";
+import {readFileSync} from "node:fs";
 import english from "./src/texts.en.json" with {type: "json"};
 
 const pageTexts = english.page;
@@ -31,9 +32,18 @@ const policy = {
     },
 };
 
+/** The licences of the libraries in the engine, as a comment at the end of the page. */
+const notices = {
+    name: "notices",
+    enforce: "post",
+    generateBundle: (_, bundle) => {
+        bundle["index.html"].source += `<!--\n${readFileSync(new URL("notices.txt", import.meta.url), "utf-8")}-->\n`;
+    },
+};
+
 export default defineConfig({
     base: "./",
-    plugins: [texts, viteSingleFile(), policy],
+    plugins: [texts, viteSingleFile(), policy, notices],
     assetsInclude: ["**/*.wasm.gz"],
     worker: {format: "iife"},
     build: {outDir: "../build/lab", emptyOutDir: true, assetsInlineLimit: 100_000_000,
