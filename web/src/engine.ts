@@ -64,45 +64,13 @@ export interface Cause {
     wallSticking: number | null;
 }
 
-interface Exports {
-    memory: WebAssembly.Memory;
-    _initialize(): void;
-    buffer_for(size: number): number;
-    text(): number;
-    parameters(): number;
-    begin(): void;
-    configuration(): number;
-    run_events(count: number): void;
-    advance_to(time: number, maximum: number): number;
-    problem(atTheEnd: number): number;
-    frame(time: number): number;
-    frame_size(): number;
-    event(): number;
-    next_event(): number;
-    time(): number;
-    events(): number;
-    state_hash(): bigint;
-    rotation(): number;
-    turns(): number;
-    cause(): number;
-    contacts(): number;
-    keeps_discs(): number;
-    change(time: number): number;
-    steer(time: number, x: number, y: number, duration: number): void;
-    reverse(time: number): number;
-    drag(time: number, i: number, x: number, y: number): void;
-    result(): number;
-    command(): number;
-    report(): void;
-    show_maps(shown: number): void;
-    column(): number;
-    spin_map(): number;
-    values(): number;
-    runs(count: number): number;
-    crossing(): number;
-    search_runs(count: number): number;
-    search(from: number, to: number, tolerance: number, rounds: number): number;
-}
+/** The functions of laboratory.cpp; their arguments are in its comments. */
+type Exports = {memory: WebAssembly.Memory; state_hash(): bigint} & Record<
+    "_initialize" | "buffer_for" | "text" | "parameters" | "begin" | "configuration" | "run_events" | "advance_to" |
+    "problem" | "frame" | "frame_size" | "event" | "next_event" | "time" | "events" | "rotation" | "turns" |
+    "cause" | "contacts" | "keeps_discs" | "change" | "steer" | "reverse" | "drag" | "result" | "command" |
+    "report" | "show_maps" | "column" | "spin_map" | "values" | "runs" | "crossing" | "search_runs" | "search",
+    (...numbers: number[]) => number>;
 
 /** The evaluation of runs with different N by one rotation rate, as `swirl crossing` does it. */
 export interface Crossing {

@@ -205,69 +205,45 @@ function repeat(given: Record<string, string>, events: number): void {
     send({kind: "result", text: simulation.result()});
 }
 
+const handlers: {[Kind in ToWorker["kind"]]: (message: Extract<ToWorker, {kind: Kind}>) => unknown} = {
+    engine: async ({bytes}) => {
+        module = await Engine.compile(bytes).catch(() => undefined);
+        send(module ? {kind: "ready", parameters: new Engine(module).parameters()} : {kind: "unsupported"});
+    },
+    begin: ({given, events, run: number}) => {
+        runNumber = number;
+        begin(given, events);
+    },
+    tick: ({periods, strobe}) => tick(periods, strobe),
+    skip: ({periods}) => skip(periods),
+    change: ({given}) => requestChange(given),
+    steer: ({x, y, duration}) => steer(x, y, duration),
+    reverse: () => reverse(),
+    drag: ({disc, x, y}) => drag(disc, x, y),
+    result: () => engine && send({kind: "result", text: engine.result()}),
+    measure: ({maps: shown, contacts}) => {
+        [showsMaps, showsContacts] = [shown, contacts];
+        engine?.showMaps(showsMaps);
+    },
+    maps: () => maps(),
+    point: ({given, periods}) => point(given, periods),
+    repeat: ({given, events}) => repeat(given, events),
+    crossing: ({runs}) => {
+        const evaluation = module && new Engine(module);
+        if (evaluation) send({kind: "crossing", crossings: perRate((rate) => evaluation.crossing(runs[rate]))});
+    },
+    search: ({rules, made}) => module && send({kind: "search", next: new Engine(module).search(rules, made)}),
+    step: () => {
+        if (!engine) return;
+        engine.runEvents(1);
+        now = engine.time;
+        show(true);
+    },
+};
+
 onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {
     try {
-        switch (data.kind) {
-            case "engine":
-                module = await Engine.compile(data.bytes).catch(() => undefined);
-                send(module ? {kind: "ready", parameters: new Engine(module).parameters()}
-                           : {kind: "unsupported"});
-                break;
-            case "begin":
-                runNumber = data.run;
-                begin(data.given, data.events);
-                break;
-            case "tick":
-                tick(data.periods, data.strobe);
-                break;
-            case "skip":
-                skip(data.periods);
-                break;
-            case "change":
-                requestChange(data.given);
-                break;
-            case "steer":
-                steer(data.x, data.y, data.duration);
-                break;
-            case "reverse":
-                reverse();
-                break;
-            case "drag":
-                drag(data.disc, data.x, data.y);
-                break;
-            case "result":
-                if (engine) send({kind: "result", text: engine.result()});
-                break;
-            case "measure":
-                showsMaps = data.maps;
-                showsContacts = data.contacts;
-                engine?.showMaps(showsMaps);
-                break;
-            case "maps":
-                maps();
-                break;
-            case "point":
-                point(data.given, data.periods);
-                break;
-            case "repeat":
-                repeat(data.given, data.events);
-                break;
-            case "crossing":
-                if (module) {
-                    const evaluation = new Engine(module);
-                    send({kind: "crossing", crossings: perRate((rate) => evaluation.crossing(data.runs[rate]))});
-                }
-                break;
-            case "search":
-                if (module) send({kind: "search", next: new Engine(module).search(data.rules, data.made)});
-                break;
-            case "step":
-                if (!engine) break;
-                engine.runEvents(1);
-                now = engine.time;
-                show(true);
-                break;
-        }
+        await (handlers[data.kind] as (message: ToWorker) => unknown)(data);
     } catch (error) {
         reject(error);
     }
