@@ -1,11 +1,12 @@
 """A sweep on a real Slurm with three nodes, one of which fails during the sweep."""
 
 import os
+import subprocess
 import time
-import unittest
 
 import private_slurm
-from program import InFolder, swirl
+import program
+from program import SOURCE, InFolder, slow, swirl
 
 PLAN = ["sweep", "--discs", "20:34", "--mu", "0.5,1", "--seeds", "2", "--events", "200000"]
 POINTS = 60
@@ -57,5 +58,20 @@ class Cluster(InFolder):
         self.assertEqual(tables[0], tables[1])
 
 
+class Workflow(InFolder):
+    @slow("Snakemake has many packages")
+    def test_snakemake_makes_the_parts_and_the_table(self):
+        plan = {"discs": "5:8", "mu": "0.5,1", "seeds": "2", "events": "2000"}
+        done = subprocess.run(["snakemake", "--snakefile", os.path.join(SOURCE, "examples", "sweep.smk"), "--cores", "2",
+                               "--config", f"swirl={program.SWIRL}", "parts=3", *(f"{k}={v}" for k, v in plan.items())],
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(os.listdir(self.path("parts"))), 3)
+        options = [word for name, value in plan.items() for word in (f"--{name}", value)]
+        self.assertEqual(swirl("sweep", *options, "--out", self.path("one"), "--quiet").returncode, 0)
+        with open(self.path("table.csv"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), swirl("collect", self.path("one"), "--csv", "-").stdout)
+
+
 if __name__ == "__main__":
-    unittest.main()
+    program.main()
