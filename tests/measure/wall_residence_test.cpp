@@ -41,19 +41,6 @@ TEST(WallResidences, BeginAndEndWhereTheDiscEntersAndLeaves) {
     EXPECT_NEAR(residences.length().mean, 1.0 / 3.0, 2.0 / samples);
 }
 
-TEST(WallResidences, ShortOnesDoNotCount) {
-    WallResidences residences;
-    // A residence of 20° has 28 samples: enough for the lowest threshold, too few for the standard
-    // one.
-    for (int k = 0; k < 3 * samples; ++k)
-        residences.sample(at_sample(k, {rounds(k, 200.0, 180.0)}));
-    residences.close_block();
-    EXPECT_EQ(residences.depinning().count(), 0.0);
-    EXPECT_EQ(residences.share().mean, 0.0);
-    EXPECT_EQ(residences.depinning(WallResidences::standard, 0).count(), 3.0);
-    EXPECT_NEAR(residences.share(WallResidences::standard, 0).mean, 20.0 / 360.0, 1.5 / samples);
-}
-
 // Two of three residences are of 120°, a third of a period; one is of 20°, 0.056 periods.
 TEST(WallResidences, LengthsHaveADistribution) {
     WallResidences residences;
@@ -101,16 +88,6 @@ TEST(WallResidences, MinimumLengthsAre20And40And80Steps) {
                         1e-15);
         }
     }
-}
-
-// Pinned by the SI's criterion: it moves along the wall, but far from it.
-TEST(WallResidences, DiscFarFromTheWallIsNotPinned) {
-    WallResidences residences;
-    for (int k = 0; k < 2 * samples; ++k)
-        residences.sample(at_sample(k, {7.0 * unit_circle(1.0 - double(k % samples) / samples)}));
-    residences.close_block();
-    EXPECT_EQ(residences.share().mean, 0.0);            // needs r > 7.1
-    EXPECT_NEAR(residences.share(2).mean, 1.0, 1e-12);  // the widest layer: r > 6.9
 }
 
 TEST(WallResidences, LongOnesAreInTheLastBinOfTheLengths) {
