@@ -161,7 +161,7 @@ void add_export_command(Subcommand& subcommand) {
 }
 
 const Command export_command(
-    40, "export", "Convert a trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD or pandas",
+    39, "export", "Convert a trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD or pandas",
     add_export_command);
 
 }  // namespace

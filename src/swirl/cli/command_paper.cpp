@@ -108,7 +108,9 @@ void add_paper_command(Subcommand& subcommand) {
              {std::pair("events", &call->events), std::pair("seed", &call->seed)})
             if (const auto found = parameters.find(name); found != parameters.end())
                 if (into->empty()) *into = found->second;
-        become_python_script("__main__.py", {json_of(*call).dump()});
+        const std::string json = json_of(*call).dump();
+        make_folder(call->out);
+        become_python_script("__main__.py", {json});
     });
 }
 

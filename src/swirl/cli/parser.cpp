@@ -264,7 +264,11 @@ Call parse(int argc, char** argv) {
         added = app.add_subcommand(command->name(), command->description());
         command->add_options(subcommand);
         add_to(*added, subcommand, Options::all);
-        added->footer([here = &subcommand] { return wrapped(here->footer(), help_width()); });
+        added->footer([here = &subcommand] {
+            std::string text = wrapped(here->footer(), help_width());
+            while (text.ends_with('\n')) text.pop_back();  // CLI11 adds a line feed
+            return text;
+        });
     }
     app.footer(
         "Examples:\n  swirl run --discs 48\n  swirl paper --figure 5b --quick\n  swirl run --help");
