@@ -127,7 +127,7 @@ CAPTIONS = {
     "2b": "Averages in the M-frame for few discs: number density of their centres (colour), and their mean velocity "
           "relative to the container (arrows), in units of the container's speed. S is the centre of the swirl, M "
           "the point of the wall farthest from it. Where an arrow is short, discs move with the wall.",
-    "2c": "The same as Figure 2b for many particles. Each map has its own colour scale.",
+    "2c": "The same as Figure 2b for many particles.",
     "3a": "Mean angular velocity of the discs about the centre of mass of the cluster, in the M-frame, against the "
           "angle θ; one curve for each number of discs. Dashed: −Ω, that of the wall. Discs move clockwise, to "
           "smaller θ. Slices are 5° wide. The paper's slice slides around the container and its width is not given "
@@ -147,8 +147,8 @@ CAPTIONS = {
           "criterion, for those that reside in the wall layer, and for the whole cluster.",
     "4b": "How particles at the wall are prevented from spinning. Left: mean magnitude of the spin of those that reside "
           "in the wall layer, in Ω; 0 is a particle that sticks to the wall. Middle: correlation of the spins of "
-          "touching particles, −1 for gears: for contacts that belong to no triangle (lines) and for those in triangles "
-          "(dots), which cannot all roll. Right: share of the contacts in triangles.",
+          "touching particles, −1 for gears: for contacts that belong to no triangle, and for those in triangles, "
+          "which cannot all roll. Right: share of the contacts in triangles.",
     "4c": "Rotation of the cluster against the number of particles. The friction coefficients of the spheres follow from "
           "N_c of the experiment; those of the discs are a choice. Averages over time.",
     "5a": "A snapshot of the simulation in the lab frame; the line on each disc rotates with it. The circle is the "
@@ -156,8 +156,8 @@ CAPTIONS = {
     "5b": "Rotation of the cluster against the number of discs for five pairs of friction coefficients, between "
           "discs (μ_d) and at the wall (μ_w), averaged over events as in the paper. The lower panel enlarges the "
           "range around zero.",
-    "5c": "Number density of the discs' centres in the M-frame, counted by event on 100 × 100 cells as in the paper; "
-          "each map has its own scale.",
+    "5c": "Number density of the discs' centres in the M-frame, counted by event on 100 × 100 cells as in the paper. "
+          "Both maps have the same scale.",
     "5d": "Mean velocity of the discs relative to the container, in units of the container's speed, in the M-frame "
           "on 20 × 20 cells. One scale for both numbers of discs.",
     "ball": "The paper's minimal model, simulated: one large disc in the container. γ is its angular velocity in the "
@@ -175,7 +175,7 @@ CAPTIONS = {
              "resolve.",
     "spheres": "Rotation of spheres that roll on the floor of a container of the experiment's size against their "
                "number: smooth and roughened spheres at the amplitude that the paper states, 1.15 cm, and smooth ones "
-               "at half of it. Averages over time. The scale is coarser above the dotted line. 56 and 57 spheres also fit into the container, but are omitted. Their rotation "
+               "at half of it. Averages over time. 56 and 57 spheres also fit into the container, but are omitted. Their rotation "
                "depends "
                "on the initial packing and not on friction.",
     "spheres_ingredients": "Rotation against the number of spheres with all ingredients of the model (black), and "
@@ -190,13 +190,14 @@ CAPTIONS = {
                    "wall. Both are 1 for a row that rolls along the wall with the swirl.",
     "size": "Left: rotation of the cluster against the packing fraction φ = N r²/R² in containers of different "
             "radius, at "
-            "A/R = 0.22 and μ = 1; the scale is logarithmic beyond ±0.1. Right: the sign of the rotation at each "
+            "A/R = 0.22 and μ = 1. Right: the sign of the rotation at each "
             "point "
             "(the area of a disc grows with |ϖ|), and the packing fractions at which the direction changes.",
     "critical": "Above, at A/R = 0.22: the variance of the rotation multiplied by N and by its correlation time τ; the "
                 "correlation time; and the Binder cumulant. This cumulant is 0 for one state with a normal distribution "
                 "and 2/3 (dotted) for two equally likely states. Below: slope, fluctuations and correlation time at each "
-                "change of direction against the size of the container, with power laws (dashed) if there are three sizes.",
+                "change of direction against the size of the container, with power laws (dashed) if there are three sizes. "
+                "On logarithmic axes, bars are the errors of the logarithm.",
     "hysteresis": "Rotation during a ramp of a parameter up (full) and down (open), each as a mean over an eighth of "
                   "the "
                   "ramp, for two ramp rates.",
@@ -227,7 +228,7 @@ CAPTIONS = {
                "share of the square of the stress that each explains. Bars are standard errors over the seeds.",
     "amplitude": "The same as figure “size” for different amplitudes, in containers of two sizes.",
     "cooling": "Temperatures of the translation (full symbols) and of the spins (open) against the number of collisions of a "
-               "disc, with the mean-field theory (lines); the relative deviations of both from the theory; and the collision "
+               "disc, with the mean-field theory (lines), which assumes that every contact sticks and fails if contacts slide; the relative deviations of both from the theory; and the collision "
                "rate in equilibrium in units of Enskog's, for gases of different size. φ = 0.2.",
     "scherer": "Mean kinetic energy of a particle in units of that of the container's speed, and rotation, against the number "
                "of particles, for the container of the paper's experiment and for other amplitudes and periods; the number "

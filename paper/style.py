@@ -107,7 +107,9 @@ def note(drawing, text):
     notes = drawing.__dict__.setdefault("notes", [])
     if text not in notes:
         notes.append(text)
-        drawing.supxlabel("; ".join(notes), fontsize=SMALLEST, color="0.3")
+        line = "; ".join(notes)
+        fits = len(line) < 19 * drawing.get_size_inches()[0]  # letters of an inch
+        drawing.supxlabel(line if fits else "\n".join(notes), fontsize=SMALLEST, color="0.3")
 
 
 def note_not_steady(drawing, rows):
@@ -122,7 +124,10 @@ def curve(axes, rows, x, y, **look):
     if not np.isfinite(column(rows, y)).any():
         axes.errorbar([], [], **look)
         return
-    line = axes.errorbar(column(rows, x), column(rows, y), yerr=column(rows, y + "_error"), **({"elinewidth": 0.7} | look))[0]
+    bars = column(rows, y + "_error")
+    if axes.get_yscale() == "log":
+        bars = log_errors(column(rows, y), bars)
+    line = axes.errorbar(column(rows, x), column(rows, y), yerr=bars, **({"elinewidth": 0.7} | look))[0]
     marked = not_steady(rows)
     if marked:
         axes.plot(column(marked, x), column(marked, y), line.get_marker(), color=line.get_color(),
@@ -154,24 +159,38 @@ def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=F
 
 
 LINEAR = 0.1  # rotation rates: linear up to ±0.1, logarithmic beyond
-RATE_TICKS = (-0.1, -0.05, 0, 0.05, 0.1, 0.3, 1)
 
 
-def fine_near_zero(axes, rates):
-    """Shows all rates with a fine scale near zero. Dotted lines mark where the scale becomes logarithmic."""
-    low, high = np.nanmin([*rates, 0]), np.nanmax([*rates, 0])
-    if max(high, -low) <= LINEAR:
+def fine_near_zero(axes, values, linear=LINEAR):
+    """Shows all values with a fine scale near zero. Dotted lines mark where the scale becomes logarithmic."""
+    low, high = np.nanmin([*values, 0]), np.nanmax([*values, 0])
+    if max(high, -low) <= linear:
         return
-    axes.set_yscale("symlog", linthresh=LINEAR, linscale=2)
-    axes.set_yticks([t for t in RATE_TICKS if low - 0.05 <= t <= high + 0.05])
+    axes.set_yscale("symlog", linthresh=linear, linscale=2)
+    ticks = [sign * linear * k for sign in (-1, 1) for k in (0, 0.5, 1, 3, 10, 30, 100, 300)]
+    axes.set_yticks([t for t in ticks if low - linear / 4 <= t <= max(high, linear)])
     axes.yaxis.set_major_formatter(lambda y, _: f"{y:g}".replace("-", "−"))
     axes.minorticks_off()
-    for level, side, beyond in ((LINEAR, "above", high), (-LINEAR, "below", -low)):
-        if beyond > LINEAR:
+    for level, beyond in ((linear, high), (-linear, -low)):
+        if beyond > linear:
             axes.axhline(level, color=GREY, linewidth=0.7, linestyle=":", zorder=0)
-            axes.annotate(f"logarithmic {side} {level:g}".replace("-", "−"), (1.0, level), (0, 2 if level > 0 else -2),
-                          xycoords=("axes fraction", "data"), textcoords="offset points", fontsize=SMALLEST,
-                          color="0.3", ha="right", va="bottom" if level > 0 else "top")
+    note(axes.figure, "logarithmic beyond the dotted lines")
+
+
+def without_crossing(axes, rows, x, color):
+    """Arrows towards the N_c that a search has not found: it is above the searched N, or below for more friction."""
+    found = column(select(rows, crosses=1.0), x)
+    for row in select(rows, crosses=0.0):
+        above = not found or row[x] < min(found)
+        axes.annotate("", (row[x], 0.99 if above else 0.01), (row[x], 0.91 if above else 0.09),
+                      axes.get_xaxis_transform(), arrowprops={"arrowstyle": "->", "color": color, "linewidth": 0.8})
+        note(axes.figure, "arrows: no change of direction among the searched $N$")
+
+
+def log_errors(values, errors):
+    """Bars of a logarithmic axis: the errors of ln y, so that no bar reaches zero."""
+    values, factor = np.abs(values), np.exp(np.array(errors) / np.abs(values))
+    return [values * (1 - 1 / factor), values * (factor - 1)]
 
 
 def mark_crossing(axes, crossings, curve, color):
@@ -191,7 +210,8 @@ def legend(axes, ncol=2, **more):
 
 def legend_of_all(drawing, handles, labels, ncol):
     """Above all axes of a figure."""
-    drawing.suptitle(" ", fontsize=SMALLEST)  # reserves the space
+    lines = math.ceil(len(labels) / ncol)
+    drawing.suptitle("\n".join([" "] * lines), fontsize=SMALLEST)  # reserves the space
     drawing.legend(handles, labels, loc="upper center", ncol=ncol, columnspacing=1.2,
                    borderaxespad=0.2)
 
@@ -312,12 +332,13 @@ def container(axes, radius, color=BLACK, amplitude=AMPLITUDE):
     axes.set_ylim(-1.3 * radius, 1.2 * radius)
 
 
-def cells(axes, rows, name, radius):
-    """A map of equal cells over the square around the container, white outside the container."""
+def cells(axes, rows, name, radius, most):
+    """A map of equal cells over the square around the container, white outside the container. Colours grow with the
+    square root, so that one scale up to `most` shows few particles and many."""
     side = round(len(rows) ** 0.5)
     image = [column(rows[k * side:(k + 1) * side], name) for k in range(side)]
     shown = axes.imshow(image, origin="lower", extent=[-radius, radius, -radius, radius],
-                        interpolation="nearest", vmin=0)
+                        interpolation="nearest", norm=matplotlib.colors.PowerNorm(0.5, 0, most))
     shown.set_clip_path(plt.Circle((0, 0), radius, transform=axes.transData))
     return shown
 
@@ -367,7 +388,7 @@ def arrows(axes, rows, spacing, fastest, color, key=(0.9, 0.03)):
                         headwidth=3.6, headlength=4, headaxislength=3.6, minlength=0.5)
     # The scale, outside the container.
     known = max([k for k in (0.1, 0.2, 0.5, 1, 2, 5) if k <= fastest], default=fastest)
-    axes.quiverkey(drawn, *key, known, f"speed {known:g}", labelpos="N", coordinates="axes",
+    axes.quiverkey(drawn, *key, known, f"speed {known:g}", labelpos="N" if key[0] > 0.5 else "E", coordinates="axes",
                    color=BLACK if color == "white" else color,
                    fontproperties={"size": SMALLEST}, labelsep=0.03)
 

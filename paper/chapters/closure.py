@@ -9,7 +9,6 @@ from micropolar import RELATIONS, fit_relation
 
 PANELS = (("rotational_viscosity", r"rotational viscosity $\Gamma$"), ("shear_viscosity", r"shear viscosity $\eta$"),
           ("spin_diffusion", "spin diffusion $D$"), ("odd_viscosity", r"odd viscosity $\eta_o$"))
-TICKS = (0.2, 0.5, 1, 2, 5, 10, 20, 50)
 
 
 def closure_points(settings):
@@ -40,20 +39,12 @@ def closure_table(points, settings):
     return {"": rows}, findings
 
 
-def show_certain(axes, rows):
-    """Limits that show all coefficients with a certain sign. Others may have errors that are many times larger."""
-    ends = [0.0] + [row["coefficient"] + sign * row["coefficient_error"] for row in rows for sign in (-1, 1)
-                    if abs(row["coefficient"]) > 3 * row["coefficient_error"]]
-    if max(ends) > min(ends):
-        margin = 0.3 * (max(ends) - min(ends))
-        axes.set_ylim(min(ends) - margin, max(ends) + margin)
-
-
 def draw_closure(table):
     rows = style.read(table)
-    drawing, axes = style.figure(style.PAGE, 4.2, ncols=len(PANELS), nrows=2, sharex=True)
+    panels = [panel for panel in PANELS if style.select(rows, relation=panel[0])]
+    drawing, axes = style.figure(style.PAGE, 4.2, ncols=len(panels), nrows=2, sharex=True)
     dishes = sorted({(row["container_radius"], row["discs"]) for row in rows})
-    for column, (relation, words) in enumerate(PANELS):
+    for column, (relation, words) in enumerate(panels):
         upper, lower = axes[0][column], axes[1][column]
         style.zero_line(upper)
         for k, (radius, discs) in enumerate(dishes):
@@ -65,17 +56,16 @@ def draw_closure(table):
                 panel.errorbar(style.column(here, "packing"), style.column(here, name),
                                yerr=style.column(here, name + "_error"), **look,
                                label=f"$R/r$ = {radius:g}, $N$ = {discs:.0f}")
-        if relation == "shear_viscosity":
-            upper.set_yscale("log")
-            upper.set_yticks(TICKS, [f"{tick:g}" for tick in TICKS])
-            upper.minorticks_off()
-        else:
-            show_certain(upper, style.select(rows, relation=relation))
+        known = style.select(rows, relation=relation)
+        style.fine_near_zero(upper, [row["coefficient"] + sign * row["coefficient_error"] for row in known
+                                     for sign in (-1, 0, 1)], linear=1)
         upper.set_title(words)
-        lower.set_ylim(0, 1.02)
+        lower.set_ylim(bottom=min(0, lower.get_ylim()[0]), top=max(1.05, lower.get_ylim()[1]))
         lower.set_xlabel(r"packing fraction $\varphi$")
     axes[0][0].set_ylabel(r"coefficient/$\sqrt{mT}$")
     axes[1][0].set_ylabel("share explained")
+    if any(row["coefficient"] < 0 for row in rows):
+        style.note(drawing, "negative coefficients: torque or force against the sign of the relation")
     style.legend_of_all(drawing, *axes[0][0].get_legend_handles_labels(), ncol=4)
     style.save(drawing, table)
 

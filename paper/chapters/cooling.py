@@ -207,7 +207,7 @@ def table(points, settings):
 # --- Drawing --------------------------------------------------------------------------------------
 
 LAST = 10.5  # collisions of a disc that the figure shows
-DEVIATION = 15  # per cent
+LINEAR = 15  # per cent: the scale of deviations is logarithmic beyond
 
 
 def temperatures(axes, rows, case, look):
@@ -224,13 +224,14 @@ def temperatures(axes, rows, case, look):
 
 def deviations(axes, rows, case, look, name):
     here = [row for row in sorted(tables.select(rows, case=case), key=lambda row: row["collisions"])
-            if row[f"theory_{name}"] > 0 and row["collisions"] <= LAST
-            and abs(row[name] / row[f"theory_{name}"] - 1) < 0.01 * DEVIATION]
+            if row[f"theory_{name}"] > 0 and row["collisions"] <= LAST]
     if not here:
-        return
+        return []
     theory = np.array(style.column(here, f"theory_{name}"))
-    axes.errorbar(style.column(here, "collisions"), 100 * (np.array(style.column(here, name)) / theory - 1),
+    per_cent = 100 * (np.array(style.column(here, name)) / theory - 1)
+    axes.errorbar(style.column(here, "collisions"), per_cent,
                   yerr=100 * np.array(style.column(here, f"{name}_error")) / theory, elinewidth=0.7, **look)
+    return per_cent
 
 
 def draw(table):
@@ -242,16 +243,16 @@ def draw(table):
     for k, case in enumerate(cases):
         look = {"color": style.CYCLE[k], "marker": style.MARKERS[k]}
         temperatures(panels[0, 0], rows, case, look)
-        deviations(panels[0, 1], rows, case, look, "translation")
-        deviations(panels[1, 0], rows, case, look, "spins")
         words = tables.select(rows, case=case)[0]["words"]
         handles.append(panels[0, 1].plot([], [], label=words, **look)[0])
     panels[0, 0].set_ylabel("temperature / that at the start")
     panels[0, 1].set_ylabel("$T$: simulation / theory − 1 (%)")
     panels[1, 0].set_ylabel("$T_s$: simulation / theory − 1 (%)")
-    for axes in (panels[0, 1], panels[1, 0]):
+    for axes, name in ((panels[0, 1], "translation"), (panels[1, 0], "spins")):
         style.zero_line(axes)
-        axes.set_ylim(-DEVIATION, DEVIATION)
+        found = [deviations(axes, rows, case, {"color": style.CYCLE[k], "marker": style.MARKERS[k]}, name)
+                 for k, case in enumerate(cases)]
+        style.fine_near_zero(axes, np.concatenate(found), LINEAR)
     for axes in (panels[0, 0], panels[0, 1], panels[1, 0]):
         axes.set_xlim(0, LAST)
         axes.set_xlabel(r"collisions per disc $\tau$")
@@ -265,7 +266,6 @@ def draw(table):
     last.set_xlabel("$r/R$")
     last.set_ylabel("collision rate / Enskog's")
     style.legend_of_all(drawing, handles, [handle.get_label() for handle in handles], ncol=4)
-    drawing.suptitle("\n", fontsize=style.SMALLEST)  # two lines
     style.save(drawing, table)
 
 

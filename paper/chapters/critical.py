@@ -102,7 +102,7 @@ def against_size(axes, changes, scaling, quantity, label):
     for k, (amplitude, kind) in enumerate(groups):
         here = tables.select(changes, amplitude_ratio=amplitude, kind=kind)
         x, y = (np.array(style.column(here, name)) for name in ("container_radius", quantity))
-        axes.errorbar(x, abs(y), yerr=style.column(here, quantity + "_error"), color=style.CYCLE[k],
+        axes.errorbar(x, abs(y), yerr=style.log_errors(y, style.column(here, quantity + "_error")), color=style.CYCLE[k],
                       fmt=style.MARKERS[k], elinewidth=0.7, label=f"$A/R = {amplitude:g}$, {KINDS[kind]}")
         law = tables.select(scaling, amplitude_ratio=amplitude, kind=kind, quantity=quantity)
         if law and law[0]["exponent"] == law[0]["exponent"]:
@@ -121,21 +121,17 @@ def draw(table):
     rows = tables.select(style.read(table), amplitude_ratio=0.22)
     changes, scaling = tables.companion(table, "_changes"), tables.companion(table, "_scaling")
     drawing, axes = style.figure(style.PAGE, 4.9, ncols=3, nrows=2)
+    for upper in axes[0][:2]:
+        upper.set_yscale("log")
     against_packing(axes[0][0], rows, "susceptibility", LABELS[1][1])
     against_packing(axes[0][1], rows, "correlation", LABELS[2][1])
     against_packing(axes[0][2], rows, "binder", "Binder cumulant")
-    for upper in axes[0][:2]:
-        upper.set_yscale("log")
     axes[0][2].axhline(2 / 3, color=style.GREY, linewidth=0.6, linestyle=":")
     axes[0][2].axhline(0, color=style.GREY, linewidth=0.6)
     for lower, (quantity, label) in zip(axes[1], LABELS):
         against_size(lower, changes, scaling, quantity, label)
-    for row, ncol in ((axes[0], 7), (axes[1], 3)):
-        # The legend is wider than its axes, so the layout only knows its height: two lines of a title.
-        row[1].set_title("\n")
-        if changes or row is axes[0]:
-            row[1].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=ncol,
-                          columnspacing=1.0).set_in_layout(False)
+    handles, labels = zip(*(pair for row in axes for pair in zip(*row[0].get_legend_handles_labels())))
+    style.legend_of_all(drawing, handles, labels, ncol=5)
     style.save(drawing, table)
 
 

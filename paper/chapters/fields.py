@@ -96,7 +96,7 @@ def square(rows, name):
     return image, [x[0] - step / 2, x[-1] + step / 2, y[0] - step / 2, y[-1] + step / 2]
 
 
-def panel(drawing, axes, rows, name, label, colors, symmetric, limit=None):
+def panel(drawing, axes, rows, name, label, unit, colors, symmetric, limit=None):
     image, extent = square(rows, name)
     if symmetric:
         limit = limit or np.nanquantile(np.abs(image), 0.98)
@@ -111,7 +111,7 @@ def panel(drawing, axes, rows, name, label, colors, symmetric, limit=None):
     axes.set_xlim(-1.03 * radius, 1.03 * radius)
     axes.set_ylim(-1.03 * radius, 1.03 * radius)
     axes.set_title(label)
-    drawing.colorbar(shown, ax=axes, shrink=0.7, pad=0.1)
+    drawing.colorbar(shown, ax=axes, shrink=0.7, pad=0.1, label=unit)
     return limit
 
 
@@ -126,18 +126,18 @@ def draw_fields(table):
     rows = style.read(table)
     drawing, axes = style.figure(style.PAGE, 4.3, ncols=3, nrows=2)
     dense = [row for row in rows if row["packing"] > 0.05]
-    panel(drawing, axes[0][0], rows, "packing", r"(a) packing and flow", "Blues", False)
+    panel(drawing, axes[0][0], rows, "packing", "(a) packing and flow", r"packing fraction $\varphi$", "Blues", False)
     flow = about_the_mean(dense)
     step = sorted({row["x"] for row in rows})
     style.arrows(axes[0][0], flow, step[1] - step[0], max(map(style.speed, flow), default=1.0) or 1.0, style.RED,
-                 key=(0.5, -0.07))
-    panel(drawing, axes[0][1], dense, "spin", r"(b) spin $\omega$", "PuOr_r", True)
+                 key=(0.3, -0.06))
+    panel(drawing, axes[0][1], dense, "spin", r"(b) spin $\omega$", r"$\omega$ ($v/r$)", "PuOr_r", True)
     half = [row | {"half": 0.5 * row["vorticity"]} for row in dense]
-    panel(drawing, axes[0][2], half, "half", r"(c) half of the vorticity, $\frac{1}{2}$ curl $u$", "PuOr_r", True)
+    panel(drawing, axes[0][2], half, "half", r"(c) half of the vorticity", r"$\frac{1}{2}$ curl $u$ ($v/r$)", "PuOr_r", True)
     known = [row for row in rows if row["relation"] == row["relation"]]
-    limit = panel(drawing, axes[1][0], known or rows, "torque", r"(d) torque of the stress", "PuOr_r", True)
+    limit = panel(drawing, axes[1][0], known or rows, "torque", "(d) torque of the stress", "torque ($m v^2/r^2$)", "PuOr_r", True)
     panel(drawing, axes[1][1], known or rows, "relation",
-          r"(e) $\Gamma\sqrt{mT}\,(\mathrm{curl}\,u - 2\omega)$", "PuOr_r", True, limit)
+          r"(e) $\Gamma\sqrt{mT}\,(\mathrm{curl}\,u - 2\omega)$", "torque ($m v^2/r^2$)", "PuOr_r", True, limit)
     last = axes[1][2]
     style.zero_line(last)
     if known:

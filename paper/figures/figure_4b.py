@@ -6,6 +6,10 @@ from against_n import against_n
 from figure import Figure
 from runs import HALF, HIGH, ROUGH, SMOOTH
 
+PANELS = (("resident_spin", "spin at the wall\n" r"$\langle|\omega_i|\rangle/\Omega$"),
+          ("chain_correlation", "spin correlation,\ncontacts in no triangle"),
+          ("triangle_correlation", "spin correlation,\ncontacts in triangles"),
+          ("triangles", "share of contacts\nin triangles"))
 SETTINGS = ("smooth", "rough", "high")
 QUANTITIES = """frustration.wall_spin frustration.pinned_wall_spin frustration.resident_spin frustration.spin_correlation
     frustration.pinned_correlation frustration.resident_correlation frustration.along_wall
@@ -23,20 +27,14 @@ WORDS = {"frustration.pinned_wall_spin": "spin of discs at the wall that are pin
 
 def draw(table):
     rows = style.read(table)
-    drawing, (spin, correlation, triangles) = style.figure(width=style.PAGE, height=2.7, ncols=3)
-    style.curves_by_setting(spin, rows, "resident_spin", SETTINGS)
-    spin.set_ylabel(r"spin at the wall $\langle|\omega_i|\rangle/\Omega$")
-    spin.set_ylim(bottom=0)
-    style.curves_by_setting(correlation, rows, "chain_correlation", SETTINGS)
-    style.curves_by_setting(correlation, rows, "triangle_correlation", SETTINGS, linestyle="none", markersize=2)
-    style.zero_line(correlation)
-    correlation.set_ylabel("correlation of touching spins")
-    correlation.set_title("lines: no triangle; dots: in triangles", fontsize=style.SMALLEST)
-    style.curves_by_setting(triangles, rows, "triangles", SETTINGS)
-    triangles.set_ylabel("share of contacts in triangles")
-    for axes in (spin, correlation, triangles):
+    drawing, panels = style.figure(width=style.PAGE, height=2.4, ncols=len(PANELS))
+    panels[2].sharey(panels[1])
+    for axes, (quantity, title) in zip(panels, PANELS):
+        style.curves_by_setting(axes, rows, quantity, SETTINGS)
+        axes.set_title(title)
         axes.set_xlabel(r"number of particles $N$")
-    style.legend_of_all(drawing, *spin.get_legend_handles_labels(), ncol=3)
+        style.zero_line(axes)
+    style.legend_of_all(drawing, *panels[0].get_legend_handles_labels(), ncol=3)
     style.save(drawing, table)
 
 

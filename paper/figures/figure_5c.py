@@ -9,15 +9,14 @@ def draw(table):
     rows = style.read(table)
     numbers = sorted({row["discs"] for row in rows})
     drawing, axes = style.figure(height=2.3, ncols=len(numbers), squeeze=False)
+    densest = max(row["by_event"] for row in rows)
     R = style.map_radius(rows)
     for panel, discs in zip(axes[0], numbers):
         here = style.select(rows, discs=discs)
-        # Counted by event as in the paper; each map has its own scale.
-        shown = style.cells(panel, here, "by_event", R)
+        shown = style.cells(panel, here, "by_event", R, densest)  # counted by event as in the paper
         style.container(panel, R, color="white")
         panel.set_title(f"$N = {discs:.0f}$")
-        bar = drawing.colorbar(shown, ax=panel, orientation="horizontal", shrink=0.8)
-        bar.set_label(r"discs per unit area ($r^{-2}$)")
+    drawing.colorbar(shown, ax=axes, orientation="horizontal", shrink=0.5, label=r"discs per unit area ($r^{-2}$)")
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
 

@@ -6,8 +6,6 @@ from figure import Figure
 from runs import numbers_beyond, text
 from searches import SEARCH_COLUMNS, search_cells, search_point
 
-TOP = 0.96  # height in the axes of the markers for friction coefficients without a crossing
-
 
 def points(settings):
     made = []
@@ -27,15 +25,9 @@ def table(points, settings):
 def draw(table):
     rows = style.read(table)
     drawing, axes = style.figure()
-    style.curve(axes, style.select(rows, crosses=1.0), "mu", "crossing", color=style.BLUE,
-                marker="o", label="crossing")
-    none = style.select(rows, crosses=0.0)
-    if none:
-        low, high = axes.get_ylim()
-        axes.set_ylim(low, high + 0.15 * (high - low))  # these markers stay above every crossing
-        axes.plot(style.column(none, "mu"), [TOP] * len(none), "^", color=style.GREY,
-                  transform=axes.get_xaxis_transform(), label="no crossing found")
-        style.legend(axes)
+    style.curve(axes, style.select(rows, crosses=1.0), "mu", "crossing", color=style.BLUE, marker="o")
+    style.without_crossing(axes, rows, "mu", style.BLUE)
+    axes.margins(y=0.15)  # the arrows are above every crossing
     axes.set_xscale("log")
     axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1, 2])
     axes.set_xticklabels(["0.05", "0.1", "0.2", "0.5", "1", "2"])

@@ -82,16 +82,17 @@ def draw(table):
         names = ["experiment"] + [name for name in dict.fromkeys(row["curve"] for row in rows)
                                   if name[0] in letters and name != "experiment"]
         for k, name in enumerate(names):
-            here = [row for row in style.select(rows, curve=name, crosses=1.0) if row["crossing"] == row["crossing"]]
-            if here:
-                style.curve(axes, here, "mu", "crossing", color=style.BLACK if k == 0 else style.CYCLE[k - 1],
-                            marker=style.MARKERS[k], label=label_of(here[0], words))
+            here, color = style.select(rows, curve=name), style.BLACK if k == 0 else style.CYCLE[k - 1]
+            style.curve(axes, style.select(here, crosses=1.0) or here, "mu", "crossing", color=color,
+                        marker=style.MARKERS[k], label=label_of(here[0], words))
+            style.without_crossing(axes, here, "mu", color)
         for n in (SMOOTH_CHANGE_N, ROUGH_CHANGE_N):
             axes.axhline(n, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
         axes.set_xlabel(r"friction coefficient $\mu$")
         style.legend(axes, ncol=2)
         axes.set_title(title, pad=44)
     panels[0].set_ylabel("$N_c$")
+    panels[0].margins(y=0.15)  # the arrows are below every crossing
     style.save(drawing, table)
 
 
