@@ -73,8 +73,8 @@ class Paper:
         problem, findings, files = "", [], []
         try:
             findings, files = figure.write(plan, self.settings)
-        except study.swirl.Failure as failure:
-            problem = str(failure)
+        except Exception as error:  # the other figures are made
+            problem = f"{type(error).__name__}: {error}".removeprefix("Failure: ")
         return {"name": figure.name, "description": figure.description, "findings": findings + study.remarks(plan),
                 "files": files, "problem": problem}
 

@@ -11,6 +11,7 @@ from claims.wording import ends, known, number, value_at
 from paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
 from verdicts import HOLDS, IN_PART, UNDECIDED, measured
 
+MOST = 6  # results
 NO_TABLE = (FileNotFoundError, IndexError, KeyError)
 
 
@@ -144,13 +145,13 @@ def main_results(path):
     """Sentences; one whose tables do not exist is left out."""
     sentences = []
     study = Study(path)
-    for find in (experiment_found, predictions_found, frustration_found, transition_found, order_found,
-                 both_frictions_found, condensation_found):
+    for find in (transition_found, order_found, both_frictions_found, experiment_found, predictions_found,
+                 frustration_found, condensation_found):
         try:
             sentences.append(find(study))
         except (*NO_TABLE, ValueError, ZeroDivisionError):
             continue
-    return [sentence for sentence in sentences if sentence]
+    return [sentence for sentence in sentences if sentence][:MOST]
 
 
 # Figures with the same discs, so that the report has their N_c more than once: (figure, curve, how).

@@ -37,6 +37,7 @@ figure.wide { grid-column: 1 / -1; }
 figure.split { display: grid; grid-template-columns: 1fr 1fr; gap: 2rem; align-items: start; }
 figure img { display: block; width: 100%; height: auto; max-height: 44rem; object-fit: contain;
              margin: 0 0 .5rem; }
+img.first { display: block; max-width: min(100%, 34rem); margin: 1rem 0; }
 figcaption { font-size: .88rem; }
 figcaption p { margin: 0 0 .3rem; }
 figcaption ul { padding-left: 1.1rem; margin: .3rem 0 .6rem; }

@@ -15,7 +15,7 @@ from captions import CONTRADICTIONS, by_section, figure_texts, image_of, questio
 from claims import all_judged
 from claims.claim import UNTESTED
 from first_page import crossings_of_one_setting, main_results
-from html_page import bullets, described_folder, opening, pairs, rich, table, td
+from html_page import bullets, described_folder, inline, opening, rich, table, td
 from page_layout import figures_html
 from point_names import in_words
 from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
@@ -112,48 +112,67 @@ def how_to_read(about):
             "of the paper's words requires are also halved and doubled; verdicts that change are marked." + quick)
 
 
+# --- Contents -----------------------------------------------------------------------------------
+
+FIRST_PICTURES = ("5b", "1b", "4c")  # the first that exists begins the report
+CLAIMS = "Claim by claim"
+
+
+def contents(folder, about, judged):
+    """[(kind, value)] of the whole report, in its order: what is found, then each figure, then each claim."""
+    made = {figure["name"]: image_of(figure) for figure in about["figures"]}
+    blocks = [("picture", made[name]) for name in FIRST_PICTURES if made.get(name)][:1]
+    blocks += [("bullets", main_results(folder)), ("text", counts(judged)), ("text", INTRODUCTION),
+               ("small", f"{how_to_read(about)} {crossings_of_one_setting(folder)}".strip())]
+    for heading, figures in by_section(about["figures"]):
+        blocks += [("section", heading), ("figures", figures)]
+    blocks += [("section", "Contradictions in the paper, and the choices of this program"),
+               ("table", (["topic", "the paper", "this program"], CONTRADICTIONS)),
+               ("section", "Parameters, versions, time"), ("table", (["", ""], parameter_rows(about))),
+               ("section", CLAIMS)]
+    for heading, group in disagreements(judged):
+        blocks += [("text", f"{heading}:"), ("bullets", [f"{statement}" + (f" — {found}" if found else "")
+                                                         for statement, found in group])]
+    return [*blocks, ("claims", judged)]
+
+
 # --- Markdown -----------------------------------------------------------------------------------
 
 def cell(text):
     return str(text).replace("|", "\\|").replace("\n", " ")
 
 
-def markdown(about, judged, crossings="", results=()):
-    lines = [f"# {TITLE}", "", "**Question.** " + INTRODUCTION, ""]
-    if results:
-        lines += ["**Results.**", ""] + [f"- {text}" for text in results] + [""]
-    lines += [f"**{counts(judged)}** {how_to_read(about)}", ""]
-    if crossings:
-        lines += [crossings, ""]
-    for heading, group in disagreements(judged):
-        lines += [f"{heading}:", "", *(f"- {statement}" + (f" — {found}" if found else "")
-                                       for statement, found in group), ""]
-    lines += ["## Claim by claim", "", "| # | the paper says | judged on | found | verdict | command |",
-              "|---|---|---|---|---|---|"]
-    for k, j in enumerate(judged, 1):
-        claim, sizes = j.claim, with_sizes(j)
-        command = f"`{claim.command}`" if claim.command else ""
-        lines.append(f"| {k} | {cell(claim.statement)} ({claim.source}) | {claim.on} | {cell(j.found)} | "
-                     f"{MARK[j.verdict]} {j.verdict}{sizes and f' ({sizes})'} | {command} |")
-    texts = figure_texts(about)
-    for heading, figures in by_section(about["figures"]):
-        lines += ["", f"## {heading}"]
-        for figure in figures:
-            lines += figure_markdown(figure, *texts[figure["name"]])
-    lines += ["", "## Contradictions in the paper, and the choices of this program", "",
-              "| topic | the paper | this program |",
-              "|---|---|---|", *(f"| {cell(a)} | {cell(b)} | {cell(c)} |" for a, b, c in CONTRADICTIONS),
-              "", "## Parameters, versions, time", "", "| | |", "|---|---|",
-              *(f"| {cell(a)} | {cell(b)} |" for a, b in parameter_rows(about))]
-    return "\n".join(lines) + "\n"
+def markdown_table(head, rows):
+    def line(cells):
+        return f"| {' | '.join(map(cell, cells))} |"
+    return [line(head), "|---" * len(head) + "|", *map(line, rows), ""]
+
+
+def claim_cells(k, j):
+    sizes = with_sizes(j)
+    return (k, f"{j.claim.statement} ({j.claim.source})", j.claim.on, j.found,
+            f"{MARK[j.verdict]} {j.verdict}{sizes and f' ({sizes})'}", j.claim.command and f"`{j.claim.command}`")
 
 
 def figure_markdown(figure, caption, findings, remarks):
     title, image, question = title_of(figure), image_of(figure), question_of(figure)
-    return ["", f"### {title}", "", *([f"![{title}]({image})", ""] if image else []),
+    return [f"### {title}", "", *([f"![{title}]({image})", ""] if image else []),
             *([f"*{question}*", ""] if question else []), *([caption, ""] if caption else []),
             *(f"- {finding}" for finding in findings), *(["", *remarks] if remarks else []),
-            "", f"`swirl paper --figure {figure['name']}`"]
+            "", f"`swirl paper --figure {figure['name']}`", ""]
+
+
+def markdown(folder, about, judged):
+    texts, lines = figure_texts(about), [f"# {TITLE}", ""]
+    for kind, value in contents(folder, about, judged):
+        lines += {"picture": lambda: [f"![{TITLE}]({value})", ""], "section": lambda: [f"## {value}", ""],
+                  "bullets": lambda: [*(f"- {text}" for text in value), ""], "text": lambda: [value, ""],
+                  "small": lambda: [value, ""], "table": lambda: markdown_table(*value),
+                  "figures": lambda: [line for f in value for line in figure_markdown(f, *texts[f["name"]])],
+                  "claims": lambda: markdown_table(
+                      ["#", "the paper says", "judged on", "found", "verdict", "command"],
+                      [claim_cells(k, j) for k, j in enumerate(value, 1)])}[kind]()
+    return "\n".join(lines).rstrip() + "\n"
 
 
 # --- HTML ---------------------------------------------------------------------------------------
@@ -168,27 +187,17 @@ def claim_row(k, j):
 
 
 def page(folder, about, judged):
-    results = main_results(folder)
-    texts = figure_texts(about)
-    parts = [opening(TITLE), f"<h1>{TITLE}</h1>\n",
-             "<p class=small>The claims of a paper, one by one, compared with a simulation</p>\n",
-             f"<p><b>Question.</b> {rich(INTRODUCTION)}</p>\n",
-             f"<p><b>Results.</b></p>{bullets(results)}" if results else "",
-             f"<p><b>{html.escape(counts(judged))}</b></p>\n",
-             f"<p class=small>{rich(how_to_read(about))} {rich(crossings_of_one_setting(folder))}</p>\n"]
-    for heading, group in disagreements(judged):
-        items = "".join(f"<li>{rich(statement)} <span class=small>{rich(found)}</span></li>"
-                        for statement, found in group)
-        parts.append(f"<p class=heading>{heading}:</p><ul>{items}</ul>\n")
-    parts += ["<h2>Claim by claim</h2>\n",
-              table(["", "the paper says", "judged on", "found", "verdict, and how to reproduce it"],
-                    [claim_row(k, j) for k, j in enumerate(judged, 1)], "claims")]
-    for heading, figures in by_section(about["figures"]):
-        parts += [f"<h2>{heading}</h2>\n", figures_html(folder, figures, texts)]
-    parts += ["<h2>Contradictions in the paper, and the choices of this program</h2>\n",
-              table(["topic", "the paper", "this program"], [map(td, row) for row in CONTRADICTIONS]),
-              "<h2>Parameters, versions, time</h2>\n", pairs(parameter_rows(about)), "</body></html>\n"]
-    return "".join(parts)
+    texts, parts = figure_texts(about), [opening(TITLE), f"<h1>{TITLE}</h1>\n"]
+    for kind, value in contents(folder, about, judged):
+        parts.append({"picture": lambda: f'<img class=first alt="{TITLE}" src="{inline(os.path.join(folder, value))}">\n',
+                      "section": lambda: f"<h2>{value}</h2>\n", "bullets": lambda: bullets(value),
+                      "text": lambda: f"<p>{rich(value)}</p>\n", "small": lambda: f"<p class=small>{rich(value)}</p>\n",
+                      "table": lambda: table(value[0], [map(td, row) for row in value[1]]),
+                      "figures": lambda: figures_html(folder, value, texts),
+                      "claims": lambda: table(
+                          ["", "the paper says", "judged on", "found", "verdict, and how to reproduce it"],
+                          [claim_row(k, j) for k, j in enumerate(value, 1)], "claims")}[kind]())
+    return "".join([*parts, "</body></html>\n"])
 
 
 # --- PDF ----------------------------------------------------------------------------------------
@@ -201,26 +210,26 @@ def figure_blocks(figure, caption, findings, remarks):
             ("small", f"swirl paper --figure {figure['name']}")]
 
 
+def claim_blocks(k, j):
+    small = "; ".join(filter(None, (f"judged on {j.claim.on}", with_sizes(j), j.claim.command)))
+    return [("text", f"{k}. {j.claim.statement} ({j.claim.source})"), ("bullet", f"{j.verdict}: {j.found}"),
+            ("small", small)]
+
+
 def pdf(folder, about, judged):
     from report_pdf import report_pdf  # the only part that needs matplotlib
-    opening = [(INTRODUCTION, main_results(folder)), (counts(judged), []), (how_to_read(about), [])]
-    for heading, group in disagreements(judged):
-        opening.append((heading + ":", [f"{statement} {found}" for statement, found in group]))
-    claims = []
-    for k, j in enumerate(judged, 1):
-        small = "; ".join(filter(None, (f"judged on {j.claim.on}", with_sizes(j), j.claim.command)))
-        claims += [("text", f"{k}. {j.claim.statement} ({j.claim.source})"),
-                   ("bullet", f"{j.verdict}: {j.found}"), ("small", small)]
-    texts = figure_texts(about)
-    sections = [("Claim by claim", claims)]
-    for heading, figures in by_section(about["figures"]):
-        sections.append((heading, [block for figure in figures
-                                   for block in figure_blocks(figure, *texts[figure["name"]])]))
-    sections += [("Contradictions in the paper, and the choices of this program",
-                  [("bullet", f"{matter}. The paper: {paper}. Here: {here}.") for matter, paper, here in CONTRADICTIONS]),
-                 ("Parameters, versions, time",
-                  [("bullet", f"{name}: {value}") for name, value in parameter_rows(about)])]
-    return report_pdf(folder, TITLE, opening, sections)
+    texts, sections = figure_texts(about), [("", [])]  # the first page has no heading
+    for kind, value in contents(folder, about, judged):
+        if kind == "section":
+            sections.append((value, []))
+            continue
+        sections[-1][1].extend({
+            "picture": lambda: [("image", value)], "bullets": lambda: [("bullet", text) for text in value],
+            "text": lambda: [("text", value)], "small": lambda: [("small", value)],
+            "table": lambda: [("bullet", f"{row[0]}: " + " Here: ".join(map(str, row[1:]))) for row in value[1]],
+            "figures": lambda: [block for f in value for block in figure_blocks(f, *texts[f["name"]])],
+            "claims": lambda: [block for k, j in enumerate(value, 1) for block in claim_blocks(k, j)]}[kind]())
+    return report_pdf(folder, TITLE, sections[0][1], sections[1:])
 
 
 def write_all(folder):
@@ -228,8 +237,7 @@ def write_all(folder):
     with open(os.path.join(folder, "paper.json"), encoding="utf-8") as file:
         about = json.load(file)
     judged = judge(folder)
-    atomic_file.write(os.path.join(folder, "report.md"),
-                      markdown(about, judged, crossings_of_one_setting(folder), main_results(folder)))
+    atomic_file.write(os.path.join(folder, "report.md"), markdown(folder, about, judged))
     atomic_file.write(os.path.join(folder, "report.html"), page(folder, about, judged))
     atomic_file.write(os.path.join(folder, "report.pdf"), pdf(folder, about, judged))
 

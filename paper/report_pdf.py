@@ -161,18 +161,29 @@ def plain(text):
     return re.sub(r"[`*]", "", str(text)).replace("\n", " ")
 
 
+def write_blocks(pages, folder, blocks):
+    for k, (kind, value) in enumerate(blocks):
+        if kind == "heading":
+            following = blocks[k + 1] if k + 1 < len(blocks) else ("", "")
+            below = size_on_page(plt.imread(os.path.join(folder, following[1])))[1] if following[0] == "image" else 0.0
+            pages.heading(plain(value), size=10.5, below=below)
+        elif kind == "image":
+            pages.image(os.path.join(folder, value))
+        elif kind == "bullet":
+            pages.text(plain(value), indent=0.2, bullet="•")
+        else:
+            pages.text(plain(value), size=8 if kind == "small" else 9, color="0.35" if kind == "small" else "black")
+
+
 def report_pdf(folder, title, opening, sections):
     """The file as bytes.
 
-    opening: [(text, bullets)] of the first page. sections: [(heading, blocks)] with blocks ("heading", text),
-    ("text", text), ("bullet", text), ("small", text) and ("image", name of a PNG in the folder).
+    opening: blocks of the first page. sections: [(heading, blocks)] with blocks ("heading", text), ("text", text),
+    ("bullet", text), ("small", text) and ("image", name of a PNG in the folder).
     """
     pages = Pages(title)
     pages.text(title, size=18, weight="bold")
-    for text, bullets in opening:
-        pages.text(plain(text))
-        for bullet in bullets:
-            pages.text(plain(bullet), indent=0.2, bullet="•")
+    write_blocks(pages, folder, opening)
     entries = sum(1 + sum(kind == "heading" for kind, _ in blocks) for _, blocks in sections)
     pages.break_page()
     pages.text("Contents", size=13, weight="bold")
@@ -183,16 +194,5 @@ def report_pdf(folder, title, opening, sections):
     for heading, blocks in sections:
         pages.break_page()
         pages.heading(heading)
-        for k, (kind, value) in enumerate(blocks):
-            if kind == "heading":
-                following = blocks[k + 1] if k + 1 < len(blocks) else ("", "")
-                below = size_on_page(plt.imread(os.path.join(folder, following[1])))[1] \
-                    if following[0] == "image" else 0.0
-                pages.heading(plain(value), size=10.5, below=below)
-            elif kind == "image":
-                pages.image(os.path.join(folder, value))
-            elif kind == "bullet":
-                pages.text(plain(value), indent=0.2, bullet="•")
-            else:
-                pages.text(plain(value), size=8 if kind == "small" else 9, color="0.35" if kind == "small" else "black")
+        write_blocks(pages, folder, blocks)
     return pages.bytes(pages.contents(page, top, per_page))

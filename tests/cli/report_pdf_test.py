@@ -16,7 +16,7 @@ sys.path.insert(0, sys.argv[1])
 import report_pdf
 sections = [(f"Section {k} with ϖ", [("heading", f"Part {k}"), ("text", "word " * 900), ("bullet", "$x$ a_b")])
             for k in range(30)]
-made = report_pdf.report_pdf(".", "Title", [("Opening", ["one", "two"])], sections)
+made = report_pdf.report_pdf(".", "Title", [("text", "Opening"), ("bullet", "one")], sections)
 open(sys.argv[2], "wb").write(made)
 """
 

@@ -8,6 +8,7 @@ import unittest
 from claim_tables import SOURCE, HandMadeTables
 
 import captions
+import command
 import html_page
 import page_layout
 import point_names
@@ -282,9 +283,26 @@ class Page(HandMadeTables):
         for claim in CLAIMS:
             self.assertIn(html_page.rich(claim.statement), page)
             self.assertIn(f"<td>{claim.on}</td>", page)
-        text = report.markdown(about, report.judge(self.folder))
+        # It begins with a picture; the claims come last.
+        self.assertLess(page.index("<img class=first"), page.index("<p>"))
+        self.assertLess(page.index("Parameters, versions"), page.index("Claim by claim"))
+        text = report.markdown(self.folder, about, report.judge(self.folder))
+        self.assertTrue(text.startswith(f"# {report.TITLE}\n\n!["))
         self.assertEqual(text.count("\n| "), len(CLAIMS) + len(captions.CONTRADICTIONS) +
                          len(report.parameter_rows(about)) + 3)
+
+
+class Call(unittest.TestCase):
+    def test_a_table_that_cannot_be_made_is_a_problem_of_its_figure(self):
+        class Broken:
+            name, description = "broken", "what"
+
+            def write(self, plan, settings):
+                raise KeyError("fields")
+        call = command.Paper.__new__(command.Paper)
+        call.settings = None
+        made = call.finished(Broken(), [])
+        self.assertEqual((made["problem"], made["files"]), ("KeyError: 'fields'", []))
 
 
 if __name__ == "__main__":
