@@ -25,16 +25,10 @@ th, td { text-align: left; vertical-align: top; padding: .45rem .8rem .45rem 0;
 code { font-size: .85em; background: #f3f3f3; padding: .05em .3em; border-radius: 3px; }
 td code { white-space: normal; overflow-wrap: anywhere; }
 sub { line-height: 0; font-size: .72em; }
-.figures { display: grid; grid-template-columns: 1fr 1fr; gap: 1.6rem 2rem; }
-.figures > div { min-width: 0; }
-.figures > div > figure + figure { margin-top: 1.6rem; }
-figure { margin: 0; min-width: 0; }
-figure.split { break-inside: avoid; }
-figure:not(.split) img { break-inside: avoid; break-after: avoid; }
-figure:not(.split) li { break-inside: avoid; }
-figcaption > code { display: block; width: fit-content; break-before: avoid; }
-figure.wide { grid-column: 1 / -1; }
-figure.split { display: grid; grid-template-columns: 1fr 1fr; gap: 2rem; align-items: start; }
+.figures { columns: 2; column-gap: 2rem; }
+figure { margin: 0 0 1.6rem; break-inside: avoid; }
+figure.wide { column-span: all; }
+figcaption > code { display: block; width: fit-content; }
 figure img { display: block; width: 100%; height: auto; max-height: 44rem; object-fit: contain;
              margin: 0 0 .5rem; }
 img.first { display: block; max-width: min(100%, 34rem); margin: 1rem 0; }
@@ -49,13 +43,11 @@ table.claims { table-layout: fixed; }
 .claims th:nth-child(3) { width: 4.5em; }
 .claims th:nth-child(5) { width: 18%; }
 .question { color: #333; font-style: italic; margin: 0 0 .3rem; }
-@media screen and (max-width: 50rem) { .figures, figure.split { grid-template-columns: 1fr; } }
+@media screen and (max-width: 50rem) { .figures { columns: 1; } }
 @page { size: A4; margin: 16mm 15mm; }
 @media print {
   body { font-size: 9.5pt; max-width: none; margin: 0; padding: 0; }
-  .figures { gap: .5cm .7cm; }
-  .figures > div > figure + figure { margin-top: .5cm; }
-  figure.split { gap: .7cm; }
+  .figures { column-gap: .7cm; }
   figure img { max-height: 15cm; }
   table { font-size: 8pt; }
   figcaption { font-size: 8pt; }

@@ -7,6 +7,7 @@ folder.
 import html
 import json
 import os
+import struct
 import sys
 
 import atomic_file
@@ -16,7 +17,6 @@ from claims import all_judged
 from claims.claim import UNTESTED
 from first_page import crossings_of_one_setting, main_results
 from html_page import bullets, described_folder, inline, opening, rich, table, td
-from page_layout import figures_html
 from point_names import in_words
 from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
 
@@ -176,6 +176,38 @@ def markdown(folder, about, judged):
 
 
 # --- HTML ---------------------------------------------------------------------------------------
+
+# An image wider than this, in pixels, is made for the width of the page; figures for one column have 1012
+# (style.COLUMN). So is an image that is wider than FLAT times its height.
+ONE_COLUMN = 1200
+FLAT = 2.0
+
+
+def is_wide(path):
+    """From the header of a PNG."""
+    with open(path, "rb") as file:
+        width, height = struct.unpack(">16xII", file.read(24))
+    return width > ONE_COLUMN or width > FLAT * height
+
+
+def figures_html(folder, figures, texts):
+    """One section of the page: wide images span both columns, which the browser balances."""
+    return "<div class=figures>\n" + "".join(figure_html(folder, figure, texts) for figure in figures) + "</div>\n"
+
+
+def figure_html(folder, figure, texts):
+    title = title_of(figure)
+    image = image_of(figure, (".svg", ".png"))
+    drawn = image_of(figure)
+    kind = " class=wide" if drawn and is_wide(os.path.join(folder, drawn)) else ""
+    image = (f'<img alt="{html.escape(title)}" src="{inline(os.path.join(folder, image))}">' if image else "")
+    caption, findings, remarks = texts[figure["name"]]
+    question = f"<p class=question>{rich(question_of(figure))}</p>" if question_of(figure) else ""
+    caption = f"<p>{rich(caption)}</p>" if caption else ""
+    runs = f"<p class=small>{rich(' '.join(remarks))}</p>" if remarks else ""
+    return (f"<figure{kind}>{image}<figcaption><h3>{rich(title)}</h3>{question}{caption}{bullets(findings)}{runs}"
+            f"<code>swirl paper --figure {html.escape(figure['name'])}</code></figcaption></figure>\n")
+
 
 def claim_row(k, j):
     claim, sizes = j.claim, with_sizes(j)
