@@ -44,7 +44,7 @@ KINDS = [
     ("interlaced", ["--frames-per-period", 4 * PERIOD], "interlaced"),
     ("interlaced 1080p", ["--frames-per-period", 4 * PERIOD, *LARGE], "interlaced"),
     ("auto-exposure", ["--auto-exposure", 0.3], None),
-    ("hands", ["--hands", 0.7], None),
+    ("hands", ["--hand-time", 0.7], None),
     ("rotated", [], "rotated"),
     ("colour balls, patterned floor", ["--floor-pattern", 60, "--disc-variation", 0.25], None),
     ("transparent marbles", ["--transparency", 0.8, "--gloss", 180], None),
@@ -138,10 +138,10 @@ def rotation(folder, positions, about):
 def measured(*call):
     """ϖ/Ω by time and its error. Overlaps are permitted in all frames: inaccurate positions are scored, not
     rejected."""
-    done = swirl(*call, "--misfit", 1, "--json", "-")
+    done = swirl(*call, "--max-invalid", 1, "--json", "-")
     if done.returncode != 0:
         return math.nan, math.nan
-    found = json.loads(done.stdout)["rotation"]["by_time"]
+    found = json.loads(done.stdout)["rotation"]["mean_by_time"]
     return found["mean"], math.nan if found["error"] is None else found["error"]
 
 

@@ -9,8 +9,10 @@ dpkg=/var/lib/dpkg
 settings= # ignores a variable of that name in the environment
 
 say() { echo "$me: $*" >&2; }
-give_up() { say "$*" && exit 1; }
-usage_error() { say "$*" && exit 2; }
+# What is wrong, and a hint if there is one.
+error() { echo "error: $1" >&2 && { [ $# -lt 2 ] || echo "hint: $2" >&2; }; }
+give_up() { error "$@" && exit 1; }
+usage_error() { error "$@" && exit 2; }
 
 # Gives up if this user cannot write to $home/build or to the files and folders "$@" in it, which need
 # not exist.
@@ -21,8 +23,8 @@ require_writable() {
         head -n 1)
     [ -n "$locked" ] || return 0
     # shellcheck disable=SC2012
-    say "cannot build: '$locked' cannot be written; it belongs to $(ls -ld "$locked" | awk '{print $3}')."
-    give_up "hint: sudo chown -R $(id -u) $(printf %s "$home/build" |
+    give_up "cannot build: '$locked' cannot be written; it belongs to $(ls -ld "$locked" | awk '{print $3}')." \
+        "sudo chown -R $(id -u) $(printf %s "$home/build" |
         sed "/[^A-Za-z0-9_+=./:,@%-]/{s/'/'\\\\''/g;s/.*/'&'/;}")"
 }
 

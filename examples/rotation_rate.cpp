@@ -22,7 +22,7 @@ int main() {
         if (simulation.periods() > period) rotation.close_block();
     }
 
-    const swirl::Estimate varpi = rotation.estimates().by_event;
+    const swirl::Estimate varpi = rotation.estimates().mean_by_event;
     std::printf("48 discs %s: ϖ/Ω = %.4f ± %.4f\n", varpi.mean > 0.0 ? "rotate" : "counterrotate",
                 varpi.mean, varpi.error);
     std::printf("state %016llx\n", static_cast<unsigned long long>(simulation.state_hash()));

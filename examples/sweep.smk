@@ -18,7 +18,7 @@ rule table:
         "{PROGRAM} collect study --csv {output}"
 
 
-# Without --rest a part is complete only when its own runs are. Results that exist are not computed again.
+# Without --finish-others a part is complete only when its own runs are. Results that exist are not computed again.
 rule part:
     output:
         touch("parts/{k}.done")

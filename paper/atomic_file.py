@@ -40,4 +40,4 @@ def write_or_exit(path, content):
     try:
         write(path, content)
     except OSError as error:
-        sys.exit(f"'{path}' cannot be written: {error.strerror}.")
+        sys.exit(f"error: '{path}' cannot be written: {error.strerror}.")

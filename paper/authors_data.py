@@ -72,7 +72,7 @@ def curve(folder, out, name, mu_disc, mu_wall, inertia, numbers=None):
         with open(file, encoding="utf-8") as opened:
             run = json.load(opened)
         if run["config"]["discs"] in rates:
-            rates[run["config"]["discs"]].append(run["rotation"]["by_event"]["mean"])
+            rates[run["config"]["discs"]].append(run["rotation"]["mean_by_event"]["mean"])
     scatter = [np.var(here, ddof=1) if len(here) > 1 else np.nan for here in rates.values()]
     rows = []
     for k, (discs, here) in enumerate(rates.items()):

@@ -17,7 +17,7 @@ import numpy as np
 from engine import swirl
 
 MIN_PERIODS = 5  # of a run that is averaged
-RATES = ("by_event", "by_time", "rigid_by_event", "rigid_by_time")
+RATES = ("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time")
 COUNTS = ("runs", "averaged", "steady", "drifting", "jumping", "switching", "too_short", "too_short_to_average", "failed")
 
 
@@ -58,7 +58,7 @@ def steadiness(result):
 def too_short_to_average(run):
     """True if a run ended before its warm-up, or soon after it."""
     return ((number(at(run, "warmup", "periods")) == 0 and at(run, "config", "warmup") != 0)
-            or not number(at(run, "rotation", "by_event", "blocks")) >= MIN_PERIODS)
+            or not number(at(run, "rotation", "mean_by_event", "blocks")) >= MIN_PERIODS)
 
 
 def is_average(node):
@@ -159,7 +159,7 @@ def combined(results):
             "events": {"total": int(mean("events", "total") + 0.5)},
             "warmup": {"periods": int(mean("warmup", "periods") + 0.5)},
             **({"measured": measured([run["measured"] for run in runs], periods)} if "measured" in runs[0] else {}),
-            "seeds": {**seeds, "scatter": rotation["by_event"]["scatter"],
-                      "disagree": rotation["by_event"]["disagree"]},
+            "seeds": {**seeds, "scatter": rotation["mean_by_event"]["scatter"],
+                      "disagree": rotation["mean_by_event"]["disagree"]},
             "steady_state": {"verdict": verdict_of(seeds)},
             "state_hash": hashes[0] if len(hashes) == 1 else swirl._engine.checksum("".join(hashes))}

@@ -8,7 +8,7 @@ import atomic_file
 from combine import RATES, at, number, steadiness
 from engine import swirl
 
-RATE_WORDS = {"by_event": "mean over the discs, by event", "by_time": "mean over the discs, by time",
+RATE_WORDS = {"mean_by_event": "mean over the discs, by event", "mean_by_time": "mean over the discs, by time",
               "rigid_by_event": "rigid body, by event", "rigid_by_time": "rigid body, by time"}
 CERTAIN = 3  # errors from zero that make a sign certain (src/swirl/statistics/zero_crossing.hpp)
 
@@ -70,7 +70,7 @@ def measured_cells(result, quantities):
 def rotation_cells(result):
     """The columns about the rotation; empty cells for a point whose runs failed."""
     return {**averages(result, ["rotation"], RATES),
-            "effective_samples": number(at(result, "rotation", "by_event", "effective_samples")),
+            "effective_samples": number(at(result, "rotation", "mean_by_event", "effective_samples")),
             "events": at(result, "events", "total"), "periods": number(at(result, "periods")),
             "warmup_periods": at(result, "warmup", "periods"), "steady_state": steadiness(result),
             "point": result["point"], "seeds": at(result, "seeds", "runs"),
@@ -106,7 +106,7 @@ def highest_of(curve):
 class Curve:
     """ϖ(N) of some points, by every rate; `rate` is the one that the figure shows."""
 
-    def __init__(self, name, points, rate="by_time"):
+    def __init__(self, name, points, rate="mean_by_time"):
         self.name, self.rate = name, rate
         self.by_rate = {each: [rate_of(p, each) for p in points] for each in RATES}
         self.crossings = {each: swirl._engine.zero_crossing(*map(list, zip(*curve))) if curve else
@@ -166,7 +166,7 @@ def crossing_cells(by_rate):
             for part, value in zip(("", "_error", "_lower", "_upper"), values)}
 
 
-def curves_by(points, column, rate="by_time"):
+def curves_by(points, column, rate="mean_by_time"):
     """A curve for each value of a column, in the order of the points."""
     values = dict.fromkeys(p.cells[column] for p in points)
     return [Curve(value, [p for p in points if p.cells[column] == value], rate) for value in values]

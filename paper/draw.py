@@ -16,14 +16,14 @@ def main():
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     table = sys.argv[1]
     if not os.path.exists(table):
-        sys.exit(f"the table '{table}' does not exist.\nhint: `swirl paper` writes it.")
+        sys.exit(f"error: the table '{table}' does not exist.\nhint: `swirl paper` writes it.")
     name = os.path.splitext(os.path.basename(table))[0].removeprefix("figure_")
     try:
         draw = catalogue.drawing(name)
     except ModuleNotFoundError as missing:
         if not missing.name.startswith("figures."):
             raise
-        sys.exit(f"'{table}' is not the table of a figure.\nhint: name it as `swirl paper` does, such as "
+        sys.exit(f"error: '{table}' is not the table of a figure.\nhint: name it as `swirl paper` does, such as "
                  "figure_5b.csv.")
     draw(table, *map(float, sys.argv[2:]))
 

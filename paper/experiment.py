@@ -168,7 +168,7 @@ def videos_table(rows):
             f"{row['frames_per_period']:.0f}", f"{row['radius']:.2f}",
             f"{row['container_radius']:.3f}", f"{row['amplitude']:.3f}",
             f"{100 * row['complete_share']:.1f} %", f"{row['position_error']:.2f}",
-            with_error(row["by_time"], row["by_time_error"]),
+            with_error(row["mean_by_time"], row["mean_by_time_error"]),
             with_error(row["simulated"], row["simulated_error"]))])
     return report.table(head, body)
 
@@ -246,7 +246,7 @@ def main():
     rotation = r"rotation $\varpi/\Omega$, by time"
     rough = ("rough",)
     made = [against_n(folder, "1b", points,
-                      [("by_time", ""), ("pancake", "pancake")], rotation, 0,
+                      [("mean_by_time", ""), ("pancake", "pancake")], rotation, 0,
                       rough if style.select(points, surface="rough") else ("smooth",))]
     for row in videos:
         if os.path.exists(os.path.join(folder, f"maps_{row['video']}.csv")):
@@ -261,7 +261,7 @@ def main():
              against_n(folder, "4b", points, [("wall_spin", "")],
                        r"spin at the wall $\langle|\omega_i|\rangle/\Omega$")]
     if style.select(points, surface="smooth"):
-        made.append(against_n(folder, "4c", points, [("by_time", "")], rotation, 0))
+        made.append(against_n(folder, "4c", points, [("mean_by_time", "")], rotation, 0))
     figures = [name for name in made if name]
     report.write(os.path.join(folder, "report.html"), page(folder, about, videos, figures))
 

@@ -23,12 +23,12 @@ def statement(judgement, holds, fails, undecided):
 
 
 def rotation_at(row):
-    return f"ϖ/Ω = {value_at(row, 'by_event')}"
+    return f"ϖ/Ω = {value_at(row, 'mean_by_event')}"
 
 
 def lowest_of(study, setting):
-    return rotation_at(min(known(study.curve("5b", last=math.inf, setting=setting), "by_event"),
-                           key=lambda row: row["by_event"]))
+    return rotation_at(min(known(study.curve("5b", last=math.inf, setting=setting), "mean_by_event"),
+                           key=lambda row: row["mean_by_event"]))
 
 
 def change_of(crossing):
@@ -45,7 +45,7 @@ def change_of(crossing):
 
 def transition_found(study):
     judgement, _ = rotation.transition(study, "high")
-    rows = known(study.curve("5b", setting="high"), "by_event")
+    rows = known(study.curve("5b", setting="high"), "mean_by_event")
     values = f"{rotation_at(rows[0])}, {rotation_at(rows[-1])}"
     change = change_of(study.crossing("5b", "high"))
     claim = ("with friction at the wall and between the discs (μ = 1) few discs rotate with the swirl and many "

@@ -120,4 +120,4 @@ def described_folder(name, command, what):
         with open(os.path.join(folder, name), encoding="utf-8") as file:
             return folder, json.load(file)
     except FileNotFoundError:
-        sys.exit(f"'{folder}/{name}' does not exist.\nhint: `{command.removesuffix(' --out')}` writes it.")
+        sys.exit(f"error: '{folder}/{name}' does not exist.\nhint: `{command.removesuffix(' --out')}` writes it.")

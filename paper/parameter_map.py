@@ -16,7 +16,7 @@ from style import plt
 # The verdicts that have a marker, and its explanation below the figure.
 SIGNS = {"always rotates": ("+", "+: rotates at every N"), "always counterrotates": ("_", "−: counterrotates at every N"),
          "undecided": ("x", "×: undecided"), "undetermined": ("x", "×: undetermined"), "failed": ("s", "square: all runs failed")}
-LABELS = {"by_time": r"$\varpi/\Omega$", "by_event": r"$\varpi/\Omega$ by event",
+LABELS = {"mean_by_time": r"$\varpi/\Omega$", "mean_by_event": r"$\varpi/\Omega$ by event",
           "rigid_by_time": r"rigid $\varpi/\Omega$", "rigid_by_event": r"rigid $\varpi/\Omega$ by event",
           "N_c": r"$N_c$", "mu": r"friction coefficient $\mu$", "mu_disc": r"disc friction $\mu_d$",
           "mu_wall": r"wall friction $\mu_w$", "amplitude": r"amplitude $A$", "discs": r"number of discs $N$",
@@ -134,7 +134,7 @@ def main():
     parser.add_argument("--level", type=float, default=0.0, help="level that the line shows [0]")
     given = parser.parse_args()
     if not os.path.exists(given.table):
-        sys.exit(f"the table '{given.table}' does not exist.\nhint: `swirl map` writes it.")
+        sys.exit(f"error: the table '{given.table}' does not exist.\nhint: `swirl map` writes it.")
     rows = style.read(given.table)
     columns = list(rows[0])
     of = next(name for name in columns if name + "_error" in columns)

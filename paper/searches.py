@@ -13,7 +13,7 @@ PARTS = ("N_c", "N_c_error", "N_c_lower", "N_c_upper")
 def search(parameters):
     parameters = dict(parameters)
     given = {name: parameters.pop(name) for name in ("min_discs", "max_discs", "tolerance", "min_periods")}
-    text, report = swirl._engine.crossing(parameters, rate="by_time", threads=1, command="", progress=None, **given)
+    text, report = swirl._engine.crossing(parameters, rate="mean_by_time", threads=1, command="", progress=None, **given)
     return {**json.loads(text), "report": report}
 
 
@@ -33,4 +33,4 @@ def search_cells(found):
 
 
 SEARCH_COLUMNS = [*"crosses crossing crossing_error lower upper runs events runs_not_steady steady_state".split(),
-                  *crossing_cells(dict.fromkeys(("by_event", "by_time", "rigid_by_event", "rigid_by_time"), range(4)))]
+                  *crossing_cells(dict.fromkeys(("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time"), range(4)))]

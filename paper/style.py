@@ -85,7 +85,7 @@ def read(table):
     """The rows of a table; ends the script if there are none."""
     rows = tables.read(table)
     if not rows:
-        sys.exit(f"'{table}' has no rows, so nothing is drawn.")
+        sys.exit(f"error: '{table}' has no rows, so nothing is drawn.")
     return rows
 
 
@@ -150,9 +150,9 @@ def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=F
     drawing, axes = figure(width, height)
     zero_line(axes)
     for rows, look in curves:
-        curve(axes, rows, "discs", "by_time", **look)
+        curve(axes, rows, "discs", "mean_by_time", **look)
     if fine:
-        fine_near_zero(axes, [row["by_time"] for rows, _ in curves for row in rows])
+        fine_near_zero(axes, [row["mean_by_time"] for rows, _ in curves for row in rows])
     rotation_axes(axes, of=of)
     legend(axes, **more)
     save(drawing, table)
@@ -408,7 +408,7 @@ def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
     across, up = (sorted({row[column] for row in rows}) for column in columns)
     values = [[float("nan")] * len(across) for _ in up]
     for row in rows:
-        values[up.index(row[columns[1]])][across.index(row[columns[0]])] = row["by_time"]
+        values[up.index(row[columns[1]])][across.index(row[columns[0]])] = row["mean_by_time"]
     colors = plt.get_cmap("PuOr_r").copy()
     colors.set_bad("0.85")
     # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.

@@ -16,18 +16,18 @@ MAX_CURVES = 24
 
 
 def parameters_of(rows):
-    """The columns of parameters come first; the next is the number of replicas."""
+    """The columns of parameters come first; the next is the number of replicates."""
     names = list(rows[0])
-    if "replicas" not in names:
-        sys.exit("the table is not of a sweep: it has no column 'replicas'.\nhint: `swirl collect` writes it.")
-    return names[:names.index("replicas")]
+    if "replicates" not in names:
+        sys.exit("error: the table is not of a sweep: it has no column 'replicates'.\nhint: `swirl collect` writes it.")
+    return names[:names.index("replicates")]
 
 
 def along_x(rows, parameters):
     values = {name: {row[name] for row in rows} for name in parameters
               if all(isinstance(row[name], float) for row in rows)}
     if not values:
-        sys.exit("the sweep has no parameter of numbers, so nothing is drawn.")
+        sys.exit("error: the sweep has no parameter of numbers, so nothing is drawn.")
     return max(values, key=lambda name: len(values[name]))
 
 
@@ -46,7 +46,7 @@ def curves(rows, others):
 
 
 def label_of(quantity):
-    rates = {"by_time": "by time", "by_event": "by event", "rigid_by_time": "rigid body, by time",
+    rates = {"mean_by_time": "by time", "mean_by_event": "by event", "rigid_by_time": "rigid body, by time",
              "rigid_by_event": "rigid body, by event"}
     if quantity in rates:
         return rf"rotation $\varpi/\Omega$, {rates[quantity]}"
@@ -58,20 +58,20 @@ def main():
         print(f"usage: /usr/bin/python3 {sys.argv[0]} table.csv [QUANTITY]", file=sys.stderr)
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     table = sys.argv[1]
-    quantity = sys.argv[2] if len(sys.argv) == 3 else "by_time"
+    quantity = sys.argv[2] if len(sys.argv) == 3 else "mean_by_time"
     if not os.path.exists(table):
-        sys.exit(f"the table '{table}' does not exist.\nhint: `swirl collect` writes it.")
+        sys.exit(f"error: the table '{table}' does not exist.\nhint: `swirl collect` writes it.")
     rows = style.read(table)
     parameters = parameters_of(rows)
     quantities = [name for name in rows[0] if name not in parameters
                   and not name.endswith("_error") and name not in ("steady_state", "state_hash")]
     if quantity not in quantities:
-        sys.exit(f"the table has no column '{quantity}'.\nhint: it has {', '.join(quantities)}.")
+        sys.exit(f"error: the table has no column '{quantity}'.\nhint: it has {', '.join(quantities)}.")
     x = along_x(rows, parameters)
     others = [name for name in parameters if len({row[name] for row in rows}) > 1 and name != x]
     groups = curves(rows, others)
     if len(groups) > MAX_CURVES:
-        sys.exit(f"the sweep would have {len(groups)} curves, but at most {MAX_CURVES} can be distinguished.\n"
+        sys.exit(f"error: the sweep would have {len(groups)} curves, but at most {MAX_CURVES} can be distinguished.\n"
                  "hint: draw a part of the table.")
     drawing, axes = style.figure()
     for k, (values, points) in enumerate(groups.items()):

@@ -126,4 +126,4 @@ def swirled_run(parameters):
             "core": float((core[has_core] / core_square[has_core]).mean() / omega),
             "layer": float(wall.sum() / wall_square.sum() / omega),
             "path_rotation": float(fits[:, 0].mean()), "path_distance": float(np.sqrt((fits[:, 1] ** 2).mean())),
-            "rotation": run.rotation.by_time.mean, **rings}
+            "rotation": run.rotation.mean_by_time.mean, **rings}

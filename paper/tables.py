@@ -4,7 +4,7 @@ import csv
 import os
 
 # The columns of the rotation rates.
-RATES = ("by_time", "by_event", "rigid_by_time", "rigid_by_event")
+RATES = ("mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event")
 
 
 def read(table):

@@ -51,7 +51,7 @@ while [ $# -gt 0 ]; do
     case $1 in
         -h | --help) usage && exit 0 ;;
         --port | --out)
-            [ $# -gt 1 ] || usage_error "$1 needs a value. See swirl lab --help."
+            [ $# -gt 1 ] || usage_error "$1 needs a value." "see \`swirl lab --help\`."
             [ "$1" = --out ] && out=$2 || port=$2
             shift 2
             ;;
@@ -60,23 +60,23 @@ while [ $# -gt 0 ]; do
         --no-browser) browser=no && shift ;;
         --quiet) quiet=yes && shift ;;
         --)
-            [ $# -eq 1 ] || usage_error "unexpected argument '$2'. See swirl lab --help."
+            [ $# -eq 1 ] || usage_error "unexpected argument '$2'." "see \`swirl lab --help\`."
             break
             ;;
         --*)
             name=${1#--}
             name=$(printf %s "${name%%=*}" | tr _ -)
-            is_parameter "$name" || usage_error "there is no option '${1%%=*}'. See swirl lab --help."
+            is_parameter "$name" || usage_error "there is no option '${1%%=*}'." "see \`swirl lab --help\`."
             case $1 in
                 *=*) give "$name" "${1#*=}" && shift ;;
                 *)
-                    [ $# -gt 1 ] || usage_error "$1 needs a value. See swirl lab --help."
+                    [ $# -gt 1 ] || usage_error "$1 needs a value." "see \`swirl lab --help\`."
                     give "$name" "$2"
                     shift 2
                     ;;
             esac
             ;;
-        *) usage_error "there is no option '$1'. See swirl lab --help." ;;
+        *) usage_error "there is no option '$1'." "see \`swirl lab --help\`." ;;
     esac
 done
 case $port in
@@ -87,7 +87,7 @@ esac
 
 # A rename would replace a device by a file, and would move the file into a folder.
 if [ -n "$out" ] && [ -e "$out" ] && ! [ -f "$out" ]; then
-    usage_error "--out is '$out', which exists and is not a file. Choose another name."
+    usage_error "--out is '$out', which exists and is not a file." "choose another name."
 fi
 
 page=$home/build/lab/index.html

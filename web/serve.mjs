@@ -40,7 +40,7 @@ server.on("error", (error) => {
         ? `port ${port} is already in use. Choose another --port.`
         : error.code === "EACCES" ? `no permission for port ${port}. Choose a --port above 1023.`
         : error.message;
-    console.error(`swirl: ${why}`);
+    console.error(`error: ${why}`);
     process.exit(1);
 });
 server.listen(Number(port), "127.0.0.1", () => {

@@ -27,7 +27,7 @@ while [ $# -gt 0 ]; do
     case $1 in
         -h | --help) usage && exit 0 ;;
         --out | --report | --address)
-            [ $# -gt 1 ] && [ -n "$2" ] || usage_error "$1 needs a value. See swirl site --help."
+            [ $# -gt 1 ] && [ -n "$2" ] || usage_error "$1 needs a value." "see \`swirl site --help\`."
             case $1 in
                 --out) out=$2 ;;
                 --report) report=$2 ;;
@@ -39,15 +39,15 @@ while [ $# -gt 0 ]; do
         --report=*) report=${1#*=} && shift ;;
         --address=*) address=${1#*=} && address=${address%/}/ && shift ;;
         --)
-            [ $# -eq 1 ] || usage_error "unexpected argument '$2'. See swirl site --help."
+            [ $# -eq 1 ] || usage_error "unexpected argument '$2'." "see \`swirl site --help\`."
             break
             ;;
-        *) usage_error "there is no option '$1'. See swirl site --help." ;;
+        *) usage_error "there is no option '$1'." "see \`swirl site --help\`." ;;
     esac
 done
 [ -n "$out" ] || usage_error "missing required option --out DIR."
 if [ -n "$report" ] && ! [ -e "$report/report.html" ]; then
-    usage_error "--report is '$report', but it contains no report.html. Run swirl paper first."
+    usage_error "--report is '$report', but it contains no report.html." "run \`swirl paper\` first."
 fi
 case $address in
     '' | http://?* | https://?*) ;;
@@ -58,7 +58,7 @@ case $address in
 esac
 # Only a folder that this command wrote is replaced.
 if [ -e "$out" ] && ! [ -e "$out/.swirl-site" ] && [ -n "$(ls -A "$out" 2>/dev/null || echo no folder)" ]; then
-    usage_error "--out is '$out', which is neither empty nor a site. Choose another name."
+    usage_error "--out is '$out', which is neither empty nor a site." "choose another name."
 fi
 
 # The site is built in a temporary folder next to it, which is locked meanwhile. After a kill that folder

@@ -21,14 +21,14 @@ if (mode === "--page") {
     const noSystem = new Proxy({}, {get: () => () => 52});
     const memory = () => engine.memory.buffer;
     const reject = (at, size) => {
-        process.stderr.write(`swirl: ${Buffer.from(memory(), at, size).toString()}\n`);
+        process.stderr.write(`error: ${Buffer.from(memory(), at, size).toString()}\n`);
         process.exit(2);
     };
     const module = await WebAssembly.compile(readFileSync(mode));
     const engine = (await WebAssembly.instantiate(module, {wasi_snapshot_preview1: noSystem, page: {reject}})).exports;
     engine._initialize();
     for (const [name, value] of given) if (/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/u.test(value)) {
-        process.stderr.write(`swirl: --${name.replaceAll("_", "-")} contains a control character, but a value must be ` +
+        process.stderr.write(`error: --${name.replaceAll("_", "-")} contains a control character, but a value must be ` +
             "one line of text.\n");
         process.exit(2);
     }

@@ -104,7 +104,7 @@ py::dict read_tracks(const std::string& file) {
 /// Rows of a trackpy table in order of frames. `radius` may be empty.
 std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers& particle,
                                   const Numbers& x, const Numbers& y, const Numbers& radius,
-                                  const py::dict& scale, double misfit) {
+                                  const py::dict& scale, double max_invalid) {
     const py::ssize_t n = frame.size();
     if (n == 0) throw UsageError("the tracks are empty.");
     if (particle.size() != n || x.size() != n || y.size() != n ||
@@ -140,7 +140,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
     if (tracks.frames.size() == 1)
         throw UsageError("the tracks have a single frame, but velocities need at least two.");
     repair(tracks, s.pixels_per_radius);
-    FittedSeries fitted = fitted_series(tracks, s, misfit);
+    FittedSeries fitted = fitted_series(tracks, s, max_invalid);
     auto recording = std::make_unique<Recording>(std::move(fitted.series));
     recording->remarks = std::move(fitted.remarks);
     return recording;
@@ -177,9 +177,9 @@ py::tuple estimate_tuple(const Estimate& e) {
 }
 
 py::tuple analyse(Recording& recording, const std::vector<std::string>& names, bool all,
-                  double skip) {
-    if (!(skip >= 0.0))
-        throw UsageError(fmt::format("skip is {}, but it must be 0 periods or more.", skip));
+                  double warmup) {
+    if (!(warmup >= 0.0))
+        throw UsageError(fmt::format("warmup is {}, but it must be 0 periods or more.", warmup));
     if (recording.size() == 0) throw UsageError("the recording has no frames.");
     const SnapshotSeries& series = recording.series();
     const bool tracked = holds_tracks(series);
@@ -188,14 +188,15 @@ py::tuple analyse(Recording& recording, const std::vector<std::string>& names, b
     if (!all && !m_frame) require_m_frame_for(names);
     const auto measured = measurable(names, tracked, m_frame);
     const Snapshot last = series.frame(series.frames - 1);
-    if (last.time() < skip * last.period)
-        throw UsageError(fmt::format("skip is {}, but the recording ends earlier.", skip));
+    if (last.time() < warmup * last.period)
+        throw UsageError(fmt::format("warmup is {}, but the recording ends earlier.", warmup));
     std::atomic<bool> stop = false;
     MeasuringControl control;
     control.stop = &stop;
     const MeasuredSeries found =
-        interruptible(stop, [&] { return measure_series(series, measured, skip, control); });
-    return py::make_tuple(reports_in_python(found.reports), estimate_tuple(found.rotation.by_time),
+        interruptible(stop, [&] { return measure_series(series, measured, warmup, control); });
+    return py::make_tuple(reports_in_python(found.reports),
+                          estimate_tuple(found.rotation.mean_by_time),
                           estimate_tuple(found.rotation.rigid_by_time), found.frames, found.remark);
 }
 

@@ -448,17 +448,18 @@ EXPORTED(rotation) std::uint32_t rotation() {
             list += (list.empty() ? "" : ",") + number(mean);
     };
     for (const ClusterRotation* part : {&simulated->rotation_in_warmup(), &simulated->rotation()}) {
-        add(blocks, part->by_time());
+        add(blocks, part->mean_by_time());
         add(rigid_blocks, part->rigid_by_time());
     }
     const BlockSeries &before = simulated->rotation_in_warmup().rigid_by_time(),
                       &after = simulated->rotation().rigid_by_time();
     return answer(fmt::format(
-        R"({{"by_event":{},"by_time":{},"rigid_by_event":{},"rigid_by_time":{},"warmup":{},)"
+        R"({{"mean_by_event":{},"mean_by_time":{},"rigid_by_event":{},"rigid_by_time":{},"warmup":{},)"
         R"("warmup_blocks":{},"periods_per_block":[{},{}],"blocks":[{}],"rigid_blocks":[{}]}})",
-        estimate_json(e.by_event), estimate_json(e.by_time), estimate_json(e.rigid_by_event),
-        estimate_json(e.rigid_by_time), simulated->warmup(), before.size(),
-        before.periods_per_block(), after.periods_per_block(), blocks, rigid_blocks));
+        estimate_json(e.mean_by_event), estimate_json(e.mean_by_time),
+        estimate_json(e.rigid_by_event), estimate_json(e.rigid_by_time), simulated->warmup(),
+        before.size(), before.periods_per_block(), after.periods_per_block(), blocks,
+        rigid_blocks));
 }
 
 /// Turns of the cluster (Container::turns), by hand since its start: the mean over the discs, and

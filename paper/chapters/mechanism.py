@@ -69,7 +69,7 @@ def zero_of_rotation(n, rate):
 def draw_torque(table):
     rows = sorted(style.read(table), key=lambda row: row["discs"])
     drawing, both = style.figure(style.PAGE, 2.8, ncols=2)
-    zero = zero_of_rotation(style.column(rows, "discs"), style.column(rows, "by_time"))
+    zero = zero_of_rotation(style.column(rows, "discs"), style.column(rows, "mean_by_time"))
     for axes, terms, letter in zip(both, (SUMS, ZONES), "ab"):
         style.zero_line(axes)
         if zero is not None:
@@ -107,7 +107,7 @@ def gears_points(settings):
 
 
 def gears_table(points, settings):
-    rows = np.array([[number(at(p.result, "rotation", "by_time", "mean"))] +
+    rows = np.array([[number(at(p.result, "rotation", "mean_by_time", "mean"))] +
                      [number(at(p.result, "measured", *name.split("."), "mean")) for name in PREDICTORS]
                      for p in points])
     rows = rows[np.isfinite(rows).all(axis=1)]
@@ -139,9 +139,9 @@ def draw_gears(table):
         style.zero_line(axes)
         for k, mu in enumerate(values):
             here = style.select(rows, mu=mu)
-            axes.errorbar(style.column(here, name), style.column(here, "by_time"),
+            axes.errorbar(style.column(here, name), style.column(here, "mean_by_time"),
                           xerr=style.column(here, name + "_error"),
-                          yerr=style.column(here, "by_time_error"), fmt=style.MARKERS[k], color=style.CYCLE[k],
+                          yerr=style.column(here, "mean_by_time_error"), fmt=style.MARKERS[k], color=style.CYCLE[k],
                           elinewidth=0.7, label=rf"$\mu = {mu:g}$")
         rank = ranks[name]
         axes.text(0.98, 0.55, rf"$\rho$ = {rank['rank_correlation']:.2f} ± {rank['rank_correlation_error']:.2f}"
@@ -190,10 +190,10 @@ def draw_contacts(table):
     drawing, axes = style.figure(1.4 * style.COLUMN, 2.9)
     style.zero_line(axes)
     for k, (kind, (_, words)) in enumerate(SMOOTH_CONTACTS.items()):
-        style.curve(axes, style.select(rows, frictionless=kind), "discs", "by_time", label=words,
+        style.curve(axes, style.select(rows, frictionless=kind), "discs", "mean_by_time", label=words,
                     color=style.CYCLE[k], marker=style.MARKERS[k])
     style.rotation_axes(axes)
-    style.fine_near_zero(axes, style.column(rows, "by_time"))
+    style.fine_near_zero(axes, style.column(rows, "mean_by_time"))
     style.legend(axes, ncol=2)
     style.save(drawing, table)
 

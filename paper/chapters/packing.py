@@ -37,7 +37,7 @@ def table(points, settings):
     def values(*path):
         found = [number(at(point.result, *path, "mean")) for point in points]
         return without_trend(found) if np.isfinite(found).all() else np.full(len(points), math.nan)
-    rotation, found = values("rotation", "by_time"), []
+    rotation, found = values("rotation", "mean_by_time"), []
     for quantity, words in EXPLANATIONS.items():
         coefficient = float(np.corrcoef(values("measured", *quantity.split(".")), rotation)[0, 1])
         # The parabola uses three points.
@@ -50,7 +50,7 @@ def table(points, settings):
              f"N: {', '.join(f'{words} {with_error(*numbers)}' for words, *numbers in found)}."])
 
 
-QUANTITIES = (("by_time", r"rotation $\varpi/\Omega$"), ("order", r"hexatic order $\psi_6$"),
+QUANTITIES = (("mean_by_time", r"rotation $\varpi/\Omega$"), ("order", r"hexatic order $\psi_6$"),
               ("elongation", "elongation"), ("coordination", "contacts of a sphere"))
 
 

@@ -55,7 +55,7 @@ def identity(study, setting):
         if slices and discs in rotation:
             total = sum(row["visits"] for row in slices)
             mean = sum(row["visits"] * row["varpi_m"] for row in slices) / total
-            worst = max(worst, abs(mean + 1 - rotation[discs]["by_time"]))
+            worst = max(worst, abs(mean + 1 - rotation[discs]["mean_by_time"]))
     agreement = "as they must" if worst < IDENTICAL else "which they must not"
     return (f" (Eq. 1, ϖ_M = ϖ − Ω, is an identity and not counted as a claim: these runs differ from it by at most "
             f"{worst:.2g} Ω, {agreement})")

@@ -164,12 +164,12 @@ def steady(study, setting):
 
 def near_omega(rows, bound, where):
     inside = [Judgement(UNDECIDED) if drifts(row)
-              else within(measured(row, "by_event"), 1 - bound, 1 + bound) for row in rows]
+              else within(measured(row, "mean_by_event"), 1 - bound, 1 + bound) for row in rows]
     drifting = [row["discs"] for row in rows if drifts(row)]
-    worst = max(rows, key=lambda row: abs(row["by_event"] - 1))
+    worst = max(rows, key=lambda row: abs(row["mean_by_event"] - 1))
     return every(inside), (
         f"{where}ithin {100 * bound:.0f} % of Ω for certain at {count(inside)} of {len(rows)} N, outside for "
-        f"certain at {count(inside, FAILS)}; the largest difference is at {value_at(worst, 'by_event')}." +
+        f"certain at {count(inside, FAILS)}; the largest difference is at {value_at(worst, 'mean_by_event')}." +
         (f" Most runs drift at {len(drifting)} N, from N = {min(drifting):.0f} on; nothing is decided there."
          if drifting else ""))
 
@@ -186,24 +186,24 @@ def no_disc_close(study):
 def never_crosses(setting):
     """All N that were run count, also beyond the paper's N = 48."""
     def judge(study):
-        rows = known(study.curve("5b", last=math.inf, setting=setting), "by_event")
-        lowest = min(rows, key=lambda row: row["by_event"])
-        rotating = [above(v, -size.LEAST_ROTATION) for v in values(rows, "by_event")]
+        rows = known(study.curve("5b", last=math.inf, setting=setting), "mean_by_event")
+        lowest = min(rows, key=lambda row: row["mean_by_event"])
+        rotating = [above(v, -size.LEAST_ROTATION) for v in values(rows, "mean_by_event")]
         return every(rotating), (
             f"ϖ/Ω is certainly not below −{size.LEAST_ROTATION} at {count(rotating)} of {len(rows)} N from "
-            f"{rows[0]['discs']:.0f} to {rows[-1]['discs']:.0f}; the lowest is {value_at(lowest, 'by_event')}.")
+            f"{rows[0]['discs']:.0f} to {rows[-1]['discs']:.0f}; the lowest is {value_at(lowest, 'mean_by_event')}.")
     return judge
 
 
 def no_disc_drop(study):
     rows = study.curve("5b", setting="no-disc")
-    level = mean_of(values([row for row in rows if LEVEL_FROM <= row["discs"] < HIGH_N], "by_event"))
-    drop = level - measured(rows[-1], "by_event")
-    text = (f"Mean over N = {LEVEL_FROM} … {HIGH_N - 1}: {number(level)}; {value_at(rows[-1], 'by_event')}, lower "
+    level = mean_of(values([row for row in rows if LEVEL_FROM <= row["discs"] < HIGH_N], "mean_by_event"))
+    drop = level - measured(rows[-1], "mean_by_event")
+    text = (f"Mean over N = {LEVEL_FROM} … {HIGH_N - 1}: {number(level)}; {value_at(rows[-1], 'mean_by_event')}, lower "
             f"by {number(drop)} (a drop is more than {size.SLIGHT_DROP}).")
     try:
         last = study.curve("5b-steady", setting="no-disc")[-1]
-        text += (f" The drop is part of the transient: after a long warm-up ϖ/Ω = {value_at(last, 'by_event')}.")
+        text += (f" The drop is part of the transient: after a long warm-up ϖ/Ω = {value_at(last, 'mean_by_event')}.")
     except (FileNotFoundError, IndexError):
         pass
     # The transient lasts longer than a short run, and ϖ is farther from Ω the less of it a run covers.
@@ -230,7 +230,7 @@ def elastic(study):
 
 def pancake(study, setting):
     rows = study.curve("1b", setting=setting)
-    gap = [abs(measured(row, "by_time") - measured(row, "pancake")) for row in rows]
+    gap = [abs(measured(row, "mean_by_time") - measured(row, "pancake")) for row in rows]
     return combined(below(gap[-1] - gap[0], -size.LEAST_CHANGE * gap[0].mean), below(gap[-1], size.NEAR_PANCAKE)), (
         f"distance from the line of the pancake {number(gap[0])} Ω at N = {rows[0]['discs']:.0f}, "
         f"{number(gap[-1])} Ω at N = {rows[-1]['discs']:.0f}")

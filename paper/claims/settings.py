@@ -48,5 +48,5 @@ def compared(judge, study, settings):
 
 def rotation_rows(study, setting, last=math.inf):
     """(rows, the judged rate): the paper's simulation is averaged by event, its experiment by time."""
-    table, rate = ("spheres", "by_time") if setting in SPHERES else ("5b", "by_event")
+    table, rate = ("spheres", "mean_by_time") if setting in SPHERES else ("5b", "mean_by_event")
     return known(study.curve(table, last, setting=setting), rate), rate

@@ -90,11 +90,11 @@ def friction_order(study):
 def snake(study):
     """Main text, first page; the experiment itself has 24 spheres or more."""
     rows = [row for row in study.table("spheres_few") if row["discs"] <= FEW]
-    found = [every([within(measured(row, "by_time"), 1 - size.NEAR_OMEGA, 1 + size.NEAR_OMEGA),
+    found = [every([within(measured(row, "mean_by_time"), 1 - size.NEAR_OMEGA, 1 + size.NEAR_OMEGA),
                     above(measured(row, "residence_share"), size.ALMOST_ALL)]) for row in rows]
     return either(found), (
         "After a long warm-up, ϖ/Ω and the share of the spheres that reside at the wall: " + "; ".join(
-            f"{number(measured(row, 'by_time'))} and {value_at(row, 'residence_share')}" for row in rows) +
+            f"{number(measured(row, 'mean_by_time'))} and {value_at(row, 'residence_share')}" for row in rows) +
         f". A line that rolls with the swirl has ϖ/Ω within {size.NEAR_OMEGA} of 1 and a share above "
         f"{size.ALMOST_ALL}.")
 
@@ -109,7 +109,7 @@ def ingredient(study, setting, curve):
     """{N: ϖ/Ω by time} of one curve."""
     figure, ending = INGREDIENTS[setting]
     rows = tables.select(study.table(figure), curve=curve + ending)
-    return {row["discs"]: measured(row, "by_time") for row in rows if row["by_time"] == row["by_time"]}
+    return {row["discs"]: measured(row, "mean_by_time") for row in rows if row["mean_by_time"] == row["mean_by_time"]}
 
 
 def dense(curve):

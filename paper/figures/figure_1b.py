@@ -20,7 +20,7 @@ def draw(table):
     rows = style.read(table)
     drawing, (rotation, slip) = style.figure(height=4.4, nrows=2, sharex=True)
     style.zero_line(rotation)
-    style.curves_by_setting(rotation, rows, "by_time")
+    style.curves_by_setting(rotation, rows, "mean_by_time")
     style.curve(rotation, style.select(rows, setting="smooth"), "discs", "pancake", color=style.BLACK, marker="",
                 linestyle="--", label="pancake that rolls without slipping")
     rotation.plot([ROUGH_CHANGE_N, SMOOTH_CHANGE_N], [0, 0], label="the paper states", **PAPER)

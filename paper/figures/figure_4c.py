@@ -10,7 +10,7 @@ def draw(table):
     rows = style.read(table)
     drawing, axes = style.figure(height=2.9)
     style.zero_line(axes)
-    style.curves_by_setting(axes, rows, "by_time", ("smooth", "rough", "low", "high"))
+    style.curves_by_setting(axes, rows, "mean_by_time", ("smooth", "rough", "low", "high"))
     style.rotation_axes(axes, of="particles")
     style.legend(axes)
     style.save(drawing, table)

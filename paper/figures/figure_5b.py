@@ -60,7 +60,7 @@ def friction_words(friction):
 
 
 def table(points, settings):
-    curves, findings = curves_by(points, "setting", "by_event"), []  # by event, as in the paper's figure
+    curves, findings = curves_by(points, "setting", "mean_by_event"), []  # by event, as in the paper's figure
     for curve, friction in zip(curves, FRICTION_OF_5B):
         findings.append(f"{friction_words(friction)}: {curve.sentence()}")
         if friction == HIGH:
@@ -74,11 +74,11 @@ def draw(table):
     last = max(row["discs"] for row in rows)
     for name, label, color, marker in CURVES:
         here = style.select(rows, setting=name)
-        close = [row for row in here if abs(row["by_event"]) + row["by_event_error"] <= NEAR_ZERO]
+        close = [row for row in here if abs(row["mean_by_event"]) + row["mean_by_event_error"] <= NEAR_ZERO]
         if close:
-            style.curve(near, close, "discs", "by_event", color=color, marker=marker)
+            style.curve(near, close, "discs", "mean_by_event", color=color, marker=marker)
         label += style.mark_crossing(near, crossings, name, color)
-        style.curve(axes, here, "discs", "by_event", label=label, color=color, marker=marker)
+        style.curve(axes, here, "discs", "mean_by_event", label=label, color=color, marker=marker)
     for panel in (axes, near):
         style.zero_line(panel)
         style.rotation_axes(panel, "by event")
@@ -88,7 +88,7 @@ def draw(table):
         style.note(drawing, "grey: denser than in the paper")
     axes.set_xlabel("")
     near.set_ylabel(r"$\varpi/\Omega$ near zero")
-    shown = [row["by_event"] for row in rows if abs(row["by_event"]) <= NEAR_ZERO]
+    shown = [row["mean_by_event"] for row in rows if abs(row["mean_by_event"]) <= NEAR_ZERO]
     near.set_ylim(max(-NEAR_ZERO, min(shown + [0]) - 0.02), NEAR_ZERO)
     axes.set_xlim(3.5, last + 1.5)
     axes.set_ylim(bottom=min(-0.16, axes.get_ylim()[0]))

@@ -10,7 +10,7 @@ from runs import FRICTION_OF_5B
 
 def largest_difference(curve):
     """Where the two averages differ most."""
-    pairs = [(event, time) for event, time in zip(curve.by_rate["by_event"], curve.by_rate["by_time"])
+    pairs = [(event, time) for event, time in zip(curve.by_rate["mean_by_event"], curve.by_rate["mean_by_time"])
              if abs(event[1] - time[1]) >= 0]
     if not pairs:
         return "no runs"
@@ -35,12 +35,12 @@ def draw(table):
         style.zero_line(axes)
     for name, label, color, marker in CURVES:
         curve = style.select(rows, setting=name)
-        both.plot(style.column(curve, "discs"), style.column(curve, "by_event"), color=color,
+        both.plot(style.column(curve, "discs"), style.column(curve, "mean_by_event"), color=color,
                   marker=marker, label=label)
-        both.plot(style.column(curve, "discs"), style.column(curve, "by_time"), color=color,
+        both.plot(style.column(curve, "discs"), style.column(curve, "mean_by_time"), color=color,
                   marker=marker, fillstyle="none", linestyle=":")
         difference.plot(style.column(curve, "discs"),
-                        [row["by_event"] - row["by_time"] for row in curve], color=color,
+                        [row["mean_by_event"] - row["mean_by_time"] for row in curve], color=color,
                         marker=marker)
     both.set_ylabel(r"$\varpi/\Omega$")
     both.plot([], [], color=style.GREY, linestyle=":", marker="o", fillstyle="none",

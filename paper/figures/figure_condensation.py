@@ -18,7 +18,7 @@ QUIET = 10  # periods with little motion, until the cluster counts as condensed
 AFTER = 50  # periods, averaged after the condensation
 AVERAGES = {"granular": ("temperature", "granular"), "coordination": ("frustration", "coordination"),
             "wall_spin": ("frustration", "wall_spin"), "spin_correlation": ("frustration", "spin_correlation"),
-            "by_time": ("rotation", "by_time")}
+            "mean_by_time": ("rotation", "mean_by_time")}
 
 
 def find_condensation(parameters):

@@ -22,7 +22,7 @@ def points(settings):
 
 
 def table(points, settings):
-    rates = [rate_of(point, "by_time") for point in points]
+    rates = [rate_of(point, "mean_by_time") for point in points]
     lowest = lowest_of(rates)
     if not lowest:
         return {"": rows_of(points)}, ["No run was completed."]

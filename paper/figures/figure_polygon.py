@@ -24,7 +24,7 @@ def table(points, settings):
     for point in points:
         m = point.cells["sides"]
         words.setdefault(point.cells["discs"], []).append(
-            f"{with_error(*rate_of(point, 'by_time')[1:])} on {f'{m} sides' if m else 'the circle'}")
+            f"{with_error(*rate_of(point, 'mean_by_time')[1:])} on {f'{m} sides' if m else 'the circle'}")
     return {"": rows_of(points)}, [f"N = {discs}: ϖ/Ω by time = {', '.join(all)}." for discs, all in words.items()]
 
 
@@ -35,14 +35,14 @@ def draw(table):
     for k, (panel, discs) in enumerate(zip(axes[:, 0], numbers)):
         here = style.select(rows, discs=discs)
         polygons = [row for row in here if row["sides"] > 0]
-        style.curve(panel, polygons, "sides", "by_time", color=style.CYCLE[k],
+        style.curve(panel, polygons, "sides", "mean_by_time", color=style.CYCLE[k],
                     marker=style.MARKERS[k], label="polygon")
         for circle in style.select(here, sides=0.0):
             note = " (steady state not verified)" if style.not_steady([circle]) else ""
-            panel.axhline(circle["by_time"], color=style.BLACK, linewidth=0.7,
+            panel.axhline(circle["mean_by_time"], color=style.BLACK, linewidth=0.7,
                           label="circle" + note)
-            panel.axhspan(circle["by_time"] - circle["by_time_error"],
-                          circle["by_time"] + circle["by_time_error"], color=style.GREY,
+            panel.axhspan(circle["mean_by_time"] - circle["mean_by_time_error"],
+                          circle["mean_by_time"] + circle["mean_by_time_error"], color=style.GREY,
                           alpha=0.3, linewidth=0)
         panel.set_xscale("log")
         panel.set_ylabel(rf"$\varpi/\Omega$,  $N = {discs:.0f}$")

@@ -39,7 +39,7 @@ def few_table(points, settings):
     def words(point, *path):
         return with_error(at(point.result, *path))
     return {"": rows_of(points, ["residence.share=residence_share"])}, [
-        f"{point.cells['discs']} spheres: ϖ/Ω = {words(point, 'rotation', 'by_time')}, share resident at the wall "
+        f"{point.cells['discs']} spheres: ϖ/Ω = {words(point, 'rotation', 'mean_by_time')}, share resident at the wall "
         f"{words(point, 'measured', 'residence', 'share')}." for point in points]
 
 

@@ -18,7 +18,7 @@ SEEDS = 4
 def transient(parameters):
     """For each period of a run that starts from rest: ϖ/Ω, mean spin/Ω, and the number of events up to its end."""
     series = swirl.run(series=True, **parameters).series
-    return {"varpi": series["by_time"].tolist(), "spin": series["spin"].tolist(),
+    return {"varpi": series["mean_by_time"].tolist(), "spin": series["spin"].tolist(),
             "events": np.cumsum(series["events"]).tolist()}
 
 

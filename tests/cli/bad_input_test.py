@@ -159,11 +159,11 @@ class BadCalls(unittest.TestCase):
 
     def test_damaged_sweep_plans(self):
         with tempfile.TemporaryDirectory() as folder:
-            for text, word in (('{"format": 1, "axes": {"mu": []}, "replicas": 1}', "no values"),
-                               ('{"format": 1, "axes": {}, "replicas": 1152921504606846976}',
+            for text, word in (('{"format": 2, "axes": {"mu": []}, "replicates": 1}', "no values"),
+                               ('{"format": 2, "axes": {}, "replicates": 1152921504606846976}',
                                 "1.15e+18 runs"),
-                               ('{"format": 1, "axes"', "is not the plan of a sweep"),
-                               ('{"format": 1, "axes": 7, "replicas": 1}', "is not the plan of a sweep")):
+                               ('{"format": 2, "axes"', "is not the plan of a sweep"),
+                               ('{"format": 2, "axes": 7, "replicates": 1}', "is not the plan of a sweep")):
                 with open(os.path.join(folder, "plan.json"), "w") as plan:
                     plan.write(text)
                 done = swirl("sweep", "--out", folder, "--status")
@@ -222,7 +222,7 @@ class UsageErrors(InFolder):
 
     def test_a_folder_instead_of_a_file(self):
         self.assert_usage_error("measure", self.folder, says="is a folder, but FILE must be a recording.\nhint: give a trajectory")
-        for call in (["verify"], ["export", "--to", "xyz"], ["movie"], ["run"]):
+        for call in (["verify"], ["export", "--format", "xyz"], ["movie"], ["run"]):
             done = swirl(call[0], self.folder, *call[1:])
             self.assertEqual(done.returncode, 1)
             self.assertEqual(done.stderr, f"error: '{self.folder}' is a folder, but a file is needed.\n")
@@ -236,7 +236,7 @@ class UsageErrors(InFolder):
             self.assertEqual(done.stderr, f"error: '{self.path('file')}' is a file, but it must be a folder.\n")
 
     def test_a_missing_recording(self):
-        for call in (["measure"], ["export", "--to", "xyz"], ["movie", "--out", "x.mp4"]):
+        for call in (["measure"], ["export", "--format", "xyz"], ["movie", "--out", "x.mp4"]):
             done = swirl(call[0], self.path("missing.h5"), *call[1:])
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertEqual(done.stderr, f"error: '{self.path('missing.h5')}' does not exist.\n")
@@ -325,7 +325,7 @@ class UsageErrors(InFolder):
         recording = self.path("t.h5")
         done = swirl("run", "--events", 500, "--trajectory", recording, "--frame-events", 50, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
-        call = ["export", recording, "--to", "xyz"]
+        call = ["export", recording, "--format", "xyz"]
         for text in ("10:", "12:15", "3:10", ":99"):
             self.assert_usage_error(*call, "--range", text,
                          says=f"--range is '{text}', but the last frame of '{recording}' is 9")

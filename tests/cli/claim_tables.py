@@ -39,6 +39,6 @@ class HandMadeTables(unittest.TestCase):
 
     def rotation(self, name, setting, values, error=0.01):
         """A curve ϖ(N), the same by event and by time; `values` are (N, ϖ/Ω)."""
-        self.table(name, [{"setting": setting, "discs": n, "by_event": v, "by_event_error": error, "by_time": v,
-                           "by_time_error": error, "point": f"{setting}_N{n}"}
+        self.table(name, [{"setting": setting, "discs": n, "mean_by_event": v, "mean_by_event_error": error, "mean_by_time": v,
+                           "mean_by_time_error": error, "point": f"{setting}_N{n}"}
                           for n, v in values])

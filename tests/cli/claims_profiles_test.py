@@ -68,7 +68,7 @@ class Profiles(HandMadeTables):
             self.table("3a", [{"setting": "high", "discs": 28, "theta": t, "visits": 1000, "varpi_m": v,
                                "varpi_m_error": error, "point": "high_N28"}
                               for t, v in ((90, -1.0), (180, varpi_m))])
-            self.table("1b", [{"setting": "high", "discs": 28, "by_time": by_time}])
+            self.table("1b", [{"setting": "high", "discs": 28, "mean_by_time": by_time}])
             return profiles.clockwise(self.study, "high")
         verdict, found = judged(-1.0)
         self.assertEqual(verdict, HOLDS)

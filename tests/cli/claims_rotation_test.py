@@ -33,7 +33,7 @@ class Rotation(HandMadeTables):
 
     def test_drifting_runs_do_not_decide_closeness_to_omega(self):
         def judged(drifting):
-            self.table("5b", [{"setting": "no-disc", "discs": n, "by_event": v, "by_event_error": 0.001,
+            self.table("5b", [{"setting": "no-disc", "discs": n, "mean_by_event": v, "mean_by_event_error": 0.001,
                                "point": f"no-disc_N{n}", "seeds": 8, "steady_runs": 8 - drifting,
                                "drifting_runs": drifting} for n, v in ((8, 0.999), (40, 0.24))])
             return rotation.no_disc_close(self.study)
@@ -45,7 +45,7 @@ class Rotation(HandMadeTables):
 
     def test_drop_needs_runs_as_long_as_the_papers(self):
         def judged(events):
-            self.table("5b", [{"setting": "no-disc", "discs": n, "by_event": v, "by_event_error": 0.001,
+            self.table("5b", [{"setting": "no-disc", "discs": n, "mean_by_event": v, "mean_by_event_error": 0.001,
                                "point": f"no-disc_N{n}", "events": events}
                               for n, v in ((36, 0.97), (40, 0.97), (48, 0.9))])
             return rotation.no_disc_drop(self.study)
@@ -109,8 +109,8 @@ class Rotation(HandMadeTables):
 
     def test_minimum_reports_the_rigid_body_too(self):
         def found(rigid):
-            self.table("5b", [{"setting": "high", "discs": n, "point": f"high_N{n}", "by_event": v,
-                               "by_event_error": 0.001, "rigid_by_event": r,
+            self.table("5b", [{"setting": "high", "discs": n, "point": f"high_N{n}", "mean_by_event": v,
+                               "mean_by_event_error": 0.001, "rigid_by_event": r,
                                "rigid_by_event_error": 0.001}
                               for n, v, r in ((48, -0.036, -0.035), (51, -0.042, -0.043),
                                               (54, -0.032, rigid))])
@@ -144,7 +144,7 @@ class Rotation(HandMadeTables):
 
     def test_pancake_line_is_approached_and_reached(self):
         def judged(first, last, error=0.003):
-            self.table("1b", [{"setting": "high", "discs": n, "by_time": v, "by_time_error": error,
+            self.table("1b", [{"setting": "high", "discs": n, "mean_by_time": v, "mean_by_time_error": error,
                                "pancake": -0.1, "pancake_error": 0, "point": f"high_N{n}"}
                               for n, v in ((24, first), (48, last))])
             return rotation.pancake(self.study, "high")[0]
@@ -265,7 +265,7 @@ class Rotation(HandMadeTables):
 
     def test_failed_runs_are_ignored(self):
         self.table("5b", [
-            {"setting": "high", "discs": n, "by_event": v, "by_event_error": 0.01,
+            {"setting": "high", "discs": n, "mean_by_event": v, "mean_by_event_error": 0.01,
              "steady_state": "steady" if v else "failed"}
             for n, v in ((5, 0.9), (40, -0.2), (44, -0.3), (46, ""), (48, -0.2))])
         self.assertEqual(rotation.minimum(self.study, "high")[0], HOLDS)

@@ -64,7 +64,7 @@ class Direction(HandMadeTables):
     def test_line_of_spheres_rolls_with_the_swirl_at_the_wall(self):
         def judged(*found, error=0.001):
             self.table("spheres_few", [
-                {"discs": n, "point": f"few_N{n}", "by_time": v, "by_time_error": error, "residence_share": share,
+                {"discs": n, "point": f"few_N{n}", "mean_by_time": v, "mean_by_time_error": error, "residence_share": share,
                  "residence_share_error": error} for n, v, share in found])
             return spheres.snake(self.study)[0]
         self.assertEqual(judged((3, 1.0, 0.99), (8, 0.3, 0.2)), HOLDS)
@@ -80,7 +80,7 @@ LESS = [(36, -0.01), (44, -0.03), (48, -0.04)]
 class Causes(HandMadeTables):
     def ingredients(self, ending="", **curves):
         name = "spheres_ingredients" + ending.replace("-", "_")
-        self.table(name, [{"curve": curve.replace("_", "-") + ending, "discs": n, "by_time": v, "by_time_error": 0.001,
+        self.table(name, [{"curve": curve.replace("_", "-") + ending, "discs": n, "mean_by_time": v, "mean_by_time_error": 0.001,
                            "point": f"{curve}_N{n}"} for curve, values in curves.items() for n, v in values])
 
     def vertical(self, full, without, ending=""):
@@ -108,7 +108,7 @@ class Causes(HandMadeTables):
 
     def test_discs_need_friction_between_them_to_counterrotate(self):
         def judged(without, error=0.001):
-            self.table("5b", [{"setting": setting, "discs": n, "by_event": v, "by_event_error": error,
+            self.table("5b", [{"setting": setting, "discs": n, "mean_by_event": v, "mean_by_event_error": error,
                                "point": f"{setting}_N{n}"}
                               for setting, curve in (("high", DOWN), ("no-disc", without)) for n, v in curve])
             return spheres.disc_friction(self.study, "high")[0]
@@ -117,7 +117,7 @@ class Causes(HandMadeTables):
         self.assertEqual(judged([(36, 0.0), (44, 0.0), (48, -0.0255)]), UNDECIDED)
 
     def test_title_needs_order_outside_triangles_disorder_inside_and_a_cause(self):
-        self.table("5b", [{"setting": setting, "discs": n, "by_event": v, "by_event_error": 0.001,
+        self.table("5b", [{"setting": setting, "discs": n, "mean_by_event": v, "mean_by_event_error": 0.001,
                            "point": f"{setting}_N{n}"}
                           for setting, curve in (("high", DOWN), ("no-disc", UP)) for n, v in curve])
 
@@ -166,7 +166,7 @@ class Causes(HandMadeTables):
 class Settings(HandMadeTables):
     def test_claim_on_spheres_reports_discs_and_half_the_amplitude(self):
         """Only smooth spheres decide."""
-        self.table("1b", [{"setting": setting, "discs": n, "by_time": v, "by_time_error": 0.001, "pancake": -0.1,
+        self.table("1b", [{"setting": setting, "discs": n, "mean_by_time": v, "mean_by_time_error": 0.001, "pancake": -0.1,
                            "pancake_error": 0, "point": f"{setting}_N{n}"}
                           for setting, last in (("smooth", -0.09), ("half", 0.2), ("high", -0.09))
                           for n, v in ((24, 0.2), (48, last))])

@@ -87,7 +87,7 @@ class Catalogue(HandMadeTables):
         self.assertEqual(number(Value(36.42, 0.3)), "36.4 ± 0.3")
 
     def test_table_without_runs_gives_no_verdict(self):
-        self.table("5b", [{"setting": "no-wall", "discs": 5, "by_event": "", "by_event_error": "",
+        self.table("5b", [{"setting": "no-wall", "discs": 5, "mean_by_event": "", "mean_by_event_error": "",
                            "steady_state": "failed"}])
         for claim in claims.CLAIMS:
             if claim.judge is rotation.no_wall_at_omega:
@@ -95,7 +95,7 @@ class Catalogue(HandMadeTables):
 
     def test_claim_without_a_point_that_it_needs_is_undecided(self):
         def judged(numbers, failed=None):
-            self.table("5b", [{"setting": "no-wall", "discs": n, "by_event": 1.0, "by_event_error": 0.001,
+            self.table("5b", [{"setting": "no-wall", "discs": n, "mean_by_event": 1.0, "mean_by_event_error": 0.001,
                                "steady_state": "failed" if n == failed else "steady"} for n in numbers])
             return claim_that("with the frequency of the swirl at every N").judged(self.study)
         needed = (8, 16, 24, 28, 32, 36, 40, 44, 48)

@@ -31,7 +31,7 @@ class ConfigFiles(InFolder):
 
     def test_an_image(self):
         options = ["--discs", 12, "--mu-wall", 0.25, "--frame", "m", "--angles", "--size", "320x240",
-                   "--trail-length", 0.5, "--at", 2]
+                   "--trail-length", 0.5, "--start", 2]
         self.good("image", *options, "--out", self.path("hand.png"))
         file = self.config("discs = 12", "mu_wall = 0.25", 'frame = "m"', "angles = true",
                            'size = "320x240"', "trail_length = 0.5", "at = 2", "strobe = 1",
@@ -41,8 +41,8 @@ class ConfigFiles(InFolder):
         self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
         # An option on the command line overrides the file, also if the file has an equivalent
         # option of another name.
-        self.good("image", file, "--discs", 5, "--mu", 1, "--at", 3, "--out", self.path("x.png"))
-        self.good("image", *options[4:-2], "--at", 3, "--discs", 5, "--mu", 1, "--out",
+        self.good("image", file, "--discs", 5, "--mu", 1, "--start", 3, "--out", self.path("x.png"))
+        self.good("image", *options[4:-2], "--start", 3, "--discs", 5, "--mu", 1, "--out",
                   self.path("y.png"))
         self.assertEqual(self.bytes_of("x.png"), self.bytes_of("y.png"))
 
@@ -50,18 +50,18 @@ class ConfigFiles(InFolder):
         self.good("run", "--discs", 5, "--events", 2000, "--frames", 20, "--trajectory",
                   self.path("t.h5"), "--quiet")
         file = self.config(f'file = "{self.path("t.h5")}"', 'size = "200x200"')
-        self.good("image", file, "--at", 1, "--out", self.path("file.png"))
-        self.good("image", self.path("t.h5"), "--size", "200x200", "--at", 1, "--out",
+        self.good("image", file, "--start", 1, "--out", self.path("file.png"))
+        self.good("image", self.path("t.h5"), "--size", "200x200", "--start", 1, "--out",
                   self.path("hand.png"))
         self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
 
     def test_a_movie(self):
         file = self.config("discs = 8", 'size = "160x120"', "fps = 10", "seconds = 2", "start = 1",
                            "pace = 1", "plot = true")
-        self.good("movie", file, "--frames", self.path("a"))
+        self.good("movie", file, "--frame-files", self.path("a"))
         self.assertEqual(len(os.listdir(self.path("a"))), 20)
         # --periods replaces the file's seconds.
-        self.good("movie", file, "--periods", 0.5, "--frames", self.path("b"))
+        self.good("movie", file, "--periods", 0.5, "--frame-files", self.path("b"))
         self.assertEqual(len(os.listdir(self.path("b"))), 5)
 
     def test_a_crossing(self):

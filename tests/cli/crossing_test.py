@@ -85,9 +85,9 @@ class Crossing(InFolder):
         alone = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--threads", 1, "--json", "-"))
         both = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--threads", 2, "--json", "-"))
         self.assertEqual(alone["by_rate"], both["by_rate"])
-        self.assertEqual(alone["rate"], "by_time")
-        self.assertEqual(set(alone["by_rate"]), {"by_event", "by_time", "rigid_by_event", "rigid_by_time"})
-        self.assertEqual(alone["N_c"], alone["by_rate"]["by_time"]["N_c"])
+        self.assertEqual(alone["rate"], "mean_by_time")
+        self.assertEqual(set(alone["by_rate"]), {"mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time"})
+        self.assertEqual(alone["N_c"], alone["by_rate"]["mean_by_time"]["N_c"])
         rigid = json.loads(self.good("--from", 35, "--to", 41, "--seed", 4, "--rate", "rigid_by_time", "--json", "-"))
         self.assertEqual(rigid["N_c"], rigid["by_rate"]["rigid_by_time"]["N_c"])
 
@@ -108,15 +108,15 @@ class Crossing(InFolder):
             runs = [json.loads(swirl("run", "--discs", discs, "--mixture", f"{count}:0.8", "--events", "2e4",
                                      "--seed", seed, "--json", "-", "--quiet").stdout) for seed in (3, 4, 5)]
             # The search weights its runs with their periods, which differ by less than a hundredth.
-            mean = sum(run["rotation"]["by_time"]["mean"] for run in runs) / 3
-            self.assertAlmostEqual(points[discs]["by_time"], mean, delta=1e-3)
+            mean = sum(run["rotation"]["mean_by_time"]["mean"] for run in runs) / 3
+            self.assertAlmostEqual(points[discs]["mean_by_time"], mean, delta=1e-3)
         said = swirl("crossing", *call, "--mixture", "50%:0.8", "--events", "2e4", "--tolerance", 5)
         self.assertIn("4 of 7 discs have radius 0.8: 50 %, rounded to whole discs", said.stdout)
 
     def test_listed_sizes_have_no_crossing(self):
         with open(self.path("radii.csv"), "w", encoding="utf-8") as opened:
             opened.write("radius\n1\n0.8\n1\n")
-        for call in (["crossing"], ["map", "--x", "mu=0:1", "--of", "N_c", "--out", self.path("map")]):
+        for call in (["crossing"], ["map", "--x", "mu=0:1", "--quantity", "N_c", "--out", self.path("map")]):
             done = swirl(*call, "--sizes", "file:" + self.path("radii.csv"))
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("a search for N_c varies their number", done.stderr)

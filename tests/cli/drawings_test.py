@@ -31,8 +31,8 @@ def rotation(numbers, high=0.2, low=-0.05, **more):
     numbers = list(numbers)
     for k, discs in enumerate(numbers):
         level = high + (low - high) * k / max(len(numbers) - 1, 1)
-        yield {"discs": discs, "by_time": level, "by_time_error": 0.01, "by_event": level + 0.02,
-               "by_event_error": 0.02, "steady_state": "drifting" if k % 3 else "steady", **more}
+        yield {"discs": discs, "mean_by_time": level, "mean_by_time_error": 0.01, "mean_by_event": level + 0.02,
+               "mean_by_event_error": 0.02, "steady_state": "drifting" if k % 3 else "steady", **more}
 
 
 def curves(column, values, numbers=range(5, 56, 3), **more):
@@ -226,7 +226,7 @@ class Drawings(unittest.TestCase):
         self.assertEqual(style.blocks(empty, 2), [])
 
     def test_runs_without_averages_are_omitted(self):
-        none = {name: math.nan for name in ("by_time", "by_time_error", "by_event", "by_event_error")}
+        none = {name: math.nan for name in ("mean_by_time", "mean_by_time_error", "mean_by_event", "mean_by_event_error")}
         for name in ("5b", "spheres"):
             drawing = self.drawn(name, [row | none for row in TABLES[name]])
             self.assertTrue(drawing.axes[0].get_legend() or drawing.legends, name)
@@ -292,7 +292,7 @@ class Drawings(unittest.TestCase):
 
     def test_spheres_near_zero_have_a_linear_scale(self):
         near = curves("setting", SPHERES, range(8, 56, 4))
-        near = [row | {"by_time": -0.05} for row in near]
+        near = [row | {"mean_by_time": -0.05} for row in near]
         self.assertEqual(self.drawn("spheres", near).axes[0].get_yscale(), "linear")
         self.assertEqual(self.drawn("spheres", TABLES["spheres"]).axes[0].get_yscale(), "symlog")
 

@@ -11,7 +11,7 @@ from program import SOURCE, InFolder, swirl
 # Figures that share their runs or have few. With 30,000 events per run, a few periods at the highest N, they
 # take seconds.
 FIGURES = {
-    "1b": {"discs", "by_time", "by_time_error", "pancake", "pancake_error", "centre_x", "centre_theta", "left"},
+    "1b": {"discs", "mean_by_time", "mean_by_time_error", "pancake", "pancake_error", "centre_x", "centre_theta", "left"},
     "2b": {"map", "x", "y", "density", "density_error", "u_x", "u_y", "visits"},
     "3a": {"discs", "theta", "varpi_m", "varpi_m_error", "pinning", "depinning",
            "residence_begin", "residence_end", "residence_share", "residence_end_resultant", "distance", "speed"},
@@ -21,7 +21,7 @@ FIGURES = {
                 "residence_end_resultant", "residence_end_mean", "residence_end_mean_error"},
     "4b": {"discs", "resident_spin", "resident_correlation", "psi6_resident", "pinned_wall_spin", "spin_correlation", "triangles", "wall_sticking",
            "correlation_by_impulse", "pinned_correlation", "psi6_pinned", "six", "six_pinned", "disc_disc_rate"},
-    "4c": {"setting", "mu_disc", "mu_wall", "discs", "by_time", "by_time_error", "seed"},
+    "4c": {"setting", "mu_disc", "mu_wall", "discs", "mean_by_time", "mean_by_time_error", "seed"},
     "5c": {"discs", "x", "y", "by_event", "by_event_error", "by_time"},
     "5d": {"discs", "x", "y", "u_x", "u_x_error", "u_y", "u_y_error", "visits"},
     "ball": {"ball_radius", "mu", "restitution", "gamma", "gamma_error", "gamma_no_slip", "slip", "theta",

@@ -89,5 +89,79 @@ class EndOfOptions(InFolder):
         self.assertEqual(self.call("run", "plan.toml", "--").stdout.split()[0], "4")
 
 
+class FormerNames(InFolder):
+    in_memory = True
+
+    def test_a_former_name_gets_the_present_one(self):
+        for command, former, present in (
+                ("movie", "--frames", "--frame-files"), ("track", "--frames", "--max-frames"),
+                ("track", "--path", "--path-out"), ("experiment", "--frames", "--max-frames"),
+                ("synthetic-video", "--frames", "--max-frames"), ("synthetic-video", "--from", "--start"),
+                ("image", "--at", "--start"), ("measure", "--skip", "--warmup"), ("export", "--to", "--format"),
+                ("map", "--of", "--quantity"), ("measure", "--misfit", "--max-invalid"),
+                ("movie", "--turned", "--turned-angle"), ("image", "--bare", "--no-annotations"),
+                ("sweep", "--rest", "--finish-others"), ("synthetic-video", "--hands", "--hand-time"),
+                ("synthetic-video", "--still", "--camera-on-container"), ("track", "--accept", "--correct-frames")):
+            with self.subTest(command=command, former=former):
+                done = swirl(command, former, "1", cwd=self.folder)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(f"error: there is no option {former}.\nhint: did you mean {present}?", done.stderr)
+
+    def test_a_former_rate_gets_the_present_one(self):
+        done = swirl("crossing", "--rate", "by_event", cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("did you mean 'mean_by_event'?", done.stderr)
+
+    def test_a_former_key_of_a_file_gets_the_present_one(self):
+        with open(self.path("a.toml"), "w", encoding="utf-8") as file:
+            file.write("bare = true\n")
+        done = swirl("image", "a.toml", "--out", "a.png", cwd=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("did you mean 'no_annotations'?", done.stderr)
+
+
+class Values(InFolder):
+    in_memory = True
+
+    def assert_rejected(self, *words, says):
+        done = swirl(*words, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        for text in says:
+            self.assertIn(text, done.stderr)
+        self.assertEqual(self.left_behind(), [])
+
+    def test_a_list_or_a_comma_in_a_number(self):
+        self.assert_rejected("run", "--mu", "0,5", says=["hint: use a decimal point, 0.5; `swirl sweep` takes lists"])
+        for text in ("0.1,0.5", "0:0.25:1", "0.1,0.5,1"):
+            self.assert_rejected("run", "--mu", text, says=[f"--mu is '{text}'", "`swirl sweep` takes lists and ranges."])
+        self.assert_rejected("run", "--discs", "5:48", says=["`swirl sweep` takes lists and ranges."])
+
+    def test_ranges_without_a_step_and_in_another_order(self):
+        sweep = ["sweep", "--out", "s", "--periods", "5"]
+        self.assert_rejected(*sweep, "--mu", "0:1", says=["--mu is '0:1', a range without a step", "give the step, 0:0.25:1"])
+        self.assert_rejected(*sweep, "--mu", "0:1:0.25", says=["the step is in the middle: FROM:STEP:TO.",
+                                                              "hint: write 0:0.25:1."])
+        self.assert_rejected(*sweep, "--discs", "5:48:1", says=["hint: write 5:1:48."])
+        self.assertEqual(swirl(*sweep, "--discs", "5:8", "--dry-run", cwd=self.folder).returncode, 0)
+
+    def test_parameters_of_the_floor_without_a_floor(self):
+        for name, values in (("--gravity", ("6.382", "9")), ("--floor-friction", ("0.3", "0.4")),
+                             ("--rolling-resistance", ("0", "0.1"))):
+            for value in values:
+                self.assert_rejected("run", name, value, says=[f"{name} is {value}, but there is no floor."])
+
+    def test_names_of_recordings(self):
+        for option in ("--trajectory", "--log-events"):
+            self.assert_rejected("run", option, "a.txt", says=[f"{option} is 'a.txt', but its name must end in .h5."])
+
+    def test_a_ramp_is_reported_with_its_own_value(self):
+        for text in (";", "mu=0:1@1..2;"):
+            self.assert_rejected("run", "--ramp", text, "--quiet", says=[f"--ramp is '{text}', but a part of it is empty."])
+
+    def test_the_status_of_a_map_or_sweep_in_an_empty_folder(self):
+        said = {swirl(command, "--out", ".", "--status", cwd=self.folder).stderr for command in ("map", "sweep")}
+        self.assertEqual(said, {"error: '.' is not the folder of a sweep or map: it holds no plan.json.\n"})
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -57,7 +57,7 @@ f.close()
 
     def test_impossible_values_in_a_recording_are_rejected(self):
         self.recorded(*DISCS)
-        commands = (["measure"], ["export", "--to", "csv", "--out", self.path("o.csv")],
+        commands = (["measure"], ["export", "--format", "csv", "--out", self.path("o.csv")],
                     ["image", "--size", "64x64", "--out", self.path("o.svg")])
         edits = [(f"particles['radius'][3] = {value}", "radius of disc 3")
                  for value in ("inf", "nan", "0", "-1", "1e308", "9")]
@@ -76,7 +76,7 @@ f.close()
             file = self.edited("t.h5", edit)
             # All commands share one check, so each edit is tried with one command.
             verb, *more = commands[number % 3]
-            self.expect_error(saying, verb, file, *(more if number % 9 != 2 else [*more, "--at", "1.4"]))
+            self.expect_error(saying, verb, file, *(more if number % 9 != 2 else [*more, "--start", "1.4"]))
         self.assertEqual(swirl("measure", self.path("t.h5"), "--quiet").returncode, 0)
 
     def test_impossible_values_in_a_dump_are_rejected(self):
@@ -132,7 +132,7 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
             source.write("#include <signal.h>\nint H5Dread(void) { raise(SIGSEGV); return -1; }\n")
         shim = self.path("crash.so")
         subprocess.run(["cc", "-shared", "-fPIC", "-o", shim, self.path("crash.c")], check=True)
-        for call in (["export", self.path("t.h5"), "--to", "csv", "--out", self.path("o.csv")],
+        for call in (["export", self.path("t.h5"), "--format", "csv", "--out", self.path("o.csv")],
                      ["measure", self.path("t.h5")], ["verify", self.path("t.h5")],
                      ["verify", self.path("e.h5")],
                      ["image", self.path("t.h5"), "--out", self.path("o.svg")]):

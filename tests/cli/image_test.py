@@ -26,7 +26,7 @@ class ImageTest(InFolder):
             both = []
             for name in ("one.", "two."):
                 out = self.path(name + ending)
-                result = swirl("image", "--discs", "28", "--at", "3.3", "--frame", "both",
+                result = swirl("image", "--discs", "28", "--start", "3.3", "--frame", "both",
                                "--color", "pinned", "--trails", "--size", "400x240", "--theme",
                                "light", "--out", out)
                 self.assertEqual(result.returncode, 0, result.stderr)
@@ -35,7 +35,7 @@ class ImageTest(InFolder):
             self.assertTrue(both[0] == both[1], ending)
 
     def test_png_has_the_given_size(self):
-        result = swirl("image", "--discs", "5", "--at", "0", "--size", "123x77", "--out",
+        result = swirl("image", "--discs", "5", "--start", "0", "--size", "123x77", "--out",
                        self.path("x.png"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(struct.unpack(">II", contents(self.path("x.png"))[16:24]), (123, 77))
@@ -45,12 +45,12 @@ class ImageTest(InFolder):
         for arguments, word in (
                 ((), "--out"),
                 (("--out", self.path("x.bmp")), ".svg"),
-                (("--out", out, "--at", "-1"), "-1"),
-                (("--out", out, "--at", "nan"), "nan"),
+                (("--out", out, "--start", "-1"), "-1"),
+                (("--out", out, "--start", "nan"), "nan"),
                 (("--out", out, "--strobe", "0"), "--strobe is 0"),
                 (("--out", out, "--strobe", "30"), "-9"),
                 (("--out", out, "--every", "0"), "0"),
-                (("--out", out, "--turned", "--frame", "m"), "--frame"),
+                (("--out", out, "--turned-angle", "--frame", "m"), "--frame"),
                 (("--out", out, "--angles"), "--frame"),
                 (("--out", out, "--trail-length", "0"), "--trail-length"),
                 (("--out", out, "--rolling-ball", "1", "--compare", "3"), "--compare"),
@@ -67,7 +67,7 @@ class ImageTest(InFolder):
         for ending in ("png", "svg", "pdf"):
             out = self.path("x." + ending)
             os.symlink(self.path("mine"), out + ".partial")
-            call = ("image", "--discs", "5", "--at", "0", "--size", "64x64", "--quiet", "--out")
+            call = ("image", "--discs", "5", "--start", "0", "--size", "64x64", "--quiet", "--out")
             result = swirl(*call, out)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual(contents(self.path("mine")), b"of another user", ending)

@@ -264,7 +264,7 @@ class Laboratory(unittest.TestCase):
         recorded = os.path.join(folder, "frames.h5")
         swirl("run", *options(given), "--periods", "2", "--warmup", "0", "--frames", "7",
               "--trajectory", recorded, "--quiet")
-        swirl("export", recorded, "--to", "table", "--out", recorded + ".csv", "--quiet")
+        swirl("export", recorded, "--format", "table", "--out", recorded + ".csv", "--quiet")
         with open(recorded + ".csv", encoding="utf-8") as opened:
             rows = list(csv.DictReader(opened))
         frames = [rows[k:k + 12] for k in range(0, len(rows), 12)]
@@ -384,7 +384,7 @@ class Laboratory(unittest.TestCase):
             said = self.engine([{"given": given, "events": 0, "steps":
                                  [["advance_to", periods * period * (1 + 1e-12), 10 ** 9]]}])["said"][0]
             averaged = periods - int(warmup)
-            for turns, rate in zip(said["turns"], ("by_time", "rigid_by_time")):
+            for turns, rate in zip(said["turns"], ("mean_by_time", "rigid_by_time")):
                 # The first sample of the next period is taken with the event at its beginning, so a sample of
                 # 1/64 period may be counted on one side only; a rate is below 2 Ω.
                 self.assertAlmostEqual(turns, averaged * said["rotation"][rate]["mean"], delta=2 / 64, msg=rate)
@@ -460,7 +460,7 @@ class Laboratory(unittest.TestCase):
         run = json.loads(swirl("run", *dish, "--events", "20000", "--json", "-", "--quiet").stdout)
         folder = os.path.dirname(self.page)
         picture = os.path.join(folder, "dish.svg")
-        swirl("image", *dish, "--at", repr(run["periods"]), "--bare", "--out", picture, "--quiet")
+        swirl("image", *dish, "--start", repr(run["periods"]), "--no-annotations", "--out", picture, "--quiet")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page,
                                CHROMIUM, run["state_hash"], picture, folder, *COMPLETE],
                               capture_output=True, text=True, timeout=700)
@@ -574,7 +574,7 @@ class Laboratory(unittest.TestCase):
                 self.assertEqual(program, "./swirl")
                 runs.append(json.loads(swirl(*words, "--json", "-", "--quiet").stdout)["rotation"])
             self.assertEqual([len(runs), row["runs"], row["collapsed"]], [4, "4", "0"])
-            for rate in ("by_time", "by_event", "rigid_by_time", "rigid_by_event"):
+            for rate in ("mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event"):
                 means = [run[rate]["mean"] for run in runs]
                 # The page adds in the same order; only the last digit of a sum may differ.
                 self.assertAlmostEqual(float(row[f"varpi_{rate}"]), statistics.mean(means), delta=1e-14, msg=rate)
@@ -659,7 +659,7 @@ class Laboratory(unittest.TestCase):
             done = subprocess.run([LAB, *wrong, "--out", written], capture_output=True, text=True)
             here = swirl("run", *wrong, check=False)
             self.assertEqual((done.returncode, here.returncode), (2, 2), wrong)
-            self.assertEqual(done.stderr.removeprefix("swirl: "), here.stderr.removeprefix("error: "))
+            self.assertEqual(done.stderr, here.stderr)
 
     def test_it_is_small(self):
         with open(self.page, "rb") as opened:

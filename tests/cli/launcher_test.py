@@ -133,8 +133,8 @@ class Launcher(InFolder):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         said = done.stderr.splitlines()
         self.assertEqual(len(said), 2, done.stderr)
-        self.assertRegex(said[0], rf"^swirl: cannot build: '{self.folder}/build.*' cannot be written")
-        self.assertRegex(said[1], rf"^swirl: hint: sudo chown -R \d+ {self.folder}/build$")
+        self.assertRegex(said[0], rf"^error: cannot build: '{self.folder}/build.*' cannot be written")
+        self.assertRegex(said[1], rf"^hint: sudo chown -R \d+ {self.folder}/build$")
 
     def test_never_runs_a_stale_program(self):
         self.assertEqual(self.word(), "first")
@@ -388,7 +388,7 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
             shutil.copy(self.path("swirl"), strange)
             done = subprocess.run([os.path.join(strange, "swirl")], capture_output=True, text=True)
             self.assertEqual(done.returncode, 1)
-            self.assertRegex(done.stderr, r"\Aswirl: cannot build in '.*': CMake does not support .*\n\Z")
+            self.assertRegex(done.stderr, r"\Aerror: cannot build in '.*': CMake does not support .*\n\Z")
             self.assertFalse(os.path.exists(os.path.join(strange, "build")))
 
     def test_works_in_a_folder_with_a_strange_name(self):

@@ -44,11 +44,11 @@ class Map(InFolder):
     def test_the_table_does_not_depend_on_threads_and_processes(self):
         table, results = self.whole()
         rows = list(csv.DictReader(io.StringIO(table)))
-        self.assertEqual(list(rows[0]), ["mu", "discs", "by_time", "by_time_error", "verdict", "periods", "seeds",
+        self.assertEqual(list(rows[0]), ["mu", "discs", "mean_by_time", "mean_by_time_error", "verdict", "total_periods", "replicates",
                                          "failed"])
         self.assertLess(len(rows), 49)
         self.assertEqual({row["verdict"] for row in rows} - {"undetermined"}, {"above", "below"})
-        self.assertEqual(sum(int(row["seeds"]) for row in rows), len(results))
+        self.assertEqual(sum(int(row["replicates"]) for row in rows), len(results))
         self.good(*MAP, "--out", self.path("one"), "--threads", 1)
         self.assertEqual((self.table(self.path("one")), self.results(self.path("one"))), (table, results))
         parts = [subprocess.Popen([SWIRL, *MAP, "--out", self.path("two"), "--part", f"{k}/2"],
@@ -112,9 +112,9 @@ class Map(InFolder):
         self.assertNotIn("no result yet", collected.stderr)
         found = {(row["mu"], row["discs"]): row for row in csv.DictReader(io.StringIO(collected.stdout))}
         for row in csv.DictReader(io.StringIO(table)):
-            self.assertEqual(row["by_time"], found[row["mu"], row["discs"]]["by_time"])
-            self.assertEqual(row["by_time_error"], found[row["mu"], row["discs"]]["by_time_error"])
-            self.assertEqual(row["seeds"], found[row["mu"], row["discs"]]["replicas"])
+            self.assertEqual(row["mean_by_time"], found[row["mu"], row["discs"]]["mean_by_time"])
+            self.assertEqual(row["mean_by_time_error"], found[row["mu"], row["discs"]]["mean_by_time_error"])
+            self.assertEqual(row["replicates"], found[row["mu"], row["discs"]]["replicates"])
         done = swirl("sweep", "--out", self.path("whole"))
         self.assertEqual(done.returncode, 2)
         self.assertRegex(done.stderr, ONE_ERROR)
@@ -126,7 +126,7 @@ class Map(InFolder):
         self.assertEqual(json.loads(alone.stdout)["state_hash"], run["state_hash"])
 
     def test_crossings_along_one_parameter(self):
-        call = ["map", "--x", "mu=0.9,1", "--of", "N_c", "--from", 36, "--to", 40, "--periods", 40, "--tolerance", 5,
+        call = ["map", "--x", "mu=0.9,1", "--quantity", "N_c", "--from", 36, "--to", 40, "--periods", 40, "--tolerance", 5,
                 "--no-figure", "--quiet", "--out", self.path("N_c")]
         self.good(*call)
         rows = self.rows(self.path("N_c/map.csv"))
@@ -140,7 +140,7 @@ class Map(InFolder):
                 self.assertTrue(36 <= float(ours["N_c"]) <= 40)
 
     def test_a_measured_number(self):
-        self.good("map", "--x", "discs=6,30", "--of", "slip.cluster", "--level", 0.5, "--periods", 10, "--seeds", 2,
+        self.good("map", "--x", "discs=6,30", "--quantity", "slip.cluster", "--level", 0.5, "--periods", 10, "--seeds", 2,
                   "--no-figure", "--quiet", "--out", self.path("slip"))
         rows = self.rows(self.path("slip/map.csv"))
         self.assertEqual([row["discs"] for row in rows], ["6", "30"])
@@ -162,7 +162,7 @@ class Map(InFolder):
         call = ["map", "--x", "restitution=0.1,1", "--contact-duration", 0, "--periods", 10, "--seeds", 2, "--no-figure",
                 "--quiet", "--out", self.path("m")]
         done = self.good(*call)
-        self.assertIn("tries them again. The first is --restitution 0.1, replica 1: the last ", done.stderr)
+        self.assertIn("tries them again. The first is --restitution 0.1, replicate 1: the last ", done.stderr)
         self.assertIn("inelastic collapse", done.stderr)
         self.assertIn("hint: use a --contact-duration", done.stderr)
         # An error that does not come back, as from a full disk: the run has no result, and its message remains.
@@ -188,7 +188,7 @@ class Map(InFolder):
         for name, time_of in made.items():
             self.assertEqual(os.stat(os.path.join(folder, name)).st_mtime_ns, time_of)
         rows = self.rows(self.path("whole/map.csv"))
-        self.assertEqual(sum(int(row["seeds"]) for row in rows), len(os.listdir(folder)))
+        self.assertEqual(sum(int(row["replicates"]) for row in rows), len(os.listdir(folder)))
         self.assertEqual(max(float(row["mu"]) for row in rows), 1.5)
         order = [(float(row["discs"]), float(row["mu"])) for row in rows]
         self.assertEqual(order, sorted(order))
@@ -200,13 +200,13 @@ class Map(InFolder):
         shared = [row for row in self.rows(self.path("alone/map.csv")) if (row["mu"], row["discs"]) in grown]
         self.assertGreater(len(shared), 4)
         for row in shared:
-            if row["seeds"] == grown[row["mu"], row["discs"]]["seeds"]:
+            if row["replicates"] == grown[row["mu"], row["discs"]]["replicates"]:
                 self.assertEqual(row, grown[row["mu"], row["discs"]])
         # The grown map continues with its folder alone, and is as large.
         before = self.table(self.path("whole"))
         self.good("map", "--out", self.path("whole"), "--no-figure", "--quiet")
         self.assertEqual(self.table(self.path("whole")), before)
-        for wrong, says in ((["--mu", 1], "--mu"), (["--of", "spin"], "--of"), ([], "no --x"),
+        for wrong, says in ((["--mu", 1], "--mu"), (["--quantity", "spin"], "--quantity"), ([], "no --x"),
                             (["--x", "period=1:2"], "not an axis"), (["--seeds", 2], "can only grow"),
                             (["--to", 60], "--from and --to belong to maps of N_c"),
                             (["--steps", 5, "--seeds", 9], "no axis")):
@@ -216,7 +216,7 @@ class Map(InFolder):
             self.assertIn(says, done.stderr)
 
     def test_the_range_of_the_searches_for_a_crossing_can_grow(self):
-        call = ["map", "--x", "mu=1,2", "--of", "N_c", "--periods", 40, "--tolerance", 5]
+        call = ["map", "--x", "mu=1,2", "--quantity", "N_c", "--periods", 40, "--tolerance", 5]
         more = ["--no-figure", "--quiet", "--out", self.path("N_c")]
         self.good(*call, "--from", 24, "--to", 30, *more)
         self.assertEqual([row["verdict"] for row in self.rows(self.path("N_c/map.csv"))], ["always rotates"] * 2)
@@ -232,7 +232,7 @@ class Map(InFolder):
             self.assertEqual(os.stat(os.path.join(folder, name)).st_mtime_ns, time_of)
         rows = self.rows(self.path("N_c/map.csv"))
         self.assertEqual([row["verdict"] for row in rows], ["crosses"] * 2)
-        self.assertEqual(sum(int(row["seeds"]) for row in rows), len(os.listdir(folder)))
+        self.assertEqual(sum(int(row["replicates"]) for row in rows), len(os.listdir(folder)))
         self.assertTrue(all(30 < float(row["N_c"]) < 46 for row in rows))
         # The map continues with its folder alone, and its folder is that of a sweep.
         before = self.table(self.path("N_c"))
@@ -245,8 +245,8 @@ class Map(InFolder):
     def test_invalid_calls_are_rejected_before_anything_is_written(self):
         for wrong, says in ((["--x", "mu"], "NAME=VALUES"), (["--x", "colour=1:2"], "colour"),
                             (["--x", "mu=1:0"], "below"), (["--x", "mu=0:1", "--y", "mu=0:1"], "both"),
-                            (["--x", "mu=0:1", "--of", "slip"], "slip.cluster"),
-                            (["--x", "mu=0:1", "--of", "N_c", "--discs", 30], "--from"),
+                            (["--x", "mu=0:1", "--quantity", "slip"], "slip.cluster"),
+                            (["--x", "mu=0:1", "--quantity", "N_c", "--discs", 30], "--from"),
                             (["--x", "mu=0:1", "--steps", 1], "--steps"), (["--x", "mu=0:1", "--mu", 1], "--mu"),
                             (["--x", "mu=0:1", "--part", "3/2"], "PART/PARTS"), (["--y", "mu=0:1"], "--x"),
                             (["--x", "mu=0:1", "--csv", self.path("m/plan.json")], "figure"), ([], "--x"),
@@ -267,15 +267,15 @@ class Map(InFolder):
 class Figure(InFolder):
     def test_the_script_draws_maps_and_curves_from_their_tables_alone(self):
         tables = {
-            "map": "mu,amplitude,by_time,by_time_error,verdict,periods,seeds,failed\n" + "".join(
+            "map": "mu,amplitude,mean_by_time,mean_by_time_error,verdict,total_periods,replicates,failed\n" + "".join(
                 f"{x},{y},{x - y + 0.1},0.05,above,100,2,0\n" for x in (0, 0.5, 1) for y in (0, 1, 2)),
-            "few": "mu,amplitude,by_time,by_time_error,verdict,periods,seeds,failed\n0,1,0.5,,above,10,1,0\n"
+            "few": "mu,amplitude,mean_by_time,mean_by_time_error,verdict,total_periods,replicates,failed\n0,1,0.5,,above,10,1,0\n"
                    "1,1,,,failed,,0,2\n",
-            "curve": "mu,by_time,by_time_error,verdict,periods,seeds,failed\n0,0.4,0.1,above,10,2,0\n"
+            "curve": "mu,mean_by_time,mean_by_time_error,verdict,total_periods,replicates,failed\n0,0.4,0.1,above,10,2,0\n"
                      "1,-0.4,0.1,below,10,2,0\n",
-            "N_c": "mu,N_c,N_c_error,N_c_lower,N_c_upper,verdict,periods,seeds,failed\n"
+            "N_c": "mu,N_c,N_c_error,N_c_lower,N_c_upper,verdict,total_periods,replicates,failed\n"
                    "0.5,40.1,0.2,39.7,40.5,crosses,10,2,0\n0.1,,,,,always rotates,10,2,0\n",
-            "N_c map": "mu,amplitude,N_c,N_c_error,N_c_lower,N_c_upper,verdict,periods,seeds,failed\n" + "".join(
+            "N_c map": "mu,amplitude,N_c,N_c_error,N_c_lower,N_c_upper,verdict,total_periods,replicates,failed\n" + "".join(
                 f"{x},{y},{35 + 5 * x + y},0.2,34,36,crosses,100,2,0\n" for x in (0.5, 0.7, 1) for y in (1, 2))
             + "0,1,,,,,always rotates,100,2,0\n0,2,,,,,undecided,100,2,0\n"}
         for name, text in tables.items():

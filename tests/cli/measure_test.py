@@ -77,7 +77,7 @@ class MeasureTest(InFolder):
     def assert_like_the_exact(self, found, tolerance=0.01):
         """The same motion, with velocities from differences of positions: no statistical error."""
         exact = self.answer()[0]
-        for name in ("by_time", "rigid_by_time"):
+        for name in ("mean_by_time", "rigid_by_time"):
             self.assertAlmostEqual(found["rotation"][name]["mean"], exact["rotation"][name]["mean"],
                                    delta=tolerance)
         for name in ("cluster", "pinned_region", "cluster_perimeter"):

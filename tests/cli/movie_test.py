@@ -99,7 +99,7 @@ class MovieTest(InFolder):
 
     def test_frames_need_no_ffmpeg(self):
         result = swirl("--discs", "5", "--seconds", "0.1", "--fps", "30", "--size", "65x33",
-                       "--start", "0", "--frames", self.path("frames"),
+                       "--start", "0", "--frame-files", self.path("frames"),
                        env={**os.environ, "PATH": self.folder})
         self.assertEqual(result.returncode, 0, result.stderr)
         names = sorted(os.listdir(self.path("frames")))
@@ -291,7 +291,7 @@ class MovieTest(InFolder):
 
     def test_invalid_options_are_rejected(self):
         out = self.path("x.mp4")
-        self.assert_usage_error(swirl(), "--out", "--frames")
+        self.assert_usage_error(swirl(), "--out", "--frame-files")
         self.assert_usage_error(swirl("--out", self.path("x.avi")), "x.avi", ".webm")
         self.assert_usage_error(swirl("--out", out, "--size", "12"), "'12'")
         self.assert_usage_error(swirl("--out", out, "--size", "8x8"), "'8x8'")

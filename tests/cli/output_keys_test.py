@@ -56,9 +56,9 @@ class OutputKeys(InFolder):
 
     def test_measure(self):
         self.call("run", "--discs", 12, "--periods", 4, "--warmup", 1, "--frames", 128, "--trajectory", "t.h5")
-        self.call("export", "t.h5", "--to", "lammps", "--out", "t.lammpstrj")
+        self.call("export", "t.h5", "--format", "lammps", "--out", "t.lammpstrj")
         found = json.loads(self.call("measure", "t.lammpstrj", "--omega", 0.529508, "--camera-fps", 128 / 11.866071,
-                                     "--amplitude", 1.892, "--container-radius", 8.6, "--misfit", 1,
+                                     "--amplitude", 1.892, "--container-radius", 8.6, "--max-invalid", 1,
                                      "--json", "-"))
         self.assertIsNotNone(found["camera"])
         self.assert_documented(keys(found), "JSON of `swirl measure`", "JSON of `swirl run`")

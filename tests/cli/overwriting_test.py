@@ -318,7 +318,7 @@ class Names(InFolder):
             before = opened.read()
         for name in (recording, "t.h5", "./t.h5"):
             self.assert_rejected("measure", recording, "--json", name)
-            self.assert_rejected("export", recording, "--to", "xyz", "--out", name)
+            self.assert_rejected("export", recording, "--format", "xyz", "--out", name)
         with open(recording, "rb") as opened:
             self.assertEqual(opened.read(), before)
         # The same for the file next to a camera's tracks.
@@ -362,7 +362,7 @@ class Names(InFolder):
         says = "it also belongs to the camera images"
         self.assert_rejected("movie", "tracks.csv", "--over", "video.mp4", "--out", "./video.mp4", says=says)
         numbered = ["tracks.csv", "--over", "seen/frame-%06d.png"]
-        self.assert_rejected("movie", *numbered, "--frames", "seen", says=says)
+        self.assert_rejected("movie", *numbered, "--frame-files", "seen", says=says)
         self.assert_rejected("image", *numbered, "--out", "./seen/frame-000007.png", says=says)
         self.assertEqual(self.left_behind(), ["r.gif", "r.png", "t.h5"])
 
@@ -377,7 +377,7 @@ class Names(InFolder):
     def test_a_pipe_is_not_replaced(self):
         recording = self.recorded()
         os.mkfifo(self.path("pipe"))
-        for call in (["export", recording, "--to", "xyz", "--out", "pipe"],
+        for call in (["export", recording, "--format", "xyz", "--out", "pipe"],
                      ["run", "--events", 100, "--trajectory", "pipe"],
                      ["run", "--events", 100, "--log-events", "pipe"]):
             self.assert_rejected(*call, code=1, says="is a device, a pipe or a socket and cannot be replaced by a file")

@@ -54,12 +54,12 @@ class Figure5b(InFolder):
             if row["too_short_to_average"] == "3":
                 # For many discs 6000 events are fewer than five periods after the warm-up: no average.
                 self.assertGreater(int(row["discs"]), 24 if row["setting"] != "no-wall" else 8)
-                self.assertEqual((row["by_event"], row["steady_state"]), ("", "failed"))
+                self.assertEqual((row["mean_by_event"], row["steady_state"]), ("", "failed"))
                 continue
             averaged += 1
             if int(row["discs"]) <= 48:  # beyond the paper's N lengths are in periods
                 self.assertEqual(row["events"], "6000")
-            for name in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
+            for name in ("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time"):
                 float(row[name])
         self.assertGreater(averaged, len(rows) / 3)
         self.assertTrue(self.bytes_of("a", "figure_5b.png").startswith(b"\x89PNG"))

@@ -145,7 +145,7 @@ f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
     def test_a_pipe_without_a_writer_is_rejected(self):
         os.mkfifo(self.path("pipe"))
         for call in (["measure"], ["movie", "--out", self.path("m.mp4")],
-                     ["image", "--out", self.path("p.png")], ["verify"], ["export", "--to", "xyz"],
+                     ["image", "--out", self.path("p.png")], ["verify"], ["export", "--format", "xyz"],
                      ["track", "--out", self.path("t.csv")]):
             done = swirl(call[0], self.path("pipe"), *call[1:], timeout=150)
             self.assertIn(done.returncode, (1, 2), call)

@@ -22,8 +22,8 @@ from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, Judgement
 class FirstPage(HandMadeTables):
     def rotations(self, error=0.01, **curves):
         """Table 5b: (N, ϖ/Ω) of each setting."""
-        self.table("5b", [{"setting": setting.replace("_", "-"), "discs": n, "by_event": level,
-                           "by_event_error": error, "steady_state": "steady",
+        self.table("5b", [{"setting": setting.replace("_", "-"), "discs": n, "mean_by_event": level,
+                           "mean_by_event_error": error, "steady_state": "steady",
                            "point": f"{setting}_N{n}"}
                           for setting, points in curves.items() for n, level in points])
 
@@ -100,7 +100,7 @@ class FirstPage(HandMadeTables):
 
     def test_spheres_of_the_experiment(self):
         def said(last, verdict, error=0.001):
-            self.table("spheres", [{"setting": "smooth", "discs": n, "by_time": v, "by_time_error": error}
+            self.table("spheres", [{"setting": "smooth", "discs": n, "mean_by_time": v, "mean_by_time_error": error}
                                    for n, v in ((8, 0.5), (48, last))])
             self.crossings("spheres", smooth=(36.1, 0.1) if verdict == "crosses" else (None, verdict),
                            half=(None, "undecided"))

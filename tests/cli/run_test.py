@@ -18,7 +18,7 @@ class Json(InFolder):
                     "state_hash", "seconds", "events_per_second", "version", "complete", "warmup"):
             self.assertIn(key, result)
         self.assertEqual(set(result["events"]), {"total", "disc_disc", "disc_wall", "path_vertex", "elastic_by_tc_model"})
-        for average in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
+        for average in ("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time"):
             self.assertTrue(math.isfinite(result["rotation"][average]["mean"]))
             self.assertGreater(result["rotation"][average]["error"], 0)
 
@@ -74,7 +74,7 @@ class Trajectory(unittest.TestCase):
     def test_warmup_zero_counts_from_the_first_event(self):
         result = result_of("--periods", 6, "--warmup", 0)
         self.assertEqual(result["warmup"], {"periods": 0, "events": 0})
-        self.assertEqual(result["rotation"]["by_event"]["blocks"], 6)
+        self.assertEqual(result["rotation"]["mean_by_event"]["blocks"], 6)
 
     def test_default_warmup_is_twenty_periods_or_a_fifth(self):
         self.assertEqual(result_of("--discs", 5, "--periods", 200)["warmup"]["periods"], 20)

@@ -176,7 +176,7 @@ class Chain(InFolder):
                 continue
             before = results[f"{result['started_from']:06}.json"]
             self.assertEqual(result["config"]["amplitude"], before["config"]["amplitude"])
-            self.assertEqual(result["replica"], before["replica"])
+            self.assertEqual(result["replicate"], before["replicate"])
             step = result["config"]["mu_disc"] - before["config"]["mu_disc"]
             turns = result["direction"] == "down" and before["direction"] == "up"
             self.assertAlmostEqual(step, 0 if turns else 0.4 if result["direction"] == "up" else -0.4)
@@ -197,28 +197,28 @@ class Chain(InFolder):
             self.assertGreater(os.path.getsize(os.path.join(self.folder, "loop", file)), 100)
         with open(os.path.join(self.folder, "loop", "loops.csv"), encoding="utf-8") as opened:
             rows = list(csv.DictReader(opened))
-        self.assertEqual([(row["amplitude"], row["replicas"]) for row in rows], [("1.5", "2"), ("2", "2")])
+        self.assertEqual([(row["amplitude"], row["replicates"]) for row in rows], [("1.5", "2"), ("2", "2")])
         areas = {}  # (amplitude, replica): of every loop, from its runs
         for result in self.results("loop").values():
-            key = result["config"]["amplitude"], result["replica"]
+            key = result["config"]["amplitude"], result["replicate"]
             # 0.4 between the values: half of it for the outer ones.
             weight = 0.4 if result["config"]["mu_disc"] == 0.6 else 0.2
             sign = 1 if result["direction"] == "down" else -1
-            rate = result["rotation"]["by_time"]
+            rate = result["rotation"]["mean_by_time"]
             areas[key] = areas.get(key, 0.0) + sign * weight * rate["mean"]
         for row in rows:
             pair = [areas[float(row["amplitude"]), replica] for replica in (0, 1)]
-            self.assertAlmostEqual(float(row["by_time"]), sum(pair) / 2, delta=1e-12)
+            self.assertAlmostEqual(float(row["mean_by_time"]), sum(pair) / 2, delta=1e-12)
             # The scatter of the two loops alone, with Student's t of one degree of freedom: 12.706. The errors of
             # the runs would be wrong, since runs of a chain are not independent. The program rounds 1.96 in it.
             error = abs(pair[0] - pair[1]) / 2 * 12.70620474 / 1.959963985
-            self.assertAlmostEqual(float(row["by_time_error"]) / error, 1, delta=1e-6)
+            self.assertAlmostEqual(float(row["mean_by_time_error"]) / error, 1, delta=1e-6)
         done = swirl("collect", "loop", cwd=self.folder)
-        self.assertRegex(done.stdout, r"loop area of by_time --amplitude 1.5: \S+ ± \S+ \(2 loops\)")
+        self.assertRegex(done.stdout, r"loop area of mean_by_time --amplitude 1.5: \S+ ± \S+ \(2 loops\)")
         # A loop with a missing run does not count.
         os.remove(os.path.join(self.folder, "loop", "results", "000000.json"))
         done = swirl("collect", "loop", "--loops", "-", "--csv", "t.csv", cwd=self.folder)
-        self.assertEqual([row["replicas"] for row in csv.DictReader(done.stdout.splitlines())], ["1", "2"])
+        self.assertEqual([row["replicates"] for row in csv.DictReader(done.stdout.splitlines())], ["1", "2"])
         for wrong, says in ((("collect", "plain", "--loops", "l.csv"), "not a chain"),
                             (("sweep", "--out", "plain", "--plot", "--slurm"), "--plot")):
             if not os.path.exists(os.path.join(self.folder, "plain")):

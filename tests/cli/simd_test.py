@@ -40,7 +40,7 @@ class Simd(InFolder):
                 for width in widths():
                     result = self.result(width, *scene, "--periods", 6, "--warmup", 1)
                     self.assertEqual(result.pop("simd"), width)
-                    self.assertGreater(result["rotation"]["by_event"]["blocks"], 0)
+                    self.assertGreater(result["rotation"]["mean_by_event"]["blocks"], 0)
                     results.append(result)
                 for result in results[1:]:
                     self.assertEqual(result, results[0])

@@ -85,7 +85,7 @@ class Stop(InFolder):
 
     def test_while_an_image_of_a_late_time_is_computed(self):
         self.assertEqual(
-            self.count_clean_stops([0.5], "image", "--at", 1e7, "--out", self.path("a.png")), 1)
+            self.count_clean_stops([0.5], "image", "--start", 1e7, "--out", self.path("a.png")), 1)
         self.assertEqual(self.left_behind(), [])
 
     def test_while_a_video_is_made_and_tracked(self):
@@ -98,7 +98,7 @@ class Stop(InFolder):
         self.assertEqual(swirl(*video, self.path("video.mp4")).returncode, 0)
         made = self.left_behind()
         track = ["track", self.path("video.mp4"), "--quiet", "--out", self.path("tracks.csv")]
-        if "no camera support" in swirl(*track, "--frames", 1).stderr:
+        if "no camera support" in swirl(*track, "--max-frames", 1).stderr:
             self.skipTest("this build was made without OpenCV")
         self.assertGreaterEqual(self.count_clean_stops([0.05, 0.2, 0.35, 0.5], *track), 3)
         self.assertEqual(self.left_behind(), made)

@@ -183,7 +183,7 @@ class Sweep(InFolder):
         collected = swirl("collect", self.path("a"), "--csv", "-")
         self.assertIn("1 of the runs completed no whole period", collected.stderr)
         header, five, many = [line.split(",") for line in collected.stdout.splitlines()]
-        for name in ("by_event", "by_event_error", "by_time", "rigid_by_time", "slip.cluster"):
+        for name in ("mean_by_event", "mean_by_event_error", "mean_by_time", "rigid_by_time", "slip.cluster"):
             self.assertNotEqual(five[header.index(name)], "")
             self.assertEqual(many[header.index(name)], "")
         self.assertNotEqual(many[header.index("energy")], "")
@@ -267,8 +267,8 @@ class Sweep(InFolder):
                                "--quiet").returncode, 0)
         with open(self.path("a/plan.json")) as opened:
             plan = json.load(opened)
-        for before in ([{"values": [3, 1], "replicas": 1}], [{"values": [1, 1], "replicas": 2}],
-                       [{"values": [1], "replicas": 1}], [{"values": [0, 1], "replicas": 1}]):
+        for before in ([{"values": [3, 1], "replicates": 1}], [{"values": [1, 1], "replicates": 2}],
+                       [{"values": [1], "replicates": 1}], [{"values": [0, 1], "replicates": 1}]):
             with open(self.path("a/plan.json"), "w") as opened:
                 json.dump({**plan, "before": before}, opened)
             done = swirl("collect", self.path("a"))
@@ -301,7 +301,7 @@ class Sweep(InFolder):
             header, _, rough = [line.rstrip("\n").split(",") for line in opened]
         numbers = {name: float(rough[header.index(name)])
                    for name in ("N_c", "N_c_by_event", "N_c_by_time", "N_c_rigid_by_event", "N_c_rigid_by_time")}
-        self.assertEqual(rough[header.index("rate")], "by_time")
+        self.assertEqual(rough[header.index("rate")], "mean_by_time")
         self.assertEqual(numbers["N_c"], numbers["N_c_by_time"])
         for name, value in numbers.items():
             # The rigid body crosses about one disc earlier.
@@ -410,7 +410,7 @@ class Sweep(InFolder):
         assert_rejected("000007.json' is not the result of point 7")
         for change, says in (({"point": 7, "config": dict(result["config"], seed=1)}, "is not the result of point"),
                              ({"energy": "0.5"}, "has a text instead of a number"),
-                             ({"rotation": dict(result["rotation"], by_time="fast")}, "a text instead")):
+                             ({"rotation": dict(result["rotation"], mean_by_time="fast")}, "a text instead")):
             with open(results + "000007.json", "w") as opened:
                 json.dump({**result, **change}, opened)
             assert_rejected(says)

@@ -27,13 +27,13 @@ class Rules(unittest.TestCase):
         self.assertEqual(above(Value(1.0, 0.0, freedom=0), 0), HOLDS)
 
     def test_degrees_of_freedom_come_from_averaged_runs(self):
-        row = {"by_event": 1.0, "by_event_error": 0.2, "point": "a"}
-        self.assertEqual(measured(row, "by_event").freedom, math.inf)
-        found = measured({**row, "averaged_runs": 3.0}, "by_event")
+        row = {"mean_by_event": 1.0, "mean_by_event_error": 0.2, "point": "a"}
+        self.assertEqual(measured(row, "mean_by_event").freedom, math.inf)
+        found = measured({**row, "averaged_runs": 3.0}, "mean_by_event")
         self.assertEqual((found.freedom, found.points), (2, {"a"}))
         self.assertEqual(above(found, 0), UNDECIDED)  # 5 errors, but only three seeds
-        self.assertEqual(above(measured({**row, "averaged_runs": 8.0}, "by_event"), 0), HOLDS)
-        unknown = measured({**row, "averaged_runs": math.nan}, "by_event")
+        self.assertEqual(above(measured({**row, "averaged_runs": 8.0}, "mean_by_event"), 0), HOLDS)
+        unknown = measured({**row, "averaged_runs": math.nan}, "mean_by_event")
         self.assertEqual(above(unknown, 0), UNDECIDED)
 
     def test_combined_error_has_welch_degrees_of_freedom(self):

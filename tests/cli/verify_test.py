@@ -113,7 +113,7 @@ class Verify(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.path("study/results/000001.json"), encoding="utf-8") as file:
             result = json.load(file)
-        self.assert_every_change_is_noticed(result, OF_EVERY_RESULT | {"point", "replica"}, removable=set())
+        self.assert_every_change_is_noticed(result, OF_EVERY_RESULT | {"point", "replicate"}, removable=set())
 
     def test_deeply_nested_results_are_rejected(self):
         for entry in ("config", "format", "version", "measured", "warnings"):

@@ -18,16 +18,25 @@ RENAMED = {"slip": {"stays": "resident"}, "pinned": {"places": "positions", "bec
                       "becoming_pinned_by_collisions": "pinning_by_collisions",
                       "becoming_free_by_collisions": "depinning_by_collisions"}}
 
+RATES = {"by_event": "mean_by_event", "by_time": "mean_by_time"}
+SPIN = {"change_of_the_spin": "spin_change", "change_limit_of_the_spin": "spin_change_limit"}
+
+
+def renamed(values, names):
+    return {names.get(name, name): value for name, value in values.items()}
+
 
 def with_present_names(result):
-    """The result with the present names of its measurements, in the same order; no number changes."""
-    measured = {measurement: {RENAMED.get(measurement, {}).get(name, name): value
-                              for name, value in rows.items()}
+    """The result in the present format, with the present names in the same order; no number changes."""
+    result = {**renamed(result, {"replica": "replicate"}), "format": 2,
+              "rotation": renamed(result["rotation"], RATES), "steady_state": renamed(result["steady_state"], SPIN)}
+    if "measured" not in result:
+        return result
+    measured = {measurement: renamed(rows, RENAMED.get(measurement, {}))
                 for measurement, rows in result["measured"].items()}
     if "positions" in measured.get("pinned", {}):
         columns = {"pinned": "pinning", "free": "depinning"}
-        measured["pinned"]["positions"] = {columns.get(name, name): values for name, values
-                                           in measured["pinned"]["positions"].items()}
+        measured["pinned"]["positions"] = renamed(measured["pinned"]["positions"], columns)
     return {**result, "measured": measured}
 
 
@@ -60,19 +69,23 @@ class Version1(OldFiles):
         law of motion of these bodies has changed since."""
         if done.returncode == 0:
             self.assertEqual(self.json(result)["state_hash"], self.json(expected)["state_hash"])
-            for average in ("by_event", "by_time", "rigid_by_event", "rigid_by_time"):
-                self.assertEqual(self.json(result)["rotation"][average],
-                                 self.json(expected)["rotation"][average])
+            then = renamed(self.json(expected)["rotation"], RATES)
+            for average in ("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time"):
+                self.assertEqual(self.json(result)["rotation"][average], then[average])
             return
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stderr, r"of swirl 0\.1\.0 \(1ee281701d33\), .* another law of motion \(1 there|"
                                       r"a checkpoint of format 8, but this program reads format (9|\d\d)\b")
         self.assertFalse(os.path.exists(self.path(result)))
 
-    def test_results_with_renamed_measurements_differ(self):
+    def test_results_with_former_names_are_rejected(self):
         done = self.run_here("verify", "discs.json")
         self.assertEqual(done.returncode, 1)
-        self.assertRegex(done.stderr, r"(?s)differs: measured is .*\nhint: it was made by swirl 0\.1\.0")
+        self.assertRegex(done.stderr, r"has format 1 of swirl 0\.1\.0 .*, but this program reads format 2\.")
+        for command in ("collect", "sweep"), ("sweep", "--out", "sweep"):
+            done = self.run_here(*command)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r"plan\.json' is in format 1, but this program reads format 2\.")
 
     def test_results_are_verified(self):
         for body in BODIES:
@@ -106,7 +119,7 @@ class Version1(OldFiles):
             self.succeed("measure", f"{body}.h5", "--json", "measured.json", "--quiet")
             measured = self.json("measured.json")
             self.assertEqual((measured["frames"], measured["discs"]), (20, 8))
-            self.succeed("export", f"{body}.h5", "--to", "csv", "--out", f"{body}.csv")
+            self.succeed("export", f"{body}.h5", "--format", "csv", "--out", f"{body}.csv")
             with open(self.path(f"{body}.csv"), encoding="utf-8") as file:
                 self.assertEqual(len(file.readlines()), 1 + 20 * 8)
 
@@ -125,10 +138,16 @@ class Version1(OldFiles):
             now = self.json("now.json")
             self.assertEqual((now["frames"], now["discs"]), (then["frames"], then["discs"]))
             # The CSV table has fewer digits than the HDF5 file, and measurements may be refined.
-            self.assertAlmostEqual(now["rotation"]["by_time"]["mean"],
+            self.assertAlmostEqual(now["rotation"]["mean_by_time"]["mean"],
                                    then["rotation"]["by_time"]["mean"], 3)
 
     def test_a_sweep_is_completed_and_collected_to_the_same_table(self):
+        plan = renamed(self.json("sweep/plan.json"), {"replicas": "replicates"})
+        results = {f"sweep/results/00000{k}.json" for k in range(4)}
+        for name, content in [("sweep/plan.json", {**plan, "format": 2}),
+                              *((name, with_present_names(self.json(name))) for name in results)]:
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                json.dump(content, file)
         os.remove(self.path("sweep/results/000002.json"))
         self.succeed("sweep", "--out", "sweep", "--discs", "5,8", "--seeds", 2, "--periods", 12,
                      "--warmup", 2, "--quiet")
@@ -137,7 +156,9 @@ class Version1(OldFiles):
         for table in ("sweep.csv", "again.csv"):
             with open(self.path(table), encoding="utf-8") as file:
                 tables.append(file.read())
-        self.assertEqual(tables[0], tables[1])
+        columns = renamed(dict.fromkeys(tables[0].splitlines()[0].split(",")), {"replicas": "replicates"} | {
+            name + ending: new + ending for name, new in RATES.items() for ending in ("", "_error")})
+        self.assertEqual([",".join(columns), *tables[0].splitlines()[1:]], tables[1].splitlines())
 
     def test_a_configuration_file_gives_the_same_run(self):
         self.succeed("run", "run.toml", "--json", "again.json", "--quiet")
@@ -157,21 +178,21 @@ class OtherFormats(OldFiles):
         before = self.left_behind()
         done = self.run_here(*arguments)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertRegex(done.stderr, r"format 2\b.* (but )?this program reads format 1\b")
+        self.assertRegex(done.stderr, r"format 9\b.* (but )?this program reads format [12]\b")
         self.assertEqual(self.left_behind(), before)
 
     def test_a_result(self):
-        self.rewrite("discs.json", lambda result: result.update(format=2))
+        self.rewrite("discs.json", lambda result: result.update(format=9))
         self.rejected("verify", "discs.json")
 
     def test_a_camera(self):
-        self.rewrite("tracks.camera.json", lambda camera: camera.update(format=2))
+        self.rewrite("tracks.camera.json", lambda camera: camera.update(format=9))
         self.rejected("measure", "tracks.csv")
 
     def test_a_sweep(self):
-        self.rewrite("sweep/results/000001.json", lambda result: result.update(format=2))
+        self.rewrite("sweep/results/000001.json", lambda result: result.update(format=9))
         self.rejected("collect", "sweep", "--csv", "again.csv")
-        self.rewrite("sweep/plan.json", lambda plan: plan.update(format=2))
+        self.rewrite("sweep/plan.json", lambda plan: plan.update(format=9))
         self.rejected("collect", "sweep", "--csv", "again.csv")
 
     def test_a_checkpoint(self):
@@ -201,7 +222,7 @@ class OtherFormats(OldFiles):
                                ("run", "--checkpoint", "discs_stopped.checkpoint", "--resume", "--quiet"))):
             with self.subTest(file=file):
                 subprocess.run(["/usr/bin/python3", "-c", "import h5py, sys\n"
-                                "h5py.File(sys.argv[1], 'r+')['parameters'].attrs['format'] = 2",
+                                "h5py.File(sys.argv[1], 'r+')['parameters'].attrs['format'] = 9",
                                 self.path(file)], check=True)
                 self.rejected(*command)
 
@@ -209,7 +230,7 @@ class OtherFormats(OldFiles):
         made = self.run_here("run", "run.toml", "--periods", 6, "--trajectory", "t.h5", "--log-events",
                              "e.h5", "--json", "now.json", "--quiet")
         self.assertEqual(made.returncode, 0, made.stderr)
-        self.assertEqual(self.json("now.json")["format"], 1)
+        self.assertEqual(self.json("now.json")["format"], 2)
         for file in ("t.h5", "e.h5"):
             with open(self.path(file), "rb") as opened:
                 self.assertIn(b"format\0", opened.read())

@@ -30,13 +30,13 @@ RUN = ["run", "--discs", "8", "--events", "3000", "--seed", "3", "--warmup", "2"
 SWEEP = ["sweep", "--discs", "5:8", "--events", "300", "--threads", "1", "--frames", "4", "--out",
          "s", "--quiet"]
 # Commands that read a recording in.h5 or a video in.mp4, which are in a folder without faults.
-OUTPUTS = [["export", "IN/in.h5", "--to", "gsd", "--out", "o.gsd", "--quiet"],
-           ["export", "IN/in.h5", "--to", "vtp", "--range", "0:3", "--out", "o.pvd", "--quiet"],
+OUTPUTS = [["export", "IN/in.h5", "--format", "gsd", "--out", "o.gsd", "--quiet"],
+           ["export", "IN/in.h5", "--format", "vtp", "--range", "0:3", "--out", "o.pvd", "--quiet"],
            ["image", "IN/in.h5", "--size", "64x64", "--out", "o.svg", "--quiet"],
            ["measure", "IN/in.h5", "--measure", "slip", "--json", "o.json", "--quiet"]]
 VIDEO_CALL = ["synthetic-video", "--discs", "16", "--container-radius", "6.5", "--scale", "12", "--width", "240",
         "--height", "240", "--frames-per-period", "40", "--length", "1.2", "--quiet", "--out"]
-VIDEO_CALLS = [["synthetic-video", "--discs", "3", "--frames", "4", "--width", "64", "--height", "64", "--scale", "3",
+VIDEO_CALLS = [["synthetic-video", "--discs", "3", "--max-frames", "4", "--width", "64", "--height", "64", "--scale", "3",
           "--quiet", "--out", "o.mp4"],
          ["track", "IN/in.mp4", "--quiet", "--out", "o.h5"],
          ["track", "IN/in.mp4", "--quiet", "--out", "o.csv"]]
@@ -282,7 +282,7 @@ class Faults(unittest.TestCase):
     def test_a_kill_does_not_mix_old_and_new_files(self):
         self.video_one()
         self.replace_output(VIDEO_CALLS[0], [*VIDEO_CALLS[0], "--seed", "2"], 4)
-        self.replace_output(VIDEO_CALLS[2], [*VIDEO_CALLS[2], "--frames", "40"], 2)
+        self.replace_output(VIDEO_CALLS[2], [*VIDEO_CALLS[2], "--max-frames", "40"], 2)
 
     def test_failing_calls_while_a_recording_is_processed(self):
         self.record_one()

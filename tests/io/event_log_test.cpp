@@ -139,7 +139,7 @@ TEST(StateArchive, RoundTripIsExact) {
     EXPECT_EQ(flags2, flags);
     EXPECT_EQ(nothing2, nothing);
     EXPECT_EQ(something2, something);
-    const Estimate a = rotation.estimates().by_event, b = rotation2.estimates().by_event;
+    const Estimate a = rotation.estimates().mean_by_event, b = rotation2.estimates().mean_by_event;
     EXPECT_EQ(a.mean, b.mean);
     EXPECT_EQ(a.error, b.error);
     EXPECT_GT(a.blocks, 10u);

@@ -86,7 +86,7 @@ class Installed(unittest.TestCase):
         self.assertTrue(4.0 < distance < 6.0, distance)
         # The program starts from other velocities: the means agree within four standard errors.
         program = json.loads(output_of(self.program, "run", "--discs", 48, "--periods", 220, "--quiet",
-                                    "--json", "-"))["rotation"]["by_event"]
+                                    "--json", "-"))["rotation"]["mean_by_event"]
         varpi, error = map(float, re.search(r"counterrotate: ϖ/Ω = (-[0-9.]+) ± ([0-9.]+)",
                                             output["rotation_rate"]).groups())
         self.assertLess(abs(varpi - program["mean"]), 4.0 * math.hypot(error, program["error"]))

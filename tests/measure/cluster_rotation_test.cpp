@@ -333,19 +333,19 @@ TEST(ClusterRotation, MeansByEventAndByTimeAreSeparateAndInUnitsOfOmega) {
         rotation.close_block();
     }
     const RotationEstimates e = rotation.estimates();
-    EXPECT_NEAR(e.by_event.mean, 2.0, 1e-12);
+    EXPECT_NEAR(e.mean_by_event.mean, 2.0, 1e-12);
     EXPECT_NEAR(e.rigid_by_event.mean, 2.0, 1e-12);
-    EXPECT_NEAR(e.by_time.mean, -0.5, 1e-12);
+    EXPECT_NEAR(e.mean_by_time.mean, -0.5, 1e-12);
     EXPECT_NEAR(e.rigid_by_time.mean, -0.5, 1e-12);
-    EXPECT_EQ(e.by_event.blocks, 4u);
-    EXPECT_NEAR(e.by_event.error, 0.0, 1e-12);
+    EXPECT_EQ(e.mean_by_event.blocks, 4u);
+    EXPECT_NEAR(e.mean_by_event.error, 0.0, 1e-12);
 }
 
 TEST(ClusterRotation, HasNoMeanWithoutSamples) {
     ClusterRotation rotation;
-    EXPECT_TRUE(std::isnan(rotation.estimates().by_event.mean));
+    EXPECT_TRUE(std::isnan(rotation.estimates().mean_by_event.mean));
     rotation.close_block();
-    EXPECT_TRUE(std::isnan(rotation.estimates().by_event.mean));
+    EXPECT_TRUE(std::isnan(rotation.estimates().mean_by_event.mean));
     EXPECT_TRUE(std::isnan(rotation.estimates().rigid_by_time.mean));
 }
 
@@ -354,7 +354,7 @@ TEST(ClusterRotation, OpenBlockDoesNotCount) {
     rotation.sample(rigid_cluster(9, omega, 1), anything);
     rotation.close_block();
     rotation.sample(rigid_cluster(9, 5.0 * omega, 1), anything);
-    EXPECT_NEAR(rotation.estimates().by_event.mean, 1.0, 1e-12);
+    EXPECT_NEAR(rotation.estimates().mean_by_event.mean, 1.0, 1e-12);
 }
 
 TEST(ClusterRotation, MergedEqualsOneLongRun) {
@@ -372,9 +372,9 @@ TEST(ClusterRotation, MergedEqualsOneLongRun) {
     }
     first.merge(second);
     // Only the order of a few additions differs.
-    EXPECT_NEAR(first.estimates().by_event.mean, whole.estimates().by_event.mean, 1e-14);
+    EXPECT_NEAR(first.estimates().mean_by_event.mean, whole.estimates().mean_by_event.mean, 1e-14);
     EXPECT_NEAR(first.estimates().rigid_by_time.mean, whole.estimates().rigid_by_time.mean, 1e-14);
-    EXPECT_EQ(first.by_event().size(), 10u);
+    EXPECT_EQ(first.mean_by_event().size(), 10u);
 }
 
 // A sample reads all discs; every event is sampled up to 128 discs.

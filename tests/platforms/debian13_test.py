@@ -116,12 +116,12 @@ class Debian13(unittest.TestCase):
 
         # Each system reads the recordings of the other.
         for name in ("run", "two"):
-            self.both("export", name + ".h5", "--to", "table", "--out", name + ".csv", "--quiet", "--stride",
+            self.both("export", name + ".h5", "--format", "table", "--out", name + ".csv", "--quiet", "--stride",
                       "7")
             self.assert_same(name + ".csv")
         shutil.copy(os.path.join(self.here, "run.h5"), os.path.join(self.there, "other.h5"))
         shutil.copy(os.path.join(self.there, "run.h5"), os.path.join(self.here, "other.h5"))
-        self.both("export", "other.h5", "--to", "table", "--quiet", "--out", "other.csv")
+        self.both("export", "other.h5", "--format", "table", "--quiet", "--out", "other.csv")
         self.assert_same("other.csv")
         for name in ("run.json", "run.h5", "events.h5", "other.h5"):
             self.both("verify", name, "--quiet")

@@ -77,7 +77,7 @@ def test_rotation_against_a_parameter():
     axes = swirl.plot.rotation(table, by="mu")
     assert len(axes.containers) == 2 and len(axes.get_legend().get_texts()) == 2
     line = axes.containers[0].lines[0]
-    np.testing.assert_array_equal(line.get_ydata(), table[table.mu == 0.1]["by_time"])
+    np.testing.assert_array_equal(line.get_ydata(), table[table.mu == 0.1]["mean_by_time"])
     runs = swirl.map(discs=[13, 5, 9], mu=0.1, events=5000)
     line = swirl.plot.rotation(runs).containers[0].lines[0]
     np.testing.assert_array_equal(line.get_xdata(), [5, 9, 13])

@@ -50,11 +50,11 @@ def estimates_of(measured):
 
 
 def test_analysis_equals_that_of_the_command_line(file):
-    found = swirl.analyse(swirl.Trajectory(file), "all", skip=2)
-    done = command("measure", file, "--measure", "all", "--skip", 2, "--json", "-")
+    found = swirl.analyse(swirl.Trajectory(file), "all", warmup=2)
+    done = command("measure", file, "--measure", "all", "--warmup", 2, "--json", "-")
     theirs = json.loads(done.stdout)
     assert found.frames == theirs["frames"] and set(found.measured) == set(theirs["measured"])
-    assert found.rotation.by_time.mean == theirs["rotation"]["by_time"]["mean"]
+    assert found.rotation.mean_by_time.mean == theirs["rotation"]["mean_by_time"]["mean"]
     compared = 0
     for name, estimate in estimates_of(found.measured).items():
         measurement, row = name.split(".")
@@ -96,21 +96,21 @@ def test_custom_measurement_of_a_recording_agrees_with_the_run(file):
             return snapshot.position.std()
 
     of_run = swirl.run(**SCENE, measure=[Spread]).measured["Spread"].estimate
-    of_frames = swirl.analyse(swirl.Trajectory(file), [Spread], skip=2).measured["Spread"].estimate
+    of_frames = swirl.analyse(swirl.Trajectory(file), [Spread], warmup=2).measured["Spread"].estimate
     assert of_frames.mean == pytest.approx(of_run.mean, rel=1e-9)
     assert of_frames.error == pytest.approx(of_run.error, rel=1e-6)
 
 
 def test_sampled_frames_can_be_analysed(file):
     sim = swirl.Simulation(discs=20, seed=3)
-    found = swirl.analyse(sim.sample(12), ["density", "slip"], skip=2)
-    theirs = swirl.analyse(swirl.Trajectory(file), ["density", "slip"], skip=2)
+    found = swirl.analyse(sim.sample(12), ["density", "slip"], warmup=2)
+    theirs = swirl.analyse(swirl.Trajectory(file), ["density", "slip"], warmup=2)
     # The recording has one more frame: the first one of a further period.
-    assert found.rotation.by_time.mean == pytest.approx(theirs.rotation.by_time.mean, rel=1e-3)
+    assert found.rotation.mean_by_time.mean == pytest.approx(theirs.rotation.mean_by_time.mean, rel=1e-3)
     square = [[2, 2], [-2, 2], [-2, -2], [2, -2]]
     custom = swirl.Simulation(discs=20, path=square)
-    found = swirl.analyse(custom.sample(30), "all", skip=5)
-    assert found.frames == 25 * 511 and found.rotation.by_time.blocks == 25
+    found = swirl.analyse(custom.sample(30), "all", warmup=5)
+    assert found.frames == 25 * 511 and found.rotation.mean_by_time.blocks == 25
     assert set(found.measured) < set(swirl.measurements()) and "density" in found.measured
     with pytest.raises(ValueError, match="no frames"):
         swirl.analyse(custom.sample(0))
@@ -120,10 +120,10 @@ def test_impossible_analyses_are_rejected(file, tmp_path):
     t = swirl.Trajectory(file)
     with pytest.raises(ValueError, match="measure contains 'collisions', which needs every"):
         swirl.analyse(t, ["collisions"])
-    with pytest.raises(ValueError, match="skip"):
-        swirl.analyse(t, skip=-1)
+    with pytest.raises(ValueError, match="warmup"):
+        swirl.analyse(t, warmup=-1)
     with pytest.raises(ValueError, match="the recording ends earlier"):
-        swirl.analyse(t, skip=100)
+        swirl.analyse(t, warmup=100)
     with pytest.raises(TypeError, match="but it must be a swirl.Trajectory"):
         swirl.analyse(str(file))
     with pytest.raises(swirl.FileError):
@@ -180,7 +180,7 @@ def test_tracks_equal_those_of_the_command_line(table, tmp_path):
     theirs = json.loads(done.stdout)
     found = swirl.analyse(tracks, ["density", "slip", "profile"])
     assert found.frames == theirs["frames"]
-    assert found.rotation.by_time.mean == theirs["rotation"]["by_time"]["mean"]
+    assert found.rotation.mean_by_time.mean == theirs["rotation"]["mean_by_time"]["mean"]
     for name, estimate in estimates_of(found.measured).items():
         measurement, row = name.split(".")
         assert estimate.mean == theirs["measured"][measurement][row]["mean"], name
@@ -233,7 +233,7 @@ def test_invalid_tables_are_rejected(table):
 def test_tracks_that_do_not_fit_the_container_are_rejected(table, change, said):
     with pytest.raises(swirl.Failure, match=said):
         swirl.Tracks(table, **{**SCALE, **change})
-    unchecked = swirl.Tracks(table, **{**SCALE, **change}, misfit=1)
+    unchecked = swirl.Tracks(table, **{**SCALE, **change}, max_invalid=1)
     assert len(unchecked) == len(swirl.Tracks(table, **SCALE))
 
 

@@ -33,13 +33,13 @@ def test_what_the_result_says_is_what_the_json_says():
     r = swirl.run(discs=12, mu=0.5, events=20000)
     found = json.loads(r.to_json())
     assert r.config == found["config"]
-    assert r.rotation.by_time.mean == found["rotation"]["by_time"]["mean"]
+    assert r.rotation.mean_by_time.mean == found["rotation"]["mean_by_time"]["mean"]
     assert r.rotation.rigid_by_event.error == found["rotation"]["rigid_by_event"]["error"]
     assert r.events.total == 20000 == r.events.disc_disc + r.events.disc_wall + r.events.path_vertex
     assert r.complete and r.steady_state == found["steady_state"]["verdict"]
     assert re.fullmatch("[0-9a-f]{16}", r.state_hash)
-    assert float(r.rotation.by_time) == r.rotation.by_time.mean
-    assert "12 discs rotate" in repr(r) and "12 discs rotate" in r._repr_html_()
+    assert float(r.rotation.mean_by_time) == r.rotation.mean_by_time.mean
+    assert "12 discs rotate with the swirl" in repr(r) and "12 discs rotate" in r._repr_html_()
     assert pickle.loads(pickle.dumps(r)).to_json() == r.to_json()
 
 
@@ -61,7 +61,7 @@ def test_measurements_can_be_sent_to_another_process(copied):
 
 def test_values_that_are_not_available_are_nan():
     r = swirl.run(discs=3, events=20)
-    assert r.rotation.by_time.blocks == 0 and math.isnan(r.rotation.by_time.mean)
+    assert r.rotation.mean_by_time.blocks == 0 and math.isnan(r.rotation.mean_by_time.mean)
 
 
 def test_saved_result_can_be_verified(tmp_path):
@@ -230,7 +230,7 @@ def test_custom_measurements_by_sample_and_by_block_agree_with_built_in_ones():
         sampled, block = r.measured["MeanX"][name], r.measured["by_block"][name]
         assert sampled.mean == pytest.approx(block.mean, rel=1e-12)
         assert sampled.error == pytest.approx(block.error, rel=1e-9)
-        assert sampled.blocks == r.rotation.by_time.blocks
+        assert sampled.blocks == r.rotation.mean_by_time.blocks
         assert sampled.error > 0
     # `centre` takes each sample seven samples later, when it is known which discs are pinned
     # (observation.hpp). It misses seven of ten thousand samples at the end of the run.
@@ -374,7 +374,7 @@ def test_the_series_is_that_of_the_command_line(tmp_path):
         assert np.array_equal(values, written.series[name], equal_nan=True)
     assert ours.series["ramp.amplitude"][[0, 3, 12, 19]].tolist() == [1, 1, 2, 2]
     assert ours.series["events"].sum() == ours.events.total
-    assert ours.autocorrelation_times["by_time"] >= 1
+    assert ours.autocorrelation_times["mean_by_time"] >= 1
     assert ours.fluctuations == {}
     assert swirl.run(**given).series is None
     copied = pickle.loads(pickle.dumps(ours.series))
@@ -392,7 +392,7 @@ def test_the_fluctuations_of_a_series_are_estimates():
         16 * values.var() / (1 - tau / len(values)), rel=1e-10)
     assert found["binder"].mean == pytest.approx(
         1 - ((values - values.mean()) ** 4).mean() / (3 * values.var() ** 2), abs=1e-12)
-    assert set(r.fluctuations) >= {"by_time", "spin", "energy"}
+    assert set(r.fluctuations) >= {"mean_by_time", "spin", "energy"}
 
 
 def test_a_ramp_is_rejected_where_it_cannot_be():

@@ -79,12 +79,12 @@ def test_a_chain_equals_that_of_the_command_line(tmp_path):
     pandas.testing.assert_frame_equal(ours, theirs, check_exact=True)
     assert set(ours["direction"]) == {"up", "down"}
     # The area of the loop, by the trapezoidal rule.
-    branches = [ours[ours["direction"] == name].set_index("mu")["by_time"] for name in ("down", "up")]
+    branches = [ours[ours["direction"] == name].set_index("mu")["mean_by_time"] for name in ("down", "up")]
     difference = (branches[0] - branches[1]).sort_index()
     loop, = ours.attrs["loops"]
     means = (difference.to_numpy()[1:] + difference.to_numpy()[:-1]) / 2
-    assert loop["by_time"] == pytest.approx((means * np.diff(difference.index)).sum(), abs=1e-12)
-    assert loop["by_time_error"] > 0 and loop["replicas"] == 2
+    assert loop["mean_by_time"] == pytest.approx((means * np.diff(difference.index)).sum(), abs=1e-12)
+    assert loop["mean_by_time_error"] > 0 and loop["replicates"] == 2
     assert ({file.name: file.read_bytes() for file in (tmp_path / "ours/series").iterdir()}
             == {file.name: file.read_bytes() for file in (tmp_path / "theirs/series").iterdir()} != {})
 
@@ -194,7 +194,7 @@ def test_parameter_map_equals_that_of_the_command_line(tmp_path):
 
 
 def test_the_range_of_a_map_of_crossings_grows(tmp_path):
-    call = dict(of="N_c", periods=40, tolerance=5)
+    call = dict(quantity="N_c", periods=40, tolerance=5)
     table = swirl.parameter_map(tmp_path / "map", x=("mu", [1]), min_discs=24, max_discs=30, **call)
     assert table["verdict"].tolist() == ["always rotates"]
     with pytest.raises(ValueError, match="24 to 30"):
@@ -211,9 +211,9 @@ def test_failed_runs_of_a_map_are_reported():
 
 @pytest.mark.parametrize("wrong, kind", [
     (dict(), ValueError), (dict(seeds=3), ValueError), (dict(x="mu"), TypeError), (dict(x=("mu", 1, 2)), TypeError), (dict(x="mu=1:0"), ValueError),
-    (dict(x="mu=0:1", y="mu=0:1"), ValueError), (dict(x="mu=0:1", of="slip"), ValueError),
+    (dict(x="mu=0:1", y="mu=0:1"), ValueError), (dict(x="mu=0:1", quantity="slip"), ValueError),
     (dict(x="mu=0:1", steps=1), ValueError), (dict(x="mu=0:1", seeds=0), ValueError),
-    (dict(x="mu=0:1", discs=[3, 4]), TypeError), (dict(x="mu=0:1", of="N_c", discs=30), ValueError),
+    (dict(x="mu=0:1", discs=[3, 4]), TypeError), (dict(x="mu=0:1", quantity="N_c", discs=30), ValueError),
 ])
 def test_invalid_maps_are_rejected(wrong, kind, tmp_path):
     with pytest.raises(kind):

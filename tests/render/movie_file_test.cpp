@@ -139,7 +139,7 @@ TEST_F(Movie, MissingFfmpegIsAnErrorWithAHint) {
     } catch (const DrawFailure& failure) {
         const std::string text = failure.what();
         EXPECT_NE(text.find("apt-get install ffmpeg"), std::string::npos) << text;
-        EXPECT_NE(text.find("--frames"), std::string::npos) << text;
+        EXPECT_NE(text.find("--frame-files"), std::string::npos) << text;
     }
     EXPECT_TRUE(fs::is_empty(folder_));
 }

@@ -249,7 +249,7 @@ TEST(MeasuredContainer, MeanOfTheProfileIsRotationMinusOmega) {
     EXPECT_EQ(visits + seen.near, all);
     EXPECT_LT(seen.near, 0.03 * all);
     const double rotation = (sum + visits + seen.near_rotation) / all;
-    EXPECT_NEAR(rotation, seen.rotation.estimates().by_time.mean, 1e-12);
+    EXPECT_NEAR(rotation, seen.rotation.estimates().mean_by_time.mean, 1e-12);
 }
 
 TEST(MeasuredContainer, SlowPinnedDiscsBehaveAsInThePaper) {
@@ -282,10 +282,10 @@ TEST(MeasuredContainer, SlowPinnedDiscsBehaveAsInThePaper) {
               row_of(few.frustration, "triangles").mean);
     // Rotation at low N, counterrotation at high N, in both averages and both estimators.
     for (const Estimate& e :
-         {few.rotation.estimates().by_event, few.rotation.estimates().rigid_by_time})
+         {few.rotation.estimates().mean_by_event, few.rotation.estimates().rigid_by_time})
         EXPECT_GT(e.mean, 5.0 * e.error);
     for (const Estimate& e :
-         {many.rotation.estimates().by_event, many.rotation.estimates().rigid_by_time})
+         {many.rotation.estimates().mean_by_event, many.rotation.estimates().rigid_by_time})
         EXPECT_LT(e.mean, -5.0 * e.error);
 }
 

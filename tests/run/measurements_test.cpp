@@ -52,8 +52,8 @@ TEST(Measurements, DoNotChangeTheRun) {
     const RunResult alone = run(short_run());
     const MeasuredRun measured = measured_run(short_run(), everything());
     EXPECT_EQ(measured.run.state_hash, alone.state_hash);
-    EXPECT_EQ(measured.run.rotation.by_event.mean, alone.rotation.by_event.mean);
-    EXPECT_EQ(measured.run.rotation.by_time.mean, alone.rotation.by_time.mean);
+    EXPECT_EQ(measured.run.rotation.mean_by_event.mean, alone.rotation.mean_by_event.mean);
+    EXPECT_EQ(measured.run.rotation.mean_by_time.mean, alone.rotation.mean_by_time.mean);
 }
 
 TEST(Measurements, DensityTimesAreaIsTheNumberOfDiscs) {
@@ -408,7 +408,7 @@ TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
         ++rows;
     });
     EXPECT_EQ(rows, 20);
-    EXPECT_EQ(json.at("steady_state").at("change_of_the_spin").dump(),
+    EXPECT_EQ(json.at("steady_state").at("spin_change").dump(),
               nlohmann::ordered_json(result.steady_spin.change.size).dump());
     EXPECT_EQ(json.at("energy").get<double>(), result.energy);
     EXPECT_EQ(json.at("max_overlap").get<double>(), result.max_overlap);

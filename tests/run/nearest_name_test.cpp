@@ -46,5 +46,13 @@ TEST(NearestName, FindsTheNameOfEqualMeaning) {
     EXPECT_EQ(suggested("--cores"), "--threads");
 }
 
+TEST(NearestName, FindsTheNewNameOfAnOldOneInEachCommand) {
+    EXPECT_EQ(nearest_name("--frames", {"--frame", "--frame-files"}), "--frame-files");
+    EXPECT_EQ(nearest_name("--frames", {"--fps", "--max-frames"}), "--max-frames");
+    EXPECT_EQ(nearest_name("frames", {"frame", "frame_files"}), "frame_files");
+    EXPECT_EQ(nearest_name("--of", {"--x", "--quantity"}), "--quantity");
+    EXPECT_EQ(nearest_name("by_time", {"mean_by_time", "rigid_by_time"}), "mean_by_time");
+}
+
 }  // namespace
 }  // namespace swirl

@@ -182,7 +182,7 @@ TEST(MFrame, ItsMeasurementsAreRejectedElsewhere) {
 TEST(Headline, OfAPathWithoutAnMFrameNamesTheDirection) {
     ParameterTexts texts{{"discs", "20"}, {"periods", "40"}, {"direction", "clockwise"}};
     const RunResult result = run(resolve(texts));
-    EXPECT_LT(result.rotation.by_time.mean, 0.0);
+    EXPECT_LT(result.rotation.mean_by_time.mean, 0.0);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(PeriodSeries, ItsMeansAreTheAveragesOfTheRun) {
     EXPECT_EQ(events, static_cast<double>(result.events.total()));
     // Every period has as many samples by time, so the mean of the means is the mean; the sums are
     // added in another order.
-    EXPECT_NEAR(mean_of_counted(series, "by_time"), result.rotation.by_time.mean, 1e-14);
+    EXPECT_NEAR(mean_of_counted(series, "mean_by_time"), result.rotation.mean_by_time.mean, 1e-14);
     EXPECT_NEAR(mean_of_counted(series, "rigid_by_time"), result.rotation.rigid_by_time.mean,
                 1e-14);
     int compared = 0;
@@ -93,7 +93,7 @@ TEST(PeriodSeries, TheAutocorrelationTimeIsThatOfAnAutoregressiveSeries) {
         // 0.09 for W = 4 τ. Geyer's window ends where noise begins, so the bound is three times
         // that.
         const double expected = (1 + a) / (1 - a);
-        if (average.name == "by_time") {
+        if (average.name == "mean_by_time") {
             EXPECT_NEAR(average.autocorrelation_time, expected, 0.27 * expected);
         }
     }
@@ -121,7 +121,8 @@ TEST(PeriodSeries, TheFileReadsBackAsTheSameNumbers) {
     series.write(folder / "s.csv");
     const std::string text = read_whole_file(folder / "s.csv");
     EXPECT_EQ(text,
-              "period,counted,by_event,by_time,rigid_by_event,rigid_by_time,spin,energy,centre_x,"
+              "period,counted,mean_by_event,mean_by_time,rigid_by_event,rigid_by_time,spin,energy,"
+              "centre_x,"
               "centre_y,events\n0,0,0.1,-0.3333333333333333,,2e-300,1,,,,17\n");
 }
 

@@ -70,8 +70,9 @@ TEST(Ramp, AConstantRampIsBitwiseThePlainRun) {
         config.ramps.clear();
         const RunResult plain = run(config);
         EXPECT_EQ(ramped.state_hash, plain.state_hash) << ramp;
-        EXPECT_TRUE(same_bits(ramped.rotation.by_event.mean, plain.rotation.by_event.mean) ||
-                    config.amplitude == 0.0);
+        EXPECT_TRUE(
+            same_bits(ramped.rotation.mean_by_event.mean, plain.rotation.mean_by_event.mean) ||
+            config.amplitude == 0.0);
     }
 }
 

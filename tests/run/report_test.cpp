@@ -60,7 +60,7 @@ TEST(Headline, GivesNoAverageWithoutAWholePeriod) {
                                          testing::HasSubstr("hint: use more --events."))));
     EXPECT_EQ(report(short_run, true).find("rigid"), std::string::npos);
     for (const Estimate& e :
-         {short_run.rotation.by_event, short_run.rotation.by_time,
+         {short_run.rotation.mean_by_event, short_run.rotation.mean_by_time,
           short_run.rotation.rigid_by_event, short_run.rotation.rigid_by_time}) {
         EXPECT_TRUE(std::isnan(e.mean));
         EXPECT_TRUE(std::isnan(e.error));
@@ -88,7 +88,7 @@ TEST(Headline, GivesTheAverageOfASinglePeriod) {
 TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     RunResult result;
     result.complete = true;
-    result.rotation.by_event.blocks = 100;
+    result.rotation.mean_by_event.blocks = 100;
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
     EXPECT_TRUE(warnings(result).empty());
     result.complete = false;
@@ -150,7 +150,7 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
 TEST(Warnings, ReportSpheresThatSinkIntoTheWallWithoutContactDuration) {
     RunResult result;
     result.complete = true;
-    result.rotation.by_event.blocks = 100;
+    result.rotation.mean_by_event.blocks = 100;
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
     result.config.body = Shape::sphere;
     result.config.floor = true;

@@ -122,7 +122,7 @@ TEST(Run, ObservationDoesNotChangeTheTrajectory) {
     }
     const RunResult observed = observed_run.result();
     EXPECT_EQ(observed.state_hash, unobserved.state_hash);
-    EXPECT_EQ(observed.rotation.by_event.mean, unobserved.rotation.by_event.mean);
+    EXPECT_EQ(observed.rotation.mean_by_event.mean, unobserved.rotation.mean_by_event.mean);
     EXPECT_EQ(samples, 5 * 37);
     EXPECT_EQ(static_cast<std::uint64_t>(events), observed.events.total());
 }
@@ -171,8 +171,8 @@ TEST(Run, AveragesExcludeTheWarmup) {
     }
     EXPECT_EQ(result.warmup, 4);
     // 1e-12: the sums are rounded in another order.
-    EXPECT_NEAR(result.rotation.by_event.mean, sum / count, 1e-12);
-    EXPECT_EQ(result.rotation.by_event.blocks, 6u);
+    EXPECT_NEAR(result.rotation.mean_by_event.mean, sum / count, 1e-12);
+    EXPECT_EQ(result.rotation.mean_by_event.blocks, 6u);
     EXPECT_EQ(result.warmup_events.total() + static_cast<std::uint64_t>(count),
               result.events.total());
 }
@@ -206,7 +206,7 @@ TEST(Run, TheAverageByEventOfManyDiscsSamplesEveryFewEvents) {
         before = events;
     }
     const RunResult result = run.result();
-    const double mean = result.rotation.by_event.mean;
+    const double mean = result.rotation.mean_by_event.mean;
     // 1e-11: the sums are rounded in another order.
     EXPECT_NEAR(mean, sum / weights, 1e-11);
     EXPECT_EQ(result.events_per_rotation_sample, every);
@@ -228,7 +228,7 @@ TEST(Run, EventsPerSampleOneSamplesEveryEvent) {
         ++events;
     }
     // 1e-11: the sums are rounded in another order, about an updated centre of mass.
-    EXPECT_NEAR(run.result().rotation.by_event.mean, sum / static_cast<double>(events), 1e-11);
+    EXPECT_NEAR(run.result().rotation.mean_by_event.mean, sum / static_cast<double>(events), 1e-11);
 }
 
 TEST(Run, AutomaticWarmupCoversASlowSpinTransient) {
@@ -243,7 +243,7 @@ TEST(Run, AutomaticWarmupCoversASlowSpinTransient) {
     EXPECT_GT(slow.warmup, 100);
     EXPECT_LT(slow.warmup, 400);
     EXPECT_EQ(slow.steady_state(), SteadyState::Verdict::steady);
-    EXPECT_NEAR(slow.rotation.by_time.mean, 1.0, 0.01);
+    EXPECT_NEAR(slow.rotation.mean_by_time.mean, 1.0, 0.01);
     config.discs = 20;
     config.mu_disc = 1.0;
     EXPECT_LE(run(config).warmup, 70);
@@ -274,7 +274,7 @@ TEST(Run, CondensingRunIsNotCalledSteady) {
         EXPECT_FALSE(warnings(result).empty()) << seed;
     }
     config.warmup_found = true;
-    EXPECT_NEAR(run(config).rotation.by_event.mean, 1.0, 0.01);  // within 1.0004 ± 0.0010
+    EXPECT_NEAR(run(config).rotation.mean_by_event.mean, 1.0, 0.01);  // within 1.0004 ± 0.0010
 }
 
 TEST(Run, GrowingSpinsAreNotSteady) {
@@ -307,7 +307,7 @@ TEST(Run, AStoppedRunHasAPartialResult) {
     EXPECT_FALSE(result.complete);
     EXPECT_GE(result.events.total(), 20000u);
     EXPECT_LT(result.events.total(), 21000u);
-    EXPECT_TRUE(std::isfinite(result.rotation.by_event.mean));
+    EXPECT_TRUE(std::isfinite(result.rotation.mean_by_event.mean));
 }
 
 TEST(Run, TheFrictionlessCircleConservesTheInvariant) {
@@ -331,7 +331,7 @@ TEST(Run, WithoutWallFrictionTheClusterRotatesAtOmega) {
     RunConfig config = small(20, 150);
     config.mu_wall = 0.0;
     config.warmup = 20;
-    const Estimate rotation = run(config).rotation.by_event;
+    const Estimate rotation = run(config).rotation.mean_by_event;
     EXPECT_NEAR(rotation.mean, 1.0, 5.0 * rotation.error + 0.01);
 }
 

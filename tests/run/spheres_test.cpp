@@ -57,8 +57,8 @@ TEST(RunOfSpheres, AResumedRunEndsWithTheSameResult) {
     control.resume = first.state();
     const RunResult resumed = run(config, control);
     EXPECT_EQ(whole.state_hash, resumed.state_hash);
-    EXPECT_EQ(whole.rotation.by_event.mean, resumed.rotation.by_event.mean);
-    EXPECT_EQ(whole.rotation.by_time.mean, resumed.rotation.by_time.mean);
+    EXPECT_EQ(whole.rotation.mean_by_event.mean, resumed.rotation.mean_by_event.mean);
+    EXPECT_EQ(whole.rotation.mean_by_time.mean, resumed.rotation.mean_by_time.mean);
     EXPECT_GT(whole.events.begins_to_roll, 0u);
     EXPECT_LT(whole.max_overlap, 1e-12);
 }
@@ -120,7 +120,7 @@ TEST(RunOfSpheres, RotationIsThatOfTheExactStatesAtTheExactTimes) {
                 sum += each * cross(from, s.velocity(i) - v) / dot(from, from);
             }
         }
-    EXPECT_NEAR(run(config).rotation.by_time.mean, sum / (4 * 64) / config.omega(), 1e-9);
+    EXPECT_NEAR(run(config).rotation.mean_by_time.mean, sum / (4 * 64) / config.omega(), 1e-9);
 }
 
 /// The budget computes the loss on the floor from energies and momenta. It must equal the friction
@@ -282,7 +282,7 @@ TEST(RunOfSpheres, AResumedRunHasTheSameOrientations) {
 // centre of mass (cluster_rotation.hpp).
 TEST(RunOfSpheres, FewRotateAndManyCounterrotate) {
     const Estimate few = run(experiment("8", "120")).rotation.rigid_by_time;
-    const Estimate many = run(experiment("48", "30")).rotation.by_time;
+    const Estimate many = run(experiment("48", "30")).rotation.mean_by_time;
     EXPECT_GT(few.mean, 6.0 * few.error);
     EXPECT_LT(many.mean, -6.0 * many.error);
 }

@@ -41,7 +41,7 @@ std::vector<Series> recorded(const Setting& setting, std::size_t seeds) {
             run.execute_event();
             run.pass_event();
         }
-        all[k] = run.rotation_after_warmup().by_event().block_means();
+        all[k] = run.rotation_after_warmup().mean_by_event().block_means();
     });
     return all;
 }

@@ -43,7 +43,7 @@ class SlowCalibration : public testing::TestWithParam<Point> {
             config.warmup = 100;
             config.periods = 100 + periods;
             config.seed = first_seed + k;
-            all[k] = swirl::run(config).rotation.by_time;
+            all[k] = swirl::run(config).rotation.mean_by_time;
         });
         return all;
     }
@@ -110,7 +110,7 @@ TEST(SlowCalibrationOfADenseContainer, EightSeedsRevealStatesThatOutliveARun) {
             config.discs = 52;
             config.periods = default_warmup + periods;
             config.seed = first_seed + k;
-            all[k] = swirl::run(config).rotation.by_event;
+            all[k] = swirl::run(config).rotation.mean_by_event;
         });
         return all;
     };

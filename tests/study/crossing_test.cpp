@@ -144,13 +144,13 @@ TEST(CrossingSearch, ReportsWhyItStoppedBeforeTheTolerance) {
 TEST(CrossingSearch, EachRateHasACrossingAndOneControlsTheSearch) {
     CrossingSettings settings;
     const auto straight = [](double n) { return -0.01 * (n - 38.3); };
-    const CrossingResult by_time = search_crossing(settings, planted(straight, 0.001));
-    EXPECT_NEAR(by_time.crossings[1].discs, 38.3, 0.5);
-    EXPECT_NEAR(by_time.crossings[3].discs, 36.3, 0.5);
-    EXPECT_EQ(by_time.crossing().discs, by_time.crossings[1].discs);
-    EXPECT_THAT(crossing_report(settings, by_time), HasSubstr("; mean over the discs, by time)"));
-    EXPECT_THAT(crossing_report(settings, by_time), HasSubstr("By the other rates: "));
-    EXPECT_THAT(crossing_report(settings, by_time), HasSubstr(" (rigid body, by event)"));
+    const CrossingResult mean_by_time = search_crossing(settings, planted(straight, 0.001));
+    EXPECT_NEAR(mean_by_time.crossings[1].discs, 38.3, 0.5);
+    EXPECT_NEAR(mean_by_time.crossings[3].discs, 36.3, 0.5);
+    EXPECT_EQ(mean_by_time.crossing().discs, mean_by_time.crossings[1].discs);
+    EXPECT_THAT(crossing_report(settings, mean_by_time), HasSubstr("; mean over the discs, by time)"));
+    EXPECT_THAT(crossing_report(settings, mean_by_time), HasSubstr("By the other rates: "));
+    EXPECT_THAT(crossing_report(settings, mean_by_time), HasSubstr(" (rigid body, by event)"));
     settings.rate = rate_named("rigid_by_time");
     const CrossingResult rigid = search_crossing(settings, planted(straight, 0.001));
     EXPECT_NEAR(rigid.crossing().discs, 36.3, 0.5);
@@ -344,7 +344,7 @@ TEST(CrossingSearch, ScatteringReplicatesGetMoreSeedsAndNotLongerRuns) {
         RunResult r = make(c, inner);
         const double shift =
             0.06 * (Random(c.seed * 7919 + std::uint64_t(c.discs)).uniform() - 0.5);
-        for (Estimate* rate : {&r.rotation.by_event, &r.rotation.by_time,
+        for (Estimate* rate : {&r.rotation.mean_by_event, &r.rotation.mean_by_time,
                                &r.rotation.rigid_by_event, &r.rotation.rigid_by_time})
             rate->mean += shift;
         const std::lock_guard lock(mutex);
@@ -368,7 +368,7 @@ TEST(CrossingSearch, AClockwisePathHasTheCrossingOfItsMirrorImage) {
     CrossingControl backward;
     backward.make_run = [&](const RunConfig& c, const RunControl& inner) {
         RunResult r = forward.make_run(c, inner);
-        for (Estimate* rate : {&r.rotation.by_event, &r.rotation.by_time,
+        for (Estimate* rate : {&r.rotation.mean_by_event, &r.rotation.mean_by_time,
                                &r.rotation.rigid_by_event, &r.rotation.rigid_by_time})
             rate->mean = -rate->mean;
         return r;

@@ -89,11 +89,11 @@ class PlanFile : public testing::Test {
 };
 
 TEST_F(PlanFile, InvalidPlansAreRejected) {
-    EXPECT_THAT(error_of(R"({"format":1,"axes":{"discs":[]},"replicas":1})"),
+    EXPECT_THAT(error_of(R"({"format":2,"axes":{"discs":[]},"replicates":1})"),
                 testing::HasSubstr("discs has no values"));
-    EXPECT_THAT(error_of(R"({"format":1,"axes":{"discs":["5"]},"replicas":1152921504606846976})"),
+    EXPECT_THAT(error_of(R"({"format":2,"axes":{"discs":["5"]},"replicates":1152921504606846976})"),
                 testing::HasSubstr("1.15e+18 runs"));
-    EXPECT_THAT(error_of(R"({"format":1,"axes":{"discs":["5"]},"replicas":0})"),
+    EXPECT_THAT(error_of(R"({"format":2,"axes":{"discs":["5"]},"replicates":0})"),
                 testing::HasSubstr("from 1 to"));
     EXPECT_THAT(error_of(R"({"format":1)"), testing::HasSubstr("is not the plan of a sweep"));
 }
@@ -101,17 +101,18 @@ TEST_F(PlanFile, InvalidPlansAreRejected) {
 // A stored map is validated as a map of the command line is.
 TEST_F(PlanFile, ForgedMapsAreRejected) {
     const auto map = [](const std::string& changes, const std::string& axes = R"("mu":["0","1"])") {
-        return R"({"format":1,"axes":{"discs":["6"],)" + axes +
-               R"(,"periods":["4"],"warmup":["1"]},"replicas":4,"map":{"x":"mu","y":"","of":)"
-               R"("by_time","rate":"by_time","level":0.0,"change":0.0,"tolerance":0.5)" +
+        return R"({"format":2,"axes":{"discs":["6"],)" + axes +
+               R"(,"periods":["4"],"warmup":["1"]},"replicates":4,"map":{"x":"mu","y":"","quantity":)"
+               R"("mean_by_time","rate":"mean_by_time","level":0.0,"change":0.0,"tolerance":0.5)" +
                changes + "}}";
     };
     EXPECT_EQ(error_of(map("")), "");
     // A later key replaces an earlier one.
-    for (const char* change : {R"(,"x":"mu_wall")", R"(,"x":"")", R"(,"x":"seed")", R"(,"y":"mu")",
-                               R"(,"y":"amplitude")", R"(,"of":"N_c")", R"(,"of":"slip.nothing")",
-                               R"(,"of":"")", R"(,"of":"slip.cluster")", R"(,"rate":"rigid")",
-                               R"(,"tolerance":0)", R"(,"tolerance":-1)", R"(,"change":-1)"})
+    for (const char* change :
+         {R"(,"x":"mu_wall")", R"(,"x":"")", R"(,"x":"seed")", R"(,"y":"mu")",
+          R"(,"y":"amplitude")", R"(,"quantity":"N_c")", R"(,"quantity":"slip.nothing")",
+          R"(,"quantity":"")", R"(,"quantity":"slip.cluster")", R"(,"rate":"rigid")",
+          R"(,"tolerance":0)", R"(,"tolerance":-1)", R"(,"change":-1)"})
         EXPECT_THAT(error_of(map(change)), testing::HasSubstr("is damaged: ")) << change;
     for (const char* axes : {R"("mu":["0","x"])", R"("mu":["0","0"])", R"("mu":["0","-1"])",
                              R"("mu":["0","1"],"amplitude":["1","2"])", R"("path":["circle"])"})
@@ -119,7 +120,7 @@ TEST_F(PlanFile, ForgedMapsAreRejected) {
 }
 
 TEST_F(PlanFile, HyphensInNamesAreAccepted) {
-    EXPECT_EQ(error_of(R"({"format":1,"axes":{"mu-disc":["0.5","1"]},"replicas":1})"), "");
+    EXPECT_EQ(error_of(R"({"format":2,"axes":{"mu-disc":["0.5","1"]},"replicates":1})"), "");
     EXPECT_EQ(read_plan(scratch_.folder()).axes.at(0).name, "mu_disc");
 }
 

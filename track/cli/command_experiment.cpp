@@ -147,7 +147,7 @@ void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& 
                         measured.frames_per_period, min_rate_of_pinned));
     container.result = {{"periods", measured.periods},
                         {"rotation",
-                         {{"by_time", estimate_json(measured.rotation.by_time)},
+                         {{"mean_by_time", estimate_json(measured.rotation.mean_by_time)},
                           {"rigid_by_time", estimate_json(measured.rotation.rigid_by_time)}}},
                         {"measured", measured_json(measured.reports)}};
 }
@@ -258,7 +258,7 @@ void add_experiment_command(Subcommand& subcommand) {
         ->required();
     add("--smooth", call->smooth, "VIDEO", "Videos of smoother discs (Figure 4c); repeatable");
     add("--fps", call->fps, "N", "Frames per second of all videos [from each video]");
-    add("--frames", call->frames, "N", "Number of frames of each video [all]");
+    add("--max-frames", call->frames, "N", "Number of frames of each video [all]");
     flag("--spin", call->spin, "Measure spins from textures (Figure 4b)");
     call->parameters = add_run_options(subcommand, {"discs", "mixture", "radius", "ramp"},
                                        {{"events", "5e5"},

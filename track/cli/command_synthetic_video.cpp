@@ -33,7 +33,7 @@ constexpr double tilted_view_angle = 30.0;
 struct SyntheticVideoCall {
     std::shared_ptr<ParameterTexts> parameters;
     std::string out, preset = "laboratory";
-    double periods = 3.0, from = 20.0;
+    double periods = 3.0, start = 20.0;
     std::optional<std::int64_t> frames, frames_per_period;
     std::optional<double> scale, noise, blur, exposure, distortion, glare, texture, gloss, disc,
         floor, rim, table, flicker, tilt, towards, view_angle, rim_height, light_from,
@@ -128,10 +128,11 @@ void validate(const SyntheticVideoCall& call) {
                                      call.quality, worst_quality));
     if (!(call.periods > 0.0))
         throw UsageError(fmt::format("--length is {}, but it must be above 0.", call.periods));
-    if (!(call.from >= 0.0))
-        throw UsageError(fmt::format("--from is {}, but it must be at least 0.", call.from));
+    if (!(call.start >= 0.0))
+        throw UsageError(fmt::format("--start is {}, but it must be at least 0.", call.start));
     if (call.frames && *call.frames < 1)
-        throw UsageError(fmt::format("--frames is {}, but it must be at least 1.", *call.frames));
+        throw UsageError(
+            fmt::format("--max-frames is {}, but it must be at least 1.", *call.frames));
 }
 
 /// Angle of the container on its path, in degrees, counter-clockwise in the image.
@@ -224,7 +225,7 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     if (call.hands) {
         if (!(*call.hands >= 0.0 && *call.hands <= 0.5 * call.periods))
             throw UsageError(
-                fmt::format("--hands is {}, but it must be from 0 to half of --length, {}.",
+                fmt::format("--hand-time is {}, but it must be from 0 to half of --length, {}.",
                             *call.hands, 0.5 * call.periods));
         camera.hand_frames =
             static_cast<std::int64_t>(*call.hands * double(camera.frames_per_period) + 0.5);
@@ -252,7 +253,7 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
     for (std::int64_t k = 0; k < frames; ++k) {
         if (stopped.load()) throw Interrupted("stopped before the last frame; no video was written.");
-        Snapshot s = playback(call.from + double(k) / double(camera.frames_per_period));
+        Snapshot s = playback(call.start + double(k) / double(camera.frames_per_period));
         if (call.still) bring_container_to_rest(s);
         writer.write(planes.of(view.render(s)));
         truth.add(k, s, view, camera);
@@ -290,8 +291,8 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     };
     add("--out", call->out, "FILE.mp4", "Video; its ground truth is written next to it");
     add("--length", call->periods, "PERIODS", "Duration, in periods [3]");
-    add("--frames", call->frames, "N", "Number of frames, instead of --length");
-    add("--from", call->from, "PERIODS", "Start time in the run, in periods [20]");
+    add("--max-frames", call->frames, "N", "Number of frames, instead of --length");
+    add("--start", call->start, "PERIODS", "Period of the first frame [20]");
     add("--fps", call->fps, "N", "Nominal frames per second for playback [60]");
     add("--quality", call->quality, "N", "Compression: 0 lossless, 18 good, 35 poor [18]");
     flag("--overwrite", call->overwrite, "Replace an existing video");
@@ -327,7 +328,7 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     flag("--interlaced", call->interlaced, "Odd rows half a frame interval after even rows");
     add("--auto-exposure", call->auto_exposure, "FRACTION",
         "Slow brightness variation, as of a phone [0]");
-    add("--hands", call->hands, "PERIODS", "Time with a hand in view, at start and end [0]");
+    add("--hand-time", call->hands, "PERIODS", "Time with a hand in view, at start and end [0]");
     add("--floor-pattern", call->floor_pattern, "LEVELS",
         "Contrast of a pattern of squares on the floor [0]");
     add("--disc-variation", call->disc_variation, "FRACTION",
@@ -345,10 +346,10 @@ void add_synthetic_video_command(Subcommand& subcommand) {
         "Disc brightness relative to the floor's; sets --disc-level");
     flag("--roll", call->rolls, "Draw discs as spheres that roll on the floor");
     flag("--mirrored", call->mirrored, "Mirror the image, as seen from below");
-    flag("--still", call->still, "Camera that moves with the container");
+    flag("--camera-on-container", call->still, "Camera that moves with the container");
     call->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
-    subcommand.set_main_options({"--out", "--length", "--frames", "--fps", "--camera", "--scale",
-                                 "--frames-per-period", "--discs", "--mu", "--seed"});
+    subcommand.set_main_options({"--out", "--length", "--max-frames", "--fps", "--camera",
+                                 "--scale", "--frames-per-period", "--discs", "--mu", "--seed"});
     subcommand.set_examples({"swirl synthetic-video --discs 36 --out lab.mp4",
                              "swirl synthetic-video --camera phone --discs 48 --quality 28 --out "
                              "phone.mp4",

@@ -98,7 +98,7 @@ void set_frames(const TrackCall& call, TrackingSettings& settings) {
         throw UsageError(fmt::format("--from is {}, but it must be at least 0.", *call.from));
     settings.first_frame = call.from.value_or(0);
     if (call.to) {
-        if (call.frames) throw UsageError("--to and --frames exclude each other.");
+        if (call.frames) throw UsageError("--to and --max-frames exclude each other.");
         if (*call.to < settings.first_frame)
             throw UsageError(fmt::format("--to is {}, but it must be at least {}, the first frame.",
                                          *call.to, settings.first_frame));
@@ -111,7 +111,7 @@ void set_frames(const TrackCall& call, TrackingSettings& settings) {
     if (call.accept != "duplicates" && call.accept != "missing" &&
         call.accept != "duplicates,missing" && call.accept != "missing,duplicates")
         throw UsageError(fmt::format(
-            "--accept is '{}', but it must be duplicates, missing or duplicates,missing.",
+            "--correct-frames is '{}', but it must be duplicates, missing or duplicates,missing.",
             call.accept));
 }
 
@@ -241,10 +241,10 @@ void reject_options_of_tracks(const TrackCall& call) {
 /// Throws UsageError or Failure before any work is done.
 void validate(const TrackCall& call) {
     if (call.out.empty() && call.path.empty())
-        throw UsageError("missing required option --out FILE.csv|FILE.h5, or --path FILE.csv.");
+        throw UsageError("missing required option --out FILE.csv|FILE.h5, or --path-out FILE.csv.");
     if (!call.path.empty() && !call.path.ends_with(".csv"))
         throw UsageError(
-            fmt::format("--path is '{}', but its name must end with .csv.", call.path));
+            fmt::format("--path-out is '{}', but its name must end with .csv.", call.path));
     if (call.out.empty()) reject_options_of_tracks(call);
     if (!call.out.empty() && !is_named_as_tracks(call.out))
         throw UsageError(
@@ -363,7 +363,7 @@ void add_track_command(Subcommand& subcommand) {
     add("video", call->source.video, "VIDEO", "Video file, or numbered images (%05d.png)");
     add("--out", call->out, "FILE.csv|FILE.h5",
         "Tracks; calibration goes next to them (.camera.json)");
-    add("--path", call->path, "FILE.csv",
+    add("--path-out", call->path, "FILE.csv",
         "Motion of the container, as a path for swirl run --path");
     add("--fps", call->fps, "N", "Frames per second [from the video]");
     add("--container-diameter", call->source.container_diameter, "MM",
@@ -374,11 +374,12 @@ void add_track_command(Subcommand& subcommand) {
         "Camera tilt, and its side counter-clockwise from +x [found]");
     add("--view-angle", call->view_angle, "DEG",
         "Vertical view angle of the camera [found if tilted]");
-    add("--frames", call->frames, "N", "Number of frames to track [all]");
+    add("--max-frames", call->frames, "N", "Number of frames to track [all]");
     add("--from", call->from, "K", "First frame to track, counted from 0 [0]");
     add("--to", call->to, "K", "Last frame to track [the last one]");
     add("--skip", call->skip, "LIST", "Frames that are not used, such as 40,60-64");
-    add("--accept", call->accept, "FAULTS", "Frame faults to correct: duplicates, missing or both");
+    add("--correct-frames", call->accept, "FAULTS",
+        "Frame faults to correct: duplicates, missing or both");
     add("--overlay", call->overlay, "FILE", "Movie of the video with the discs drawn over it");
     add("--report", call->report, "DIR", "Folder for a report on the tracking, report.html");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
@@ -387,12 +388,12 @@ void add_track_command(Subcommand& subcommand) {
     subcommand.add_flag("--overwrite", call->overwrite, "Replace existing tracks");
     add_omit_paths_option(subcommand);
     subcommand.add_flag("--quiet", call->quiet, "No progress line and no summary");
-    subcommand.set_main_options({"--out", "--path", "--fps", "--container-diameter",
+    subcommand.set_main_options({"--out", "--path-out", "--fps", "--container-diameter",
                                  "--disc-diameter", "--discs", "--tilt", "--overlay", "--report",
                                  "--json", "--spin"});
     subcommand.set_examples({"swirl track dish.mp4 --out tracks.csv",
                              "swirl track slow-motion.mp4 --fps 960 --out tracks.csv",
-                             "swirl track shaker.mp4 --path shaker.csv",
+                             "swirl track shaker.mp4 --path-out shaker.csv",
                              "swirl measure tracks.csv --measure density,flow,slip",
                              "swirl movie tracks.csv --over dish.mp4 --out overlay.mp4"});
     subcommand.callback([call] { track(*call); });

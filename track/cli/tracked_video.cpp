@@ -32,7 +32,7 @@ void check_video_options(const std::optional<double>& fps,
     if (fps && !(*fps > 0.0))
         throw UsageError(fmt::format("--fps is {}, but it must be above 0.", *fps));
     if (frames && !(*frames > 0))
-        throw UsageError(fmt::format("--frames is {}, but it must be at least 1.", *frames));
+        throw UsageError(fmt::format("--max-frames is {}, but it must be at least 1.", *frames));
 }
 
 #ifdef SWIRL_CAMERA

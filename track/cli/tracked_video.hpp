@@ -24,7 +24,7 @@ struct VideoSource {
     std::optional<double> container_diameter, disc_diameter;  // millimetres
 };
 
-/// Throws UsageError unless --fps and --frames are above 0.
+/// Throws UsageError unless --fps and --max-frames are above 0.
 void check_video_options(const std::optional<double>& fps,
                          const std::optional<std::int64_t>& frames);
 

@@ -72,7 +72,7 @@ nlohmann::ordered_json camera_sampled_run(const RunConfig& config, const CameraS
         measure_series(series, measurable(measurements, true), 0.0, measuring);
 
     nlohmann::ordered_json json = result_json(run.result());
-    json["rotation"]["by_time"] = estimate_json(found.rotation.by_time);
+    json["rotation"]["mean_by_time"] = estimate_json(found.rotation.mean_by_time);
     json["rotation"]["rigid_by_time"] = estimate_json(found.rotation.rigid_by_time);
     json["measured"] = measured_json(found.reports);
     return json;

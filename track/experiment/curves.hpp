@@ -10,7 +10,7 @@
 
 namespace swirl {
 
-/// A point of a curve, with "by_event", "by_time", … as the average. NaN for a failed run, which
+/// A point of a curve, with "mean_by_event", "mean_by_time", … as the average. NaN for a failed run, which
 /// crossings ignore.
 RotationPoint rotation_point(double x, const Json& result, const char* average);
 

@@ -296,8 +296,8 @@ fs::path Experiment::write_videos() const {
                  "omega_error",
                  "complete_share",
                  "position_error",
-                 "by_time",
-                 "by_time_error",
+                 "mean_by_time",
+                 "mean_by_time_error",
                  "rigid_by_time",
                  "rigid_by_time_error",
                  "simulated",
@@ -324,12 +324,12 @@ fs::path Experiment::write_videos() const {
                    found({"path", "omega_error"}),
                    found({"quality", "complete_share"}),
                    found({"quality", "position_error"}),
-                   mean(video.result, "by_time", "mean"),
-                   mean(video.result, "by_time", "error"),
+                   mean(video.result, "mean_by_time", "mean"),
+                   mean(video.result, "mean_by_time", "error"),
                    mean(video.result, "rigid_by_time", "mean"),
                    mean(video.result, "rigid_by_time", "error"),
-                   mean(simulated(k), "by_time", "mean"),
-                   mean(simulated(k), "by_time", "error"),
+                   mean(simulated(k), "mean_by_time", "mean"),
+                   mean(simulated(k), "mean_by_time", "error"),
                    video.good() ? std::string() : video.result["failed"].get<std::string>()});
     }
     const fs::path file = settings_.out / "videos.csv";
@@ -338,14 +338,14 @@ fs::path Experiment::write_videos() const {
 }
 
 fs::path Experiment::write_points() const {
-    Table table(joined(joined({"source", "surface", "video", "discs", "by_time", "by_time_error",
-                               "rigid_by_time", "rigid_by_time_error"},
+    Table table(joined(joined({"source", "surface", "video", "discs", "mean_by_time",
+                               "mean_by_time_error", "rigid_by_time", "rigid_by_time_error"},
                               number_columns(numbers_against_n())),
                        {"steady_state"}));
     each_side([&](const char* source, const char* kind, const std::string& name, std::int64_t discs,
                   const Json& result) {
         std::vector<Table::Cell> row{std::string(source), std::string(kind), name, discs};
-        for (const char* which : {"by_time", "rigid_by_time"})
+        for (const char* which : {"mean_by_time", "rigid_by_time"})
             for (const char* what : {"mean", "error"})
                 row.emplace_back(number(at(result, {"rotation", which, what})));
         add_numbers(row, numbers_against_n(), result);
@@ -417,14 +417,15 @@ void Experiment::add_video_findings(const ContainerVideo& video, const Json& sim
                                        video.result["failed"].get<std::string>()));
         return;
     }
-    const RotationPoint seen = rotation_point(double(discs_of(video)), video.result, "by_time");
+    const RotationPoint seen =
+        rotation_point(double(discs_of(video)), video.result, "mean_by_time");
     std::string text = fmt::format("{}: {}, ϖ/Ω = {} by time", video.name,
                                    counted(std::int64_t(discs_of(video)), "disc"),
                                    with_error(seen.mean, seen.error));
     if (failed(simulation)) {
         text += fmt::format("; its simulation failed: {}", simulation["failed"].get<std::string>());
     } else if (simulation.is_object()) {
-        const RotationPoint run = rotation_point(0.0, simulation, "by_time");
+        const RotationPoint run = rotation_point(0.0, simulation, "mean_by_time");
         text += fmt::format("; simulated {}", with_error(run.mean, run.error));
         const double error = std::hypot(seen.error, run.error);
         if (error > 0.0)
@@ -432,7 +433,7 @@ void Experiment::add_video_findings(const ContainerVideo& video, const Json& sim
                                 std::abs(seen.mean - run.mean) / error);
     }
     findings.push_back(text + ".");
-    const Json& blocks = at(video.result, {"rotation", "by_time", "blocks"});
+    const Json& blocks = at(video.result, {"rotation", "mean_by_time", "blocks"});
     if (blocks.is_number_integer() && blocks.get<std::size_t>() < few_blocks)
         findings.push_back(fmt::format(
             "{} shows {:.1f} periods: an error from {} blocks is only a rough estimate. Twenty "

@@ -30,7 +30,7 @@ bool is_run(const Json& result) { return at(result, {"rotation"}).is_object(); }
 /// True if a run ended before its warm-up, or soon after it.
 bool too_short_to_average(const Json& run) {
     const Json& warmup = at(run, {"config", "warmup"});
-    const Json& periods = at(run, {"rotation", "by_event", "blocks"});
+    const Json& periods = at(run, {"rotation", "mean_by_event", "blocks"});
     return (number(at(run, {"warmup", "periods"})) == 0.0 && warmup != 0) ||
            number(periods) < min_periods_of_an_average;
 }
@@ -205,17 +205,17 @@ Json seed_ensemble(const std::vector<Json>& results) {
                 {"events", {{"total", whole_mean(runs, {"events", "total"})}}},
                 {"periods", mean_of(runs, {"periods"})},
                 {"warmup", {{"periods", whole_mean(runs, {"warmup", "periods"})}}}};
-    for (const char* which : {"by_event", "by_time", "rigid_by_event", "rigid_by_time"}) {
-        const bool by_event = std::string_view(which).ends_with("by_event");
-        all["rotation"][which] =
-            average_json(inside(inside(runs, "rotation"), which),
-                         by_event ? std::span<const double>() : std::span<const double>(periods));
+    for (const char* which : {"mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time"}) {
+        const bool samples_events = std::string_view(which).ends_with("by_event");
+        all["rotation"][which] = average_json(
+            inside(inside(runs, "rotation"), which),
+            samples_events ? std::span<const double>() : std::span<const double>(periods));
     }
     if (at(*runs.front(), {"measured"}).is_object())
         all["measured"] = measured_ensemble(inside(runs, "measured"), periods);
     all["seeds"] = seeds;
-    all["seeds"]["scatter"] = all["rotation"]["by_event"]["scatter"];
-    all["seeds"]["disagree"] = all["rotation"]["by_event"]["disagree"];
+    all["seeds"]["scatter"] = all["rotation"]["mean_by_event"]["scatter"];
+    all["seeds"]["disagree"] = all["rotation"]["mean_by_event"]["disagree"];
     all["steady_state"] = {{"verdict", verdict_of(seeds)}};
     std::string hashes;
     for (const Json* run : runs) hashes += at(*run, {"state_hash"}).get<std::string>();

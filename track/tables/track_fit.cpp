@@ -130,8 +130,8 @@ std::string misfit_hint(const std::string& advice, const char* accept) {
 
 /// Throws Failure if more than this share of the frames contradicts the given parameters.
 void reject_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
-    constexpr const char* allow_frames = "--misfit sets the share of frames that may do so.";
-    constexpr const char* accept = "--misfit 1 accepts the tracks as they are.";
+    constexpr const char* allow_frames = "--max-invalid sets the share of frames that may do so.";
+    constexpr const char* accept = "--max-invalid 1 accepts the tracks as they are.";
     const std::string advice = scale_advice(fit, scale);
     const std::string touching_scale =
         fmt::format("with --scale {:.3g} the closest discs would touch.",

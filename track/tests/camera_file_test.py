@@ -29,8 +29,8 @@ class CameraFile(InFolder):
         text = camera if isinstance(camera, str) else json.dumps({"camera": camera})
         with open(self.path("tracks.camera.json"), "w", encoding="utf-8") as file:
             file.write(text)
-        # These discs never touch the wall, which --misfit 1 permits.
-        return swirl("measure", self.path("tracks.csv"), "--misfit", 1, "--quiet", "--json", "-", *more)
+        # These discs never touch the wall, which --max-invalid 1 permits.
+        return swirl("measure", self.path("tracks.csv"), "--max-invalid", 1, "--quiet", "--json", "-", *more)
 
     def rejected(self, camera, *words, more=()):
         done = self.measured(camera, *more)

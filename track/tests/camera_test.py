@@ -151,13 +151,13 @@ class CameraTest(InFolder):
             self.record(14, clockwise)
             for frame in ("lab", "m"):
                 out = self.path("x.png")
-                self.assert_good(self.call("image", "--frame", frame, "--at", 0.31, "--bare",
+                self.assert_good(self.call("image", "--frame", frame, "--start", 0.31, "--no-annotations",
                                            "--out", out, *(["--clockwise"] if clockwise else [])))
                 self.assert_outlines_lie_on_the_discs(out)
 
     def test_movie_shows_each_camera_frame_once(self):
         self.record(7, first=100)
-        self.assert_good(self.call("movie", "--over-first", 100, "--bare", "--frames",
+        self.assert_good(self.call("movie", "--over-first", 100, "--no-annotations", "--frame-files",
                                    self.path("made"), "--fps", 30))
         names = sorted(os.listdir(self.path("made")))
         self.assertEqual(len(names), 7)
@@ -184,7 +184,7 @@ class CameraTest(InFolder):
         made = []
         for images in ("seen/%04d.png", "seen.avi"):
             folder = self.path("made-" + images[-3:])
-            self.assert_good(self.call("movie", "--over", self.path(images), "--frames", folder,
+            self.assert_good(self.call("movie", "--over", self.path(images), "--frame-files", folder,
                                        over=False))
             frames = []
             for name in sorted(os.listdir(folder)):
@@ -204,7 +204,7 @@ class CameraTest(InFolder):
         self.record(5)
         subprocess.run(["ffmpeg", "-v", "error", "-i", self.path("seen/%04d.png"), "-q:v", "1",
                         "-start_number", "0", self.path("seen/%04d.jpg")], check=True)
-        self.assert_good(self.call("image", "--at", 0.05, "--bare", "--over",
+        self.assert_good(self.call("image", "--start", 0.05, "--no-annotations", "--over",
                                    self.path("seen/%04d.jpg"), "--out", self.path("x.png"),
                                    over=False))
         self.assertGreater(sum(red > 220 for _, _, red, _, _ in
@@ -213,13 +213,13 @@ class CameraTest(InFolder):
     def test_tracks_may_begin_and_end(self):
         self.record(14, lose=9)
         out = self.path("x.png")
-        self.assert_good(self.call("image", "--trails", "--at", 0.3, "--out", out))
+        self.assert_good(self.call("image", "--trails", "--start", 0.3, "--out", out))
         self.assert_good(self.call("movie", "--trails", "--color", "id", "--plot", "--out",
                                    self.path("x.mp4")))
-        every = self.call("image", "--color", "pinned", "--at", 0.1, "--out", out)
+        every = self.call("image", "--color", "pinned", "--start", 0.1, "--out", out)
         self.assert_usage_error(every, "the same discs in every frame")
         self.record(14)
-        few = self.call("image", "--color", "pinned", "--at", 0.1, "--out", out)
+        few = self.call("image", "--color", "pinned", "--start", 0.1, "--out", out)
         self.assert_good(few)
         self.assertIn("40 frames per period", few.stderr)
 
@@ -232,7 +232,7 @@ class CameraTest(InFolder):
         wrong(self.call("image", "--compare", 4, "--out", out), "--compare")
         wrong(self.call("image", "--over", "seen.png", "--out", out, over=False), "%05d")
         wrong(self.call("image", "--over", "%d/%d.png", "--out", out, over=False), "%05d")
-        wrong(self.call("image", "--at", 5, "--out", out), "5")
+        wrong(self.call("image", "--start", 5, "--out", out), "5")
         wrong(swirl("image", "--over", "%d.png", "--out", out), "--over", "no FILE")
         wrong(swirl("image", self.path("tracks.csv"), "--out", out), "--omega")
         wrong(swirl("image", self.path("tracks.csv"), "--omega", 1, "--out", out),

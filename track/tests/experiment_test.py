@@ -49,7 +49,7 @@ class Experiment(InFolder):
             self.assertAlmostEqual(float(row["frames_per_period"]), 40, delta=0.1)
             # The videos last less than two periods, so the error of ϖ is a few hundredths. A wrong
             # container would change ϖ by more than 0.15.
-            self.assertLess(abs(float(row["by_time"]) - float(row["simulated"])), 0.15)
+            self.assertLess(abs(float(row["mean_by_time"]) - float(row["simulated"])), 0.15)
             self.assertGreater(float(row["simulated_error"]), 0.0)
         points = rows(out, "points.csv")
         self.assertEqual({(row["source"], int(row["discs"])) for row in points},

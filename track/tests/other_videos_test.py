@@ -79,13 +79,13 @@ class OtherVideos(InFolder):
             _, done = self.call(**faults)
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(word, done.stderr)
-            self.assertIn("--accept " + word.replace("duplicated", "duplicates"), done.stderr)
+            self.assertIn("--correct-frames " + word.replace("duplicated", "duplicates"), done.stderr)
             self.assertEqual(self.left_behind(), ["video.mp4"])
 
     def test_accepted_duplicates_and_missing_frames_are_corrected(self):
         faults = ({"double": (20, 41, 60)}, "duplicates"), ({"drop": (20, 41, 42)}, "missing")
         for fault, word in some(faults, 1):
-            video, done = self.call("--accept", word, **fault)
+            video, done = self.call("--correct-frames", word, **fault)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("accepted", done.stderr)
             with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
@@ -103,8 +103,8 @@ class OtherVideos(InFolder):
         for row in rows:
             d = numpy.array(video.positions[int(row["frame"])]) - [float(row["x"]), float(row["y"])]
             self.assertLess(numpy.hypot(d[:, 0], d[:, 1]).min(), 2.0)  # filled in by straight lines
-        for call in (("--from", -1), ("--from", 9, "--to", 8), ("--skip", "4-"), ("--accept", "all"),
-                     ("--to", 9, "--frames", 9)):
+        for call in (("--from", -1), ("--from", 9, "--to", 8), ("--skip", "4-"), ("--correct-frames", "all"),
+                     ("--to", 9, "--max-frames", 9)):
             done = swirl("track", self.path("video.mp4"), "--out", self.path("no.csv"), *call)
             self.assertEqual(done.returncode, 2, done.stderr)
 

@@ -1,4 +1,4 @@
-"""swirl track --path: the motion of a container in a video, and a run on it."""
+"""swirl track --path-out: the motion of a container in a video, and a run on it."""
 
 import csv
 import json
@@ -16,7 +16,7 @@ NUMBER = r"[\d.]+"
 
 
 class Recorded:
-    """A file of swirl track --path: its points, and the errors that its comments state."""
+    """A file of swirl track --path-out: its points, and the errors that its comments state."""
 
     def __init__(self, file):
         with open(file, encoding="utf-8") as opened:
@@ -46,7 +46,7 @@ class RecordedPath(InFolder):
         return self.path(name)
 
     def record(self, video, *more, name="path.csv"):
-        done = swirl("track", video, "--path", self.path(name), *more)
+        done = swirl("track", video, "--path-out", self.path(name), *more)
         if "no camera support" in done.stderr:
             self.skipTest("this build has no camera support")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -55,7 +55,7 @@ class RecordedPath(InFolder):
     def rotation(self, *options):
         done = swirl("run", "--discs", 20, "--periods", 300, *options, "--json", "-", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
-        rate = json.loads(done.stdout)["rotation"]["by_time"]
+        rate = json.loads(done.stdout)["rotation"]["mean_by_time"]
         return rate["mean"], rate["error"]
 
     def test_a_circle_has_its_radius_centre_and_period_and_gives_its_rotation(self):
@@ -101,7 +101,7 @@ class RecordedPath(InFolder):
                              "--periods", 5, "--quiet")
                 self.assertEqual(done.returncode, 0, done.stderr)
         # Discs in such a container cannot be tracked.
-        done = swirl("track", self.path("line.mp4"), "--out", self.path("t.csv"), "--path", self.path("p.csv"))
+        done = swirl("track", self.path("line.mp4"), "--out", self.path("t.csv"), "--path-out", self.path("p.csv"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("does not move along a circle", done.stderr)
         self.assertIn("--path", done.stderr)
@@ -118,10 +118,10 @@ class RecordedPath(InFolder):
     def test_what_cannot_be_recorded(self):
         skipped = ",".join(f"{FRAMES * k}-{FRAMES * k + 11}" for k in range(4))  # a quarter of each period
         moving = self.video()
-        for video, more, says in ((self.video("--still", name="still.mp4"), (), "stands still"),
+        for video, more, says in ((self.video("--camera-on-container", name="still.mp4"), (), "stands still"),
                                   (self.video(length=1.3, name="short.mp4"), (), "at least two"),
                                   (moving, ("--skip", skipped), "gap")):
-            done = swirl("track", video, "--path", self.path("p.csv"), *more)
+            done = swirl("track", video, "--path-out", self.path("p.csv"), *more)
             if "no camera support" in done.stderr:
                 self.skipTest("this build has no camera support")
             self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
@@ -129,14 +129,14 @@ class RecordedPath(InFolder):
             self.assertIn(says, done.stderr)
             self.assertIn("hint:", done.stderr)
             self.assertFalse(os.path.exists(self.path("p.csv")))
-        for more, code, says in ((("--path", self.path("p.txt")), 2, ".csv"), ((), 2, "--path"),
-                                 (("--path", self.path("p.csv"), "--json", "-"), 2, "--out"),
-                                 (("--path", self.path("p.csv"), "--spin"), 2, "--out")):
+        for more, code, says in ((("--path-out", self.path("p.txt")), 2, ".csv"), ((), 2, "--path-out"),
+                                 (("--path-out", self.path("p.csv"), "--json", "-"), 2, "--out"),
+                                 (("--path-out", self.path("p.csv"), "--spin"), 2, "--out")):
             done = swirl("track", moving, *more)
             self.assertEqual(done.returncode, code)
             self.assertIn(says, done.stderr)
         self.record(moving)
-        done = swirl("track", moving, "--path", self.path("path.csv"))
+        done = swirl("track", moving, "--path-out", self.path("path.csv"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("--overwrite", done.stderr)
 

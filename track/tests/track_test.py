@@ -230,18 +230,18 @@ class TrackTest(InFolder):
 
     def test_each_fault_of_a_camera_changes_the_images_and_not_the_ground_truth(self):
         def made(*more):
-            video = self.video("--frames", 3, "--overwrite", *more)
+            video = self.video("--max-frames", 3, "--overwrite", *more)
             with open(video, "rb") as images, open(video[:-4] + ".truth.csv", "rb") as truth:
                 return images.read(), truth.read()
         images, truth = made()
         self.assertEqual(made(), (images, truth))
-        for option in (("--rolling-shutter", 0.5), ("--interlaced",), ("--auto-exposure", 0.3), ("--hands", 0.02),
+        for option in (("--rolling-shutter", 0.5), ("--interlaced",), ("--auto-exposure", 0.3), ("--hand-time", 0.02),
                        ("--floor-pattern", 40), ("--disc-variation", 0.2), ("--transparency", 0.5), ("--flat",)):
             with self.subTest(option):
                 changed = made(*option)
                 self.assertEqual(changed[1], truth)
                 self.assertNotEqual(changed[0], images)
-        for option, value in (("--rolling-shutter", 2), ("--transparency", -0.1), ("--hands", 100)):
+        for option, value in (("--rolling-shutter", 2), ("--transparency", -0.1), ("--hand-time", 100)):
             done = swirl("synthetic-video", option, value, "--out", self.path("wrong.mp4"))
             self.assertEqual(done.returncode, 2)
             self.assertIn(option, done.stderr)
@@ -412,7 +412,7 @@ class TrackTest(InFolder):
         # program uses the rim.
         for discs in (4, 8, 12, 16, 24, 36):
             video = self.video(of=["--discs", discs, "--width", 400, "--height", 400, "--scale", 15,
-                                   "--frames-per-period", 60, "--quality", 18, "--from", 25], length=2,
+                                   "--frames-per-period", 60, "--quality", 18, "--start", 25], length=2,
                                name=f"of{discs}.mp4")
             tracks, _ = self.track(video, name=f"of{discs}.csv")
             result = Comparison(video, tracks)
@@ -473,7 +473,7 @@ class TrackTest(InFolder):
         self.assertTrue(tables[0] == tables[1])
 
     def test_unusable_videos_are_rejected_with_the_cause(self):
-        still = self.video("--still", name="still.mp4", length=0.5)
+        still = self.video("--camera-on-container", name="still.mp4", length=0.5)
         out = self.path("tracks.csv")
         self.assert_rejected(1, "stands still", call=swirl("track", still, "--out", out))
         empty = self.path("empty.mp4")
@@ -668,7 +668,7 @@ def print_spins(folder):
     print("|---|---|---|---|---|---|---|---|---|---|")
     video, tracks = os.path.join(folder, "video.mp4"), os.path.join(folder, "tracks.csv")
     for noise, quality in ((0, 0), (2, 0), (4, 0), (8, 0), (2, 10), (2, 18), (2, 26)):
-        for call in (["synthetic-video", "--discs", 36, "--frames-per-period", 64, "--frames", 80,
+        for call in (["synthetic-video", "--discs", 36, "--frames-per-period", 64, "--max-frames", 80,
                       "--noise", noise, "--quality", quality, "--out", video, "--overwrite"],
                      ["track", video, "--spin", "--out", tracks, "--overwrite"]):
             done = swirl(*call, "--quiet", timeout=1200)

@@ -180,14 +180,15 @@ bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims,
             settings.first_frame + static_cast<std::int64_t>(found.longest_begin);
         throw Failure(fmt::format(
             "the container moves unevenly: {}; times and Ω would be off by up to {:.1f} %\n"
-            "hint: swirl track --accept {} corrects the times and leaves duplicates out; --from {} "
+            "hint: swirl track --correct-frames {} corrects the times and leaves duplicates out; "
+            "--from {} "
             "--to {} tracks the longest part without any; record with a constant frame rate",
             what, 100.0 * share, accept, begin,
             begin + static_cast<std::int64_t>(found.longest) - 1));
     }
     tracked.warnings.push_back(
         fmt::format("the container moves unevenly: {}; times and Ω are off by up to {:.2f} %; "
-                    "swirl track --accept {} corrects that",
+                    "swirl track --correct-frames {} corrects that",
                     what, 100.0 * share, accept));
     return false;
 }

@@ -25,7 +25,7 @@ export interface SearchResult {
 }
 
 /** The rate that controls the search. */
-export const controlling: Rate = "by_time";
+export const controlling: Rate = "mean_by_time";
 
 export async function searchCrossing(settings: SearchSettings, tools: SearchTools,
                                      progress: (runs: number) => void = () => {}): Promise<SearchResult> {

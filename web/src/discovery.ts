@@ -172,7 +172,7 @@ export class Discovery {
             const all = {...given, discs: String(discs)};
             const runs = await this.runs.replicates(all, periods, isFirst ? undefined : isWanted);
             if (!runs) return !isWanted();
-            const {mean, error} = estimates(runs).by_time;
+            const {mean, error} = estimates(runs).mean_by_time;
             if (mean === null || error === null || !(error > 0)) return false;
             this.keep(setting, discs, {mean, error, periods});
             return true;
@@ -194,10 +194,10 @@ export class Discovery {
     private async evaluate(setting: string): Promise<void> {
         const points = this.settings.get(setting);
         if (!points || points.size < 2) return;
-        const {by_time} = await this.runs.crossings([...points].map(
+        const {mean_by_time} = await this.runs.crossings([...points].map(
             ([discs, {mean, error, periods}]) => ({discs, periods, rotation: perRate(() => ({mean, error}))})));
         if (this.present?.setting !== setting) return;
-        this.found = by_time;
+        this.found = mean_by_time;
         this.draw();
     }
 

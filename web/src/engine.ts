@@ -33,7 +33,7 @@ export interface Estimate {
 }
 
 /** The rotation rates: the mean over the discs and the rigid-body rate, by time and by event. */
-export const rates = ["by_time", "by_event", "rigid_by_time", "rigid_by_event"] as const;
+export const rates = ["mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event"] as const;
 export type Rate = typeof rates[number];
 
 export function perRate<T>(of: (rate: Rate) => T): Record<Rate, T> {

@@ -37,7 +37,7 @@ export const minPeriods = 50;
 
 /** ϖ/Ω of a run that is still growing, by time. Periods at the beginning that fill no quarter count for the mean only. */
 export function liveEstimate(rotation: Rotation): MeanWithError {
-    const {blocks, warmup_blocks: early, periods_per_block: [, periods], by_time: {mean}} = rotation;
+    const {blocks, warmup_blocks: early, periods_per_block: [, periods], mean_by_time: {mean}} = rotation;
     const late = blocks.slice(early).filter((each) => each !== null);
     if (mean === null || late.length * periods < minPeriods || late.length < quarters) return {mean, error: null};
     const size = Math.floor(late.length / quarters), begin = late.length - quarters * size;

@@ -144,7 +144,7 @@ export class Lesson {
         const runs = this.runs;
         if (kind === "direction") {
             const replicates = await runs.replicates(this.host.withSeed(given), runPeriods);
-            const {mean = null, error = null} = replicates ? estimates(replicates).by_time : {};
+            const {mean = null, error = null} = replicates ? estimates(replicates).mean_by_time : {};
             const answer = directionOf(mean ?? 0, error ?? 1);
             return {answer, text: fill(texts.lesson.rotation, {rotation: withError(mean, error, texts.notYet), direction: texts.lesson.directions[answer]!})};
         }

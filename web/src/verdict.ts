@@ -25,7 +25,7 @@ export function findingOf(rotation: Rotation | undefined, turns: number, periods
         isFirm: mean !== null && error !== null && Math.abs(mean) > intervalOf(error)});
     if (rotation) {
         const {mean, error} = liveEstimate(rotation);
-        if (mean !== null && rotation.by_time.blocks > 0) return of(mean, error);
+        if (mean !== null && rotation.mean_by_time.blocks > 0) return of(mean, error);
         // In the warm-up the later half of the periods is closer to the steady state.
         const early = rotation.blocks.filter((each) => each !== null);
         const late = early.slice(Math.floor(early.length / 2));
@@ -160,7 +160,7 @@ export class Verdict {
             [texts.periods, signed(time / lab.value("period"), 1), texts.periodsHelp, "period-count"],
         ];
         if (lab.isByHand) pairs.splice(0, 1), pairs.splice(1, 1); // no period, so no averages
-        const warmup = averages && averages.by_time.blocks === 0 && !lab.isByHand ? fill(texts.warmup, {periods: averages.warmup}) : "";
+        const warmup = averages && averages.mean_by_time.blocks === 0 && !lab.isByHand ? fill(texts.warmup, {periods: averages.warmup}) : "";
         byId("numbers").replaceChildren(
             element("dl", {id: "estimates"}, ...pairs.map(([name, value, title, id]) => element("div", {title},
                 element("dt", {textContent: name}), element("dd", {id, textContent: value})))),

@@ -37,9 +37,9 @@ try {
         let ofPoints = 0, ofRuns = 0, halves = 0;
         for (let point = 0; point < points; ++point) {
             const runs = Array.from({length: seedsPerPoint}, (_, k) => run(discs, 1 + seedsPerPoint * point + k));
-            const {by_time} = estimates(runs.map(([rotation]) => ({discs, periods, rotation})));
-            ofPoints += holds(by_time);
-            halves += 1.96 * by_time.error / points;
+            const {mean_by_time} = estimates(runs.map(([rotation]) => ({discs, periods, rotation})));
+            ofPoints += holds(mean_by_time);
+            halves += 1.96 * mean_by_time.error / points;
             ofRuns += holds(liveEstimate(runs[0][1]));
         }
         console.log(`N = ${discs}: the points contain the true value in ${(100 * ofPoints / points).toFixed(1)} %, half width ` +

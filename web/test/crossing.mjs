@@ -34,7 +34,7 @@ try {
         crossings: async (all) => perRate((rate) => new Engine(module).crossing(all.map(({discs, periods, rotation}) =>
             [discs, rotation[rate].mean, rotation[rate].error, periods, rotation[rate].effective_samples ?? 0]))),
     });
-    const {verdict, discs, error, lower, upper} = crossings.by_time;
+    const {verdict, discs, error, lower, upper} = crossings.mean_by_time;
     console.log(`${verdict}: N_c = ${discs?.toFixed(2)} ± ${error?.toFixed(2)} (95 %: ${lower?.toFixed(1)} to ${upper?.toFixed(1)})`);
     console.log(`${runs} runs, ${(events / 1e6).toFixed(1)} million events, ` +
                 `${((process.cpuUsage().user - begun) / 1e6).toFixed(2)} s on one core, ${onTwoCores.toFixed(2)} s on two`);

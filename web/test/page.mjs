@@ -1,5 +1,5 @@
 // Tests the page in a real browser: node page.mjs FILE.html CHROMIUM HASH IMAGE.svg FOLDER [--all]. IMAGE is
-// from `swirl image --bare` of the state with this HASH; downloads are stored in FOLDER. Without --all it omits
+// from `swirl image --no-annotations` of the state with this HASH; downloads are stored in FOLDER. Without --all it omits
 // what takes long (`all` below). Exits with 1 and a message if a test fails.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";

@@ -179,7 +179,7 @@ try {
         assert.ok(!isLimited || values.every((each) => each >= row.lowest && each <= row.highest), row.name);
     }
     assert.equal(densestSearch({container_radius: "8.6", radius: "1"}), 48);
-    const estimates = (mean) => Object.fromEntries(["by_time", "by_event", "rigid_by_time", "rigid_by_event"]
+    const estimates = (mean) => Object.fromEntries(["mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event"]
         .map((rate, k) => [rate, {mean: mean + k, error: 0.5, effective_samples: 10, blocks: 10}]));
     const [curve] = parseCurves("mu", "0.5");
     assert.equal(tableOf([{curve, x: 5, given: {}, done: true, rotation: estimates(1), command: "./swirl run --discs 5"},
@@ -210,11 +210,11 @@ try {
     assert.deepEqual([seedsFrom(), seedsFrom("7"), seedsFrom("18446744073709551615")[1], seedsFrom("x")[3]],
                      [["1", "2", "3", "4"], ["7", "8", "9", "10"], "0", "x"]);
     const ofSeeds = (...means) => estimatesOf(means.map((mean) => ({discs: 5, periods: 50, rotation:
-        Object.fromEntries(["by_time", "by_event", "rigid_by_time", "rigid_by_event"].map((rate) => [rate, {mean, error: 9}]))})));
+        Object.fromEntries(["mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event"].map((rate) => [rate, {mean, error: 9}]))})));
     // The error is that between the seeds, with Student's t; the runs' own errors do not count.
-    const {mean: between, error: spread} = ofSeeds(1, 2, 3, 4).by_event;
+    const {mean: between, error: spread} = ofSeeds(1, 2, 3, 4).mean_by_event;
     assert.ok(between === 2.5 && Math.abs(1.96 * spread / (3.182 * Math.sqrt(5 / 12)) - 1) < 0.01, `${spread}`);
-    assert.deepEqual(ofSeeds(1, 2, 3, null).by_time, {mean: null, error: null});
+    assert.deepEqual(ofSeeds(1, 2, 3, null).mean_by_time, {mean: null, error: null});
     assert.equal(pointsTable(new Map([["mu=0.5", points]])),
                  "discs,varpi,varpi_error,runs,periods,other_parameters\n8,0.25,0.03,4,50,\"mu=0.5\"\n48,-0.0372,0.0013,4,200,\"mu=0.5\"\n");
 
@@ -246,13 +246,13 @@ try {
             },
             search: async (rules, made) => new Engine(module).search(rules, searchedNumbers(made)),
             crossings: async (runs) => perRate(() => new Engine(module).crossing(
-                runs.map(({discs, periods, rotation: {by_time: {mean, error}}}) => [discs, mean, error, periods, periods]))),
+                runs.map(({discs, periods, rotation: {mean_by_time: {mean, error}}}) => [discs, mean, error, periods, periods]))),
         });
         return {found, calls};
     };
     const {found, calls} = await searched(line);
-    assert.ok(Math.abs(found.crossings.by_time.discs - 38.4) < 1e-9); // rounding
-    assert.ok(found.withinTolerance && found.crossings.by_time.error <= usualSearch.tolerance);
+    assert.ok(Math.abs(found.crossings.mean_by_time.discs - 38.4) < 1e-9); // rounding
+    assert.ok(found.withinTolerance && found.crossings.mean_by_time.error <= usualSearch.tolerance);
     assert.equal(found.runs, calls.length);
     // A number gets each seed once, and a repeated run is twice as long as the one before.
     assert.equal(new Set(calls.map(String)).size, calls.length);
@@ -264,7 +264,7 @@ try {
     assert.deepEqual((await searched(line)).calls, calls); // reproducible
     // One sign only: the coarse scan is enough.
     const positive = await searched(() => 0.5);
-    assert.deepEqual([positive.found.crossings.by_time.verdict, positive.calls.length, positive.found.withinTolerance],
+    assert.deepEqual([positive.found.crossings.mean_by_time.verdict, positive.calls.length, positive.found.withinTolerance],
                      ["always_rotates", 8, true]);
     // A tolerance that cannot be reached ends after the rounds.
     const strict = await searched(line, {tolerance: 1e-9, rounds: 2});
@@ -286,8 +286,8 @@ try {
                                  ['"events": {"total": -1}', "events.total = -1"], ['"events": {"total": 1e300}', "events.total = 1e+300"],
                                  ['"events": {"total": 1}, "warmup": {"periods": "x"}', 'warmup.periods = "x"'],
                                  ['"events": {"total": 1}, "state_hash": 7', "state_hash = 7"],
-                                 ['"events": {"total": 1}, "rotation": {"by_event": {"mean": "0.1"}}', 'rotation.by_event.mean = "0.1"'],
-                                 ['"events": {"total": 1}, "rotation": {"by_time": {"error": 1e999}}', "rotation.by_time.error = null"]])
+                                 ['"events": {"total": 1}, "rotation": {"mean_by_event": {"mean": "0.1"}}', 'rotation.mean_by_event.mean = "0.1"'],
+                                 ['"events": {"total": 1}, "rotation": {"mean_by_time": {"error": 1e999}}', "rotation.mean_by_time.error = null"]])
         assert.throws(() => readFile(bytes(`{"config": {}, ${wrong}}`), parameters), {problem: "wrongValue", what}, wrong);
     assert.equal(readFile(bytes('{"config": {"discs": [1, {}]}, "events": {"total": 1}, "rotation": 3}'), parameters).given.discs,
                  "1,[object Object]"); // the engine rejects it

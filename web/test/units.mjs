@@ -125,7 +125,7 @@ try {
     assert.equal(four.mean, 2.5);
     assert.ok(Math.abs(1.96 * four.error / (3.182 * Math.sqrt(5 / 12)) - 1) < 0.01, `${four.error}`);
     const rotation = (blocks, {early = 0, periods = 1, mean = 0.1} = {}) => ({
-        by_time: {mean, blocks: blocks.length - early}, blocks, warmup_blocks: early, periods_per_block: [1, periods]});
+        mean_by_time: {mean, blocks: blocks.length - early}, blocks, warmup_blocks: early, periods_per_block: [1, periods]});
     const wave = (length, slow = 1) => Array.from({length}, (_, k) => 0.1 + 0.01 * (Math.floor(k / slow) % 2 ? 1 : -1));
     assert.deepEqual(liveEstimate(rotation(wave(49))), {mean: 0.1, error: null});
     assert.ok(liveEstimate(rotation(wave(50))).error < 1e-3);

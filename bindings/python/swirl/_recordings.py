@@ -97,7 +97,7 @@ class Tracks(Recording):
     radians per unit of time. container_radius, amplitude: in disc radii. scale: pixels per disc radius.
     camera_fps: frames per unit of time. centre: the swirl centre in pixels. phase: of the container at
     frame 0, in degrees counter-clockwise from the right in the image. clockwise: the swirl ran clockwise
-    in the image. misfit: the largest share of frames with discs outside the container or overlapping.
+    in the image. max_invalid: the largest share of frames with discs outside the container or overlapping.
 
     Short gaps are filled. Positions are smoothed according to their noise, and velocities are
     derivatives of the smoothed positions (track/tables/track_smoothing.hpp). With fewer than a hundred
@@ -105,17 +105,17 @@ class Tracks(Recording):
     (track/tables/tracks.hpp).
 
     Raises ValueError or TypeError for wrong arguments, and swirl.Failure with the likely cause if more
-    frames misfit.
+    frames contradict these arguments.
     """
 
     def __init__(self, table: Any, *, omega: float, container_radius: float, amplitude: float = 0.0,
                  camera_fps: float = 1.0, scale: float = 1.0,
                  centre: tuple[float, float] = (0.0, 0.0), phase: float = 0.0,
-                 clockwise: bool = False, misfit: float = 0.05) -> None:
+                 clockwise: bool = False, max_invalid: float = 0.05) -> None:
         for name, value, minimum in (("omega", omega, 1e-12), ("container_radius", container_radius, 1e-12),
                                    ("amplitude", amplitude, 0.0), ("camera_fps", camera_fps, 1e-12),
                                    ("scale", scale, 1e-12), ("phase", phase, -1e9),
-                                   ("misfit", misfit, 0.0)):
+                                   ("max_invalid", max_invalid, 0.0)):
             if isinstance(value, bool) or not hasattr(value, "__float__"):
                 raise TypeError(f"{name} is {value!r}, but it must be a number.")
             if not minimum <= float(value) < math.inf:
@@ -141,7 +141,7 @@ class Tracks(Recording):
             {"omega": float(omega), "container_radius": float(container_radius),
              "amplitude": float(amplitude), "camera_fps": float(camera_fps), "scale": float(scale),
              "phase": float(phase), "centre_x": x0, "centre_y": y0, "clockwise": bool(clockwise)},
-            float(misfit))
+            float(max_invalid))
 
     @classmethod
     def read(cls, file: PathName, **scale: Any) -> "Tracks":
@@ -205,7 +205,7 @@ def _camera(file: pathlib.Path) -> dict[str, Any]:
 class Analysis:
     """Rotation and measurements of a recording, with the names of Result.
 
-    `rotation.by_time` and `rotation.rigid_by_time` are averages over `frames` frames. A recording has
+    `rotation.mean_by_time` and `rotation.rigid_by_time` are averages over `frames` frames. A recording has
     no events, so the averages by event are NaN. `warnings` names values that are NaN because there are
     too few frames per period.
     """
@@ -224,11 +224,11 @@ class _Sampled(Recording):
 
 
 def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measure] = None, *,
-            skip: float = 0.0) -> Analysis:
+            warmup: float = 0.0) -> Analysis:
     """Measures a recording, like `swirl measure`.
 
     recording: a Trajectory, Tracks, or Frames from Simulation.sample(), also with custom discs or a
-    custom path. measure: as for swirl.run(); "all" selects every measurement that frames allow. skip:
+    custom path. measure: as for swirl.run(); "all" selects every measurement that frames allow. warmup:
     periods at the start that are ignored. Each period is one block of the error estimate.
 
     Raises ValueError for a measurement that the recording does not allow, and TypeError if `recording`
@@ -239,28 +239,28 @@ def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measu
     if not isinstance(recording, Recording):
         raise TypeError(f"recording is {recording!r}, but it must be a swirl.Trajectory, "
                         "swirl.Tracks or swirl.Frames.")
-    if isinstance(skip, (bool, str)) or not hasattr(skip, "__float__"):
-        raise TypeError(f"skip is {skip!r}, but it must be a number of periods.")
+    if isinstance(warmup, (bool, str)) or not hasattr(warmup, "__float__"):
+        raise TypeError(f"warmup is {warmup!r}, but it must be a number of periods.")
     names, custom = split_measure(measure)
     is_all = measure == "all"
-    reports, by_time, rigid, used, remark = recording._frames.analyse(names, is_all, float(skip))
+    reports, mean_by_time, rigid, used, remark = recording._frames.analyse(names, is_all, float(warmup))
     found = measured_of(reports)
     if custom:
         blocks = CustomBlocks(custom)
-        for begin, end in _periods(recording, skip):
+        for begin, end in _periods(recording, warmup):
             blocks.period_ended(recording[begin:end])
         found.update(blocks.results())
     no_events = Estimate(math.nan, unit="Ω")
-    rotation = Rotation(no_events, Estimate(*by_time, unit="Ω"), no_events,
+    rotation = Rotation(no_events, Estimate(*mean_by_time, unit="Ω"), no_events,
                         Estimate(*rigid, unit="Ω"))
     return Analysis(rotation, used, found, (remark,) if remark else ())
 
 
-def _periods(recording: Recording, skip: float) -> Iterator[tuple[int, int]]:
+def _periods(recording: Recording, warmup: float) -> Iterator[tuple[int, int]]:
     """First frame of each period, and the first frame after it."""
     begin, period = None, 0
     for k, snapshot in enumerate(recording):
-        if snapshot.time < skip * snapshot.period:
+        if snapshot.time < warmup * snapshot.period:
             continue
         if begin is None:
             begin, period = k, snapshot.whole_periods

@@ -66,7 +66,7 @@ class ArrayEstimate:
 class Table:
     """The table of a measurement.
 
-    `table["by_time"]` is a column as a read-only numpy array. If the rows are the cells of a map
+    `table["x"]` is a column as a read-only numpy array. If the rows are the cells of a map
     (columns x and y), it has two dimensions, [y, x], as for matplotlib's `pcolormesh(x, y, …)`.
     Otherwise it has one value per row. `axes` holds the coordinates along the axes, in their order.
     `units` maps columns to units of docs/explanation/physics.md.
@@ -206,9 +206,9 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
 
 
 class Series(Mapping[str, FloatArray]):
-    """The averages of every period of a run: `series["by_time"]` is a column, with one value per period.
+    """The averages of every period of a run: `series["mean_by_time"]` is a column, with one value per period.
 
-    Columns: period, counted (1 after the warm-up), the rotation rates by_event, by_time,
+    Columns: period, counted (1 after the warm-up), the rotation rates mean_by_event, mean_by_time,
     rigid_by_event and rigid_by_time, spin, energy, centre_x, centre_y, events; "ramp.mu" and so on for
     ramps; "slip.cluster" and so on for the rows of `measure`. A missing value is NaN. It is a mapping
     of arrays, so `pandas.DataFrame(dict(series))` is a table of it.
@@ -268,12 +268,12 @@ def measured_of(reports: list[Report]) -> dict[str, Measured]:
 class Rotation:
     """The cluster's rotation rate ϖ in units of Ω in the lab frame, over whole periods after the warm-up.
 
-    `by_event` is the paper's average over events. `rigid_…` are rates of the best-fitting rigid body
+    `mean_by_event` is the paper's average over events. `rigid_…` are rates of the best-fitting rigid body
     (src/swirl/measure/cluster_rotation.hpp). Negative values mean counterrotation.
     """
 
-    by_event: Estimate
-    by_time: Estimate
+    mean_by_event: Estimate
+    mean_by_time: Estimate
     rigid_by_event: Estimate
     rigid_by_time: Estimate
 
@@ -305,18 +305,18 @@ class Result:
 
     config                  all resolved parameters
     complete                False if it was stopped before its end
-    rotation                Rotation: .by_time.mean, .by_time.error, .by_event, …
+    rotation                Rotation: .mean_by_time.mean, .mean_by_time.error, .mean_by_event, …
     measured                {"density": …}: results of the argument `measure`
     events, periods         EventCounts and simulated periods, warm-up included
     warmup                  whole periods omitted from the averages
     series                  Series with the argument `series`, otherwise None
-    autocorrelation_times   of its columns, in periods: {"by_time": …}; empty without a series
-    fluctuations            of its columns, without a ramp: r.fluctuations["by_time"]["binder"].mean, and
+    autocorrelation_times   of its columns, in periods: {"mean_by_time": …}; empty without a series
+    fluctuations            of its columns, without a ramp: r.fluctuations["mean_by_time"]["binder"].mean, and
                             "n_variance", "skewness", "excess_kurtosis", "correlation_time", "low",
                             "high", "low_lifetime", "high_lifetime"
     steady_state            "steady", "drifting", "jumping", "switching" or "too short to tell"
     steady_state_found      findings of the steady-state tests; "" if there are none
-    change, change_of_the_spin
+    change, spin_change
                             most likely change of the rotation and of the spins, in standard errors
     state_hash              64-bit hash of the final state, 16 hexadecimal digits: equal runs have
                             equal hashes on every machine
@@ -352,7 +352,7 @@ class Result:
         self.steady_state: str = found["steady_state"]["verdict"]
         self.steady_state_found: str = found["steady_state"]["found"]
         self.change = _number(found["steady_state"]["change"])
-        self.change_of_the_spin = _number(found["steady_state"]["change_of_the_spin"])
+        self.spin_change = _number(found["steady_state"]["spin_change"])
         self.max_overlap = _number(found["max_overlap"])
         self.energy = _number(found["energy"])
         self.energy_at_start = _number(found["energy_at_start"])

@@ -289,7 +289,7 @@ def with_parameters(function: Callable[..., Any], text: str) -> None:
 with_parameters(run, """One simulation, from its seed to its averages, like `swirl run`.
 
     r = swirl.run(discs=48, mu=1, events=1e6, measure=["density", "pinned"])
-    r.rotation.by_time.mean, r.rotation.by_time.error
+    r.rotation.mean_by_time.mean, r.rotation.mean_by_time.error
     r.measured["density"]["by_time"]            # numpy, [y, x]
     r.state_hash
 

@@ -147,7 +147,7 @@ class Crossing:
 
 
 def crossing(out: Optional[PathName] = None, *, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.3,
-             rate: str = "by_time", threads: int = 0,
+             rate: str = "mean_by_time", threads: int = 0,
              progress: Union[bool, Callable[[str, float], object], None] = None,
              **parameters: Any) -> Crossing:
     for name in ("discs", "periods"):
@@ -157,7 +157,7 @@ def crossing(out: Optional[PathName] = None, *, min_discs: int = 5, max_discs: i
     callback = progress if callable(progress) else (lambda stage, rate: print(stage)) if progress else None
     given: dict[str, Any] = {"min_discs": min_discs, "max_discs": max_discs, "tolerance": tolerance,
                              **parameters}
-    if rate != "by_time":
+    if rate != "mean_by_time":
         given["rate"] = rate
     if out is not None:
         given["out"] = os.fspath(out)
@@ -192,9 +192,9 @@ def _axis(name: str, axis: Optional[Axis]) -> dict[str, Values]:
 
 
 def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y: Optional[Axis] = None,
-                  of: str = "by_time", steps: int = 16, level: float = 0.0,
+                  quantity: str = "mean_by_time", steps: int = 16, level: float = 0.0,
                   change: Optional[float] = None, seeds: Optional[int] = None, grow: bool = False,
-                  tolerance: float = 0.5, rate: str = "by_time", min_discs: Optional[int] = None,
+                  tolerance: float = 0.5, rate: str = "mean_by_time", min_discs: Optional[int] = None,
                   max_discs: Optional[int] = None, threads: int = 0,
                   progress: Optional[Callable[[int, int, int], object]] = None,
                   **parameters: Any) -> Any:
@@ -203,7 +203,7 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
         if grow:
             raise ValueError("grow is given, but out, the folder of the map, is not.")
         with tempfile.TemporaryDirectory(prefix="swirl-map-") as folder:
-            return parameter_map(folder, x=x, y=y, of=of, steps=steps, level=level, change=change,
+            return parameter_map(folder, x=x, y=y, quantity=quantity, steps=steps, level=level, change=change,
                                  seeds=seeds, tolerance=tolerance, rate=rate, min_discs=min_discs,
                                  max_discs=max_discs, threads=threads, progress=progress, **parameters)
 
@@ -214,17 +214,17 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
     _count("threads", threads, 0)
     given = {name: value for name, value in parameters.items() if value is not None}
     if grow:
-        if given or (of, level, change, tolerance, rate) != ("by_time", 0.0, None, 0.5, "by_time"):
+        if given or (quantity, level, change, tolerance, rate) != ("mean_by_time", 0.0, None, 0.5, "mean_by_time"):
             raise ValueError("grow adds values of x and y, seeds and numbers of discs; all else stays as it is.\n"
                              "hint: use another folder for another map.")
         _engine.grow_map(folder, _axis("x", x), _axis("y", y), _count("steps", steps, 2),
                          counted("seeds", seeds), counted("min_discs", min_discs), counted("max_discs", max_discs))
     elif x is not None or y is not None or given:
-        _engine.write_map_plan(folder, _axis("x", x), _axis("y", y), of, rate, float(level), change,
+        _engine.write_map_plan(folder, _axis("x", x), _axis("y", y), quantity, rate, float(level), change,
                                float(tolerance), _count("steps", steps, 2), counted("seeds", seeds) or 16,
                                counted("min_discs", min_discs) or 5, counted("max_discs", max_discs) or 48, given)
-    elif (of, steps, level, change, seeds, tolerance, rate, min_discs, max_discs) != (
-            "by_time", 16, 0.0, None, None, 0.5, "by_time", None, None):
+    elif (quantity, steps, level, change, seeds, tolerance, rate, min_discs, max_discs) != (
+            "mean_by_time", 16, 0.0, None, None, 0.5, "mean_by_time", None, None):
         raise ValueError("options of the map are given, but x is not.\nhint: give all options of the map, "
                          "or only out to continue it.")
     elif not os.path.exists(os.path.join(folder, "plan.json")):
@@ -305,20 +305,20 @@ with_parameters(crossing, """Searches the number of discs at which rotation chan
 
 out: folder for the runs, in the format of the command line; a repeated call continues.
 min_discs, max_discs: range of the search. tolerance: target standard error of N_c. rate: the rotation
-    rate that decides: by_event, by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
+    rate that decides: mean_by_event, mean_by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
     [one per core]. progress: True to print, or a function of (current stage, events per second).
     events [2e4]: length of the first runs.
 """)
 with_parameters(parameter_map, """Maps a quantity over one or two parameters, with runs where it changes its sign: `swirl map`.
 
     table = swirl.parameter_map("map", x="mu=0:1", y=("amplitude", "0.5:4"))
-    curve = swirl.parameter_map(x=("mu", [0.2, 0.5, 1]), of="N_c")
+    curve = swirl.parameter_map(x=("mu", [0.2, 0.5, 1]), quantity="N_c")
 
 Returns a pandas DataFrame with a row for each computed point: the axes, the quantity and its standard error,
 the verdict, the periods and the numbers of runs. `table.attrs["summary"]` is the report.
 
 out: folder of the map, in the format of the command line. A repeated call completes it, and without
-    further arguments continues it. x, y: axes; a range "0:1" has `steps` values. of: N_c, a rotation rate,
+    further arguments continues it. x, y: axes; a range "0:1" has `steps` values. quantity: N_c, a rotation rate,
     or a number of a measurement, such as "slip.cluster". level: the map is fine where the quantity crosses
     it. change: and where neighbours differ by more [never; N_c 2]. seeds: maximum number of runs at a point [16].
 grow: add the values of x and y to an existing map, raise the maximum of runs to seeds, and enlarge the range

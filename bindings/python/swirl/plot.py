@@ -151,10 +151,10 @@ def rotation(runs: Any, *, against: str = "discs", by: Optional[str] = None,
         groups = [(None, runs)] if by is None else list(runs.groupby(by))
         for value, rows in groups:
             rows = rows.sort_values(against)
-            axes.errorbar(rows[against], rows["by_time"], rows["by_time_error"], marker="o", ms=3,
+            axes.errorbar(rows[against], rows["mean_by_time"], rows["mean_by_time_error"], marker="o", ms=3,
                           lw=1, capsize=2, label=label if value is None else f"{by} = {value}")
     else:
-        points = sorted((_parameter(r, against), r.rotation.by_time) for r in _results(runs))
+        points = sorted((_parameter(r, against), r.rotation.mean_by_time) for r in _results(runs))
         at = [point[0] for point in points]
         found: list[Estimate] = [point[1] for point in points]
         axes.errorbar(at, [e.mean for e in found], [e.error for e in found], marker="o", ms=3, lw=1,

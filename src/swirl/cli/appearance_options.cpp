@@ -51,12 +51,12 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
     flag("--trails", texts->trails, "Draw the recent path of each disc");
     add("--trail-length", texts->trail_length, "PERIODS", "Draw trails of this length [0.3]");
     flag("--forces", texts->forces, "Centrifugal and Coriolis force on each disc (M-frame)");
-    flag("--turned", texts->turned, "Arc for the angle that the cluster has turned (lab)");
+    flag("--turned-angle", texts->turned, "Arc for the angle that the cluster has turned (lab)");
     flag("--angles", texts->angles, "Scale of the angle θ along the wall (M-frame)");
     flag("--plot", texts->plot, "Plot of the cluster's rotation against time");
     add("--theme", texts->theme, "NAME", "Colour theme: dark or light [dark]");
     add("--title", texts->title, "TEXT", "Title above the image");
-    flag("--bare", texts->bare, "Container and discs only, no text or markers");
+    flag("--no-annotations", texts->bare, "Container and discs only, no text or markers");
     add("--size", texts->size, "WxH", "Image size in pixels [1920x1080]");
     return texts;
 }
@@ -95,7 +95,7 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     result.path = !texts.bare;
     if (result.turned && texts.frame == "m")
         throw UsageError(
-            "--turned shows the rotation in the lab frame.\nhint: use --frame lab or --frame "
+            "--turned-angle shows the rotation in the lab frame.\nhint: use --frame lab or --frame "
             "both.");
     if (result.angles && texts.frame == "lab")
         throw UsageError("--angles shows θ in the M-frame.\nhint: use --frame m or --frame both.");

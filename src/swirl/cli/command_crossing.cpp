@@ -237,8 +237,8 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.add_option("--to", call->settings.to, "Largest number of discs [48]", "N", search);
     subcommand.add_option("--step", call->settings.step,
                           "Step of the coarse scan in discs [about eight numbers]", "N", search);
-    subcommand.add_option("--rate", call->rate, "Rotation rate that controls the search [by_time]",
-                          "NAME", search);
+    subcommand.add_option("--rate", call->rate,
+                          "Rotation rate that controls the search [mean_by_time]", "NAME", search);
     subcommand.add_option("--out", call->out, "Folder for the runs; a repeated call continues",
                           "DIR", search);
     subcommand.add_option("--threads", call->threads, "Number of simultaneous runs [one per core]",
@@ -256,7 +256,7 @@ void add_crossing_command(Subcommand& subcommand) {
         "--tolerance is reached, at most ten times; if seeds differ by more than their errors, "
         "there are twice as many runs instead. Rates count in the direction of the swirl. "
         "A search that was stopped prints its points, and continues with --out DIR, the folder of "
-        "a sweep. Rotation rates (--rate): by_event, by_time, "
+        "a sweep. Rotation rates (--rate): mean_by_event, mean_by_time, "
         "rigid_by_event and rigid_by_time; the report gives N_c for all four. Use a small --step "
         "if the direction of rotation may change several times.\n");
     subcommand.set_main_options({"--mu", "--events", "--seed", "--tolerance", "--from", "--to",

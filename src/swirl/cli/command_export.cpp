@@ -71,7 +71,7 @@ ExportOptions options_of(const ExportCall& call) {
     options.container = call.container;
     if (call.container && call.format != "lammps" && call.format != "xyz")
         throw UsageError(fmt::format(
-            "--container adds a particle to lammps and xyz, but --to is '{}'.\nhint: omit it.",
+            "--container adds a particle to lammps and xyz, but --format is '{}'.\nhint: omit it.",
             call.format));
     return options;
 }
@@ -95,7 +95,7 @@ void export_file(const ExportCall& call) {
     if (!format) {
         std::vector<std::string> names;
         for (const ExportFormat& known : export_formats()) names.emplace_back(known.name);
-        throw UsageError(fmt::format("--to is '{}', but it must be one of {}.{}", call.format,
+        throw UsageError(fmt::format("--format is '{}', but it must be one of {}.{}", call.format,
                                      formats_text(), nearest_value_hint(call.format, names)));
     }
     ExportOptions options = options_of(call);
@@ -134,7 +134,7 @@ void add_export_command(Subcommand& subcommand) {
     subcommand.add_option("file", call->file, "Trajectory to convert")
         ->type_name("FILE.h5")
         ->required();
-    subcommand.add_option("--to", call->format, "Output format, see below")
+    subcommand.add_option("--format", call->format, "Output format, see below")
         ->type_name("FORMAT")
         ->required();
     subcommand.add_option("--out", call->out, "Output file [FILE with the ending of the format]")
@@ -150,9 +150,10 @@ void add_export_command(Subcommand& subcommand) {
     subcommand.add_flag("--container", call->container,
                         "Add the container as a particle, lammps and xyz");
     subcommand.add_flag("--quiet", call->quiet, "Print neither progress nor report");
-    subcommand.set_examples({"swirl export frames.h5 --to vtp",
-                             "swirl export frames.h5 --to csv --scale 25 --out tracks.csv",
-                             "swirl export frames.h5 --to table --range 1000:1999 --stride 10"});
+    subcommand.set_examples(
+        {"swirl export frames.h5 --format vtp",
+         "swirl export frames.h5 --format csv --scale 25 --out tracks.csv",
+         "swirl export frames.h5 --format table --range 1000:1999 --stride 10"});
     std::string formats = "Formats:\n";
     for (const ExportFormat& format : export_formats())
         formats += fmt::format("  {:<7} {}\n", format.name, format.description);

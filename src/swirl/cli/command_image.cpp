@@ -14,7 +14,7 @@ namespace {
 struct ImageCall {
     std::shared_ptr<SourceTexts> source;
     std::shared_ptr<AppearanceTexts> appearance;
-    std::optional<double> at;
+    std::optional<double> start;
     int flashes = 1;
     double every = 1.0;
     std::string out;
@@ -29,14 +29,18 @@ void draw_and_report(const ImageCall& call) {
     config.appearance = appearance(*call.appearance, Size{1920, 1080});
     config.sources = frame_sources(*call.source);
     const std::optional<double> last = config.sources.front().to;
-    config.at = call.at.value_or(last.value_or(call.source->slip ? 0.0 : double(default_warmup)));
     config.flashes = call.flashes;
     config.every = call.every;
+    const double duration = (call.flashes - 1) * call.every;
+    const double start = call.start.value_or(last                ? *last - duration
+                                             : call.source->slip ? 0.0
+                                                                 : double(default_warmup));
+    config.at = start + duration;
     if (const auto wrong = problem(config)) throw UsageError(*wrong);
     make_still(config);
     print_source_warnings(config.sources, config.appearance);
     if (!call.quiet)
-        print_all(fmt::format("{}: period {:g}, {}x{} pixels.\n", call.out, config.at,
+        print_all(fmt::format("{}: period {:g}, {}x{} pixels.\n", call.out, start,
                               config.appearance.size.width, config.appearance.size.height));
 }
 
@@ -46,11 +50,12 @@ void add_image_command(Subcommand& subcommand) {
     subcommand.add_option("--out", call->out, "Image file: .png, .svg or .pdf")
         ->type_name("FILE")
         ->group(group);
-    subcommand.add_option("--at", call->at, "Instant in periods [20; of FILE: the last]")
+    subcommand.add_option("--start", call->start, "Period of the image [20; of FILE: the last]")
         ->type_name("PERIODS")
         ->group(group);
     subcommand
-        .add_option("--strobe", call->flashes, "Number of superimposed instants, up to --at [1]")
+        .add_option("--strobe", call->flashes,
+                    "Number of superimposed instants, from --start on [1]")
         ->type_name("COUNT")
         ->group(group);
     subcommand.add_option("--every", call->every, "Periods between superimposed instants [1]")
@@ -60,12 +65,12 @@ void add_image_command(Subcommand& subcommand) {
     call->appearance = add_appearance_options(subcommand);
     call->source = add_source_options(subcommand);
     subcommand.explain(source_explanation);
-    subcommand.set_main_options({"--out", "--at", "--frame", "--color", "--trails", "--size",
+    subcommand.set_main_options({"--out", "--start", "--frame", "--color", "--trails", "--size",
                                  "--discs", "--mu", "--compare", "--over"});
     subcommand.set_examples(
         {"swirl image --discs 48 --frame m --color pinned --theme light --out 48.pdf",
          "swirl image --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
-         "swirl image run.h5 --at 12.5 --trails --out instant.svg"});
+         "swirl image run.h5 --start 12.5 --trails --out instant.svg"});
     subcommand.callback([call, &subcommand] {
         take_video_config(subcommand, *call->source, "image");
         draw_and_report(*call);

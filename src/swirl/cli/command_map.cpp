@@ -44,17 +44,22 @@ struct MapCall {
     bool is_part() const { return !sharing.part.empty(); }
 };
 
+/// Throws UsageError for the folder of a sweep.
+SweepPlan map_in(const std::string& folder) {
+    SweepPlan plan = read_plan(folder);
+    if (!plan.map)
+        throw UsageError(
+            fmt::format("'{}' holds a sweep, not a map.\nhint: run `swirl sweep --out {}`.", folder,
+                        shell_word(folder)));
+    return plan;
+}
+
 SweepPlan existing_map_plan(const MapCall& call) {
     std::error_code ignored;
     if (!fs::exists(fs::path(call.out) / "plan.json", ignored))
         throw UsageError(
             "missing required option --x NAME=VALUES.\nhint: give, for example, --x mu=0:1.");
-    SweepPlan plan = read_plan(call.out);
-    if (!plan.map)
-        throw UsageError(
-            fmt::format("'{}' holds a sweep, not a map.\nhint: run `swirl sweep --out {}`.",
-                        call.out, shell_word(call.out)));
-    return plan;
+    return map_in(call.out);
 }
 
 /// The first of these options that is given, or "".
@@ -71,7 +76,7 @@ void reject_options_of_other_maps(const Subcommand& subcommand, const MapCall& c
     const bool has_axes = !call.x.empty() || !call.y.empty();
     if (call.grow) {
         std::string name =
-            first_given(subcommand, {"--of", "--level", "--change", "--rate", "--tolerance"});
+            first_given(subcommand, {"--quantity", "--level", "--change", "--rate", "--tolerance"});
         if (!call.parameters->empty()) name = option_name(call.parameters->begin()->first);
         if (!name.empty())
             throw UsageError(
@@ -86,8 +91,8 @@ void reject_options_of_other_maps(const Subcommand& subcommand, const MapCall& c
     }
     if (has_axes) return;
     const std::string name =
-        first_given(subcommand, {"--of", "--steps", "--level", "--change", "--seeds", "--from",
-                                 "--to", "--rate", "--tolerance"});
+        first_given(subcommand, {"--quantity", "--steps", "--level", "--change", "--seeds",
+                                 "--from", "--to", "--rate", "--tolerance"});
     if (!name.empty())
         throw UsageError(
             fmt::format("{} is given, but --x is not.\nhint: give all options of the map, or only "
@@ -227,7 +232,7 @@ std::string map_plan_text(const SweepPlan& plan) {
 }
 
 void make_map(MapCall& call) {
-    if (call.status) return print_map_status(call, existing_map_plan(call));
+    if (call.status) return print_map_status(call, map_in(call.out));
     const auto [plan, grown_from] = map_plan_of(call);
     const SweepShare share = call.sharing.share();
     const SlurmJob job = call.sharing.slurm_job();
@@ -250,8 +255,9 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
     MapSettings& s = call.settings;
     subcommand.add_option("--x", call.x, "Axis along x, such as mu=0:1", "NAME=VALUES", map);
     subcommand.add_option("--y", call.y, "Axis along y; without it, a curve", "NAME=VALUES", map);
-    subcommand.add_option(
-        "--of", s.of, "Quantity: N_c, a rotation rate or a measured row [by_time]", "NAME", map);
+    subcommand.add_option("--quantity", s.of,
+                          "Quantity: N_c, a rotation rate or a measured row [mean_by_time]", "NAME",
+                          map);
     subcommand
         .add_option("--out", call.out, "Folder of the map; a repeated call completes it", "DIR",
                     map)
@@ -273,8 +279,9 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
     subcommand.add_flag("--quiet", call.quiet, "No progress and no report", map);
     subcommand.add_option("--from", call.from, "Smallest number of discs [5]", "N", crossing);
     subcommand.add_option("--to", call.to, "Largest number of discs [48]", "N", crossing);
-    subcommand.add_option("--rate", s.rate, "Rotation rate that changes its sign at N_c [by_time]",
-                          "NAME", crossing);
+    subcommand.add_option("--rate", s.rate,
+                          "Rotation rate that changes its sign at N_c [mean_by_time]", "NAME",
+                          crossing);
     subcommand.add_option("--tolerance", s.tolerance, "Target standard error of N_c [0.5]",
                           "NUMBER", crossing);
     add_cluster_options(subcommand, call.sharing, false);
@@ -290,18 +297,19 @@ void add_map_command(Subcommand& subcommand) {
         "An axis has the values FROM:TO (--steps of them), FROM:STEP:TO, or a list. First a "
         "coarse grid is computed, then the cells in which the quantity crosses --level or is "
         "undetermined. A point gets two runs, and more near the level: their number doubles "
-        "until its sign is certain. The figure shows the level with its 95 % band. With --of "
+        "until its sign is certain. The figure shows the level with its 95 % band. With --quantity "
         "N_c, each point is a search for the number of discs at which the rotation changes its "
         "sign. With --grow, the values of --x and --y are added to the map in DIR, --seeds is its "
         "new maximum, and --from and --to enlarge the range of numbers of discs.\n");
-    subcommand.set_main_options({"--discs", "--mu", "--periods", "--x", "--y", "--of", "--out",
-                                 "--steps", "--seeds", "--threads", "--grow", "--status"});
-    subcommand.set_examples({"swirl map --x mu=0:1 --y amplitude=0.5:4 --out map",
-                             "swirl map --out map --grow --x mu=0:2 --steps 31 --seeds 32",
-                             "swirl map --x mu=0:1 --y discs=20:48 --of rigid_by_time --out map",
-                             "swirl map --x mu=0.1:1 --of N_c --out N_c",
-                             "swirl map --x mu=0.1:1 --y amplitude=1:3 --of N_c --out N_c_map",
-                             "swirl map --x discs=10:48 --of slip.cluster --level 0.8 --out slip"});
+    subcommand.set_main_options({"--discs", "--mu", "--periods", "--x", "--y", "--quantity",
+                                 "--out", "--steps", "--seeds", "--threads", "--grow", "--status"});
+    subcommand.set_examples(
+        {"swirl map --x mu=0:1 --y amplitude=0.5:4 --out map",
+         "swirl map --out map --grow --x mu=0:2 --steps 31 --seeds 32",
+         "swirl map --x mu=0:1 --y discs=20:48 --quantity rigid_by_time --out map",
+         "swirl map --x mu=0.1:1 --quantity N_c --out N_c",
+         "swirl map --x mu=0.1:1 --y amplitude=1:3 --quantity N_c --out N_c_map",
+         "swirl map --x discs=10:48 --quantity slip.cluster --level 0.8 --out slip"});
     subcommand.callback([call, &subcommand] {
         if (!call->config_file.empty())
             take_config_file(subcommand, call->config_file, *call->parameters, Lists::rejected,

@@ -113,7 +113,7 @@ Json json_of(const MeasureCall& call, const OpenedSeries& opened, const Measured
             {"discs", measured.discs},
             {"same_discs", opened.series.same_discs()},
             {"rotation",
-             {{"by_time", estimate_json(measured.rotation.by_time)},
+             {{"mean_by_time", estimate_json(measured.rotation.mean_by_time)},
               {"rigid_by_time", estimate_json(measured.rotation.rigid_by_time)}}},
             {"measured", values},
             {"camera", opened.camera},
@@ -122,7 +122,7 @@ Json json_of(const MeasureCall& call, const OpenedSeries& opened, const Measured
 }
 
 std::string report_text(const SnapshotSeries& series, const MeasuredSeries& measured) {
-    const Estimate &rotation = measured.rotation.by_time, &rigid = measured.rotation.rigid_by_time;
+    const Estimate &rotation = measured.rotation.mean_by_time, &rigid = measured.rotation.rigid_by_time;
     if (measured.discs == 1)
         return fmt::format("1 {} has no rotation about its own centre of mass; {}\n",
                            series.frame(0).are_balls() ? "sphere" : "disc",

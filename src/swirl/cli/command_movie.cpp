@@ -103,7 +103,8 @@ void add_movie_command(Subcommand& subcommand) {
     subcommand.add_option("--out", call->out, "Movie file: .mp4, .webm or .gif")
         ->type_name("FILE")
         ->group(group);
-    subcommand.add_option("--frames", call->frames_folder, "Folder for PNG files of all frames")
+    subcommand
+        .add_option("--frame-files", call->frames_folder, "Folder for PNG files of all frames")
         ->type_name("DIR")
         ->group(group);
     subcommand.add_option("--seconds", call->seconds, "Duration of the movie [20; .gif: 6]")
@@ -128,8 +129,8 @@ void add_movie_command(Subcommand& subcommand) {
     subcommand.explain(std::string(source_explanation) +
                        "With --over, the default --pace shows each camera image once. The pace of "
                        "the paper's experiment was 1.88.\n");
-    subcommand.set_main_options({"--out", "--frames", "--seconds", "--frame", "--color", "--trails",
-                                 "--size", "--discs", "--mu", "--over"});
+    subcommand.set_main_options({"--out", "--frame-files", "--seconds", "--frame", "--color",
+                                 "--trails", "--size", "--discs", "--mu", "--over"});
     subcommand.set_examples(
         {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
          "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",

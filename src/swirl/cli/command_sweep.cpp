@@ -154,7 +154,7 @@ std::string plan_text(const SweepPlan& plan) {
     if (plan.frames > 0) text += fmt::format("  frames per period: {}\n", plan.frames);
     if (plan.series) text += "  series of every run\n";
     if (!plan.chain.empty()) text += fmt::format("  chain along {}, up and down\n", plan.chain);
-    return text + fmt::format("  replicas: {}\n", plan.replicas);
+    return text + fmt::format("  replicates: {}\n", plan.replicas);
 }
 
 SweepOutcome run_with_progress(const SweepCall& call, const SweepPlan& plan,
@@ -228,7 +228,7 @@ void add_sweep_command(Subcommand& subcommand) {
         .add_option("--out", call->out, "Folder of the sweep; a repeated call completes it", "DIR",
                     group)
         ->required();
-    subcommand.add_option("--seeds", call->seeds, "Number of replicas of each point [1]", "N",
+    subcommand.add_option("--seeds", call->seeds, "Number of replicates of each point [1]", "N",
                           group);
     subcommand.add_option("--measure", call->measure, "Measurements, as for swirl run", "LIST",
                           group);
@@ -250,7 +250,7 @@ void add_sweep_command(Subcommand& subcommand) {
     add_cluster_options(subcommand, call->sharing, true);
     subcommand.explain(
         "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. With "
-        "--grow, the given values, replicas (--seeds is their new total) and measurements are "
+        "--grow, the given values, replicates (--seeds is their new total) and measurements are "
         "added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in DIR/series. "
         "With --chain NAME, the runs follow each other in rising and then in falling values of "
         "NAME, and each starts from the final state of the run before it.\n");
@@ -282,7 +282,7 @@ void write_or_print(const std::string& file, const std::string& table) {
 
 std::string loops_text(const CollectCall& call, const SweepPlan& plan,
                        const CollectedSweep& collected) {
-    const std::string name = call.quantity.empty() ? "by_time" : call.quantity;
+    const std::string name = call.quantity.empty() ? "mean_by_time" : call.quantity;
     const auto& all = collected.loop_quantities;
     const auto found = std::find(all.begin(), all.end(), name);
     if (found == all.end()) return "";
@@ -363,7 +363,7 @@ void add_collect_command(Subcommand& subcommand) {
     subcommand.add_option("--loops", call->loops,
                           "File for the areas of hysteresis loops, or - for stdout", "FILE|-");
     subcommand.add_flag("--plot", call->plot, "Draw the table as PNG and PDF next to it");
-    subcommand.add_option("--quantity", call->quantity, "Column to draw [by_time]", "NAME");
+    subcommand.add_option("--quantity", call->quantity, "Column to draw [mean_by_time]", "NAME");
     subcommand.explain(
         "N_c is the number of discs at which the rotation (by time) changes its sign, for each "
         "combination of the other parameters. The area of a loop is the integral, over the "

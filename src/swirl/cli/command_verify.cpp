@@ -88,7 +88,7 @@ Json verifiable_result(const std::string& file) {
         throw Failure(fmt::format("'{}' is not the result of a run.", file));
     if (!repeated.first().empty())
         throw Failure(fmt::format("'{}' holds '{}' twice.", file, repeated.first()));
-    if (const Json format = json.value("format", Json(result_format)); format != result_format)
+    if (const Json format = json.value("format", Json(1)); format != result_format)
         throw Failure(
             fmt::format("'{}' has format {} of swirl {}, but this program reads format {}.", file,
                         format.dump(), version_of(json), result_format));
@@ -128,7 +128,7 @@ Json repeated_result(const std::string& file, const Json& json, bool quiet) {
     result["command"] = "";
     if (json.contains("point")) {  // of a sweep
         result["point"] = 0;
-        result["replica"] = 0;
+        result["replicate"] = 0;
         if (json.contains("direction")) {
             result["direction"] = "";
             result["started_from"] = nullptr;
@@ -158,7 +158,7 @@ std::vector<std::string> take_unverifiable(const Json& json, Json& result) {
         result[path] = there;
     };
     for (const char* name :
-         {"/command", "/config_text", "/point", "/replica", "/direction", "/series/file"})
+         {"/command", "/config_text", "/point", "/replicate", "/direction", "/series/file"})
         take(name);
     std::vector<const char*> compared{"/version", "/build", "/simd"};
     // These follow from the averages, but by rules that may differ between versions.

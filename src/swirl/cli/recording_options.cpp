@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "swirl/cli/output.hpp"
 #include "swirl/io/atomic_file.hpp"
@@ -176,10 +177,14 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
     files.frames = frame_times(call);
     files.event_log = text_of(call, "log_events");
     files.series = text_of(call, "series");
-    if (!files.series.empty() && files.series.extension() != ".csv")
-        throw UsageError(fmt::format(
-            "--series is '{}', but its name must end in .csv.\nhint: the table is written as CSV.",
-            files.series.string()));
+    for (const auto& [name, file, ending, kind] :
+         {std::tuple("trajectory", &files.trajectory, ".h5", "recording is written as HDF5"),
+          std::tuple("log-events", &files.event_log, ".h5", "event log is written as HDF5"),
+          std::tuple("series", &files.series, ".csv", "table is written as CSV")})
+        if (!file->empty() && file->extension() != ending)
+            throw UsageError(
+                fmt::format("--{} is '{}', but its name must end in {}.\nhint: the {}.", name,
+                            file->string(), ending, kind));
     files.compression = static_cast<int>(integer(call, "compression", files.compression, 0, 9));
     files.resume = call.resume;
     if (call.resume && call.overwrite)

@@ -59,7 +59,7 @@ void add_cluster_options(Subcommand& subcommand, ShareOptions& options, bool wit
     subcommand.add_option("--part", options.part, "Part of the points to run, such as 2/10",
                           "PART/PARTS", cluster);
     if (with_rest)
-        subcommand.add_flag("--rest", options.rest,
+        subcommand.add_flag("--finish-others", options.rest,
                             "After the part, run points that no process works on", cluster);
     subcommand.add_flag("--slurm", options.slurm,
                         "Submit a Slurm job array instead of running here", cluster);

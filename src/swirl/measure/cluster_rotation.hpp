@@ -93,8 +93,8 @@ struct RotationRate {
     const char *name, *description;
 };
 inline constexpr std::array<RotationRate, 4> rotation_rates{
-    {{"by_event", "mean over the discs, by event"},
-     {"by_time", "mean over the discs, by time"},
+    {{"mean_by_event", "mean over the discs, by event"},
+     {"mean_by_time", "mean over the discs, by time"},
      {"rigid_by_event", "rigid body, by event"},
      {"rigid_by_time", "rigid body, by time"}}};
 /// Index of the rate that a search for N_c uses: the mean over the discs, by time.
@@ -102,17 +102,17 @@ inline constexpr std::size_t default_rate = 1;
 
 /// In units of Ω.
 struct RotationEstimates {
-    Estimate by_event, by_time, rigid_by_event, rigid_by_time;
+    Estimate mean_by_event, mean_by_time, rigid_by_event, rigid_by_time;
 
     /// In the order of rotation_rates.
     std::array<Estimate, rotation_rates.size()> all() const {
-        return {by_event, by_time, rigid_by_event, rigid_by_time};
+        return {mean_by_event, mean_by_time, rigid_by_event, rigid_by_time};
     }
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"by_event", "Ω", "rotation ϖ, averaged over events", by_event});
-        visit(ReportRow{"by_time", "Ω", "rotation ϖ, averaged over time", by_time});
+        visit(ReportRow{"mean_by_event", "Ω", "rotation ϖ, averaged over events", mean_by_event});
+        visit(ReportRow{"mean_by_time", "Ω", "rotation ϖ, averaged over time", mean_by_time});
         visit(ReportRow{"rigid_by_event", "Ω", "rotation of the fitted rigid body, over events",
                         rigid_by_event});
         visit(ReportRow{"rigid_by_time", "Ω", "rotation of the fitted rigid body, over time",
@@ -168,8 +168,8 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
 
     RotationEstimates estimates() const;
     /// Blocks in units of Ω, for the test of the steady state and as time series.
-    const BlockSeries& by_event() const { return individual_by_event_; }
-    const BlockSeries& by_time() const { return individual_by_time_; }
+    const BlockSeries& mean_by_event() const { return individual_by_event_; }
+    const BlockSeries& mean_by_time() const { return individual_by_time_; }
     const BlockSeries& rigid_by_event() const { return rigid_by_event_; }
     const BlockSeries& rigid_by_time() const { return rigid_by_time_; }
 

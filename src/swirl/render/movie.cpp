@@ -89,7 +89,7 @@ std::string frame_name(const std::string& folder, int number) {
 
 std::optional<std::string> problem(const MovieConfig& config) {
     if (config.out.empty() && config.frames_folder.empty())
-        return "missing output: give --out FILE, --frames DIR or both.";
+        return "missing output: give --out FILE, --frame-files DIR or both.";
     const std::optional<MovieFormat> format = movie_format(config.out);
     if (!config.out.empty() && !format)
         return fmt::format("--out is '{}', but its name must end with .mp4, .webm or .gif.",

@@ -125,7 +125,7 @@ MovieWriter::MovieWriter(const std::string& path, MovieFormat format, Size size,
         ffmpeg_ = std::make_unique<Ffmpeg>(
             arguments(format, size, frames_per_second, loss), Ffmpeg::Side::input,
             "movies need the program ffmpeg, which was not found.\n"
-            "hint: install it (apt-get install ffmpeg), or write frames with --frames DIR.",
+            "hint: install it (apt-get install ffmpeg), or write frames with --frame-files DIR.",
             temporary_);
     } catch (const DrawFailure&) {
         ::unlink(temporary_.c_str());

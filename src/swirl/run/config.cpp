@@ -125,19 +125,6 @@ std::optional<std::string> problem_with_size(const RunConfig& c) {
         hint_on_capacity(c));
 }
 
-std::optional<std::string> problem_without_floor(const RunConfig& c) {
-    if (c.floor) return {};
-    const RunConfig defaults;
-    for (const auto& [name, value, default_value] :
-         {std::tuple{"--floor-friction", c.floor_friction, defaults.floor_friction},
-          std::tuple{"--gravity", c.gravity, defaults.gravity},
-          std::tuple{"--rolling-resistance", c.rolling_resistance, defaults.rolling_resistance}})
-        if (value != default_value)
-            return fmt::format("{} is {}, but there is no floor.\nhint: add --floor sliding.", name,
-                               value);
-    return {};
-}
-
 /// A contact within the contact duration is delayed: the particles separate with half of the speed
 /// that the floor's friction removes in that time (docs/explanation/spheres.md). This separation
 /// speed must be small compared with the speed of the container. A ratio of 0.3 changes ϖ by less
@@ -212,7 +199,6 @@ std::optional<std::string> problem(const RunConfig& config) {
     if (auto message = problem_with_size(config)) return message;
     if (auto message = problem_with_body(config)) return message;
     if (auto message = problem_with_path(config)) return message;
-    if (auto message = problem_without_floor(config)) return message;
     if (auto message = problem_with_floor_friction(config)) return message;
     if (auto message = problem_with_rolling_resistance(config)) return message;
     if (auto message = problem_with_warmup(config)) return message;

@@ -298,7 +298,7 @@ bool CoreRun::is_warmup_over() {
 bool CoreRun::is_warmup_detected() {
     if (simulation_.periods() < next_warmup_test_) return false;
     next_warmup_test_ += std::max<std::int64_t>(10, next_warmup_test_ / 10);
-    return beginning_is_forgotten(in_warmup_.by_event().block_means()) &&
+    return beginning_is_forgotten(in_warmup_.mean_by_event().block_means()) &&
            beginning_is_forgotten(spin_in_warmup_.series().block_means());
 }
 
@@ -315,7 +315,7 @@ RunResult CoreRun::result() {
     result_.complete = complete();
     result_.rotation = rotation().estimates();
     result_.events_per_rotation_sample = events_per_sample_;
-    result_.steady = steady_state_of(rotation().by_event());
+    result_.steady = steady_state_of(rotation().mean_by_event());
     result_.steady_spin = steady_state_of(spin().series());
     result_.events = simulation_.events();
     result_.periods = periods();

@@ -32,15 +32,34 @@ struct Overloaded : Cases... {
                                   allowed, nearest_value_hint(text, choices)));
 }
 
+/// Why a text is no number: a decimal comma, a list or a range. "" if none of these.
+std::string hint_on_number(std::string_view text) {
+    const auto parts = split(text, ",:");
+    const bool has_numbers =
+        parts.size() > 1 && std::all_of(parts.begin(), parts.end(), read_number);
+    if (!has_numbers) return "";
+    const std::string lists = "`swirl sweep` takes lists and ranges";
+    const bool is_decimal = text.find(':') == text.npos && parts.size() == 2 &&
+                            text.find('.') == text.npos && parts[0].size() < 4;
+    return is_decimal
+               ? fmt::format("\nhint: use a decimal point, {}.{}; {}.", parts[0], parts[1], lists)
+               : fmt::format("\nhint: give one number; {}.", lists);
+}
+
+[[noreturn]] void reject_number(std::string_view name, std::string_view text, const char* allowed) {
+    throw_usage_error(fmt::format("{} is '{}', but it must be {}.{}", option_name(name), text,
+                                  allowed, hint_on_number(text)));
+}
+
 double number_from(std::string_view name, std::string_view text) {
     const auto value = read_number(text);
-    if (!value) reject_text(name, text, "a finite number, for example 0.5 or 1e3");
+    if (!value) reject_number(name, text, "a finite number, for example 0.5 or 1e3");
     return *value;
 }
 
 std::int64_t whole_number_from(std::string_view name, std::string_view text) {
     const auto value = read_whole_number(text);
-    if (!value) reject_text(name, text, "a whole number below 10^18, for example 48 or 1e6");
+    if (!value) reject_number(name, text, "a whole number below 10^18, for example 48 or 1e6");
     return *value;
 }
 
@@ -403,6 +422,16 @@ std::string default_of(const Parameter& p) {
     return shortened(as_text(is_unset ? member_value(p, {}) : written));
 }
 
+/// An explicit `--floor none` switches the floor's parameters off, for example in a sweep.
+static void reject_parameters_without_floor(const ParameterTexts& texts, const RunConfig& config) {
+    if (config.floor || texts.contains("floor")) return;
+    for (const char* name : {"floor_friction", "gravity", "rolling_resistance"})
+        if (const auto found = texts.find(name); found != texts.end())
+            throw_usage_error(
+                fmt::format("{} is {}, but there is no floor.\nhint: add --floor sliding.",
+                            option_name(name), found->second));
+}
+
 RunConfig resolve(const ParameterTexts& given) {
     const ParameterTexts texts = normalized(given);
     RunConfig config;
@@ -420,6 +449,7 @@ RunConfig resolve(const ParameterTexts& given) {
     // The last pass computes with these values, so they must be valid.
     if (const auto message = problem(config)) throw_usage_error(*message);
     read_all(ReadingOrder::last);
+    reject_parameters_without_floor(texts, config);
     if (const auto message = problem(config)) throw_usage_error(*message);
     return config;
 }

@@ -131,8 +131,10 @@ double Ramp::value_in(std::int64_t period) const {
 
 std::vector<Ramp> read_ramps(std::string_view text) {
     std::vector<Ramp> ramps;
-    for (const std::string_view part : split(text, ";"))
+    for (const std::string_view part : split(text, ";")) {
+        if (trimmed(part).empty()) reject(text, "a part of it is empty.");
         ramps.push_back(read_ramp_text(trimmed(part)));
+    }
     reject_two_ramps_of_one_parameter(text, ramps);
     return ramps;
 }

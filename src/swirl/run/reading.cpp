@@ -26,15 +26,47 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// Words that users of other programs may try, and the names that have this meaning here.
+/// Words that users of other programs may try, and names of earlier versions; and the names that
+/// have this meaning here.
 constexpr std::pair<std::string_view, std::string_view> names_of_equal_meaning[] = {
-    {"o", "out"},        {"o", "json"},        {"out", "json"},        {"out", "csv"},
-    {"output", "out"},   {"output", "json"},   {"output", "csv"},      {"friction", "mu"},
-    {"number", "discs"}, {"spheres", "discs"}, {"particles", "discs"}, {"jobs", "threads"},
-    {"cores", "threads"}};
+    {"o", "out"},
+    {"o", "json"},
+    {"out", "json"},
+    {"out", "csv"},
+    {"output", "out"},
+    {"output", "json"},
+    {"output", "csv"},
+    {"friction", "mu"},
+    {"number", "discs"},
+    {"spheres", "discs"},
+    {"particles", "discs"},
+    {"jobs", "threads"},
+    {"cores", "threads"},
+    {"frames", "frame-files"},
+    {"frames", "max-frames"},
+    {"path", "path-out"},
+    {"to", "format"},
+    {"skip", "warmup"},
+    {"from", "start"},
+    {"at", "start"},
+    {"of", "quantity"},
+    {"misfit", "max-invalid"},
+    {"turned", "turned-angle"},
+    {"rest", "finish-others"},
+    {"hands", "hand-time"},
+    {"still", "camera-on-container"},
+    {"bare", "no-annotations"},
+    {"accept", "correct-frames"},
+    {"by_time", "mean_by_time"},
+    {"by_event", "mean_by_event"}};
 
 std::string_view without_dashes(std::string_view option) {
     return option.substr(std::min(option.find_first_not_of('-'), option.size()));
+}
+
+/// True for one name in two spellings, such as "--path-out" and "path_out".
+bool is_same_name(std::string_view a, std::string_view b) {
+    return plain_name(without_dashes(a)) == plain_name(without_dashes(b));
 }
 
 }  // namespace
@@ -84,7 +116,7 @@ std::optional<std::string> nearest_name(std::string_view unknown,
     const std::string_view word = without_dashes(unknown);
     for (const auto& [other, own] : names_of_equal_meaning)
         for (const std::string& name : names)
-            if (word == other && without_dashes(name) == own) return name;
+            if (is_same_name(word, other) && is_same_name(name, own)) return name;
     std::optional<std::string> best;
     std::size_t minimum = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& name : names) {

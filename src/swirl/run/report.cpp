@@ -93,7 +93,7 @@ std::string no_period_warning(const RunResult& r) {
 }
 
 std::string too_short_warning(const RunResult& r) {
-    const auto blocks = r.rotation.by_event.blocks;
+    const auto blocks = r.rotation.mean_by_event.blocks;
     const std::string length = counted(std::int64_t(blocks), "period");
     if (blocks < min_blocks_of_a_steady_state)
         return fmt::format("steady state not verified: {} after the warm-up; the test needs {}.",
@@ -234,7 +234,7 @@ std::string direction_verb(const Estimate& e) {
 }
 
 std::string headline(const RunResult& r) {
-    const Estimate& e = r.rotation.by_event;
+    const Estimate& e = r.rotation.mean_by_event;
     const char* const body = body_word(r.config);
     if (r.config.discs == 1)
         return fmt::format("1 {} has no rotation about its own centre of mass.", body);
@@ -246,7 +246,7 @@ std::string headline(const RunResult& r) {
                     has_m_frame(r.config) ? rotation_verb(e) : direction_verb(e));
     if (std::isnan(e.mean)) return motion + ".";
     const std::string rates =
-        fmt::format("ϖ/Ω = {} by event, {} by time", with_error(e), with_error(r.rotation.by_time));
+        fmt::format("ϖ/Ω = {} by event, {} by time", with_error(e), with_error(r.rotation.mean_by_time));
     if (!r.config.ramps.empty())
         return fmt::format("{} {}s in a ramp, {}: on average {}.", r.config.discs, body,
                            ramps_text(r.config.ramps), rates);
@@ -302,7 +302,7 @@ std::string report(const RunResult& r, bool verbose) {
         if (verbose)
             line("errors",
                  fmt::format("from {} blocks of whole periods, {:.0f} of them independent",
-                             r.rotation.by_event.blocks, r.rotation.by_event.effective_samples));
+                             r.rotation.mean_by_event.blocks, r.rotation.mean_by_event.effective_samples));
     }
     const char* const body = body_word(r.config);
     if (const std::string rounded = rounded_share_text(r.config); !rounded.empty())

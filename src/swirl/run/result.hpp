@@ -12,7 +12,7 @@
 namespace swirl {
 
 /// The key `format` of a result in JSON. Results without this key are in format 1.
-inline constexpr int result_format = 1;
+inline constexpr int result_format = 2;
 
 struct RunResult {
     RunConfig config;
@@ -21,7 +21,7 @@ struct RunResult {
     double periods = 0.0;       // including the warm-up
     std::int64_t warmup = 0;    // whole periods excluded from the averages
     EventCounts warmup_events;  // events in the warm-up
-    /// In units of Ω, in the lab frame, over whole periods; by_event is the paper's average. All
+    /// In units of Ω, in the lab frame, over whole periods; mean_by_event is the paper's average. All
     /// values are NaN if there is no whole period after the warm-up.
     RotationEstimates rotation;
     std::uint64_t events_per_rotation_sample = 1;  // by event, in the last period
@@ -72,10 +72,10 @@ struct RunResult {
                states.high);
         number("steady_state", "switches", "1", "changes between the two states",
                static_cast<double>(states.changes));
-        number("steady_state", "change_of_the_spin", "1",
+        number("steady_state", "spin_change", "1",
                "most likely change of the mean spin, in standard errors", steady_spin.change.size);
-        number("steady_state", "change_limit_of_the_spin", "1",
-               "limit of a change that may be random", steady_spin.change.max_size);
+        number("steady_state", "spin_change_limit", "1", "limit of a change that may be random",
+               steady_spin.change.max_size);
         number("", "max_overlap", "r", "largest overlap at a contact: a rounding error",
                max_overlap);
         number("", "energy", "m v²", "kinetic energy in the lab frame at the end, including spins",
@@ -86,7 +86,7 @@ struct RunResult {
         number("", "invariant_at_start", "m v²", "K − ΩL at the start", invariant_at_start);
     }
 
-    bool has_whole_period() const { return rotation.by_event.blocks > 0; }
+    bool has_whole_period() const { return rotation.mean_by_event.blocks > 0; }
     double events_per_second() const {
         return seconds > 0.0 ? static_cast<double>(events.total()) / seconds : 0.0;
     }

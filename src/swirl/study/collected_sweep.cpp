@@ -93,7 +93,7 @@ std::vector<std::string> columns_of(const SweepPlan& plan,
     std::vector<std::string> columns;
     for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
     if (!plan.chain.empty()) columns.emplace_back("direction");
-    columns.emplace_back("replicas");
+    columns.emplace_back("replicates");
     if (!gives_periods(plan)) columns.emplace_back("periods");
     columns.insert(columns.end(), {"energy", "steady_state", "scatter"});
     for (const Quantity& quantity : quantities) {

@@ -91,7 +91,7 @@ Table loop_table(const SweepPlan& plan, const std::vector<LoopAreas>& loops,
     std::vector<std::string> columns;
     for (const SweepAxis& axis : plan.axes)
         if (axis.name != plan.chain) columns.push_back(axis.name);
-    columns.emplace_back("replicas");
+    columns.emplace_back("replicates");
     for (const std::string& name : quantities)
         columns.insert(columns.end(), {name, name + "_error"});
     Table table(columns);

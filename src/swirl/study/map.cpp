@@ -144,7 +144,7 @@ std::string first_failure(const fs::path& folder, const SweepPlan& plan) {
         std::string text = read_whole_file(failure_file(folder, point));
         while (text.ends_with('\n')) text.pop_back();
         std::vector<std::string> where = varied_options(plan, plan.parameters(point));
-        where.push_back(fmt::format("replica {}", plan.replica(point) + 1));
+        where.push_back(fmt::format("replicate {}", plan.replica(point) + 1));
         return fmt::format("{}: {}", fmt::join(where, ", "), text);
     }
     return "";
@@ -157,7 +157,7 @@ Table map_table(const SweepPlan& plan, const MapState& state) {
     if (y) columns.push_back(target.y);
     columns.insert(columns.end(), {target.of, target.of + "_error"});
     if (target.is_of_crossing()) columns.insert(columns.end(), {"N_c_lower", "N_c_upper"});
-    columns.insert(columns.end(), {"verdict", "periods", "seeds", "failed"});
+    columns.insert(columns.end(), {"verdict", "total_periods", "replicates", "failed"});
     Table table(columns);
     const std::vector<std::size_t> x_order = ascending_order(*x),
                                    y_order = y ? ascending_order(*y) : std::vector<std::size_t>();

@@ -85,7 +85,8 @@ std::string measurement_of(const std::string& quantity) {
         }
     }
     throw UsageError(fmt::format(
-        "--of is '{}', but it must be N_c, a rotation rate (by_time, by_event, rigid_by_time, "
+        "--quantity is '{}', but it must be N_c, a rotation rate (mean_by_time, mean_by_event, "
+        "rigid_by_time, "
         "rigid_by_event), or a number of a measurement, such as slip.cluster.\nhint: {}",
         quantity,
         rows.empty() ? "`swirl run --measure help` lists the measurements."
@@ -124,7 +125,7 @@ void validate_target(const MapTarget& m, std::int64_t max_runs) {
             throw UsageError("the number of discs cannot be an axis of a map of N_c.");
     }
     if (m.is_of_crossing() && m.level != 0.0)
-        throw UsageError("--level cannot be used with --of N_c.");
+        throw UsageError("--level cannot be used with --quantity N_c.");
 }
 
 MapTarget target_of(const MapSettings& s) {

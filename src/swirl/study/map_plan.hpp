@@ -22,8 +22,8 @@ struct MapAxisText {
 
 struct MapSettings {
     MapAxisText x, y = {};  // y without a name: a curve
-    std::string of = "by_time";
-    std::string rate = "by_time";       // for N_c
+    std::string of = "mean_by_time";
+    std::string rate = "mean_by_time";  // for N_c
     double level = 0.0;                 // not for N_c
     std::optional<double> change = {};  // default: 2 for N_c, otherwise nowhere
     double tolerance = 0.5;             // target standard error of N_c

@@ -31,9 +31,9 @@ std::string remove_and_repeat(const SweepPlan& plan) {
 /// them would take most of the time.
 bool is_needed(int depth, Json::parse_event_t event, Json& parsed) {
     if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
-    static constexpr std::string_view parts[] = {"format",   "version",    "point",       "replica",
-                                                 "config",   "state_hash", "periods",     "energy",
-                                                 "rotation", "measured",   "steady_state"};
+    static constexpr std::string_view parts[] = {
+        "format",  "version", "point",    "replicate", "config",      "state_hash",
+        "periods", "energy",  "rotation", "measured",  "steady_state"};
     const auto& key = parsed.get_ref<const std::string&>();
     if (depth == 3) return key != "blocks";  // of a rotation rate
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
@@ -42,7 +42,7 @@ bool is_needed(int depth, Json::parse_event_t event, Json& parsed) {
 /// Detects a result that was copied to another point or into another sweep.
 void reject_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
                                     std::size_t point) {
-    const bool belongs = json.at("point") == point && json.at("replica") == plan.replica(point) &&
+    const bool belongs = json.at("point") == point && json.at("replicate") == plan.replica(point) &&
                          json.at("config").at("seed") == plan.config(point).seed;
     if (!belongs)
         throw FileError(fmt::format("'{}' is not the result of point {} of this {}.\nhint: {}",
@@ -142,7 +142,7 @@ Json point_json(const SweepPlan& plan, std::size_t point, const RunResult& resul
     Json json = std::move(all);
     json["format"] = result_format;
     json["point"] = point;
-    json["replica"] = plan.replica(point);
+    json["replicate"] = plan.replica(point);
     if (!plan.chain.empty()) {
         json["direction"] = plan.direction(point);
         json["started_from"] = nullptr;

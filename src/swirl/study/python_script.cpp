@@ -130,6 +130,8 @@ std::string last_message(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     std::size_t begin = text.rfind('\n') + 1;
     if (begin > 1 && text.compare(begin, 5, "hint:") == 0) begin = text.rfind('\n', begin - 2) + 1;
+    const std::string_view prefix = "error: ";  // the caller has its own
+    if (text.compare(begin, prefix.size(), prefix) == 0) begin += prefix.size();
     return text.substr(begin);
 }
 

@@ -21,7 +21,7 @@ struct SlurmJob {
 /// UsageError if an option, or the name of the folder, contains characters that would break a line
 /// of the script.
 std::string slurm_script(const SlurmJob& job, const std::filesystem::path& folder,
-                         const char* command = "sweep --rest");
+                         const char* command = "sweep --finish-others");
 
 /// Writes the script to DIR/job.sh and submits it. Returns the job ID, which is also saved in
 /// DIR/slurm_job. Throws Failure if Slurm rejects the job or is not installed.

@@ -11,7 +11,7 @@
 namespace swirl {
 
 /// Format of plans and results.
-constexpr int sweep_format = 1;
+constexpr int sweep_format = 2;
 
 /// "000012"
 std::string number_of_point(std::size_t point);

@@ -80,11 +80,17 @@ std::vector<std::size_t> product_indices_of(const SweepPlan& plan) {
 
 std::string with_digits(double value) { return fmt::format("{:.12g}", value); }
 
+bool takes_whole_numbers(std::string_view name) {
+    const Parameter* const row = find_parameter(name);
+    return row && row->member.index() != 0 &&
+           !std::holds_alternative<double RunConfig::*>(row->member);
+}
+
 std::vector<std::string> range(std::string_view name, std::string_view text) {
     const auto reject = [&](const char* why) {
         throw UsageError(fmt::format(
-            "{} is '{}', but {}.\nhint: a range is FROM:TO or FROM:STEP:TO, for example 5:48 or "
-            "0:0.25:1.",
+            "{} is '{}', but {}.\nhint: a range is FROM:STEP:TO, or FROM:TO for whole numbers, for "
+            "example 0:0.25:1 or 5:48.",
             option_name(name), text, why));
     };
     std::vector<double> parts;
@@ -104,6 +110,10 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
             "{} is '{}', but the step is in the middle: FROM:STEP:TO.\nhint: write {}:{}:{}.",
             option_name(name), text, with_digits(from), with_digits(to), with_digits(step)));
     if (!(step > 0.0) || to < from) reject("it is not ascending");
+    if (!has_step && !takes_whole_numbers(name))
+        throw UsageError(fmt::format(
+            "{} is '{}', a range without a step.\nhint: give the step, {}:{:g}:{}, or a list.",
+            option_name(name), text, with_digits(from), (to - from) / 4.0, with_digits(to)));
     const double count = std::floor((to - from) / step + 1e-9) + 1.0;
     if (count > 1e6) reject("it has more than a million values");
     std::vector<std::string> values;
@@ -191,24 +201,20 @@ void reject_shrinking(const fs::path& file, const SweepPlan& plan) {
 Json plan_json(const SweepPlan& plan) {
     Json axes = Json::object();
     for (const SweepAxis& axis : plan.axes) axes[axis.name] = axis.values;
-    Json json{{"format", sweep_format}, {"axes", axes}, {"replicas", plan.replicas}};
+    Json json{{"format", sweep_format}, {"axes", axes}, {"replicates", plan.replicas}};
     if (!plan.measure.empty()) json["measure"] = plan.measure;
     if (plan.frames > 0) json["frames"] = plan.frames;
     if (plan.series) json["series"] = true;
     if (!plan.chain.empty()) json["chain"] = plan.chain;
     if (plan.generation > 1) json["generation"] = plan.generation;
     for (const SweepStage& stage : plan.before)
-        json["before"].push_back({{"values", stage.values}, {"replicas", stage.replicas}});
+        json["before"].push_back({{"values", stage.values}, {"replicates", stage.replicas}});
     if (plan.search) json["search"] = true;
     if (plan.map) {
         const MapTarget& m = *plan.map;
-        json["map"] = {{"x", m.x},
-                       {"y", m.y},
-                       {"of", m.of},
-                       {"rate", m.rate},
-                       {"level", m.level},
-                       {"change", m.change},
-                       {"tolerance", m.tolerance}};
+        json["map"] = {
+            {"x", m.x},         {"y", m.y},           {"quantity", m.of},        {"rate", m.rate},
+            {"level", m.level}, {"change", m.change}, {"tolerance", m.tolerance}};
     }
     return json;
 }
@@ -217,7 +223,7 @@ Json plan_json(const SweepPlan& plan) {
 MapTarget map_target_of(const Json& json) {
     return {.x = json.at("x"),
             .y = json.at("y"),
-            .of = json.at("of"),
+            .of = json.at("quantity"),
             .rate = json.at("rate"),
             .level = json.at("level"),
             .change = json.at("change"),
@@ -415,7 +421,7 @@ SweepPlan read_plan(const fs::path& folder) {
                                         file.string(), json.at("format").dump(), sweep_format));
         for (const auto& [name, values] : json.at("axes").items())
             plan.axes.push_back({plain_name(name), values.get<std::vector<std::string>>()});
-        plan.replicas = json.at("replicas").get<std::int64_t>();
+        plan.replicas = json.at("replicates").get<std::int64_t>();
         plan.measure = json.value("measure", std::vector<std::string>());
         plan.frames = json.value("frames", 0);
         plan.series = json.value("series", false);
@@ -424,7 +430,7 @@ SweepPlan read_plan(const fs::path& folder) {
         plan.search = json.value("search", false);
         for (const Json& stage : json.value("before", Json::array()))
             plan.before.push_back({stage.at("values").get<std::vector<std::size_t>>(),
-                                   stage.at("replicas").get<std::int64_t>()});
+                                   stage.at("replicates").get<std::int64_t>()});
         if (const auto map = json.find("map"); map != json.end()) plan.map = map_target_of(*map);
     } catch (const nlohmann::json::exception&) {
         throw FileError(
@@ -439,7 +445,7 @@ SweepPlan read_plan(const fs::path& folder) {
                                         file.string(), axis.name));
     if (const double count = number_of_runs(plan); !(count >= 1.0 && count <= double(max_points)))
         throw FileError(
-            fmt::format("'{}' is damaged: it plans {:.3g} runs with {} replicas of "
+            fmt::format("'{}' is damaged: it plans {:.3g} runs with {} replicates of "
                         "each point, but from 1 to {} runs are possible.",
                         file.string(), count, plan.replicas, max_points));
     reject_shrinking(file, plan);

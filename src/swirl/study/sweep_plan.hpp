@@ -43,12 +43,12 @@ struct SweepStage {
 /// The target of an adaptive map. It needs only some points of the product of the axes
 /// (map_search.hpp); `replicas` is the maximum at one point.
 struct MapTarget {
-    std::string x, y = {};         // axes; y is empty for a curve
-    std::string of = "by_time";    // a rotation rate, a measured number, or N_c
-    std::string rate = "by_time";  // rotation rate whose sign change is N_c
-    double level = 0.0;            // the map is refined where the quantity crosses it
-    double change = 0.0;           // and where neighbours differ by more than this; 0: nowhere
-    double tolerance = 0.5;        // target standard error of N_c
+    std::string x, y = {};              // axes; y is empty for a curve
+    std::string of = "mean_by_time";    // a rotation rate, a measured number, or N_c
+    std::string rate = "mean_by_time";  // rotation rate whose sign change is N_c
+    double level = 0.0;                 // the map is refined where the quantity crosses it
+    double change = 0.0;                // and where neighbours differ by more than this; 0: nowhere
+    double tolerance = 0.5;             // target standard error of N_c
     bool operator==(const MapTarget&) const = default;
     bool is_of_crossing() const { return of == "N_c"; }
 };

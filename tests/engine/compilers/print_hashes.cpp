@@ -26,8 +26,8 @@ void print_averages(const char* name, swirl::Simulation& simulation) {
     }
     const auto estimates = rotation.estimates();
     std::printf("%s, rotation:", name);
-    for (const swirl::Estimate& e :
-         {estimates.by_event, estimates.by_time, estimates.rigid_by_event, estimates.rigid_by_time})
+    for (const swirl::Estimate& e : {estimates.mean_by_event, estimates.mean_by_time,
+                                     estimates.rigid_by_event, estimates.rigid_by_time})
         std::printf(" %016llx %016llx", bits(e.mean), bits(e.error));
     std::printf("\n");
 }
