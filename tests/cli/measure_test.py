@@ -35,12 +35,12 @@ class MeasureTest(InFolder):
             done = swirl("run", "--discs", DISCS, "--periods", SWIRLS, "--frames", FRAMES,
                          "--trajectory", recording, "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
-            exact = swirl("measure", recording, "--measure", LIST, "--skip", SKIP, "--json", "-",
+            exact = swirl("measure", recording, "--measure", LIST, "--warmup", SKIP, "--json", "-",
                           "--quiet", "--tables", self.path("exact"))
             self.assertEqual(exact.returncode, 0, exact.stderr)
             with open(self.path("exact/flow.csv"), encoding="utf-8") as opened:
                 flow = opened.read()
-            said = swirl("export", recording, "--to", "csv", "--scale", 1, "--out",
+            said = swirl("export", recording, "--format", "csv", "--scale", 1, "--out",
                          self.path("t.csv")).stdout
             middle = float(said.split("pixel ")[1].split(",")[0])
             table = {}
@@ -142,7 +142,7 @@ class MeasureTest(InFolder):
         wrong("protrude", "--amplitude", amplitude=0)
         wrong("protrude", "--omega", omega=0.9 * OMEGA)
         wrong("protrude", "it is the --centre", centre="330,280")
-        # --misfit 1 accepts everything.
+        # --max-invalid 1 accepts everything.
         self.measured(misfit=1, phase=75, **good)
         report = swirl("measure", self.path("tracks.csv"), "--camera-fps", FPS, "--scale", SCALE,
                        "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--amplitude", AMPLITUDE,
@@ -222,10 +222,10 @@ class MeasureTest(InFolder):
             swirl("run", "--discs", 20, "--periods", 2, "--warmup", 0, "--frames", frames, "--trajectory", recording,
                   "--quiet")
             for form, out in (("table", table), ("lammps", dump), ("xyz", xyz)):
-                done = swirl("export", recording, "--to", form, "--out", out, "--quiet", "--range", "0:599")
+                done = swirl("export", recording, "--format", form, "--out", out, "--quiet", "--range", "0:599")
                 self.assertEqual(done.returncode, 0 if known else 2, done.stderr)
                 if not known:
-                    done = swirl("export", recording, "--to", form, "--out", out, "--quiet")
+                    done = swirl("export", recording, "--format", form, "--out", out, "--quiet")
             with open(table, newline="", encoding="utf-8") as opened:
                 rows = list(csv.DictReader(opened))
             self.assertEqual("pinned" in rows[0], known)
@@ -260,11 +260,11 @@ class MeasureTest(InFolder):
     def test_missing_averages_of_a_short_recording_are_one_line(self):
         recording = self.path("short.h5")
         swirl("run", "--discs", 8, "--periods", 2, "--warmup", 0, "--trajectory", recording, "--quiet")
-        done = swirl("measure", recording, "--measure", "all", "--skip", 1.96)
+        done = swirl("measure", recording, "--measure", "all", "--warmup", 1.96)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("n/a"), 1, done.stdout)
         self.assertRegex(done.stdout, r"(?m)^  n/a +\d+ of \d+ averages$")
-        self.assertIn("; 1 frame\n", done.stdout)
+        self.assertIn("\n  average     1 frame\n", done.stdout)
 
     def test_fields_errors_and_balances_are_in_one_file(self):
         done = swirl("run", "--discs", 20, "--periods", 14, "--warmup", 2, "--measure", "fields", "--json",

@@ -26,7 +26,7 @@ class ReleasePreset(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 return done.stdout
             output_of(COMMANDS)
-            self.assertIn("48 discs counterrotate", output_of("build/release/swirl run --discs 48"))
+            self.assertIn("48 discs rotate against the swirl", output_of("build/release/swirl run --discs 48"))
             # The clone has the commit, and the build changes no tracked file.
             commit = output_of("git rev-parse --short=7 HEAD").strip()
             self.assertIn(commit, output_of("build/release/swirl --version"))

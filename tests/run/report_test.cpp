@@ -35,11 +35,25 @@ TEST(WithError, PrintsMissingValues) {
     EXPECT_EQ(with_error(-0.25, nan), "−0.25");
 }
 
-TEST(RotationVerb, IsStallWithinTwoErrors) {
-    EXPECT_EQ(rotation_verb({0.1, 0.01, 10.0, 10}), "rotate");
-    EXPECT_EQ(rotation_verb({-0.1, 0.01, 10.0, 10}), "counterrotate");
-    EXPECT_EQ(rotation_verb({0.019, 0.01, 10.0, 10}), "stall");
-    EXPECT_EQ(rotation_verb({-0.019, 0.01, 10.0, 10}), "stall");
+TEST(RotationWords, NameTheDirectionBeyondTwoErrors) {
+    EXPECT_EQ(rotation_words({0.1, 0.01, 10.0, 10}, true), "rotate with the swirl");
+    EXPECT_EQ(rotation_words({-0.1, 0.01, 10.0, 10}, true),
+              "rotate against the swirl (counterrotation)");
+    EXPECT_EQ(rotation_words({-0.1, 0.01, 10.0, 10}, false), "rotate clockwise");
+    for (const double mean : {0.019, -0.019})
+        EXPECT_EQ(rotation_words({mean, 0.01, 10.0, 10}, true),
+                  "stall, no rotation beyond the error");
+}
+
+TEST(RigidBodyLine, IsThereIfTheRatesDifferByMoreThanThreeErrors) {
+    RotationEstimates rates;
+    rates.mean_by_time = {0.007, 0.001, 10.0, 10};
+    rates.rigid_by_time = {0.004, 0.001, 10.0, 10};
+    EXPECT_EQ(rigid_body_line(rates), "");
+    rates.rigid_by_time.mean = -0.006;
+    EXPECT_THAT(rigid_body_line(rates), testing::HasSubstr("  rigid body  ϖ/Ω = −0.0060 ± 0.0010"));
+    rates.rigid_by_time.mean = nan;
+    EXPECT_EQ(rigid_body_line(rates), "");
 }
 
 TEST(WithCommas, GroupsByThousands) {
@@ -58,6 +72,7 @@ TEST(Headline, GivesNoAverageWithoutAWholePeriod) {
     EXPECT_THAT(warnings(short_run), testing::ElementsAre(testing::AllOf(
                                          testing::HasSubstr("the run covers 0.16 periods"),
                                          testing::HasSubstr("hint: use more --events."))));
+    EXPECT_EQ(report(short_run, true).find("ϖ/Ω"), std::string::npos);
     EXPECT_EQ(report(short_run, true).find("rigid"), std::string::npos);
     for (const Estimate& e :
          {short_run.rotation.mean_by_event, short_run.rotation.mean_by_time,
@@ -98,10 +113,11 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     result.steady.change = {.before = 0.3, .after = 1.0, .size = 9.0, .max_size = 4.6};
     result.steady_spin.change = {.size = 1.0, .max_size = 4.7, .effective_samples = 10.0};
     EXPECT_THAT(report(result, false),
+                testing::HasSubstr("  steady      no: the rotation drifts from 0.3 to 1\n"));
+    EXPECT_THAT(report(result, true),
                 testing::HasSubstr(
-                    "  steady      drifting; largest change of the rotation 9.0 standard errors "
-                    "(limit 4.6), of the spins 1.0 (limit 4.7); 3 % of steady "
-                    "runs exceed a limit"));
+                    "  changes     largest of the rotation 9.0 standard errors (limit 4.6), of the "
+                    "spins 1.0 (limit 4.7); 3 % of steady runs exceed a limit"));
     EXPECT_THAT(
         warnings(result),
         testing::ElementsAre(testing::HasSubstr("not steady: the rotation drifts from 0.3 to 1.")));
@@ -135,9 +151,12 @@ TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::steady;
     result.steady.change = result.steady_spin.change = {.size = 1.0, .max_size = 4.6};
     EXPECT_THAT(report(result, false),
-                testing::HasSubstr("  steady      rotation and spins steady, energy growing; "));
+                testing::HasSubstr("  steady      rotation and spins: no change larger than "
+                                   "chance; the energy grows\n"));
     result.config.path = PathShape::circle;
-    EXPECT_THAT(report(result, false), testing::HasSubstr("  steady      steady; "));
+    EXPECT_THAT(report(result, false),
+                testing::HasSubstr("  steady      yes: no change larger than "
+                                   "chance\n"));
     result.config.path = PathShape::polygon;
     result.steady.verdict = result.steady_spin.verdict = SteadyState::Verdict::too_short;
     // On a floor the energy does not grow, because floor friction dissipates it.

@@ -29,7 +29,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MeasureCall {
-    std::string file, list, tables, json, skip, misfit;
+    std::string file, list, tables, json, warmup, max_invalid;
     TrackTexts camera;
     bool quiet = false;
 };
@@ -44,11 +44,11 @@ OpenedSeries open_series(const MeasureCall& call) {
     try_reading(call.file);
     if (is_trajectory(call.file)) {
         reject_track_options(call.camera, call.file);
-        if (!call.misfit.empty()) throw_option_of_tracks("misfit", call.file);
+        if (!call.max_invalid.empty()) throw_option_of_tracks("max-invalid", call.file);
         return {series_of_run(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
     }
     return open_tracks(call.file, call.camera,
-                       number_option("misfit", call.misfit, default_misfit, 0.0));
+                       number_option("max-invalid", call.max_invalid, default_misfit, 0.0));
 }
 
 /// Frames do not contain the collisions.
@@ -96,14 +96,14 @@ void validate_outputs(const MeasureCall& call, const std::vector<std::string>& n
 }
 
 MeasuredSeries measure_with_progress(const MeasureCall& call, const SnapshotSeries& series,
-                                     const std::vector<std::string>& names, double skip) {
+                                     const std::vector<std::string>& names, double warmup) {
     ProgressLine line(fmt::format("{} frames", series.frames), call.quiet);
     MeasuringControl control;
     control.stop = &stop_signal();
     control.progress = [&](std::uint64_t k, std::uint64_t of) {
         line.show(double(k) / double(of), fmt::format("frame {}", k));
     };
-    return measure_series(series, names, skip, control);
+    return measure_series(series, names, warmup, control);
 }
 
 Json json_of(const MeasureCall& call, const OpenedSeries& opened, const MeasuredSeries& measured,
@@ -122,19 +122,16 @@ Json json_of(const MeasureCall& call, const OpenedSeries& opened, const Measured
 }
 
 std::string report_text(const SnapshotSeries& series, const MeasuredSeries& measured) {
-    const Estimate &rotation = measured.rotation.mean_by_time, &rigid = measured.rotation.rigid_by_time;
-    if (measured.discs == 1)
-        return fmt::format("1 {} has no rotation about its own centre of mass; {}\n",
-                           series.frame(0).are_balls() ? "sphere" : "disc",
-                           counted(std::int64_t(measured.frames), "frame")) +
-               measured_text(measured.reports);
-    return fmt::format("{} {}: ϖ/Ω = {} by time, {} rigid; {}\n",
-                       counted(std::int64_t(measured.discs),
-                               series.frame(0).are_balls() ? "sphere" : "disc"),
-                       series.has_m_frame ? rotation_verb(rotation) : direction_verb(rotation),
-                       with_error(rotation.mean, rotation.error),
-                       with_error(rigid.mean, rigid.error),
-                       counted(std::int64_t(measured.frames), "frame")) +
+    const RotationEstimates& e = measured.rotation;
+    const std::string bodies =
+        counted(std::int64_t(measured.discs), series.frame(0).are_balls() ? "sphere" : "disc");
+    std::string text = measured.discs == 1
+                           ? bodies + " has no rotation about its own centre of mass\n"
+                           : fmt::format("{} {}: ϖ/Ω = {}\n", bodies,
+                                         rotation_words(e.mean_by_time, series.has_m_frame),
+                                         with_error(e.mean_by_time.mean, e.mean_by_time.error));
+    text += rigid_body_line(e);
+    return text + report_line("average", counted(std::int64_t(measured.frames), "frame")) +
            measured_text(measured.reports);
 }
 
@@ -145,7 +142,7 @@ void measure_file(const MeasureCall& call) {
     if (!call.list.empty()) names = read_measurement_list(call.list);
     reject_measurements_of_events(names, call.list);
     validate_outputs(call, names);
-    const double skip = number_option("skip", call.skip, 0.0, 0.0);
+    const double warmup = number_option("warmup", call.warmup, 0.0, 0.0);
     const OpenedSeries opened = open_series(call);
     const SnapshotSeries& series = opened.series;
     if (series.frames == 0) throw Failure(fmt::format("'{}' holds no frames.", call.file));
@@ -153,10 +150,10 @@ void measure_file(const MeasureCall& call) {
     if (!tracked) reject_measurements_of_tracks(names, call);
     if (!series.has_m_frame && call.list != "all") require_m_frame_for(names);
     names = measurable(names, tracked, series.has_m_frame);
-    if (skip > 0.0 && series.frame(series.frames - 1).time() < skip * series.frame(0).period)
-        throw Failure(fmt::format("--skip {} leaves no frame of '{}'.", call.skip, call.file));
+    if (warmup > 0.0 && series.frame(series.frames - 1).time() < warmup * series.frame(0).period)
+        throw Failure(fmt::format("--warmup {} leaves no frame of '{}'.", call.warmup, call.file));
 
-    const MeasuredSeries measured = measure_with_progress(call, series, names, skip);
+    const MeasuredSeries measured = measure_with_progress(call, series, names, warmup);
     const Json values = measured_json(measured.reports);
     std::string remarks = opened.remarks;
     const std::array warnings{remark_on_rolling(values), measured.remark};
@@ -186,8 +183,8 @@ void add_measure_command(Subcommand& subcommand) {
                           "DIR", output);
     subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
                           output);
-    subcommand.add_option("--skip", call->skip, "Periods at the start to exclude [0]", "PERIODS",
-                          output);
+    subcommand.add_option("--warmup", call->warmup, "Periods at the start to exclude [0]",
+                          "PERIODS", output);
     add_omit_paths_option(subcommand, output);
     subcommand.add_flag("--quiet", call->quiet, "No progress and no report", output);
     add_track_options(subcommand, call->camera, camera);
@@ -195,13 +192,13 @@ void add_measure_command(Subcommand& subcommand) {
                           "Amplitude of the swirling motion, in disc radii [0]", "NUMBER", camera);
     subcommand.add_option("--container-radius", call->camera.container_radius,
                           "Radius of the container, in disc radii", "NUMBER", camera);
-    subcommand.add_option("--misfit", call->misfit,
-                          "Allowed fraction of frames with overlapping discs [0.05]", "SHARE",
-                          camera);
+    subcommand.add_option("--max-invalid", call->max_invalid,
+                          "Allowed fraction of invalid frames [0.05]", "SHARE", camera);
     subcommand.explain(
         "FILE is a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text "
-        "dump. --misfit also counts frames with discs outside the container.\n");
-    subcommand.set_main_options({"--measure", "--tables", "--json", "--skip", "--camera-fps",
+        "dump. A frame is invalid if discs overlap or lie outside the container "
+        "(--max-invalid).\n");
+    subcommand.set_main_options({"--measure", "--tables", "--json", "--warmup", "--camera-fps",
                                  "--scale", "--omega", "--centre", "--amplitude",
                                  "--container-radius"});
     subcommand.set_examples(

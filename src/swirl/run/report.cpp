@@ -10,6 +10,7 @@
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/ramp.hpp"
 #include "swirl/run/reading.hpp"
+#include "swirl/statistics/zero_crossing.hpp"
 
 namespace swirl {
 namespace {
@@ -124,16 +125,26 @@ std::string sinking_warning(const RunResult& r) {
 
 std::string steady_text(const RunResult& r) {
     if (r.config.discs == 1) return "n/a";  // the test is on the rotation about the centre of mass
-    const bool only_energy_grows =
-        r.steady_state() == SteadyState::Verdict::steady && energy_grows_without_bound(r.config);
-    const std::string text =
-        only_energy_grows ? "rotation and spins steady, energy growing" : verdict(r.steady_state());
+    switch (r.steady_state()) {
+        case SteadyState::Verdict::steady:
+            return energy_grows_without_bound(r.config)
+                       ? "rotation and spins: no change larger than chance; the energy grows"
+                       : "yes: no change larger than chance";
+        case SteadyState::Verdict::too_short:
+            return "not verified: the run is too short";
+        default:
+            return "no: " + steady_state_found(r);
+    }
+}
+
+/// The evidence of the steady-state tests; empty if they were not made.
+std::string changes_text(const RunResult& r) {
     const MeanChange &rotation = r.steady.change, &spin = r.steady_spin.change;
-    if (!std::isfinite(rotation.size) || !std::isfinite(spin.size)) return text;
+    if (!std::isfinite(rotation.size) || !std::isfinite(spin.size)) return "";
     return fmt::format(
-        "{}; largest change of the rotation {:.1f} standard errors (limit {:.1f}), of the spins "
-        "{:.1f} (limit {:.1f}); {:.2g} % of steady runs exceed a limit",
-        text, std::fabs(rotation.size), rotation.max_size, std::fabs(spin.size), spin.max_size,
+        "largest of the rotation {:.1f} standard errors (limit {:.1f}), of the spins {:.1f} (limit "
+        "{:.1f}); {:.2g} % of steady runs exceed a limit",
+        std::fabs(rotation.size), rotation.max_size, std::fabs(spin.size), spin.max_size,
         100.0 * (false_alarm_rate(rotation) + false_alarm_rate(spin)));
 }
 
@@ -141,8 +152,7 @@ std::string steady_text(const RunResult& r) {
 bool is_direction_known(const Estimate& e) {
     constexpr std::size_t min_blocks = 5;  // with fewer, the error itself is hardly known
     if (e.blocks < min_blocks) return false;
-    return rotation_verb(e) != std::string_view("stall") ||
-           e.blocks >= min_blocks_of_a_steady_state;
+    return direction_of(e) != 0 || e.blocks >= min_blocks_of_a_steady_state;
 }
 
 std::string ramp_warning(const RunResult& r) {
@@ -157,10 +167,10 @@ std::string ramp_warning(const RunResult& r) {
     return text;
 }
 
-std::string periods_text(const RunResult& r) {
-    if (r.warmup == 0) return fmt::format("{:.1f}; no warm-up", r.periods);
-    return fmt::format("{:.1f}; {} warm-up{} and excluded from the averages", r.periods,
-                       first_periods(r.warmup),
+std::string average_text(const RunResult& r) {
+    const std::string length = counted(std::int64_t(std::floor(r.periods)) - r.warmup, "period");
+    if (r.warmup == 0) return length + ", no warm-up";
+    return fmt::format("{} after a warm-up of {}{}", length, r.warmup,
                        r.config.warmup_found ? " (found automatically)" : "");
 }
 
@@ -172,6 +182,40 @@ std::string floor_events_text(const RunResult& r) {
                                                                          "stops on the floor"
                                                                        : "starts of rolling";
     return fmt::format(", {} {}", with_commas(r.events.begins_to_roll), transition);
+}
+
+std::string events_text(const RunResult& r) {
+    const char* const body = body_word(r.config);
+    return fmt::format("{}: {} {}–{}, {} {}–wall, {} {} of the path{}",
+                       with_commas(r.events.total()), with_commas(r.events.disc_disc), body, body,
+                       with_commas(r.events.disc_wall), body, with_commas(r.events.path_vertex),
+                       r.events.path_vertex == 1 ? "vertex" : "vertices", floor_events_text(r));
+}
+
+/// The lines that only --verbose prints.
+std::string details(const RunResult& r) {
+    std::string text;
+    const RotationEstimates& e = r.rotation;
+    if (r.config.discs > 1 && r.has_whole_period()) {
+        text += report_line("by time",
+                            fmt::format("{} mean over the discs, {} rigid body",
+                                        with_error(e.mean_by_time), with_error(e.rigid_by_time)));
+        text += report_line("by event",
+                            fmt::format("{} mean over the discs, {} rigid body",
+                                        with_error(e.mean_by_event), with_error(e.rigid_by_event)));
+        text += report_line(
+            "errors", fmt::format("from {} blocks of whole periods, {:.0f} of them independent",
+                                  e.mean_by_time.blocks, e.mean_by_time.effective_samples));
+    }
+    if (const std::string changes = changes_text(r); r.config.ramps.empty() && !changes.empty())
+        text += report_line("changes", changes);
+    text += report_line("events", events_text(r));
+    text += report_line("periods", fmt::format("{:.1f}", r.periods));
+    text += report_line("energy",
+                        fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
+    text += report_line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
+    return text + report_line("time", fmt::format("{:.2f} s, {:.2f} million events/s, {}",
+                                                  r.seconds, r.events_per_second() / 1e6, r.simd));
 }
 
 }  // namespace
@@ -219,22 +263,41 @@ std::string series_text(const PeriodSeries& series) {
     return text;
 }
 
-std::string rotation_verb(const Estimate& e) {
-    if (std::isnan(e.mean)) return "have no rotation about their own centre";
+int direction_of(const Estimate& e) {
     constexpr double rounding = 1e-12;
     const double resolution = std::isnan(e.error) ? rounding : std::max(2.0 * e.error, rounding);
-    if (std::fabs(e.mean) <= resolution) return "stall";
-    return e.mean > 0.0 ? "rotate" : "counterrotate";
+    return e.mean > resolution ? 1 : e.mean < -resolution ? -1 : 0;
 }
 
-std::string direction_verb(const Estimate& e) {
-    const std::string verb = rotation_verb(e);
-    if (verb == "rotate") return "rotate counter-clockwise";
-    return verb == "counterrotate" ? "rotate clockwise" : verb;
+std::string rotation_words(const Estimate& e, bool with_a_swirl) {
+    if (std::isnan(e.mean)) return "have no rotation about their own centre";
+    switch (direction_of(e)) {
+        case 1:
+            return with_a_swirl ? "rotate with the swirl" : "rotate counter-clockwise";
+        case -1:
+            return with_a_swirl ? "rotate against the swirl (counterrotation)" : "rotate clockwise";
+        default:
+            return "stall, no rotation beyond the error";
+    }
+}
+
+std::string report_line(std::string_view name, const std::string& value) {
+    return fmt::format("  {:<12}{}\n", name, value);
+}
+
+std::string rigid_body_line(const RotationEstimates& e) {
+    const Estimate &mean = e.mean_by_time, &rigid = e.rigid_by_time;
+    // Both are from the same run, so the error of their difference is at most this.
+    const bool differs =
+        std::fabs(rigid.mean - mean.mean) > certain_sign * std::hypot(mean.error, rigid.error);
+    if (!differs) return "";
+    return report_line("rigid body", fmt::format("ϖ/Ω = {}, another rate than the mean over the "
+                                                 "discs above",
+                                                 with_error(rigid)));
 }
 
 std::string headline(const RunResult& r) {
-    const Estimate& e = r.rotation.mean_by_event;
+    const Estimate& e = r.rotation.mean_by_time;
     const char* const body = body_word(r.config);
     if (r.config.discs == 1)
         return fmt::format("1 {} has no rotation about its own centre of mass.", body);
@@ -242,19 +305,17 @@ std::string headline(const RunResult& r) {
         return fmt::format("{} {}s completed no whole period{}, so there are no averages.",
                            r.config.discs, body, r.warmup > 0 ? " after the warm-up" : "");
     const std::string motion =
-        fmt::format("{} {}s {}", r.config.discs, body,
-                    has_m_frame(r.config) ? rotation_verb(e) : direction_verb(e));
+        fmt::format("{} {}s {}", r.config.discs, body, rotation_words(e, has_m_frame(r.config)));
     if (std::isnan(e.mean)) return motion + ".";
-    const std::string rates =
-        fmt::format("ϖ/Ω = {} by event, {} by time", with_error(e), with_error(r.rotation.mean_by_time));
+    const std::string rate = "ϖ/Ω = " + with_error(e);
     if (!r.config.ramps.empty())
-        return fmt::format("{} {}s in a ramp, {}: on average {}.", r.config.discs, body,
-                           ramps_text(r.config.ramps), rates);
+        return fmt::format("{} {}s in a ramp, {}: on average {}", r.config.discs, body,
+                           ramps_text(r.config.ramps), rate);
     if (!is_direction_known(e))
-        return fmt::format("{} {}s: {}; {} too few to determine the direction of rotation.",
-                           r.config.discs, body, rates,
+        return fmt::format("{} {}s: {}; {} too few to determine the direction of rotation",
+                           r.config.discs, body, rate,
                            e.blocks == 1 ? "1 period is" : fmt::format("{} periods are", e.blocks));
-    return fmt::format("{}: {}.", motion, rates);
+    return fmt::format("{}: {}", motion, rate);
 }
 
 const char* verdict(SteadyState::Verdict verdict) {
@@ -290,39 +351,18 @@ std::string rounded_share_text(const RunConfig& c) {
 
 std::string report(const RunResult& r, bool verbose) {
     std::string text = headline(r) + "\n";
-    const auto line = [&](std::string_view name, const std::string& value) {
-        text += fmt::format("  {:<12}{}\n", name, value);
-    };
-    if (r.config.discs > 1 && r.has_whole_period()) {
-        if (!has_m_frame(r.config))
-            line("Ω",
-                 "2π/T, only a unit, because this path has no M-frame; ϖ > 0 is counter-clockwise");
-        line("rigid", fmt::format("{} by event, {} by time", with_error(r.rotation.rigid_by_event),
-                                  with_error(r.rotation.rigid_by_time)));
-        if (verbose)
-            line("errors",
-                 fmt::format("from {} blocks of whole periods, {:.0f} of them independent",
-                             r.rotation.mean_by_event.blocks, r.rotation.mean_by_event.effective_samples));
-    }
-    const char* const body = body_word(r.config);
+    const bool has_averages = r.config.discs > 1 && r.has_whole_period();
+    if (has_averages && !has_m_frame(r.config))
+        text += report_line(
+            "Ω", "2π/T, only a unit, because this path has no M-frame; ϖ > 0 is counter-clockwise");
     if (const std::string rounded = rounded_share_text(r.config); !rounded.empty())
-        line("mixture", rounded);
-    line("events",
-         fmt::format("{}: {} {}–{}, {} {}–wall, {} {} of the path{}", with_commas(r.events.total()),
-                     with_commas(r.events.disc_disc), body, body, with_commas(r.events.disc_wall),
-                     body, with_commas(r.events.path_vertex),
-                     r.events.path_vertex == 1 ? "vertex" : "vertices", floor_events_text(r)));
-    line("periods", periods_text(r));
-    if (r.config.ramps.empty()) line("steady", steady_text(r));
-    if (verbose) {
-        line("energy", fmt::format("{:.4g}; {:.4g} at the start", r.energy, r.energy_at_start));
-        line("overlap", fmt::format("{:.1e} at most", r.max_overlap));
-    }
-    line("state", fmt::format("{:016x} (seed {})", r.state_hash, r.config.seed));
-    if (verbose)
-        line("time", fmt::format("{:.2f} s, {:.2f} million events/s, {}", r.seconds,
-                                 r.events_per_second() / 1e6, r.simd));
-    return text;
+        text += report_line("mixture", rounded);
+    if (has_averages) text += rigid_body_line(r.rotation);
+    if (r.has_whole_period()) text += report_line("average", average_text(r));
+    if (r.config.ramps.empty()) text += report_line("steady", steady_text(r));
+    text += report_line("repeat", fmt::format("seed {} gives final state {:016x} on every machine",
+                                              r.config.seed, r.state_hash));
+    return verbose ? text + details(r) : text;
 }
 
 std::string warning_lines(const RunResult& r) {

@@ -18,14 +18,21 @@ std::string with_commas(std::uint64_t number);
 /// The averages of a series and their correlations, one line each.
 std::string series_text(const PeriodSeries& series);
 
-/// "rotate", "counterrotate", or "stall" if the mean is within two standard errors of zero.
-std::string rotation_verb(const Estimate& rotation);
-/// "rotate counter-clockwise", "rotate clockwise" or "stall": for paths without an M-frame, where
-/// there is no swirl with which the cluster could rotate.
-std::string direction_verb(const Estimate& rotation);
+/// 1, −1, or 0 if the mean is within two standard errors of zero.
+int direction_of(const Estimate& rotation);
+/// "rotate with the swirl", "rotate against the swirl (counterrotation)" or "stall, …". On a path
+/// without an M-frame there is no swirl: "rotate clockwise".
+std::string rotation_words(const Estimate& rotation, bool with_a_swirl);
 
-/// "48 discs counterrotate: ϖ/Ω = −0.037 ± 0.001 by event, …": one line. A run of few periods has
-/// no verb, unless the direction is certain.
+/// A line of a report: "  steady      yes".
+std::string report_line(std::string_view name, const std::string& value);
+
+/// The rate of the best-fitting rigid body, if it differs from the mean over the discs by more than
+/// three errors; otherwise empty.
+std::string rigid_body_line(const RotationEstimates& rotation);
+
+/// "48 discs rotate against the swirl (counterrotation): ϖ/Ω = −0.037 ± 0.001": one line, with the
+/// mean over the discs, by time. A run of few periods has no verb, unless the direction is certain.
 std::string headline(const RunResult& result);
 
 /// "steady", "drifting", "jumping", "switching" or "too short to tell".
@@ -35,8 +42,9 @@ const char* verdict(SteadyState::Verdict verdict);
 /// Empty if there are none.
 std::string steady_state_found(const RunResult& result);
 
-/// The headline and a few lines of details, without the warnings. `verbose` adds lines on errors,
-/// energy, overlap and computing time.
+/// The headline, what is averaged, whether it is steady, and the final state, without the warnings.
+/// A further line reports a rigid-body rate that differs beyond the errors. `verbose` adds all four
+/// rates, errors, events, energy, overlap and computing time.
 std::string report(const RunResult& result, bool verbose);
 
 /// "24 of 48 discs have radius 0.8: 50 %, rounded to whole discs" for a mixture given as a share;

@@ -110,7 +110,7 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
             "{} is '{}', but the step is in the middle: FROM:STEP:TO.\nhint: write {}:{}:{}.",
             option_name(name), text, with_digits(from), with_digits(to), with_digits(step)));
     if (!(step > 0.0) || to < from) reject("it is not ascending");
-    if (!has_step && !takes_whole_numbers(name))
+    if (parts.size() == 2 && !takes_whole_numbers(name))
         throw UsageError(fmt::format(
             "{} is '{}', a range without a step.\nhint: give the step, {}:{:g}:{}, or a list.",
             option_name(name), text, with_digits(from), (to - from) / 4.0, with_digits(to)));
