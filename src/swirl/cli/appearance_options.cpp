@@ -47,14 +47,14 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
     };
     add("--frame", texts->frame, "lab|m|both",
         "Frame of reference: lab, co-rotating (M), or both [lab]");
-    add("--color", texts->color, "NAME", "Colour by pinned, spin, speed, slip, id or none [none]");
+    add("--color", texts->color, "NAME", "Colour by sector, pinned, spin, speed, slip, id or none");
     flag("--trails", texts->trails, "Draw the recent path of each disc");
     add("--trail-length", texts->trail_length, "PERIODS", "Draw trails of this length [0.3]");
     flag("--forces", texts->forces, "Centrifugal and Coriolis force on each disc (M-frame)");
-    flag("--turned-angle", texts->turned, "Arc for the angle that the cluster has turned (lab)");
+    flag("--turned-angle", texts->turned, "Arc for the turned angle (lab) [with --color sector]");
     flag("--angles", texts->angles, "Scale of the angle θ along the wall (M-frame)");
     flag("--plot", texts->plot, "Plot of the cluster's rotation against time");
-    add("--theme", texts->theme, "NAME", "Colour theme: dark or light [dark]");
+    add("--theme", texts->theme, "NAME", "Colour theme: light or dark [light]");
     add("--title", texts->title, "TEXT", "Title above the image");
     flag("--no-annotations", texts->bare, "Container and discs only, no text or markers");
     add("--size", texts->size, "WxH", "Image size in pixels [1920x1080]");
@@ -67,8 +67,10 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     const auto coloring = coloring_named(texts.color);
     if (!coloring)
         throw UsageError(fmt::format(
-            "--color is '{}', but it must be pinned, spin, speed, slip, none or id.{}", texts.color,
-            nearest_value_hint(texts.color, {"pinned", "spin", "speed", "slip", "none"})));
+            "--color is '{}', but it must be sector, pinned, spin, speed, slip, none or id.{}",
+            texts.color,
+            nearest_value_hint(texts.color,
+                               {"sector", "pinned", "spin", "speed", "slip", "none"})));
     result.coloring = *coloring;
     const auto theme = theme_named(texts.theme);
     if (!theme)
@@ -87,13 +89,16 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     result.trails = texts.trails || texts.trail_length;
     result.forces = texts.forces;
     result.plot = texts.plot;
-    result.turned = texts.turned;
+    const bool shows_rotation =
+        result.coloring == Coloring::sector && texts.frame != "m" && !texts.bare;
+    result.turned = texts.turned || shows_rotation;
+    result.swirl = !texts.bare;
     result.angles = texts.angles;
     result.title = texts.title;
     result.texts = !texts.bare;
-    result.points = !texts.bare;
+    result.points = !texts.bare && (texts.forces || texts.angles);  // they refer to S and M
     result.path = !texts.bare;
-    if (result.turned && texts.frame == "m")
+    if (texts.turned && texts.frame == "m")
         throw UsageError(
             "--turned-angle shows the rotation in the lab frame.\nhint: use --frame lab or --frame "
             "both.");

@@ -12,7 +12,7 @@ namespace swirl {
 
 /// Options as given; appearance() parses them.
 struct AppearanceTexts {
-    std::string frame, color = "none", theme = "dark", title, size;
+    std::string frame, color = "sector", theme = "light", title, size;
     std::optional<double> trail_length;
     bool trails = false, forces = false, plot = false, turned = false, angles = false, bare = false;
 };

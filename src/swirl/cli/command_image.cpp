@@ -68,7 +68,7 @@ void add_image_command(Subcommand& subcommand) {
     subcommand.set_main_options({"--out", "--start", "--frame", "--color", "--trails", "--size",
                                  "--discs", "--mu", "--compare", "--over"});
     subcommand.set_examples(
-        {"swirl image --discs 48 --frame m --color pinned --theme light --out 48.pdf",
+        {"swirl image --discs 48 --frame m --color pinned --out 48.pdf",
          "swirl image --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
          "swirl image run.h5 --start 12.5 --trails --out instant.svg"});
     subcommand.callback([call, &subcommand] {

@@ -41,13 +41,13 @@ MovieConfig movie_config(const MovieCall& call) {
     const FrameSource& first = config.sources.front();
     // Over camera images, each of them is shown once.
     config.pace = call.pace.value_or(
-        first.open_backdrop ? config.frames_per_second / first.frames_per_period : 0.5);
+        first.open_backdrop ? config.frames_per_second / first.frames_per_period : 2.0);
     config.start =
         call.start.value_or(first.from.value_or(call.source->slip ? 0.0 : double(default_warmup)));
     if (call.seconds && call.periods)
         throw UsageError(
             "--seconds and --periods both set the duration, but only one may be given.");
-    double seconds = call.seconds.value_or(gif ? 6.0 : 20.0);
+    double seconds = call.seconds.value_or(gif ? 6.0 : 10.0);
     if (call.periods) seconds = *call.periods / config.pace;
     // A recording is shown from its first frame to its last.
     if (first.to && !call.seconds && !call.periods)
@@ -107,13 +107,13 @@ void add_movie_command(Subcommand& subcommand) {
         .add_option("--frame-files", call->frames_folder, "Folder for PNG files of all frames")
         ->type_name("DIR")
         ->group(group);
-    subcommand.add_option("--seconds", call->seconds, "Duration of the movie [20; .gif: 6]")
+    subcommand.add_option("--seconds", call->seconds, "Duration of the movie [10; .gif: 6]")
         ->type_name("SECONDS")
         ->group(group);
     subcommand.add_option("--periods", call->periods, "Duration in periods, instead of --seconds")
         ->type_name("PERIODS")
         ->group(group);
-    subcommand.add_option("--pace", call->pace, "Periods per second of the movie [0.5]")
+    subcommand.add_option("--pace", call->pace, "Periods per second of the movie [2]")
         ->type_name("NUMBER")
         ->group(group);
     subcommand.add_option("--fps", call->frames_per_second, "Frames per second [60; .gif: 25]")
@@ -134,7 +134,7 @@ void add_movie_command(Subcommand& subcommand) {
     subcommand.set_examples(
         {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
          "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
-         "swirl movie --discs 48 --compare 28 --seconds 4 --out swirl.gif",
+         "swirl movie --discs 48 --compare 20 --out reversal.gif",
          "swirl movie run.h5 --color id --out run.mp4",
          "swirl movie tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre "
          "512,384 --amplitude 1.9 --container-radius 8.6 --over 'frames/%05d.png' --out "

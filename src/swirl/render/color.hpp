@@ -39,6 +39,12 @@ inline constexpr std::array<Color, 7> distinct_colors{
     color_from_hex(0xCC79A7), color_from_hex(0xF0E442), color_from_hex(0x0072B2),
     color_from_hex(0xD55E00)};
 
+/// Sectors of a cluster, around the circle: neighbours are similar, and opposite ones differ for
+/// every colour vision. The browser page has the same (web/src/paint.ts).
+inline constexpr std::array<Color, 6> sector_colors{
+    color_from_hex(0x2A6DB0), color_from_hex(0x62B5E5), color_from_hex(0x2A9D80),
+    color_from_hex(0xF3D95A), color_from_hex(0xEA9F33), color_from_hex(0xD65F2B)};
+
 /// Interpolates evenly spaced stops. `u` is clamped to 0…1; NaN counts as 0.
 template <std::size_t count>
 constexpr Color interpolate(const std::array<Color, count>& stops, double u) {

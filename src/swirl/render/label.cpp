@@ -48,35 +48,12 @@ std::vector<Run> parse(std::string_view text) {
     return runs;
 }
 
-constexpr const char* text_face = "Inter";
-constexpr const char* symbol_face = "STIX";
-constexpr const char* complete_face = "DejaVu Sans";
-
-/// True if the selected face has a glyph for every character.
-bool has_all_glyphs(cairo_t* cairo, const std::string& text) {
-    cairo_glyph_t* glyphs = nullptr;
-    int count = 0;
-    const cairo_status_t status = cairo_scaled_font_text_to_glyphs(
-        cairo_get_scaled_font(cairo), 0.0, 0.0, text.c_str(), static_cast<int>(text.size()),
-        &glyphs, &count, nullptr, nullptr, nullptr);
-    if (status != CAIRO_STATUS_SUCCESS) return false;
-    const bool all =
-        std::all_of(glyphs, glyphs + count, [](const cairo_glyph_t& g) { return g.index != 0; });
-    cairo_glyph_free(glyphs);
-    return all;
-}
-
 void select_face(cairo_t* cairo, const Run& run, const LabelStyle& style) {
-    const auto slant = run.italic ? CAIRO_FONT_SLANT_ITALIC : CAIRO_FONT_SLANT_NORMAL;
-    const auto weight = style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL;
-    // Symbols in a Times-like face look small next to a sans-serif face of the same size.
-    constexpr double symbol_scale = 1.12, subscript_scale = 0.72;
-    const double size =
-        style.size * (run.italic ? symbol_scale : 1.0) * (run.level != 0 ? subscript_scale : 1.0);
-    cairo_select_font_face(cairo, run.italic ? symbol_face : text_face, slant, weight);
-    cairo_set_font_size(cairo, size);
-    if (!has_all_glyphs(cairo, run.text))
-        cairo_select_font_face(cairo, complete_face, slant, weight);
+    constexpr double subscript_scale = 0.72;
+    cairo_select_font_face(cairo, "DejaVu Sans",
+                           run.italic ? CAIRO_FONT_SLANT_ITALIC : CAIRO_FONT_SLANT_NORMAL,
+                           style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo, style.size * (run.level != 0 ? subscript_scale : 1.0));
 }
 
 bool is_digit(const Run& run) {

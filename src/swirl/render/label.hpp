@@ -3,7 +3,7 @@
 //
 //     "rotation $ϖ$/$Ω$ at $μ_{d}$ = 1"
 //
-// A glyph that the chosen fonts lack is taken from DejaVu Sans.
+// The font is DejaVu Sans, as in all figures: it has every symbol that is used.
 #pragma once
 
 #include <optional>

@@ -79,6 +79,36 @@ struct Survey {
     }
 };
 
+/// The sector of each disc of the source at this time, by its angle about the centre of mass.
+std::map<std::int64_t, std::uint8_t> sectors_at(const FrameSource& source, double periods) {
+    const Snapshot s = source.open()(periods);
+    const std::vector<std::int64_t> ids =
+        source.ids ? source.ids(periods) : std::vector<std::int64_t>();
+    Vec2 centre{0.0, 0.0};
+    for (std::size_t i = 0; i < s.size(); ++i)
+        centre = centre + (1.0 / static_cast<double>(s.size())) * s.position(i);
+    std::map<std::int64_t, std::uint8_t> sectors;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+        const Vec2 p = s.position(i) - centre;
+        const double turns = std::atan2(p.y, p.x) / full_turn + 1.0;
+        const auto sector = static_cast<std::size_t>(turns * double(sector_colors.size()));
+        sectors[ids.size() == s.size() ? ids[i] : std::int64_t(i)] =
+            static_cast<std::uint8_t>(sector % sector_colors.size());
+    }
+    return sectors;
+}
+
+/// For each disc of this state. A disc that was not there at the start has the first colour.
+std::vector<std::uint8_t> sectors_of(const SourceState& now,
+                                     const std::map<std::int64_t, std::uint8_t>& at_start) {
+    std::vector<std::uint8_t> sectors;
+    for (std::size_t i = 0; i < now.snapshot.size(); ++i) {
+        const auto found = at_start.find(now.ids.empty() ? std::int64_t(i) : now.ids[i]);
+        sectors.push_back(found == at_start.end() ? std::uint8_t{0} : found->second);
+    }
+    return sectors;
+}
+
 std::vector<Panel> panels_of(const std::vector<FrameSource>& sources,
                              const Appearance& appearance) {
     std::vector<Panel> panels;
@@ -157,6 +187,8 @@ Page::Page(const std::vector<FrameSource>& sources, const Appearance& appearance
     const bool needs_scale = appearance.coloring == Coloring::spin ||
                              appearance.coloring == Coloring::speed ||
                              appearance.coloring == Coloring::slip;
+    if (appearance.coloring == Coloring::sector)
+        for (const FrameSource& source : sources) sectors_.push_back(sectors_at(source, start));
     Survey survey;
     if (appearance.plot || appearance.turned || needs_scale) {
         for (std::size_t k = 0; k < sources.size(); ++k) {
@@ -189,6 +221,7 @@ void Page::draw(const Canvas& canvas, std::span<const Moment> moments, double pe
     struct Pointers {
         std::vector<const Snapshot*> past, ghosts;
         std::vector<std::span<const std::int64_t>> past_ids;
+        std::vector<std::uint8_t> sectors;
     };
     std::vector<Pointers> pointers(moments.size());
     std::vector<SceneContent> contents;
@@ -199,9 +232,11 @@ void Page::draw(const Canvas& canvas, std::span<const Moment> moments, double pe
             if (sources_[k].ids) pointers[k].past_ids.push_back(state->ids);
         }
         for (const auto& state : moment.ghosts) pointers[k].ghosts.push_back(&state->snapshot);
+        if (!sectors_.empty()) pointers[k].sectors = sectors_of(*moment.now, sectors_[k]);
         SceneContent content{.now = moment.now->snapshot,
                              .path = sources_[k].path,
                              .pinned = moment.pinned,
+                             .sectors = pointers[k].sectors,
                              .past = pointers[k].past,
                              .ghosts = pointers[k].ghosts,
                              .backdrop = moment.backdrop ? &*moment.backdrop : nullptr,

@@ -1,6 +1,8 @@
 // The page of an image or a movie: which containers it shows, how, and with which scales.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,6 +53,8 @@ class Page {
     const Appearance& appearance_;
     double start_;
     std::vector<Curve> curves_;  // one per source, for plot and arcs; empty if not needed
+    /// One per source: the sectors of its discs, by ID or index, at the start.
+    std::vector<std::map<std::int64_t, std::uint8_t>> sectors_;
     std::optional<Sheet> sheet_;
 };
 

@@ -38,6 +38,9 @@ Color disc_color(const SceneStyle& style, const SceneContent& content, const Fra
     const Theme& theme = style.theme;
     const Snapshot& now = content.now;
     switch (style.coloring) {
+        case Coloring::sector:
+            if (content.sectors.size() != now.size()) return theme.disc;
+            return sector_colors[content.sectors[i] % sector_colors.size()];
         case Coloring::pinned:
             if (content.pinned.size() != now.size()) return theme.disc;
             return content.pinned[i] ? theme.pinned : theme.loose;
@@ -369,6 +372,17 @@ void draw_m(const Canvas& canvas, const View& view, const SceneStyle& style,
     draw_label(canvas, "$M$", {tip.x + height + 0.35 * size, tip.y + 0.6 * size}, label);
 }
 
+/// The head of an arrow along an arc, at an angle on the page. `direction` is 1 for clockwise.
+void draw_arc_head(const Canvas& canvas, Vec2 c, double radius, double angle, double direction,
+                   double width, const Color& color) {
+    const Vec2 outward{std::cos(angle), std::sin(angle)};
+    const Vec2 along{-direction * outward.y, direction * outward.x};
+    const Vec2 base = c + radius * outward;
+    canvas.add_polygon(
+        {base + 2.4 * width * along, base + 1.5 * width * outward, base - 1.5 * width * outward});
+    canvas.fill(color);
+}
+
 /// An arc from the top, with a head that points along it. It shows only the fraction of the last
 /// turn: the number next to it (sheet.cpp) counts whole turns.
 void draw_turn_arc(const Canvas& canvas, const View& view, const SceneStyle& style,
@@ -385,19 +399,36 @@ void draw_turn_arc(const Canvas& canvas, const View& view, const SceneStyle& sty
     cairo_new_sub_path(cairo);
     (sweep < 0.0 ? cairo_arc_negative : cairo_arc)(cairo, c.x, c.y, radius, top, top + sweep);
     canvas.stroke(width, color);
-    const double direction = turns < 0.0 ? 1.0 : -1.0, end = top + sweep;
-    const Vec2 outward{std::cos(end), std::sin(end)};
-    const Vec2 along{-direction * outward.y, direction * outward.x};
-    const Vec2 base = c + radius * outward;
-    canvas.add_polygon({base + 2.4 * width * along,
-                        {base.x + 1.5 * width * outward.x, base.y + 1.5 * width * outward.y},
-                        {base.x - 1.5 * width * outward.x, base.y - 1.5 * width * outward.y}});
-    canvas.fill(color);
+    draw_arc_head(canvas, c, radius, top + sweep, turns < 0.0 ? 1.0 : -1.0, width, color);
+}
+
+/// A circular arrow with the word "swirl" in the lower left corner, which the container never
+/// reaches. It points in the direction in which the container moves around S.
+void draw_swirl(const Canvas& canvas, const View& view, const SceneStyle& style,
+                const Snapshot& now) {
+    const double turn = cross(now.container_centre, now.container_velocity);
+    if (!style.swirl || view.frame != Frame::lab || turn == 0.0 || !(view.half_side > 0.0)) return;
+    const double half = view.half_side, radius = 0.085 * half, width = 0.02 * half;
+    const double size = 0.075 * half;
+    if (size < min_font_size) return;
+    const Vec2 c{view.centre.x - 0.86 * half, view.centre.y + 0.78 * half};
+    // Three quarters around; y points down on the page.
+    const double direction = turn > 0.0 ? -1.0 : 1.0, begin = 0.25 * pi - direction * 0.25 * pi;
+    const double end = begin + direction * 1.5 * pi;
+    cairo_t* cairo = canvas.cairo();
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
+    cairo_new_sub_path(cairo);
+    (direction > 0.0 ? cairo_arc : cairo_arc_negative)(cairo, c.x, c.y, radius, begin, end);
+    canvas.stroke(width, style.theme.faint_ink);
+    draw_arc_head(canvas, c, radius, end, direction, width, style.theme.faint_ink);
+    draw_label(canvas, "swirl", {c.x, c.y + radius + 1.15 * size},
+               {.size = size, .color = style.theme.faint_ink, .align = Align::center});
 }
 
 }  // namespace
 
 std::optional<Coloring> coloring_named(std::string_view name) {
+    if (name == "sector") return Coloring::sector;
     if (name == "pinned") return Coloring::pinned;
     if (name == "spin") return Coloring::spin;
     if (name == "speed") return Coloring::speed;
@@ -492,6 +523,7 @@ void draw_scene(const Canvas& canvas, const View& view, const SceneStyle& style,
     draw_points(canvas, view, style, content);
     draw_angles(canvas, view, style, content.now);
     draw_turn_arc(canvas, view, style, content);
+    draw_swirl(canvas, view, style, content.now);
 }
 
 }  // namespace swirl

@@ -1,9 +1,10 @@
 // Draws the container and its discs at one instant.
 //
 // Spheres of known orientation are drawn as balls (ball.hpp). Discs carry an orientation mark and
-// the wall carries marks, so that rotation is visible. On top are the swirl centre S, the
-// container's centre C, the point M on the wall farthest from S, and the path of C. Over a camera
-// image, container and discs are outlines only.
+// the wall carries marks, so that rotation is visible. In the lab frame, an arrow shows the
+// direction of the swirl. On top are the path of C and, if they are asked for, the swirl centre S,
+// the container's centre C, and the point M on the wall farthest from S. Over a camera image,
+// container and discs are outlines only.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +23,7 @@ namespace swirl {
 
 /// The quantity that a disc's colour shows.
 enum class Coloring : std::uint8_t {
+    sector,  // by the sector of the cluster in which the disc was at the start
     pinned,  // pinned or loose (measure/pinned_loose.hpp)
     spin,    // lab-frame spin ω_i, diverging about zero
     speed,   // in the frame that is shown
@@ -41,6 +43,7 @@ struct SceneStyle {
     bool points = true;       // S, C, M
     double point_size = 1.0;  // of the letters S, C, M, relative to their size in a movie
     bool path = true;         // of C
+    bool swirl = false;       // an arrow in the direction of the swirl; lab frame only
     bool forces = false;      // centrifugal and Coriolis force on each disc; M-frame only
     bool angles = false;      // θ at the wall; M-frame only
     /// Highlights the slice of the floor around this θ; M-frame only (paper, Fig. 2a).
@@ -54,6 +57,8 @@ struct SceneContent {
     std::span<const Vec2> path = {};
     /// For each disc 1 (pinned) or 0 (loose). Empty if that is unknown.
     std::span<const std::uint8_t> pinned = {};
+    /// For each disc its index in sector_colors. Empty if that is unknown.
+    std::span<const std::uint8_t> sectors = {};
     /// Earlier instants for trails, oldest first.
     std::span<const Snapshot* const> past = {};
     /// Earlier instants drawn faintly beneath (a stroboscopic image), oldest first.

@@ -216,8 +216,12 @@ std::vector<Sheet::LegendEntry> Sheet::legend() const {
             break;
         case Coloring::none:
         case Coloring::id:
+        case Coloring::sector:
             break;
     }
+    if (style.points)
+        entries.push_back({Kind::text, theme.ink,
+                           "$S$ centre of the swirl, $C$ of the container, $M$ farthest from $S$"});
     if (!style.forces) return entries;
     entries.push_back({Kind::arrow, theme.centrifugal, "centrifugal"});
     entries.push_back({Kind::arrow, theme.coriolis, "Coriolis"});
@@ -235,7 +239,8 @@ void Sheet::draw_legend(const Canvas& canvas) const {
     const std::vector<LegendEntry> entries = legend();
     // The width of the mark before the text; a colour bar includes the numbers at its ends.
     const auto mark_width = [](const LegendEntry& entry) {
-        return entry.kind == Kind::dot             ? 1.4
+        return entry.kind == Kind::text            ? 0.0
+               : entry.kind == Kind::dot           ? 1.4
                : entry.kind == Kind::arrow         ? 2.2
                : entry.kind == Kind::diverging_bar ? 14.5
                                                    : 12.0;
@@ -272,7 +277,7 @@ void Sheet::draw_legend(const Canvas& canvas) const {
         } else if (entry.kind == Kind::arrow) {
             draw_arrow(canvas, {x, middle}, {x + 1.7 * em, middle}, 0.16 * em, entry.color);
             x += mark_width(entry) * em;
-        } else {
+        } else if (entry.kind != Kind::text) {
             draw_bar(entry);
         }
         x += draw_label(canvas, entry.text, {x, baseline}, label) + spacing * em;

@@ -56,7 +56,7 @@ class Sheet {
         LabelStyle style;
     };
     struct LegendEntry {
-        enum class Kind { dot, arrow, diverging_bar, sequential_bar } kind;
+        enum class Kind { text, dot, arrow, diverging_bar, sequential_bar } kind;
         Color color;
         std::string text, low = {}, high = {};  // `low` and `high` end a colour bar
     };
