@@ -29,7 +29,7 @@ class Hints(InFolder):
             with self.subTest(name):
                 done = self.call("sweep", *SWEEP, f"--out={name}")
                 self.assertEqual(done.returncode, 0, done.stderr)
-                table = self.in_shell(done.stdout.split("; to write the table: ", 1)[1])
+                table = self.in_shell(done.stdout.split("\n  table       ", 1)[1])
                 self.assertEqual(table.returncode, 0, table.stderr)
                 self.assertTrue(table.stdout.endswith("(2 of 2 runs)\n"), table.stdout)
         self.assertEqual(self.left_behind(), sorted(name.removeprefix("./") for name in NAMES))

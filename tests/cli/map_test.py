@@ -289,7 +289,7 @@ class Figure(InFolder):
     def test_a_map_is_drawn_next_to_its_table(self):
         done = swirl("map", "--x", "discs=6,12", "--periods", 10, "--seeds", 2, "--out", self.path("map"))
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("wrote " + self.path("map/map.csv"), done.stdout)
+        self.assertIn("\n  table       " + self.path("map/map.csv") + "\n", done.stdout)
         for kind in ("png", "pdf"):
             self.assertGreater(os.path.getsize(self.path(f"map/map.{kind}")), 4000)
 

@@ -80,6 +80,7 @@ class Trajectory(unittest.TestCase):
         self.assertEqual(result_of("--discs", 5, "--periods", 200)["warmup"]["periods"], 20)
         self.assertEqual(result_of("--discs", 5, "--periods", 50)["warmup"]["periods"], 10)
 
+
 class Report(unittest.TestCase):
     def test_headline_gives_the_direction_of_rotation(self):
         self.assertIn("28 discs rotate with the swirl: ϖ/Ω = 0.0", swirl("run", "--discs", 28, "--events", 1e5)

@@ -40,7 +40,7 @@ struct TrackCall {
     std::optional<std::int64_t> from, to;
     std::string skip, accept, tilt;
     std::optional<double> view_angle;
-    bool spin = false, quiet = false, overwrite = false;
+    bool spin = false, quiet = false, verbose = false, overwrite = false;
 };
 
 #ifndef SWIRL_CAMERA
@@ -147,15 +147,32 @@ std::string species_text(const TrackedVideo& video) {
     return text;
 }
 
-/// The summary on the terminal.
+/// What was found, and how well.
 std::string summary(const TrackedVideo& video, const TrackCall& call) {
+    return fmt::format("{}: {} tracked in {} frames\n", call.source.video,
+                       counted(std::int64_t(video.number), "disc"), video.frame_count) +
+           report_line(
+               "swirl",
+               fmt::format("Ω = {} rad/{}, amplitude {:.3f} disc radii, {}",
+                           with_error(video.path.omega, video.path.omega_error),
+                           video.fps > 0.0 ? "s" : "frame", video.path.amplitude / video.radius,
+                           video.path.clockwise ? "clockwise" : "counter-clockwise")) +
+           report_line("quality",
+                       fmt::format("{:.2f} % of frames have all discs; error {:.3f} pixels per "
+                                   "position",
+                                   100.0 * video.complete_share, video.position_error)) +
+           report_line("tracks", call.out);
+}
+
+/// The lines that only --verbose prints.
+std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
     const std::string unit = video.fps > 0.0 ? "s" : "frame";
     const double period = 2.0 * pi / video.path.omega;
     const double step = video.times.size() > 1 ? (video.times.back() - video.times.front()) /
                                                      double(video.times.size() - 1)
                                                : 1.0;
     std::string text = fmt::format(
-        "{}: {} in {} frames of {}x{} pixels\n"
+        "  video       {}x{} pixels\n"
         "  discs       {}, {} on {} floor\n"
         "  container   radius {:.2f} pixels, {:.3f} disc radii\n"
         "  path        {}, {}\n"
@@ -166,9 +183,8 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
         "  lens        distortion {}{}\n"
         "  camera      {}\n"
         "{}{}"
-        "  complete    {:.2f} % of frames have all discs; {} positions filled in\n"
-        "  error       {:.3f} pixels per position, from {}\n",
-        call.source.video, counted(std::int64_t(video.number), "disc"), video.frame_count,
+        "  filled in   {} positions\n"
+        "  error       from {}\n",
         video.width, video.height, species_text(video), video.bright ? "bright" : "dark",
         video.bright ? "a dark" : "a bright", video.container_radius,
         video.container_radius / video.radius, path_shape_text(video),
@@ -181,8 +197,7 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
         with_error(video.path.omega, video.path.omega_error), unit,
         with_error(first_phase(video), video.path.phase_error * 180.0 / pi),
         with_error(video.lens.k, video.lens.k_error), video.lens.k != 0.0 ? ", corrected" : "",
-        tilt_text(video), camera_motion_text(video), light_text(video),
-        100.0 * video.complete_share, video.filled, video.position_error,
+        tilt_text(video), camera_motion_text(video), light_text(video), video.filled,
         video.position_error > video.overlap_error ? "edges" : "overlaps");
     if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm per pixel, from the discs\n",
@@ -348,7 +363,7 @@ void track(TrackCall call) {
     if (call.json == "-") return print_all(json.dump(2) + "\n");
     if (!call.json.empty()) write_output(call.json, json.dump(2) + "\n");
     if (call.quiet) return;
-    print_all(summary(video, call) +
+    print_all(summary(video, call) + (call.verbose ? geometry_text(video, call) : "") +
               (motion ? motion_text(video, *motion, call.source, call.path) : ""));
     if (!report.empty()) print_all(fmt::format("wrote {}\n", report.string()));
 }
@@ -387,6 +402,8 @@ void add_track_command(Subcommand& subcommand) {
                         "Measure spins from textures; adds columns to the tracks");
     subcommand.add_flag("--overwrite", call->overwrite, "Replace existing tracks");
     add_omit_paths_option(subcommand);
+    subcommand.add_flag("--verbose", call->verbose,
+                        "Also print the geometry of container and camera");
     subcommand.add_flag("--quiet", call->quiet, "No progress line and no summary");
     subcommand.set_main_options({"--out", "--path-out", "--fps", "--container-diameter",
                                  "--disc-diameter", "--discs", "--tilt", "--overlay", "--report",

@@ -21,7 +21,7 @@ class OtherVideos(InFolder):
     def call(self, *more, **faults):
         path = self.path("video.mp4")
         video = other_videos.make(path, **faults)
-        done = swirl("track", path, "--out", self.path("tracks.csv"), "--overwrite", *more)
+        done = swirl("track", path, "--out", self.path("tracks.csv"), "--overwrite", "--verbose", *more)
         if "no camera support" in done.stderr:
             self.skipTest("this build has no camera support")
         return video, done

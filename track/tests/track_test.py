@@ -136,7 +136,7 @@ class TrackTest(InFolder):
 
     def track(self, video, *more, name="tracks.csv"):
         out = self.path(name)
-        done = swirl("track", video, "--out", out, *more)
+        done = swirl("track", video, "--out", out, "--verbose", *more)
         if "no camera support" in done.stderr:
             self.skipTest("this build has no camera support")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -15,6 +15,7 @@
 #include "swirl/cli/sweep_options.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
+#include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/study/map.hpp"
 #include "swirl/study/map_plan.hpp"
@@ -157,7 +158,7 @@ MapOutcome run_map_with_progress(const MapCall& call, const SweepPlan& plan,
     return run_map(call.out, plan, share, control);
 }
 
-/// The table, and the figure next to it. Returns the names of the files.
+/// The table, and the figure next to it. Returns the report on the files.
 std::string write_map_files(const MapCall& call, const SweepPlan& plan, const MapState& state) {
     const std::string table = map_table(plan, state).csv();
     const fs::path file = call.table_file();
@@ -166,14 +167,15 @@ std::string write_map_files(const MapCall& call, const SweepPlan& plan, const Ma
         return "";
     }
     write_output(file, table);
-    if (call.no_figure || state.sites.size() < 2) return file.string();
+    const std::string lines = report_line("table", file.string());
+    if (call.no_figure || state.sites.size() < 2) return lines;
     run_python_script("parameter_map.py",
                       {file.string(), "--level", fmt::format("{}", plan.map->level)},
                       &stop_signal());
     const auto with = [&](const char* ending) {
         return fs::path(file).replace_extension(ending).string();
     };
-    return fmt::format("{}, {} and {}", file.string(), with(".png"), with(".pdf"));
+    return lines + report_line("figure", fmt::format("{}, {}", with(".png"), with(".pdf")));
 }
 
 void warn_about(const MapCall& call, const SweepPlan& plan, const MapState& state) {
@@ -195,17 +197,23 @@ void warn_about(const MapCall& call, const SweepPlan& plan, const MapState& stat
                         first_failure(call.out, plan)));
 }
 
+std::string quantity_text(const SweepPlan& plan) {
+    const std::string& quantity = plan.map->of;
+    std::string over = plan.map->x;
+    if (!plan.map->y.empty()) over += " and " + plan.map->y;
+    if (quantity != "N_c") return fmt::format("{} over {}", quantity, over);
+    return fmt::format("N_c by {} over {}", plan.map->rate, over);
+}
+
 void report_map(const MapCall& call, const SweepPlan& plan, const MapOutcome& outcome) {
     if (outcome.stopped)
         throw Interrupted(
             fmt::format("stopped before the end.\nhint: run `swirl map --out {}` to continue.",
                         shell_word(call.out)));
-    std::string text = map_summary(plan, outcome.state);
-    if (!call.is_part()) {
-        const std::string files = write_map_files(call, plan, outcome.state);
-        if (!files.empty()) text += "; wrote " + files;
-    }
-    if (!call.quiet && call.table != "-") print_all(text + "\n");
+    std::string text =
+        map_summary(plan, outcome.state) + "\n" + report_line("quantity", quantity_text(plan));
+    if (!call.is_part()) text += write_map_files(call, plan, outcome.state);
+    if (!call.quiet && call.table != "-") print_all(text);
     warn_about(call, plan, outcome.state);
     const bool nothing = std::all_of(outcome.state.sites.begin(), outcome.state.sites.end(),
                                      [](const MapSite& s) { return s.runs == 0; });

@@ -13,6 +13,7 @@
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/render/movie.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/report.hpp"
 
 namespace swirl {
 namespace {
@@ -86,11 +87,14 @@ void make_and_report(const MovieCall& call) {
         throw Interrupted("stopped before the first frame; no file was written.");
     if (!call.quiet)
         print_all(
-            fmt::format("{}: {} frames, {:.2f} s at {} frames/s, {:g} periods/s; made in {} "
-                        "({:.0f} frames/s).\n",
-                        where, result.frames, double(result.frames) / config.frames_per_second,
-                        config.frames_per_second, config.pace, short_duration(seconds()),
-                        result.frames / seconds()));
+            fmt::format("{}: {:.2f} s\n", where, double(result.frames) / config.frames_per_second) +
+            report_line("frames",
+                        fmt::format("{}, {} per second", result.frames, config.frames_per_second)) +
+            report_line("shows", fmt::format("{:g} periods per second, from period {:g} on",
+                                             config.pace, config.start)) +
+            report_line("made in",
+                        fmt::format("{}, {:.0f} frames per second", short_duration(seconds()),
+                                    result.frames / seconds())));
     print_source_warnings(config.sources, config.appearance);
     if (!result.complete)
         throw Interrupted(fmt::format("stopped after {} of {} frames; they are in '{}'.",

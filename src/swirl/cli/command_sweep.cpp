@@ -130,8 +130,14 @@ void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutc
         std::string text =
             fmt::format("{} of {} runs done ({} by this call)", s.done, s.points, outcome.done);
         if (s.running > 0) text += fmt::format(", {} running elsewhere", s.running);
-        print_all(text +
-                  fmt::format("; to write the table: swirl collect {}\n", shell_word(call.out)));
+        std::vector<std::string> axes;
+        for (const SweepAxis& axis : plan.axes)
+            if (axis.values.size() > 1)
+                axes.push_back(fmt::format("{} values of {}", axis.values.size(), axis.name));
+        axes.push_back(counted(plan.replicas, "replicate"));
+        print_all(text + "\n" + report_line("points", fmt::format("{}", fmt::join(axes, ", "))) +
+                  report_line("results", (fs::path(call.out) / "results").string()) +
+                  report_line("table", "swirl collect " + shell_word(call.out)));
     }
     if (outcome.stopped)
         throw Interrupted(
