@@ -110,7 +110,7 @@ class Crossing(InFolder):
             # The search weights its runs with their periods, which differ by less than a hundredth.
             mean = sum(run["rotation"]["mean_by_time"]["mean"] for run in runs) / 3
             self.assertAlmostEqual(points[discs]["mean_by_time"], mean, delta=1e-3)
-        said = swirl("crossing", *call, "--mixture", "50%:0.8", "--events", "2e4", "--tolerance", 5)
+        said = swirl("crossing", *call, "--mixture", "50%:0.8", "--events", "2e4", "--tolerance", 5, "--verbose")
         self.assertIn("4 of 7 discs have radius 0.8: 50 %, rounded to whole discs", said.stdout)
 
     def test_listed_sizes_have_no_crossing(self):

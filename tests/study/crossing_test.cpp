@@ -148,13 +148,15 @@ TEST(CrossingSearch, EachRateHasACrossingAndOneControlsTheSearch) {
     EXPECT_NEAR(mean_by_time.crossings[1].discs, 38.3, 0.5);
     EXPECT_NEAR(mean_by_time.crossings[3].discs, 36.3, 0.5);
     EXPECT_EQ(mean_by_time.crossing().discs, mean_by_time.crossings[1].discs);
-    EXPECT_THAT(crossing_report(settings, mean_by_time), HasSubstr("; mean over the discs, by time)"));
-    EXPECT_THAT(crossing_report(settings, mean_by_time), HasSubstr("By the other rates: "));
-    EXPECT_THAT(crossing_report(settings, mean_by_time), HasSubstr(" (rigid body, by event)"));
+    EXPECT_THAT(crossing_report(settings, mean_by_time),
+                HasSubstr(": fewer discs rotate with the swirl, more rotate against it."));
+    EXPECT_THAT(rigid_body_crossing(mean_by_time), HasSubstr("N_c = 36."));
+    EXPECT_THAT(other_rates_report(mean_by_time.crossings, mean_by_time.rate),
+                HasSubstr(" (rigid body, by event)"));
     settings.rate = rate_named("rigid_by_time");
     const CrossingResult rigid = search_crossing(settings, planted(straight, 0.001));
     EXPECT_NEAR(rigid.crossing().discs, 36.3, 0.5);
-    EXPECT_THAT(crossing_report(settings, rigid), HasSubstr("; rigid body, by time)"));
+    EXPECT_THAT(crossing_report(settings, rigid), HasSubstr(" (rigid body, by time): fewer discs"));
     EXPECT_THROW(rate_named("rigid"), UsageError);
 }
 

@@ -146,7 +146,7 @@ class Crossing:
         return self.sentence
 
 
-def crossing(out: Optional[PathName] = None, *, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.3,
+def crossing(out: Optional[PathName] = None, *, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.1,
              rate: str = "mean_by_time", threads: int = 0,
              progress: Union[bool, Callable[[str, float], object], None] = None,
              **parameters: Any) -> Crossing:

@@ -26,7 +26,7 @@ struct CrossingCall {
     CrossingSettings settings;
     std::string config_file, json, table, rate, out;
     std::int64_t threads = 0;
-    bool quiet = false;
+    bool quiet = false, verbose = false;
 
     bool uses_stdout() const { return json == "-" || table == "-"; }
 };
@@ -126,12 +126,21 @@ std::string points_text(const RunConfig& config, const CrossingResult& search) {
 std::string report_text(const CrossingCall& call, const SearchTask& task,
                         const CrossingResult& search) {
     const std::string prefix = task.name.empty() ? "" : task.name + ": ";
-    const std::string text =
-        prefix + crossing_report(task.settings, search) + "\n" + other_crossings_report(search);
+    std::string text = prefix + crossing_report(task.settings, search) + "\n";
+    if (search.crossing().changes.size() > 1 || call.verbose)
+        text += other_crossings_report(search);
     if (call.quiet) return text;
+    if (const std::string rigid = rigid_body_crossing(search); !rigid.empty())
+        text += report_line("rigid body", rigid);
+    if (const std::string nearest = nearest_points(search); !nearest.empty())
+        text += report_line("nearest", nearest);
+    text += report_line(
+        "search", fmt::format("{} runs, {} events, {}", search.runs, with_commas(search.events),
+                              short_duration(search.seconds)));
+    if (!call.verbose && !search.stopped) return text;
+    const std::string others = other_rates_report(search.crossings, search.rate);
     return text + points_text(task.settings.config, search) +
-           fmt::format("  {} runs, {} events, {}\n", search.runs, with_commas(search.events),
-                       short_duration(search.seconds));
+           (others.empty() ? "" : others.substr(1) + "\n");
 }
 
 void print_report(const CrossingCall& call, const SearchTask& task, const CrossingResult& search) {
@@ -226,12 +235,13 @@ void run_searches(const CrossingCall& call) {
 
 void add_crossing_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CrossingCall>();
+    call->settings.tolerance = default_search_tolerance;
     const char *const search = "Search", *const output = "Output";
     subcommand.add_option("config", call->config_file,
                           "TOML file with options; the command line overrides it", "FILE.toml");
     call->parameters = add_run_options(subcommand, {"discs", "periods", "ramp"}, defaults);
     subcommand.add_option("--tolerance", call->settings.tolerance,
-                          "Target standard error of N_c [0.3]", "NUMBER", search);
+                          "Target standard error of N_c [0.1]", "NUMBER", search);
     subcommand.add_option("--from", call->settings.from, "Smallest number of discs [5]", "N",
                           search);
     subcommand.add_option("--to", call->settings.to, "Largest number of discs [48]", "N", search);
@@ -248,6 +258,8 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.add_option("--csv", call->table, "File for a table of the searches, or - for stdout",
                           "FILE|-", output);
     add_omit_paths_option(subcommand, output);
+    subcommand.add_flag("--verbose", call->verbose, "Also print all points and all four rates",
+                        output);
     subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: each combination is a search of its "
@@ -257,8 +269,8 @@ void add_crossing_command(Subcommand& subcommand) {
         "there are twice as many runs instead. Rates count in the direction of the swirl. "
         "A search that was stopped prints its points, and continues with --out DIR, the folder of "
         "a sweep. Rotation rates (--rate): mean_by_event, mean_by_time, "
-        "rigid_by_event and rigid_by_time; the report gives N_c for all four. Use a small --step "
-        "if the direction of rotation may change several times.\n");
+        "rigid_by_event and rigid_by_time; --verbose, JSON and CSV have N_c for all four. Use a "
+        "small --step if the direction of rotation may change several times.\n");
     subcommand.set_main_options({"--mu", "--events", "--seed", "--tolerance", "--from", "--to",
                                  "--step", "--threads", "--json", "--csv"});
     subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",

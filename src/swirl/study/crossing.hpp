@@ -24,6 +24,9 @@ namespace swirl {
 
 /// Default number of events of the first runs: fewer than for a single run.
 inline constexpr const char* default_search_events = "2e4";
+/// Default target of the standard error of N_c: 95 of 100 searches are within 0.15 of the true
+/// value at μ = 1.
+inline constexpr double default_search_tolerance = 0.1;
 
 struct CrossingSettings : CrossingRules {
     CrossingSettings() {
@@ -151,9 +154,12 @@ std::string other_rates_report(const Crossings& crossings, std::size_t excluded)
 std::string listed(const std::vector<double>& discs);
 std::string spaced(const std::vector<double>& discs);
 
-/// "N_c = 36.4 ± 0.3 (95 %: 35.9 to 37.0) …" or that there is none, with the evidence; N_c of the
-/// other rates; and the failed runs.
+/// "N_c = 36.4 ± 0.3: …" or that there is none, with the evidence; and the failed runs.
 std::string crossing_report(const CrossingSettings& settings, const CrossingResult& search);
+/// "N_c = 35.1 ± 0.1, …": that of the rigid body, if it differs by more than three errors.
+std::string rigid_body_crossing(const CrossingResult& search);
+/// "ϖ/Ω = 0.0012 ± 0.0004 at N = 38, −0.0021 ± 0.0004 at N = 39"; empty without N_c.
+std::string nearest_points(const CrossingResult& search);
 /// A line for each change of sign if there are several, and the numbers with an undetermined sign.
 std::string other_crossings_report(const CrossingResult& search);
 /// Reasons to distrust N_c: runs that are not steady or too short, disagreeing replicates.

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "swirl/run/failure.hpp"
@@ -110,12 +111,14 @@ std::string evidence(const CrossingResult& search, const char* which, const Rota
 
 std::string crossing_sentence(const CrossingSettings& settings, const CrossingResult& search) {
     const Crossing& c = search.crossing();
-    const std::string rate = rotation_rates[search.rate].description;
+    const std::string rate = search.rate == default_rate
+                                 ? ""
+                                 : fmt::format(" ({})", rotation_rates[search.rate].description);
     const std::string remarks = stop_reason(settings, search) + later_change_note(c);
     if (!c.last()->resolved())
-        return fmt::format("N_c is {} ({}).{}", crossing_words(c), rate, remarks);
-    return fmt::format("N_c = {} (95 %: {:.1f} to {:.1f}; {}).{}", crossing_words(c), c.lower,
-                       c.upper, rate, remarks);
+        return fmt::format("N_c is {}{}.{}", crossing_words(c), rate, remarks);
+    return fmt::format("N_c = {}{}: fewer {}s rotate with the swirl, more rotate against it.{}",
+                       crossing_words(c), rate, body_word(settings.config), remarks);
 }
 
 std::string verdict_report(const CrossingSettings& settings, const CrossingResult& search) {
@@ -298,8 +301,26 @@ std::vector<std::string> warnings(const CrossingResult& search) {
 }
 
 std::string crossing_report(const CrossingSettings& settings, const CrossingResult& search) {
-    return verdict_report(settings, search) + other_rates_report(search.crossings, search.rate) +
-           failures_report(search);
+    return verdict_report(settings, search) + failures_report(search);
+}
+
+std::string rigid_body_crossing(const CrossingResult& search) {
+    const Crossing &c = search.crossing(), &rigid = search.crossings[rate_named("rigid_by_time")];
+    const bool differs =
+        std::fabs(c.discs - rigid.discs) > certain_sign * std::hypot(c.error, rigid.error);
+    if (!differs) return "";
+    return fmt::format("N_c = {}, another number than by the mean over the discs above",
+                       crossing_words(rigid));
+}
+
+std::string nearest_points(const CrossingResult& search) {
+    std::string text;
+    const double zero = search.crossing().discs;
+    for (const RotationPoint& p : search.points())
+        if (std::fabs(p.discs - zero) < 1.0)
+            text += fmt::format("{}{} at N = {:.0f}", text.empty() ? "ϖ/Ω = " : ", ",
+                                with_error(p.mean, p.error), p.discs);
+    return text;
 }
 
 }  // namespace swirl
