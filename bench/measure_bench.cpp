@@ -261,7 +261,7 @@ void sample_after_every_event(benchmark::State& state) {
         rotation.sample(s, event);
     }
     rotation.close_block();
-    benchmark::DoNotOptimize(rotation.estimates().by_event.mean);
+    benchmark::DoNotOptimize(rotation.estimates().mean_by_event.mean);
 }
 BENCHMARK(sample_after_every_event)->Arg(5)->Arg(28)->Arg(47)->Arg(48)->Arg(1000);
 

@@ -92,7 +92,7 @@ def condensation_found(study):
     times = ", ".join(f"{number(measured(row, 'waiting'))} periods at N = {row['discs']:.0f}" for row in rows)
     late = [f"{row['seeds'] - row['condensed']:.0f} of {row['seeds']:.0f} at N = {row['discs']:.0f}"
             for row in every_row if row["condensed"] < row["seeds"]]
-    after = [row["after_by_time"] for row in rows]
+    after = [row["after_mean_by_time"] for row in rows]
     return ("Without friction between the discs the cluster is a gas at first and then condenses into a crystal that "
             f"rotates with the swirl (ϖ/Ω = {min(after):.3f} to {max(after):.3f}): after {times}." +
             (f" Runs that did not condense: {', '.join(late)}." if late else ""))

@@ -195,7 +195,7 @@ class BadCalls(unittest.TestCase):
     def test_an_option_is_not_the_value_of_the_one_before_it(self):
         done = swirl("run", "--discs", 5, "--ramp", ";", "--quiet")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("--ramp is ''", done.stderr)
+        self.assertIn("--ramp is ';'", done.stderr)
         done = swirl("run", "--discs", 5, "--ramp", "mu=0.1:1@1..3", "--ramp", "restitution=1:0.9@1..3", "--dry-run")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("mu=0.1:1@1..3;restitution=1:0.9@1..3", done.stdout)
@@ -252,7 +252,7 @@ class UsageErrors(InFolder):
     def test_options_of_tracks_are_rejected_for_a_trajectory(self):
         recording = self.path("t.h5")
         self.assertEqual(swirl("run", "--events", 500, "--trajectory", recording, "--quiet").returncode, 0)
-        for name, value in (("scale", 3), ("container-radius", 3), ("centre", "1,2"), ("misfit", 0.1)):
+        for name, value in (("scale", 3), ("container-radius", 3), ("centre", "1,2"), ("max-invalid", 0.1)):
             self.assert_usage_error("measure", recording, f"--{name}", value,
                                     says=f"--{name} applies to a camera's tracks, but '{recording}' is a trajectory")
 
@@ -301,10 +301,10 @@ class UsageErrors(InFolder):
                  "+5", "inf", "nan", "1_0", "true", "5"]
         for name in names:
             with self.subTest(name):
-                plan = swirl("run", "--json", name, "--trajectory", f"t-{name}", "--dry-run", cwd=self.folder)
+                plan = swirl("run", "--json", name, "--trajectory", f"t-{name}.h5", "--dry-run", cwd=self.folder)
                 self.assertEqual(plan.returncode, 0, plan.stderr)
                 found = tomllib.loads(plan.stdout)
-                self.assertEqual((str(found["json"]), found["trajectory"]), (name, f"t-{name}"))
+                self.assertEqual((str(found["json"]), found["trajectory"]), (name, f"t-{name}.h5"))
                 with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
                     opened.write(plan.stdout)
                 self.assertEqual(swirl("run", "a.toml", "--dry-run", cwd=self.folder).stdout, plan.stdout)

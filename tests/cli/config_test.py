@@ -34,7 +34,7 @@ class ConfigFiles(InFolder):
                    "--trail-length", 0.5, "--start", 2]
         self.good("image", *options, "--out", self.path("hand.png"))
         file = self.config("discs = 12", "mu_wall = 0.25", 'frame = "m"', "angles = true",
-                           'size = "320x240"', "trail_length = 0.5", "at = 2", "strobe = 1",
+                           'size = "320x240"', "trail_length = 0.5", "start = 2", "strobe = 1",
                            f'out = "{self.path("file.png")}"')
         said = self.good("image", file).stdout
         self.assertIn("320x240", said)
@@ -100,7 +100,7 @@ class ConfigFiles(InFolder):
                 ("image", "sieze = '20x20'", "did you mean 'size'?"),
                 ("image", "angles = 3", "angles is '3', but it must be true or false"),
                 ("image", "strobe = 1.5", "strobe is '1.5', but it must be a whole number"),
-                ("image", "at = 'soon'", "at is 'soon', but it must be a number"),
+                ("image", "start = 'soon'", "start is 'soon', but it must be a number"),
                 ("movie", "fps = 9999999999", "whole number"),
                 ("movie", "discs = [5, 6]", "list"),
                 ("crossing", "discs = 40", "there is no option 'discs'"),

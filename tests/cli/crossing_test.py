@@ -42,7 +42,7 @@ class Crossing(InFolder):
 
     def test_lists_combine_and_may_be_in_a_file(self):
         with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
-            opened.write("mu_disc = [0.9, 1]\nmu_wall = \"0:1\"\n")
+            opened.write("mu_disc = [0.9, 1]\nmu_wall = \"0:1:1\"\n")
         table = list(csv.DictReader(io.StringIO(self.good(self.path("a.toml"), *FEW, "--csv", "-"))))
         self.assertEqual([(row["mu_disc"], row["mu_wall"]) for row in table],
                          [("0.9", "0"), ("0.9", "1"), ("1", "0"), ("1", "1")])

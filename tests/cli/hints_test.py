@@ -103,7 +103,8 @@ class FormerNames(InFolder):
                 ("sweep", "--rest", "--finish-others"), ("synthetic-video", "--hands", "--hand-time"),
                 ("synthetic-video", "--still", "--camera-on-container"), ("track", "--accept", "--correct-frames")):
             with self.subTest(command=command, former=former):
-                done = swirl(command, former, "1", cwd=self.folder)
+                required = {"export": ["a.h5", "--format", "xyz"], "map": ["--out", "m"], "sweep": ["--out", "s"]}
+                done = swirl(command, *required.get(command, []), former, "1", cwd=self.folder)
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(f"error: there is no option {former}.\nhint: did you mean {present}?", done.stderr)
 
@@ -146,7 +147,7 @@ class Values(InFolder):
 
     def test_parameters_of_the_floor_without_a_floor(self):
         for name, values in (("--gravity", ("6.382", "9")), ("--floor-friction", ("0.3", "0.4")),
-                             ("--rolling-resistance", ("0", "0.1"))):
+                             ("--rolling-resistance", ("0",))):
             for value in values:
                 self.assert_rejected("run", name, value, says=[f"{name} is {value}, but there is no floor."])
 

@@ -48,7 +48,7 @@ class ImageTest(InFolder):
                 (("--out", out, "--start", "-1"), "-1"),
                 (("--out", out, "--start", "nan"), "nan"),
                 (("--out", out, "--strobe", "0"), "--strobe is 0"),
-                (("--out", out, "--strobe", "30"), "-9"),
+                (("--out", out, "--start", "-9", "--strobe", "30"), "-9"),
                 (("--out", out, "--every", "0"), "0"),
                 (("--out", out, "--turned-angle", "--frame", "m"), "--frame"),
                 (("--out", out, "--angles"), "--frame"),

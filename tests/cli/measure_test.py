@@ -63,7 +63,7 @@ class MeasureTest(InFolder):
 
     def call(self, *more, **changed):
         options = {"camera-fps": FPS, "scale": SCALE, "omega": OMEGA, "centre": "%g,%g" % CENTRE,
-                   "phase": 0, "amplitude": AMPLITUDE, "container-radius": RADIUS, "skip": SKIP,
+                   "phase": 0, "amplitude": AMPLITUDE, "container-radius": RADIUS, "warmup": SKIP,
                    "measure": LIST}
         options.update({name.replace("_", "-"): value for name, value in changed.items()})
         arguments = [word for name, value in options.items() for word in ("--" + name, value)]
@@ -125,7 +125,7 @@ class MeasureTest(InFolder):
 
     def test_wrong_parameters_of_the_container_are_rejected_with_a_hint(self):
         self.write({k: f for k, f in self.answer()[2].items() if k < 3 * FRAMES})
-        good = {"skip": 0, "measure": "density"}
+        good = {"warmup": 0, "measure": "density"}
         self.assertIn("camera", self.measured(**good))
         wrong = lambda *words, **changed: self.rejected(*words, **{**good, **changed})
         fitting = wrong("protrude", "--phase", phase=75).split("best is --phase ")[1].split(".")[0]
@@ -143,7 +143,7 @@ class MeasureTest(InFolder):
         wrong("protrude", "--omega", omega=0.9 * OMEGA)
         wrong("protrude", "it is the --centre", centre="330,280")
         # --max-invalid 1 accepts everything.
-        self.measured(misfit=1, phase=75, **good)
+        self.measured(max_invalid=1, phase=75, **good)
         report = swirl("measure", self.path("tracks.csv"), "--camera-fps", FPS, "--scale", SCALE,
                        "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--amplitude", AMPLITUDE,
                        "--container-radius", RADIUS, "--phase", 6)
@@ -289,7 +289,7 @@ class MeasureTest(InFolder):
 
     def test_a_single_frame_gives_no_rotation(self):
         self.write({0: self.answer()[2][0]})
-        self.rejected("a single frame", skip=0, measure="density")
+        self.rejected("a single frame", warmup=0, measure="density")
 
     def test_discs_with_changing_ids_have_no_tracks(self):
         # Every disc gets a new ID every ten frames, at a position where no disc was: every second group
@@ -299,8 +299,8 @@ class MeasureTest(InFolder):
             if k < 2000 and k // 10 % 2 == 0:
                 table[k] = {disc + 100 * (k // 10): position for disc, position in frame.items()}
         self.write(table)
-        self.rejected("consecutive frames", "slip", skip=0, measure="slip")
-        self.measured(skip=0, measure="density,temperature")
+        self.rejected("consecutive frames", "slip", warmup=0, measure="slip")
+        self.measured(warmup=0, measure="density,temperature")
 
 
 if __name__ == "__main__":

@@ -131,7 +131,7 @@ class FirstPage(HandMadeTables):
     def test_condensation(self):
         self.table("condensation", [
             {"discs": n, "seeds": 8, "condensed": condensed, "waiting": waiting, "waiting_error": 2,
-             "after_by_time": 1.0, "after_by_time_error": 0.001}
+             "after_mean_by_time": 1.0, "after_mean_by_time_error": 0.001}
             for n, condensed, waiting in ((16, 0, ""), (28, 8, 44), (48, 6, 90))])
         found = self.found()
         self.assertIn("rotates with the swirl (ϖ/Ω = 1.000 to 1.000): after 44 ± 2 periods at N = 28, 90 ± 2 periods "

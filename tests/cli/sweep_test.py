@@ -300,9 +300,9 @@ class Sweep(InFolder):
         with open(self.path("N_c.csv")) as opened:
             header, _, rough = [line.rstrip("\n").split(",") for line in opened]
         numbers = {name: float(rough[header.index(name)])
-                   for name in ("N_c", "N_c_by_event", "N_c_by_time", "N_c_rigid_by_event", "N_c_rigid_by_time")}
+                   for name in ("N_c", "N_c_mean_by_event", "N_c_mean_by_time", "N_c_rigid_by_event", "N_c_rigid_by_time")}
         self.assertEqual(rough[header.index("rate")], "mean_by_time")
-        self.assertEqual(numbers["N_c"], numbers["N_c_by_time"])
+        self.assertEqual(numbers["N_c"], numbers["N_c_mean_by_time"])
         for name, value in numbers.items():
             # The rigid body crosses about one disc earlier.
             self.assertAlmostEqual(value, 37.0 if "rigid" in name else 38.0, delta=2.0, msg=name)

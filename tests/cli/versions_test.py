@@ -190,7 +190,9 @@ class OtherFormats(OldFiles):
         self.rejected("measure", "tracks.csv")
 
     def test_a_sweep(self):
-        self.rewrite("sweep/results/000001.json", lambda result: result.update(format=9))
+        self.rewrite("sweep/plan.json", lambda plan: plan.update(format=2, replicates=plan.pop("replicas")))
+        for k in range(4):
+            self.rewrite(f"sweep/results/00000{k}.json", lambda result: result.update(format=9))
         self.rejected("collect", "sweep", "--csv", "again.csv")
         self.rewrite("sweep/plan.json", lambda plan: plan.update(format=9))
         self.rejected("collect", "sweep", "--csv", "again.csv")

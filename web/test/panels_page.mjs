@@ -119,7 +119,7 @@ const [, found] = await page.$$eval("#explorer-findings tr", (rows) => rows.map(
 assert.match(found[1], /^4\d\.\d+ ± 0\.\d+ \(95 %: 4\d\.\d to 4\d\.\d\)$/);
 assert.match(await text("explorer-command"), /^\.\/swirl crossing --mu 0\.5 --seed 3 --to 48$/);
 const [[...head], values] = rowsOf((await downloaded("#explorer-table"))[1]);
-assert.deepEqual([head.slice(0, 4), values.slice(0, 2)], [["mu", "verdict", "N_c_by_time", "N_c_error_by_time"], ["0.5", "crosses"]]);
+assert.deepEqual([head.slice(0, 4), values.slice(0, 2)], [["mu", "verdict", "N_c_mean_by_time", "N_c_error_by_time"], ["0.5", "crosses"]]);
 // Wrong input is an error message; so is a parameter that the engine rejects.
 for (const [fields, said] of [[{"explorer-values": "x"}, /FROM:STEP:TO/], [{"explorer-values": "1:1:1000"}, /limit is 400/],
                               [{"explorer-values": "-1"}, /^Friction is '-1', but/]]) {

@@ -264,8 +264,7 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
     subcommand.add_option("--x", call.x, "Axis along x, such as mu=0:1", "NAME=VALUES", map);
     subcommand.add_option("--y", call.y, "Axis along y; without it, a curve", "NAME=VALUES", map);
     subcommand.add_option("--quantity", s.of,
-                          "Quantity: N_c, a rotation rate or a measured row [mean_by_time]", "NAME",
-                          map);
+                          "Quantity: N_c, a rate or a measured row [mean_by_time]", "NAME", map);
     subcommand
         .add_option("--out", call.out, "Folder of the map; a repeated call completes it", "DIR",
                     map)

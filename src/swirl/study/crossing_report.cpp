@@ -7,6 +7,7 @@
 
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/study/crossing.hpp"
@@ -155,15 +156,18 @@ std::string verdict_report(const CrossingSettings& settings, const CrossingResul
 
 std::size_t rate_named(const std::string& name) {
     std::string names;
+    std::vector<std::string> choices;
     for (std::size_t r = 0; r < rotation_rates.size(); ++r) {
         if (name == rotation_rates[r].name) return r;
+        choices.emplace_back(rotation_rates[r].name);
         names += fmt::format("{}{}",
                              r == 0                          ? ""
                              : r + 1 < rotation_rates.size() ? ", "
                                                              : " or ",
                              rotation_rates[r].name);
     }
-    throw UsageError(fmt::format("--rate is '{}', but it must be {}.", name, names));
+    throw UsageError(fmt::format("--rate is '{}', but it must be {}.{}", name, names,
+                                 nearest_value_hint(name, choices)));
 }
 
 const char* verdict_word(Crossing::Verdict verdict) {
