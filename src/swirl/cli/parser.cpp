@@ -250,6 +250,13 @@ std::vector<std::string> reversed_words(int argc, char** argv) {
 
 }  // namespace
 
+/// The full help. CLI11 adds a line feed to a footer that a function makes.
+static std::string help_of(const CLI::App& app) {
+    std::string text = app.help();
+    while (text.ends_with("\n\n")) text.pop_back();
+    return text;
+}
+
 Call parse(int argc, char** argv) {
     CLI::App app(
         "Exact event-driven simulation of granular discs and spheres in a swirled container,\n"
@@ -264,11 +271,7 @@ Call parse(int argc, char** argv) {
         added = app.add_subcommand(command->name(), command->description());
         command->add_options(subcommand);
         add_to(*added, subcommand, Options::all);
-        added->footer([here = &subcommand] {
-            std::string text = wrapped(here->footer(), help_width());
-            while (text.ends_with('\n')) text.pop_back();  // CLI11 adds a line feed
-            return text;
-        });
+        added->footer([here = &subcommand] { return wrapped(here->footer(), help_width()); });
     }
     app.footer(
         "Examples:\n  swirl run --discs 48\n  swirl paper --figure 5b --quick\n  swirl run --help");
@@ -280,9 +283,9 @@ Call parse(int argc, char** argv) {
         for (const auto& [added, subcommand] : *subcommands)
             if (added->parsed())
                 return {.act = {}, .text = short_help(*added, subcommand), .usage = {}};
-        return {.act = {}, .text = app.help(), .usage = {}};
+        return {.act = {}, .text = help_of(app), .usage = {}};
     } catch (const CLI::Success&) {
-        return {.act = {}, .text = app.help(), .usage = {}};
+        return {.act = {}, .text = help_of(app), .usage = {}};
     } catch (const CLI::ParseError& error) {
         throw UsageError(error_text(app, error));
     }
