@@ -18,11 +18,8 @@ def main():
     if not os.path.exists(table):
         sys.exit(f"error: the table '{table}' does not exist.\nhint: `swirl paper` writes it.")
     name = os.path.splitext(os.path.basename(table))[0].removeprefix("figure_")
-    try:
-        draw = catalogue.drawing(name)
-    except ModuleNotFoundError as missing:
-        if not missing.name.startswith("figures."):
-            raise
+    draw = catalogue.drawing(name)
+    if not draw:
         sys.exit(f"error: '{table}' is not the table of a figure.\nhint: name it as `swirl paper` does, such as "
                  "figure_5b.csv.")
     draw(table, *map(float, sys.argv[2:]))

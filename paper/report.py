@@ -16,7 +16,7 @@ from captions import CONTRADICTIONS, by_section, figure_texts, image_of, questio
 from claims import all_judged
 from claims.claim import UNTESTED
 from first_page import crossings_of_one_setting, main_results
-from html_page import bullets, described_folder, inline, opening, rich, table, td
+from html_page import bullets, described_folder, grid, inline, opening, rich, table, td
 from point_names import in_words
 from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
 
@@ -192,7 +192,7 @@ def is_wide(path):
 
 def figures_html(folder, figures, texts):
     """One section of the page: wide images span both columns, which the browser balances."""
-    return "<div class=figures>\n" + "".join(figure_html(folder, figure, texts) for figure in figures) + "</div>\n"
+    return grid(figure_html(folder, figure, texts) for figure in figures)
 
 
 def figure_html(folder, figure, texts):

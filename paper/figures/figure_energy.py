@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import style
 from combine import failed
 from curves import with_error
