@@ -91,7 +91,6 @@ FEW = 8                      # "only a few marbles"
 JUMP = 4.0                   # a larger change of N_c between neighbouring friction coefficients is not continuous
 DENSE_SPHERES = (44, 48)     # at these N smooth and roughened spheres counterrotate
 PEAK_WINDOW = 45.0           # degrees on either side of a peak whose shape is compared
-RANDOM_SIX = 0.29            # share of six-sided Voronoi cells of random points (Brakke 1986: 0.2947)
 # Range of the gap between a disc's centre and the wall in the first and the second layer of a packing at
 # the wall (rows are √3 to 2 apart), and between these layers.
 FIRST_LAYER, BETWEEN_LAYERS, SECOND_LAYER = (1.0, 1.4), (1.6, 2.4), (2.6, 3.2)
