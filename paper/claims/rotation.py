@@ -41,7 +41,7 @@ def minimum(study, setting):
     lowest, last, rise = after_minimum(rows, rate)
     text = (f"ϖ/Ω is lowest before the end with {value_at(lowest, rate)}, and at the end {value_at(last, rate)}, "
             f"higher by {number(rise)}")
-    rigid = f"rigid_{rate}"
+    rigid = rate.replace("mean", "rigid")
     if all(rigid in row for row in rows):
         rigid_lowest, rigid_last, rigid_rise = after_minimum(rows, rigid)
         trend = {HOLDS: "also rises", FAILS: "falls to the end",
