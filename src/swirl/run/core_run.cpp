@@ -11,7 +11,6 @@
 #include "swirl/run/collapse_guard.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/period_series.hpp"
-#include "swirl/run/ramp.hpp"
 
 namespace swirl {
 namespace {
@@ -30,25 +29,19 @@ int events_between_checks(std::size_t discs) {
 CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, Observation* observation,
                  const Progress& progress, const Tuning& tuning)
     : config_(config),
-      path_(begin.path),
       observation_(observation),
       tuning_(tuning),
       simulation_(begin, progress, tuning),
+      ramps_(begin.path),
       snapshot_(simulation_.snapshot()),
       event_(),
       rotation_times_(rotation_samples, config.period),
       few_rotation_times_(rotation_samples_of_few, config.period),
       observation_times_(samples_per_period, config.period),
+      by_event_(config.events_per_sample, simulation_.size()),
+      warm_up_(config, tuning.width),
       events_to_check_(events_until_check()),
-      watch_(simulation_.size(), mark()),
-      in_warmup_(tuning.width),
-      after_warmup_(tuning.width),
-      next_warmup_test_(min_blocks_of_a_steady_state),
-      warm_(config.warmup == 0),
-      events_per_sample_(config.events_per_sample > 0
-                             ? static_cast<std::uint64_t>(config.events_per_sample)
-                             : events_per_rotation_sample(simulation_.size())),
-      events_to_sample_(events_per_sample_) {
+      watch_(simulation_.size(), mark()) {
     const Budget start = budget_of(snapshot());
     result_.config = config;
     result_.energy_at_start = start.energy;
@@ -62,7 +55,7 @@ bool CoreRun::complete() const {
 }
 
 double CoreRun::periods() const {
-    return static_cast<double>(simulation_.periods()) + simulation_.clock() / path_.period;
+    return static_cast<double>(simulation_.periods()) + simulation_.clock() / path().period;
 }
 double CoreRun::fraction() const {
     if (config_.periods) return periods() / static_cast<double>(*config_.periods);
@@ -81,16 +74,16 @@ void CoreRun::execute_event() {
 /// At all sample times up to this one, before the next event.
 void CoreRun::sample_by_time(double clock) {
     SampleTimes& times = follows_angles() ? few_rotation_times_ : rotation_times_;
-    while (times.next(snapshot_, path_, clock)) {
+    while (times.next(snapshot_, path(), clock)) {
         rotation().sample_by_time(snapshot_);
-        spin().add(mean_spin(snapshot_));
-        if (series_) series_->sample(snapshot());
+        warm_up_.spin().add(mean_spin(snapshot_));
+        if (series_.exists()) series_.sample(snapshot());
     }
     if (!samples_observations()) return;
-    while (observation_times_.next(snapshot_, path_, clock)) {
+    while (observation_times_.next(snapshot_, path(), clock)) {
         const Snapshot& now = snapshot();
         if (observes()) observation_->sample(now);
-        if (measures_period()) series_->sample_measured(now);
+        series_.sample_measured(now);
     }
 }
 
@@ -98,39 +91,30 @@ void CoreRun::pass_event() {
     simulation_.refresh(snapshot_, event_);
     const bool period_ended =
         event_.kind == EventKind::path_vertex && simulation_.periods() > event_.periods;
-    if (events_per_sample_ == 1 || period_ended) rotation().follow(snapshot_, event_);
-    count_to_sample(1);
+    if (by_event_.samples_every_event() || period_ended) rotation().follow(snapshot_, event_);
+    by_event_.count(1);
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
     if (observes_events()) observation_->sample(event_, snapshot());
-    if (series_ && series_->samples_events()) series_->sample_measured(event_, snapshot());
+    if (series_.samples_events()) series_.sample_measured(event_, snapshot());
     if (period_ended) begin_period();
 }
 
-void CoreRun::count_to_sample(std::uint64_t events) {
-    events_to_sample_ -= events;
-    if (events_to_sample_ > 0) return;
-    events_to_sample_ = events_per_sample_;
-    rotation_is_sampled_ = false;
-}
-
-bool CoreRun::measures_period() const { return series_ && series_->measures(); }
-
 /// True if a measurement needs samples now; otherwise the sample times of the observation are
 /// skipped.
-bool CoreRun::samples_observations() const { return observes() || measures_period(); }
+bool CoreRun::samples_observations() const { return observes() || series_.measures(); }
 
 bool CoreRun::observes_events() const { return observes() && observation_->samples_events(); }
 
 std::uint64_t CoreRun::execute_events() {
-    const bool each_event = events_per_sample_ == 1 || observes_events() ||
-                            (series_ && series_->samples_events()) || !snapshot_.turned.empty();
-    const double period_end = path_.segments.back().end;
+    const bool each_event = by_event_.samples_every_event() || observes_events() ||
+                            series_.samples_events() || !snapshot_.turned.empty();
+    const double period_end = path().segments.back().end;
     for (bool stopped = true; !each_event && stopped;) {
         double due = rotation_times_.due(snapshot_.periods);
         if (samples_observations()) due = std::min(due, observation_times_.due(snapshot_.periods));
         // is_check_due() has counted the first event.
         const std::uint64_t to_check = static_cast<std::uint64_t>(events_to_check_) + 1;
-        const std::uint64_t maximum = std::min(events_to_sample_, to_check);
+        const std::uint64_t maximum = std::min(by_event_.left(), to_check);
         const std::uint64_t events = execute_span(due, maximum);
         // Ended by the next sample time?
         stopped = events < maximum && due < period_end;
@@ -156,8 +140,8 @@ std::uint64_t CoreRun::execute_span(double due, std::uint64_t maximum) {
     events_to_check_ -= static_cast<int>(events) - 1;
     result_.max_overlap = std::max(result_.max_overlap, span_.max_overlap);
     sample_by_event();
-    count_to_sample(events);
-    if (!rotation_is_sampled_) update_flights();
+    by_event_.count(events);
+    if (by_event_.is_due()) update_flights();
     return events;
 }
 
@@ -179,7 +163,7 @@ void CoreRun::update_snapshot() {
 /// A run with a given number of events is also checked at its end; one with a number of periods is
 /// checked at the end of each period (begin_period).
 int CoreRun::events_until_check() const {
-    const bool visits_all_discs = observation_ || series_ || config_.events_per_sample > 0;
+    const bool visits_all_discs = observation_ || series_.exists() || config_.events_per_sample > 0;
     const int at_most =
         complete() ? 0 : events_between_checks(visits_all_discs ? simulation_.size() : 1);
     if (config_.periods) return at_most;
@@ -217,12 +201,11 @@ std::string CoreRun::collapse_sentence(const Collapse& collapse) const {
 
 std::string CoreRun::reason_for_collapse() const { return swirl::reason_for_collapse(config_); }
 
-/// Takes the sample by event of the current state, if it is due. It is taken as late as possible,
-/// so that the processor need not wait for the snapshot to be written (cluster_rotation.hpp).
+/// Takes the sample by event of the current state, if it is due.
 void CoreRun::sample_by_event() {
-    if (rotation_is_sampled_) return;
-    rotation_is_sampled_ = true;
-    if (events_per_sample_ == 1)
+    if (!by_event_.is_due()) return;
+    by_event_.take();
+    if (by_event_.samples_every_event())
         rotation().sample(snapshot_);
     else
         rotation().sample_alone(snapshot_);
@@ -233,73 +216,32 @@ void CoreRun::begin_period() {
     sample_by_event();
     const bool exact = follows_angles();
     if (exact) rotation().end_angles(snapshot_);
-    if (series_) add_period_to_series();
+    const std::uint64_t events = simulation_.events().total();
+    if (series_.exists())  // the blocks of the period are still open
+        series_.add_period({.period = simulation_.periods() - 1,
+                            .is_counted = is_warm(),
+                            .rotation = rotation().open_means(),
+                            .spin = warm_up_.spin().open_mean(),
+                            .events = events});
     constexpr double few = rotation_samples_of_few;
-    rotation().close_block(events_per_sample_, exact ? rotation_samples / few : 1.0);
-    spin().close_block();
+    rotation().close_block(by_event_.interval(), exact ? rotation_samples / few : 1.0);
+    warm_up_.spin().close_block();
     if (observes()) observation_->close_block();
-    if (!warm_ && is_warmup_over()) {
-        warm_ = true;
+    if (warm_up_.ends(config_, simulation_.periods(), fraction())) {
         result_.warmup = simulation_.periods();
         result_.warmup_events = simulation_.events();
     }
-    if (!config_.ramps.empty() && changes_in_period(config_, simulation_.periods()))
-        continue_ramps();
+    if (ramps_.begin_period(config_, simulation_, tuning_, snapshot_))
+        rotation().follow(snapshot_, event_);
     if (complete()) events_to_check_ = 0;
-    // The interval follows from the last period alone, so a resumed run has the same samples.
-    const std::uint64_t events = simulation_.events().total();
-    if (config_.events_per_sample == 0) {
-        events_per_sample_ =
-            events_per_rotation_sample(simulation_.size(), events - events_before_);
-        events_to_sample_ = std::min(events_to_sample_, events_per_sample_);
-    }
-    begin_angles(events - events_before_);
-    events_before_ = events;
+    begin_angles(by_event_.begin_period(simulation_.size(), events));
 }
 
 /// The period that begins has the exact mean rotation by time if the last one had few events.
 void CoreRun::begin_angles(std::uint64_t events) {
-    if (events_per_sample_ == 1 && events < events_of_exact_means && !snapshot_.are_spheres())
+    if (by_event_.samples_every_event() && events < events_of_exact_means &&
+        !snapshot_.are_spheres())
         rotation().begin_angles(snapshot_);
-}
-
-/// The blocks of the period are still open.
-void CoreRun::add_period_to_series() {
-    series_->add_period({.period = simulation_.periods() - 1,
-                         .is_counted = warm_,
-                         .rotation = rotation().open_means(),
-                         .spin = spin().open_mean(),
-                         .events = simulation_.events().total()});
-}
-
-/// Continues with the values of the period that begins.
-void CoreRun::continue_ramps() {
-    const InitialState next = surroundings_in(config_, simulation_.periods());
-    const bool period_changes = next.path.period != path_.period;
-    const double now = snapshot_.time();
-    simulation_.change_surroundings(next, tuning_);
-    path_ = next.path;
-    Snapshot begin = simulation_.snapshot();
-    begin.turned = std::move(snapshot_.turned);
-    begin.periods_at_change = period_changes ? begin.periods : snapshot_.periods_at_change;
-    begin.time_at_change = period_changes ? now : snapshot_.time_at_change;
-    snapshot_ = std::move(begin);
-    rotation().follow(snapshot_, event_);
-}
-
-/// Called at the end of each period of the warm-up.
-bool CoreRun::is_warmup_over() {
-    if (config_.warmup_found) return is_warmup_detected() || fraction() >= 0.5;
-    if (config_.warmup) return simulation_.periods() >= *config_.warmup;
-    return simulation_.periods() >= default_warmup || fraction() >= 0.2;
-}
-
-/// The test takes time proportional to the number of periods, so the intervals between tests grow.
-bool CoreRun::is_warmup_detected() {
-    if (simulation_.periods() < next_warmup_test_) return false;
-    next_warmup_test_ += std::max<std::int64_t>(10, next_warmup_test_ / 10);
-    return beginning_is_forgotten(in_warmup_.mean_by_event().block_means()) &&
-           beginning_is_forgotten(spin_in_warmup_.series().block_means());
 }
 
 SteadyState CoreRun::steady_state_of(const BlockSeries& series) const {
@@ -314,9 +256,9 @@ RunResult CoreRun::result() {
     sample_by_event();
     result_.complete = complete();
     result_.rotation = rotation().estimates();
-    result_.events_per_rotation_sample = events_per_sample_;
+    result_.events_per_rotation_sample = by_event_.interval();
     result_.steady = steady_state_of(rotation().mean_by_event());
-    result_.steady_spin = steady_state_of(spin().series());
+    result_.steady_spin = steady_state_of(warm_up_.spin().series());
     result_.events = simulation_.events();
     result_.periods = periods();
     const Budget end = budget_of(snapshot());

@@ -12,19 +12,19 @@
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/sample_times.hpp"
-#include "swirl/physics/container_path.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/run/collapse.hpp"
 #include "swirl/run/config.hpp"
+#include "swirl/run/event_sampler.hpp"
+#include "swirl/run/ramp_schedule.hpp"
 #include "swirl/run/result.hpp"
-#include "swirl/statistics/block_average.hpp"
-#include "swirl/statistics/steady_state.hpp"
+#include "swirl/run/run_series.hpp"
+#include "swirl/run/warm_up.hpp"
 
 namespace swirl {
 
 class Observation;
-class PeriodSeries;
 
 /// Event by event:
 ///
@@ -41,7 +41,7 @@ class CoreRun {
             const Progress& progress = {}, const Tuning& tuning = {});
     /// Also adds every period to a series, which must outlive the run. Call it before the first
     /// event.
-    void add_periods_to(PeriodSeries* series) { series_ = series; }
+    void add_periods_to(PeriodSeries* series) { series_.set(series); }
 
     /// Executes the next event. The snapshot keeps the state before it until pass_event().
     void execute_event();
@@ -50,7 +50,7 @@ class CoreRun {
     /// execute_event() and pass_event(), but event() is not set. Returns the number of events.
     std::uint64_t execute_events();
     /// Moves the snapshot to the next of these sample times, if there is one before the event.
-    bool next_sample(SampleTimes& times) { return times.next(snapshot_, path_, event_.clock); }
+    bool next_sample(SampleTimes& times) { return times.next(snapshot_, path(), event_.clock); }
     /// Moves the snapshot to the state after the event. Call it once for each event.
     void pass_event();
 
@@ -66,7 +66,7 @@ class CoreRun {
     /// The snapshot as the simulation stores it: each disc at its own time. After pass_event().
     const Snapshot& stored_snapshot() const { return snapshot_; }
     const Simulation& simulation() const { return simulation_; }
-    const ContainerPath& path() const { return path_; }
+    const ContainerPath& path() const { return ramps_.path(); }
     /// Tracks the orientation of each sphere (Snapshot::turned). Call it before the first event.
     void follow_orientations() {
         if (snapshot_.are_spheres()) snapshot_.turned.assign(snapshot_.size(), {});
@@ -77,7 +77,7 @@ class CoreRun {
     double fraction() const;
     double periods() const;
     /// True if the warm-up is over, so that samples count.
-    bool is_warm() const { return warm_; }
+    bool is_warm() const { return warm_up_.is_over; }
     /// Whole periods and events of the warm-up; 0 before it is over.
     std::int64_t warmup() const { return result_.warmup; }
     const EventCounts& warmup_events() const { return result_.warmup_events; }
@@ -101,11 +101,11 @@ class CoreRun {
     /// Separate from the rotation after the warm-up. A run too short for a warm-up reports it.
     const ClusterRotation& rotation_in_warmup() {
         sample_by_event();
-        return in_warmup_;
+        return warm_up_.rotation_before;
     }
     const ClusterRotation& rotation_after_warmup() {
         sample_by_event();
-        return after_warmup_;
+        return warm_up_.rotation_after;
     }
     /// The result up to now, without the elapsed time. Call it between two events.
     RunResult result();
@@ -115,19 +115,19 @@ class CoreRun {
     template <class Visitor>
     void fields(Visitor&& visit) {
         sample_by_event();
-        visit(warm_, rotation_times_, few_rotation_times_, in_warmup_, after_warmup_);
+        visit(warm_up_.is_over, rotation_times_, few_rotation_times_);
+        visit(warm_up_.rotation_before, warm_up_.rotation_after);
         visit(result_.warmup, result_.warmup_events, result_.max_overlap);
         visit(result_.energy_at_start, result_.invariant_at_start);
-        visit(spin_in_warmup_, spin_after_, next_warmup_test_);
-        visit(events_per_sample_, events_to_sample_, events_before_);
+        visit(warm_up_.spin_before, warm_up_.spin_after, warm_up_.next_test);
+        by_event_.fields(visit);
         if (!config_.ramps.empty()) visit(snapshot_.periods_at_change, snapshot_.time_at_change);
         if (!snapshot_.turned.empty()) visit(std::span(snapshot_.turned));
         if (observation_) visit(observation_times_);
     }
 
   private:
-    bool observes() const { return warm_ && observation_; }
-    bool measures_period() const;
+    bool observes() const { return is_warm() && observation_; }
     bool samples_observations() const;
     bool observes_events() const;
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
@@ -136,7 +136,6 @@ class CoreRun {
     std::string collapse_sentence(const Collapse& collapse) const;
     std::string reason_for_collapse() const;
     void sample_by_event();
-    void count_to_sample(std::uint64_t events);
     std::uint64_t execute_span(double due, std::uint64_t maximum);
     void update_flights();
     void update_snapshot();
@@ -144,35 +143,24 @@ class CoreRun {
     void begin_angles(std::uint64_t events);
     bool follows_angles() { return rotation().follows_angles(snapshot_); }
     void begin_period();
-    void add_period_to_series();
-    void continue_ramps();
-    bool is_warmup_over();
-    bool is_warmup_detected();
     SteadyState steady_state_of(const BlockSeries& series) const;
-    ClusterRotation& rotation() { return warm_ ? after_warmup_ : in_warmup_; }
-    BlockMean& spin() { return warm_ ? spin_after_ : spin_in_warmup_; }
+    ClusterRotation& rotation() { return warm_up_.rotation(); }
 
     RunConfig config_;
-    ContainerPath path_;
     Observation* observation_;
-    PeriodSeries* series_ = nullptr;
+    RunSeries series_;
     const Tuning tuning_;
     Simulation simulation_;
+    RampSchedule ramps_;
     Snapshot snapshot_, synchronised_;
     Event event_;
     SampleTimes rotation_times_, few_rotation_times_, observation_times_;
-    int events_to_check_;  // until the next check
+    EventSampler by_event_;  // the rotation's samples by event
+    WarmUp warm_up_;
+    int events_to_check_;  // number of events until the next check
     CollapseWatch watch_;
-    ClusterRotation in_warmup_, after_warmup_;
-    BlockMean spin_in_warmup_, spin_after_;
-    std::int64_t next_warmup_test_;  // in this period
-    bool warm_;
-    std::uint64_t events_per_sample_;  // of the rotation by event, in this period
-    std::uint64_t events_to_sample_;   // until the next sample
-    std::uint64_t events_before_ = 0;  // before this period
-    bool rotation_is_sampled_ = true;  // in the current state, if a sample is due
-    EventSpan span_;                   // the events since the snapshot was updated
-    bool angles_are_old_ = false;      // of the snapshot
+    EventSpan span_;               // the events since the snapshot was updated
+    bool angles_are_old_ = false;  // the snapshot lacks the angles of these events
     RunResult result_;
 };
 
