@@ -25,6 +25,7 @@
 #include "container.hpp"
 #include "fitting.hpp"
 #include "json.hpp"
+#include "sliders.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
@@ -232,9 +233,10 @@ std::string_view name_of(Crossing::Verdict verdict) {
 }
 
 /// [from, to, step], or null.
-std::string slider_json(const SliderRange& slider) {
-    if (slider.step == 0.0) return "null";
-    return fmt::format("[{},{},{}]", slider.from, slider.to, slider.step);
+std::string slider_json(const char* parameter) {
+    const Slider* const slider = slider_of(parameter);
+    if (!slider) return "null";
+    return fmt::format("[{},{},{}]", slider->from, slider->to, slider->step);
 }
 
 std::string parameter_json(const Parameter& p) {
@@ -243,7 +245,7 @@ std::string parameter_json(const Parameter& p) {
         R"("lowest":{},"highest":{},"slider":{},"settable":{}}})",
         json_text(p.name), json_text(p.symbol), json_text(p.unit), json_text(p.form),
         json_text(p.description), json_text(p.group), json_text(default_of(p)),
-        number(p.range.lowest), number(p.range.highest), slider_json(p.slider), p.is_settable());
+        number(p.range.lowest), number(p.range.highest), slider_json(p.name), p.is_settable());
 }
 
 }  // namespace

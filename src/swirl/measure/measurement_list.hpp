@@ -6,59 +6,34 @@
 #include <tuple>
 
 #include "swirl/measure/angular_profile.hpp"
-#include "swirl/measure/density_map.hpp"
-#include "swirl/measure/flow_map.hpp"
-#include "swirl/measure/sampling.hpp"
-#include "swirl/measure/slip.hpp"
-#include "swirl/measure/spin_frustration.hpp"
-
-// The browser page does not show these measurements and is smaller without them.
-#ifndef SWIRL_BROWSER_PAGE
 #include "swirl/measure/cluster_centre.hpp"
 #include "swirl/measure/collision_angles.hpp"
 #include "swirl/measure/collision_rates.hpp"
 #include "swirl/measure/contact_network.hpp"
+#include "swirl/measure/density_map.hpp"
 #include "swirl/measure/diffusion.hpp"
 #include "swirl/measure/energy_budget.hpp"
 #include "swirl/measure/fields.hpp"
+#include "swirl/measure/flow_map.hpp"
 #include "swirl/measure/granular_temperature.hpp"
 #include "swirl/measure/hexatic_order.hpp"
 #include "swirl/measure/local_packing.hpp"
+#include "swirl/measure/measurement_row.hpp"
 #include "swirl/measure/pair_correlation.hpp"
 #include "swirl/measure/pinned_loose.hpp"
 #include "swirl/measure/radial_density.hpp"
 #include "swirl/measure/rolling.hpp"
 #include "swirl/measure/rotation_fluctuations.hpp"
 #include "swirl/measure/segregation.hpp"
+#include "swirl/measure/slip.hpp"
+#include "swirl/measure/spin_frustration.hpp"
 #include "swirl/measure/torque_budget.hpp"
 #include "swirl/measure/velocity_correlation.hpp"
 #include "swirl/measure/velocity_distribution.hpp"
 #include "swirl/measure/wall_residence.hpp"
 #include "swirl/measure/wall_stress.hpp"
-#endif
 
 namespace swirl {
-
-template <class M>
-struct MeasurementRow {
-    static_assert(SamplingContract<M>::holds);
-    const char* name;
-    const char* header;  // in src/swirl/measure/, with the definition
-    const char* description;
-    M (*make)(double container_radius);
-};
-
-template <class M>
-constexpr MeasurementRow<M> measurement(const char* name, const char* header,
-                                        const char* description) {
-    return {name, header, description, [](double) { return M(); }};
-}
-/// For a class whose constructor needs the radius of the container.
-template <class M>
-constexpr MeasurementRow<M> measurement_in_container(const char* name, const char* header,
-                                                     const char* description) {
-    return {name, header, description, [](double radius) { return M(radius); }};
-}
 
 // clang-format off
 inline constexpr std::tuple measurement_list{
@@ -68,19 +43,16 @@ inline constexpr std::tuple measurement_list{
         "velocity relative to the container, 20 × 20 (Figs 2, 5d)"),
     measurement<AngularProfile>("profile", "angular_profile.hpp",
         "angular velocity about the centre of mass as a function of θ (Fig. 3)"),
-#ifndef SWIRL_BROWSER_PAGE
     measurement<PinnedByCollisions>("pinned", "pinned_loose.hpp",
         "where discs pin and depin, by tracks and by collisions (Fig. 3)"),
     measurement<WallResidences>("residence", "wall_residence.hpp",
         "residence in the wall layer: where discs pin and depin (Fig. 3)"),
     measurement<ClusterCentre>("centre", "cluster_centre.hpp",
         "position of the cluster in the M-frame, its shape, centrifugal and Coriolis force"),
-#endif
     measurement<Slip>("slip", "slip.hpp",
         "slip parameter, perimeter, pancake line (Figs 1b, 4a)"),
     measurement<SpinFrustration>("frustration", "spin_frustration.hpp",
         "spins at the wall and of neighbours, sticking contacts (Fig. 4b)"),
-#ifndef SWIRL_BROWSER_PAGE
     measurement_in_container<RadialDensity>("radial", "radial_density.hpp",
         "density as a function of the distance from the container's centre"),
     measurement_in_container<GranularTemperature>("temperature", "granular_temperature.hpp",
@@ -117,7 +89,6 @@ inline constexpr std::tuple measurement_list{
         "fluctuations of the rotation: N var(ϖ), Binder cumulant, lifetimes of states"),
     measurement_in_container<Fields>("fields", "fields.hpp",
         "coarse-grained fields: density, flow, spin, stress, couple stress, dissipation"),
-#endif
 };
 // clang-format on
 

@@ -33,10 +33,10 @@ enum class PathShape { polygon, circle, line, ellipse, lissajous, points };
 
 /// The properties of a path other than its shape, amplitude, period and number of sides.
 struct PathCurve {
-    double axis_ratio = 1.0;                  // of an ellipse: y axis over x axis
-    std::int64_t x_cycles = 1, y_cycles = 1;  // of a Lissajous figure, per period
-    double y_lead = 0.0;                      // of a Lissajous figure, in degrees
-    std::vector<PathPoint> points;            // before they are scaled to amplitude and period
+    double axis_ratio = 1.0;                  // ellipse: y axis over x axis
+    std::int64_t x_cycles = 1, y_cycles = 1;  // Lissajous figure: cycles per period
+    double y_lead = 0.0;                      // Lissajous figure: degrees
+    std::vector<PathPoint> points;            // not yet scaled to amplitude and period
 };
 
 /// The paper's experiment: spheres of r = 3 mm in a container of R = 25.5 mm, with Ω = 11.81 /s.
@@ -48,8 +48,8 @@ struct PathCurve {
 /// coefficient for all contacts, floor included, is determined by the N_c of the experiment.
 struct ExperimentPreset {
     std::string_view name;
-    double amplitude;  // in mm
-    double friction;   // of sphere, wall and floor
+    double amplitude;  // unit: mm
+    double friction;   // one for sphere, wall and floor
 };
 inline constexpr double smooth_friction = 0.33, rough_friction = 0.69;
 inline constexpr ExperimentPreset experiment_presets[] = {
@@ -77,11 +77,11 @@ struct Mixture {
 enum class SizeLaw { uniform, normal, lognormal, power, listed };
 struct ListedSize {
     double radius;
-    std::optional<double> mass;  // by default that of the same material
+    std::optional<double> mass;  // default: mass of the same material
 };
 struct Sizes {
     SizeLaw law;
-    std::array<double, 3> numbers;   // of the law, in the order of its text
+    std::array<double, 3> numbers;   // numbers of the law, in the order of its text
     std::vector<ListedSize> listed;  // one per particle
 };
 
@@ -89,7 +89,7 @@ struct Sizes {
 /// distances from period `begin` to period `end`, counted from 0, and the periods between two of
 /// them are interpolated. The first value holds before, the last one after.
 struct Ramp {
-    std::string name;  // in the table: "mu"
+    std::string name;  // name in the table: "mu"
     std::vector<double> values;
     std::int64_t begin = 0, end = 0;
 
@@ -105,10 +105,10 @@ struct RunConfig {
     double tangential_restitution = 0.0;
     double contact_duration = 1e-3;  // t_c; matters only for restitution < 1 or on a floor
     double mass = 1.0, radius = 1.0;
-    double inertia = paper_inertia;  // of one disc, not divided by m r²
+    double inertia = paper_inertia;  // moment of one disc, not divided by m r²
     Shape body = Shape::disc;
     bool floor = false;  // spheres slide and roll on it, coins slide
-    double floor_friction = 0.3, gravity = experiment_gravity(5.75);  // at the SI's A/R
+    double floor_friction = 0.3, gravity = experiment_gravity(5.75);  // values at the SI's A/R
     double rolling_resistance = 0.0;                                  // μ_r of spheres (floor.hpp)
     double vertical_disc = 1.0, vertical_wall = 1.0;  // κ of spheres (collision_law.hpp)
     double container_radius = paper_container_radius;
@@ -116,7 +116,7 @@ struct RunConfig {
     PathShape path = PathShape::polygon;
     PathCurve curve;
     bool clockwise = false;   // the path is mirrored at the x axis
-    double path_phase = 0.0;  // where on the path a run starts, in degrees of a period
+    double path_phase = 0.0;  // start on the path, in degrees of a period
     int sides = paper_sides;  // number of straight segments
     double period = paper_period;
     std::optional<Mixture> mixture;
@@ -212,17 +212,12 @@ inline constexpr ParameterRange positive{smallest_value, largest_value},
     nonnegative{0, largest_value}, fraction{0, 1};
 }
 
-/// The range and the step of a slider on the page.
-struct SliderRange {
-    double from = 0.0, to = 0.0, step = 0.0;
-};
-
 struct Parameter {
     const char* name;          // "mu_disc": the key in every file; the option is --mu-disc
-    const char* symbol = "";   // as in docs/explanation/physics.md
+    const char* symbol = "";   // symbol in docs/explanation/physics.md
     const char* unit = "";     // "length", "time", …; empty for a pure number
     const char* form = "";     // the value after the option: "NUMBER"
-    const char* description;   // at most 60 characters, for --help
+    const char* description;   // --help shows it: at most 60 characters
     const char* details = "";  // further sentences for docs/reference/parameters.md
     const char* group;
     /// The member of RunConfig and its allowed range.
@@ -230,8 +225,6 @@ struct Parameter {
                  std::uint64_t RunConfig::*, std::optional<std::int64_t> RunConfig::*>
         member = {};
     ParameterRange range = {};
-    /// Step 0: no slider. Values outside the slider's range are allowed.
-    SliderRange slider = {};
     /// Needed only if the parameter is not simply the member as a number.
     ParameterReader* read = nullptr;
     ParameterWriter* write = nullptr;
@@ -278,15 +271,13 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Number of discs or spheres",
      .group = parameter_group::particles,
      .member = &RunConfig::discs,
-     .range = {1, max_discs},
-     .slider = {1, 55, 1}},
+     .range = {1, max_discs}},
     {.name = "mu",
      .symbol = "μ",
      .form = "NUMBER",
      .description = "Friction coefficient between particles and at the wall",
      .group = parameter_group::particles,
      .range = parameter_range::nonnegative,
-     .slider = {0, 2, 0.05},
      .read = read_mu,
      .default_text = "1",
      .can_ramp = true,
@@ -298,7 +289,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::mu_disc,
      .range = parameter_range::nonnegative,
-     .slider = {0, 2, 0.05},
      .default_text = "",
      .can_ramp = true},
     {.name = "mu_wall",
@@ -308,7 +298,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::mu_wall,
      .range = parameter_range::nonnegative,
-     .slider = {0, 2, 0.05},
      .default_text = "",
      .can_ramp = true},
     {.name = "frictionless",
@@ -341,7 +330,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::inertia,
      .range = {1e-12, 1e18},
-     .slider = {0.25, 20, 0.25},
      .read = read_inertia,
      .format = format_inertia,
      .default_text = "paper",
@@ -353,8 +341,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Mass of one particle",
      .group = parameter_group::particles,
      .member = &RunConfig::mass,
-     .range = parameter_range::positive,
-     .slider = {0.1, 10, 0.1}},
+     .range = parameter_range::positive},
     {.name = "radius",
      .symbol = "r",
      .unit = "length",
@@ -362,8 +349,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Radius of one particle",
      .group = parameter_group::particles,
      .member = &RunConfig::radius,
-     .range = parameter_range::positive,
-     .slider = {0.1, 2, 0.05}},
+     .range = parameter_range::positive},
     {.name = "mixture",
      .form = "N|P%:RADIUS[:MASS]",
      .description = "Second species: number, radius and mass of its particles",
@@ -400,7 +386,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::restitution,
      .range = parameter_range::fraction,
-     .slider = {0.5, 1, 0.01},
      .can_ramp = true},
     {.name = "tangential_restitution",
      .symbol = "β",
@@ -410,7 +395,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::tangential_restitution,
      .range = parameter_range::fraction,
-     .slider = {0, 1, 0.05},
      .can_ramp = true},
     {.name = "contact_duration",
      .symbol = "t_c",
@@ -421,8 +405,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
                 "nothing. It matters with --restitution below 1 or on a floor.",
      .group = parameter_group::particles,
      .member = &RunConfig::contact_duration,
-     .range = parameter_range::nonnegative,
-     .slider = {0, 0.1, 0.001}},
+     .range = parameter_range::nonnegative},
     {.name = "floor",
      .form = "none|sliding",
      .description = "Floor under the particles",
@@ -439,7 +422,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::floor_friction,
      .range = parameter_range::positive,
-     .slider = {0.05, 1, 0.05},
      .written = WrittenIf::floor,
      .can_ramp = true},
     {.name = "gravity",
@@ -450,7 +432,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::gravity,
      .range = parameter_range::positive,
-     .slider = {0.5, 20, 0.5},
      .written = WrittenIf::floor},
     {.name = "rolling_resistance",
      .symbol = "μ_r",
@@ -460,7 +441,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::rolling_resistance,
      .range = parameter_range::nonnegative,
-     .slider = {0, 0.05, 0.001},
      .written = WrittenIf::not_default},
     {.name = "vertical_disc",
      .symbol = "κ_d",
@@ -470,7 +450,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::vertical_disc,
      .range = parameter_range::fraction,
-     .slider = {0, 1, 0.05},
      .written = WrittenIf::not_default},
     {.name = "vertical_wall",
      .symbol = "κ_w",
@@ -480,7 +459,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::particles,
      .member = &RunConfig::vertical_wall,
      .range = parameter_range::fraction,
-     .slider = {0, 1, 0.05},
      .written = WrittenIf::not_default},
     {.name = "container_radius",
      .symbol = "R",
@@ -489,8 +467,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Radius of the container",
      .group = parameter_group::container,
      .member = &RunConfig::container_radius,
-     .range = parameter_range::positive,
-     .slider = {4, 20, 0.1}},
+     .range = parameter_range::positive},
     {.name = "amplitude",
      .symbol = "A",
      .unit = "length",
@@ -503,7 +480,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::container,
      .member = &RunConfig::amplitude,
      .range = parameter_range::nonnegative,
-     .slider = {0, 5, 0.05},
      .can_ramp = true},
     {.name = "period",
      .symbol = "T",
@@ -514,7 +490,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::container,
      .member = &RunConfig::period,
      .range = parameter_range::positive,
-     .slider = {2, 40, 0.1},
      .can_ramp = true},
     {.name = "speed",
      .symbol = "v",
@@ -523,7 +498,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Speed of the container; replaces --period or --amplitude",
      .group = parameter_group::container,
      .range = parameter_range::nonnegative,
-     .slider = {0.1, 5, 0.1},
      .read = read_speed,
      .write = write_speed,
      .default_text = "",
@@ -561,7 +535,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::container,
      .member = &RunConfig::path_phase,
      .range = {0, 360},
-     .slider = {0, 360, 15},
      .written = WrittenIf::not_default},
     {.name = "sides",
      .symbol = "M",
@@ -572,7 +545,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::container,
      .member = &RunConfig::sides,
      .range = {3, max_sides},
-     .slider = {3, 60, 1},
      .read = read_sides,
      .write = write_sides},
     {.name = "events",
@@ -582,7 +554,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::run,
      .member = &RunConfig::events,
      .range = {1, max_events},
-     .slider = {20'000, 2'000'000, 20'000},
      .write = write_events,
      .overrides = {"periods"}},
     {.name = "periods",
@@ -592,7 +563,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::run,
      .member = &RunConfig::periods,
      .range = {1, max_periods},
-     .slider = {20, 2000, 20},
      .read = read_periods,
      .overrides = {"events"}},
     {.name = "warmup",
@@ -604,7 +574,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::run,
      .member = &RunConfig::warmup,
      .range = {0, max_periods},
-     .slider = {0, 200, 1},
      .read = read_warmup,
      .write = write_warmup,
      .default_text = "20, at most 1/5 of run"},
@@ -617,7 +586,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .group = parameter_group::run,
      .member = &RunConfig::events_per_sample,
      .range = {0, max_events},
-     .slider = {0, 64, 1},
      .written = WrittenIf::not_default},
     {.name = "ramp",
      .form = "NAME=FROM:TO@P..Q",
@@ -637,8 +605,7 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "NUMBER",
      .description = "Seed of the initial positions and velocities",
      .group = parameter_group::run,
-     .member = &RunConfig::seed,
-     .slider = {1, 100, 1}},
+     .member = &RunConfig::seed},
 });
 
 /// The row with this name, spelled with underscores or hyphens; nullptr if there is none.

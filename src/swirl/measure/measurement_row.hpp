@@ -1,0 +1,29 @@
+// A row of the list of measurements (measurement_list.hpp).
+#pragma once
+
+#include "swirl/measure/sampling.hpp"
+
+namespace swirl {
+
+template <class M>
+struct MeasurementRow {
+    static_assert(SamplingContract<M>::holds);
+    const char* name;
+    const char* header;  // file with the definition, in src/swirl/measure/
+    const char* description;
+    M (*make)(double container_radius);
+};
+
+template <class M>
+constexpr MeasurementRow<M> measurement(const char* name, const char* header,
+                                        const char* description) {
+    return {name, header, description, [](double) { return M(); }};
+}
+/// For a class whose constructor needs the radius of the container.
+template <class M>
+constexpr MeasurementRow<M> measurement_in_container(const char* name, const char* header,
+                                                     const char* description) {
+    return {name, header, description, [](double radius) { return M(radius); }};
+}
+
+}  // namespace swirl
