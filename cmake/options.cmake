@@ -66,13 +66,8 @@ endif()
 
 # The compiler gets several files of a layer at once, because headers and their templates are most of
 # the work. So names in unnamed namespaces must be unique within a layer (tests/layers). Every batch
-# reads the headers again, so batches are large on few cores; on many cores small ones finish earlier.
-cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
-if(cores LESS_EQUAL 4)
-  set(batch 16)
-else()
-  set(batch 6)
-endif()
+# reads the headers again. The size is the same on every computer, so that all compile the same units.
+set(batch 16)
 function(swirl_compiled_at_once target)
   if(SWIRL_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})

@@ -1,0 +1,53 @@
+"""The size of each part (CONTRIBUTING.md, Scope): everyone after you reads every line.
+
+A limit is the goal where the part has reached it; otherwise it is its present size, with the goal and the
+reason beside it. Lower a limit when its part shrinks. Raise it only with a reason that users would accept.
+"""
+
+import pathlib
+import subprocess
+import unittest
+
+SOURCE = pathlib.Path(__file__).parents[2]
+PROGRAMS = (".cpp", ".hpp", ".inc", ".py", ".ts", ".mjs", ".js", ".sh", ".css", ".html")
+
+# Part: folders, folders in them that belong to another part, most lines.
+LINES = {
+    # Goal 42,000.
+    "engine": (["src"], ["src/swirl/paper", "src/swirl/tracking"], 50_000),
+    "paper": (["paper", "src/swirl/paper"], [], 16_000),
+    "track": (["src/swirl/tracking"], [], 10_000),
+    "page": (["web/src"], [], 6_500),
+    "tests": (["tests"], [], 44_100),
+}
+WORDS_OF_THE_DOCS = 99_000
+
+
+def files(folders, others=()):
+    listed = subprocess.run(["git", "-C", SOURCE, "ls-files", "-z", *folders], capture_output=True, text=True,
+                            check=True).stdout.split("\0")
+    return [SOURCE / name for name in listed
+            if name and not name.startswith(tuple(f"{other}/" for other in others)) and (SOURCE / name).is_file()]
+
+
+class Size(unittest.TestCase):
+    def setUp(self):
+        if not (SOURCE / ".git").exists():
+            self.skipTest("the size is that of the files in the repository")
+
+    def test_no_part_outgrows_its_limit(self):
+        for part, (folders, others, most) in LINES.items():
+            with self.subTest(part):
+                lines = sum(file.read_bytes().count(b"\n") for file in files(folders, others)
+                            if file.suffix in PROGRAMS)
+                self.assertLessEqual(lines, most)
+                self.assertGreater(lines, 0.9 * most, "lower the limit")
+
+    def test_the_docs_stay_readable(self):
+        words = sum(len(file.read_text(encoding="utf-8").split()) for file in files(["docs", "README.md"])
+                    if file.suffix == ".md")
+        self.assertLessEqual(words, WORDS_OF_THE_DOCS)
+
+
+if __name__ == "__main__":
+    unittest.main()
