@@ -64,7 +64,7 @@ void contact_times_of_eight_pairs(benchmark::State& state) {
         benchmark::DoNotOptimize(smallest(time_of_contact(mine, others, Eight(2.0))));
     }
 }
-BENCHMARK(contact_times_of_eight_pairs);  // at the baseline's width
+BENCHMARK(contact_times_of_eight_pairs);  // vectors have the baseline's width
 
 void wall_contact_time(benchmark::State& state) {
     const ContainerPath path = state.range(0) == 0

@@ -24,8 +24,8 @@ namespace swirl {
 struct BenchSettings {
     bool full = false;                          // 10⁵ and 10⁶ discs, too
     std::string only = {};                      // scenes whose name contains this text
-    std::vector<Width> widths = {Width::best};  // of the event loop
-    double seconds = 1.0;                       // of processor time for each rate
+    std::vector<Width> widths = {Width::best};  // vector widths of the event loop
+    double seconds = 1.0;                       // processor time for each rate
     const std::atomic<bool>* stop = nullptr;
     std::function<void(double fraction, const std::string& scene)> progress;
 };
@@ -50,15 +50,15 @@ struct BenchRow {
     std::int64_t discs;
     std::string width;
     std::string counts;                   // "events" or "collisions"
-    double rate;                          // of these, per second
-    std::optional<double> baseline_rate;  // where there is one
+    double rate;                          // events per second
+    std::optional<double> baseline_rate;  // empty without a baseline
     std::string baseline;
-    std::optional<double> ratio_target;     // for rate / baseline_rate
-    std::optional<BenchTarget> comparison;  // with another scene of the engine
+    std::optional<double> ratio_target;     // target of rate / baseline_rate
+    std::optional<BenchTarget> comparison;  // comparison with another scene
     double bytes_per_disc;                  // memory of the loop
     // Counted by the event loop, per event.
     double invalidated, list_rebuilds, path_vertices;
-    std::optional<double> vertex_share;  // of the time, spent at path vertices
+    std::optional<double> vertex_share;  // share of the time at path vertices
 
     std::optional<double> ratio() const {
         if (!baseline_rate) return {};

@@ -21,10 +21,10 @@ struct BenchScene {
     Kind kind;
     std::int64_t discs;
     double packing = 0.0;     // packing fraction; 0: the paper's container
-    int sides = paper_sides;  // of the path; 0 is the exact circle
+    int sides = paper_sides;  // the exact circle has 0
     double mu_disc = 1.0;
     double second_radius = 1.0;  // radius of every second disc
-    std::int64_t periods = 0;    // before the measurement; a gas executes ten collisions per disc
+    std::int64_t periods = 0;    // length before the measurement; a gas: ten collisions per disc
     /// Restarted from there after this many periods, because the discs gather later; 0: never.
     std::int64_t replayed_periods = 0;
     std::optional<double> ratio_target = {};

@@ -26,7 +26,7 @@ int main() {
     swirl::Simulation simulation(swirl::paper_scene(48, 1.0, 1));
     MeanDistance distance;
     // Sampling does not alter the trajectory.
-    const int warmup = 20, end = 120, samples = 64;  // in periods; samples per period
+    const int warmup = 20, end = 120, samples = 64;  // periods; samples per period
     for (int period = warmup; period < end; ++period)
         for (int k = 0; k < samples; ++k) {
             simulation.advance_to(period, swirl::paper_period * k / samples);

@@ -47,7 +47,7 @@ class NeighborListBaseline {
     struct alignas(32) Pending {
         double time;
         Number partner;  // the disc itself: the wall
-        Number changes;  // of the partner, when it was predicted
+        Number changes;  // the partner's, when it was predicted
         Number next, previous, bin;
     };
     struct alignas(32) Home {
@@ -95,13 +95,13 @@ class NeighborListBaseline {
     std::uint64_t renewed_lists_ = 0;
 
     double skin_, largest_radius_;
-    double farthest_centre_;  // of the container, from the swirl centre
+    double farthest_centre_;  // largest distance of the container from the swirl centre
 
     OnHugePages<ListedDisc> hot_;
     OnHugePages<Cold> cold_;
     OnHugePages<Pending> pending_;
     OnHugePages<Home> homes_of_;
-    std::size_t capacity_ = 16;  // of each list
+    std::size_t capacity_ = 16;  // capacity of each list
     OnHugePages<Number> lists_;
     double half_width_, cells_per_length_;
     std::size_t cells_across_;

@@ -67,7 +67,7 @@ class Recording {
         return about;
     }
     bool complete() const { return !reader_ || reader_->complete(); }
-    std::string remarks;  // about tracks, one per line
+    std::string remarks;  // sentences about tracks, one per line
 
   private:
     SnapshotSeries series_;

@@ -338,7 +338,7 @@ class InteractiveSimulation {
 
     const RunConfig config_;
     const bool is_custom_;  // discs or path were given as arrays
-    InitialState scene_;    // without discs
+    InitialState scene_;    // a scene without discs
     // A signal handler may use the simulation that it interrupts.
     std::recursive_mutex mutex_;
     // The last one that locked the mutex. A fork copies the lock of a thread that the child lacks.

@@ -51,7 +51,7 @@ class Container {
           shown_(run_.stored_snapshot()),
           turned_times_(rotation_samples, config.period),
           map_times_(samples_per_period, config.period),
-          cause_times_(8, config.period),  // as often as Slip and SpinFrustration elsewhere
+          cause_times_(8, config.period),  // the rate of Slip and SpinFrustration elsewhere
           spins_(config.container_radius) {
         run_.follow_orientations();
     }
@@ -276,7 +276,7 @@ class Container {
     std::int64_t maps_begin_ = 0;  // the period
     SpinMap spins_;
     bool found_ = false;
-    double passed_clock_ = 0.0;  // of the last passed event
+    double passed_clock_ = 0.0;  // clock of the last passed event
     std::optional<std::string> problem_;
 };
 

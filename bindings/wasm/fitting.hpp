@@ -10,7 +10,7 @@ namespace swirl {
 
 /// True if a disc of this radius at `p` overlaps no disc (except disc `i`) and not the wall.
 inline bool is_free(const InitialState& state, const Vec2& p, double radius, std::size_t i) {
-    constexpr double gap = 1e-9;  // above the rounding error of a computed contact
+    constexpr double gap = 1e-9;  // more than the rounding error of a contact
     const Vec2 centre = state.path.segments.front().start;
     const double reach_of_centre = (state.container_radius - radius) * (1.0 - gap);
     if (dot(p - centre, p - centre) > reach_of_centre * reach_of_centre) return false;

@@ -39,7 +39,7 @@ class SpinMap {
   private:
     SquareGrid grid_;
     std::vector<double> sum_, visits_;  // the last cell is outside
-    std::vector<std::int32_t> cell_;    // of every disc, at one sample
+    std::vector<std::int32_t> cell_;    // one per disc, at one sample
 };
 
 }  // namespace swirl

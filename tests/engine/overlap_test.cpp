@@ -12,7 +12,7 @@ namespace swirl {
 namespace {
 
 constexpr double allowed =
-    1e-12;  // in radii: rounding errors are 10⁻¹⁵ of the container's radius per contact
+    1e-12;  // rounding errors are 10⁻¹⁵ of the container's radius per contact
 
 double deepest_overlap(const Snapshot& s) {
     double deepest = -1.0;
@@ -37,7 +37,7 @@ void expect_no_overlap_in_all(const InitialState& scene, int events, const Tunin
         if (k % 10007 == 0) deepest = std::max(deepest, deepest_overlap(simulation.snapshot()));
     }
     EXPECT_LT(deepest, allowed);
-    EXPECT_GT(deepest, -1e-12);  // at contact the overlap is zero
+    EXPECT_GT(deepest, -1e-12);  // the overlap is zero at contact
 }
 
 void expect_no_overlap(const InitialState& scene, int events) {

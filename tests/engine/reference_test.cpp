@@ -387,7 +387,7 @@ TEST(IsStopped, EndsConstructionInEveryLoop) {
                 const Simulation simulation(each, {}, tuning);
                 if (polls < stop_at) {
                     EXPECT_EQ(simulation.size(), each.discs.size());
-                    EXPECT_GT(polls, 3 * 5000 / 1024);  // at least three loops poll
+                    EXPECT_GT(polls, 3 * 5000 / 1024);  // three loops or more poll
                     break;
                 }
                 EXPECT_LE(polls, stop_at + 10);

@@ -77,7 +77,7 @@ void collide_spheres(Sphere& i, Sphere* j, const Vec3& wall, const Vec3& n, doub
         J_t = k * k * k * J_t - first * s_t;
         J_z = k * k * k * J_z - first * s_z;
     }
-    const Vec3 along_floor = normal * n + J_t * tangent;  // on j
+    const Vec3 along_floor = normal * n + J_t * tangent;  // impulse on j
     const Vec3 friction = J_t * tangent + J_z * up;
     i.velocity = i.velocity - along_floor;
     i.spin = i.spin - (1.0 / inertia) * outer(n, friction);

@@ -50,6 +50,22 @@ FIRST_COMMIT = "a37b331"
 FIRST_REASON = "7dc71cd"
 
 
+# A trailing comment that begins with one of these has no subject. Folders still to do are omitted.
+PREPOSITIONS = """after about above across against along among around as at before behind below between beyond by during for
+    from in inside into of on onto outside over per since through to toward towards under until upon where which with
+    within without""".split()
+COMMENTED = ("src", "bindings", "bench", "tests", "examples", "web/src")
+NOT_YET = ("src/swirl/paper/",)
+
+
+def trailing_comments(text):
+    """(line number, comment) of comments that follow code in their line."""
+    for number, line in enumerate(text.splitlines(), 1):
+        found = re.match(r"\s*(?!//)\S.*?\s//\s+(?=\S)(.*)$", re.sub(r'"(\\.|[^"\\])*"', '""', line))
+        if found:
+            yield number, found.group(1)
+
+
 def prose_of(text):
     """The text without code blocks, inline code and addresses."""
     text = re.sub(r"```.*?```", "", text, flags=re.S)
@@ -159,6 +175,18 @@ class Prose(unittest.TestCase):
             with self.subTest(subject):
                 self.assertLessEqual(len(subject), 72)
                 self.assertRegex(subject, r"^(README|[a-z0-9][a-z0-9/_, -]*): [a-zA-Z0-9`\-].*[^.]$|^Merge ")
+
+    def test_trailing_comments_have_a_subject(self):
+        wrong = []
+        for file in (file for folder in COMMENTED for file in sorted((SOURCE / folder).rglob("*"))):
+            name = str(file.relative_to(SOURCE))
+            if file.suffix not in (".cpp", ".hpp", ".ts", ".mjs") or name.startswith(NOT_YET):
+                continue
+            wrong += [f"{name}:{number}: {comment}"
+                      for number, comment in trailing_comments(file.read_text(encoding="utf-8"))
+                      if comment.split()[0].rstrip(",:;") in PREPOSITIONS]
+        self.assertEqual("\n".join(wrong), "")
+        self.assertEqual(list(trailing_comments("int a;  // of b\n  // of c\nf(\"// of d\");\n")), [(1, "of b")])
 
 
 if __name__ == "__main__":

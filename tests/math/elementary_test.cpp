@@ -50,7 +50,7 @@ TEST(NormalDeviate, HasTheMomentsAndTailsOfTheNormalDistribution) {
     const double error = 4.0 / std::sqrt(double(n));
     EXPECT_NEAR(sum / n, 0.0, error);
     EXPECT_NEAR(squares / n, 1.0, 1.42 * error);
-    EXPECT_NEAR(fourths / n - 3.0, 0.0, 9.8 * error);  // of the fourth moment, √96/√n
+    EXPECT_NEAR(fourths / n - 3.0, 0.0, 9.8 * error);  // error of the fourth moment, √96/√n
     const double one = std::erfc(1.0 / std::sqrt(2.0)), three = std::erfc(3.0 / std::sqrt(2.0));
     EXPECT_NEAR(double(beyond_one) / n, one, error * std::sqrt(one));
     EXPECT_NEAR(double(beyond_three) / n, three, error * std::sqrt(three));

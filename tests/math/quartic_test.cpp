@@ -49,7 +49,7 @@ class Wide {
         const Half s = a + b, of_b = s - a;
         return {s, (a - (s - of_b)) + (b - of_b)};
     }
-    static Wide split(Half a) {  // in halves of 56 bits, whose products are exact
+    static Wide split(Half a) {  // halves of 56 bits have exact products
         const Half c = Half(0x1p57 + 1.0) * a;
         const Half high = c - (c - a);
         return {high, a - high};

@@ -29,7 +29,8 @@ TEST(CollisionAngles, AtTheWallCounterClockwiseIsPositive) {
     for (const double b : {-0.8, 0.0, 0.6}) {
         Snapshot after = empty_container(0.25);
         const Vec2 n = unit_circle(0.1), along = perpendicular(n);
-        const Vec2 relative = std::sqrt(1.0 - b * b) * n + b * along;  // before, towards the wall
+        const Vec2 relative =
+            std::sqrt(1.0 - b * b) * n + b * along;  // velocity before, towards the wall
         const double normal = 2.0 * dot(relative, n), tangential = 0.3;
         const Vec2 J = normal * n + tangential * Vec2{n.y, -n.x};
         add_disc(after, after.container_centre + 7.6 * n, after.container_velocity + relative - J);

@@ -12,7 +12,7 @@
 namespace swirl {
 namespace {
 
-constexpr int samples = 511;  // per period
+constexpr int samples = 511;  // samples per period
 
 /// One disc, in the wall's layer or inside, at the k-th sample.
 MFrameView at_sample(int k, bool at_wall, std::size_t discs = 1) {

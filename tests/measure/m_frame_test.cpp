@@ -93,7 +93,7 @@ TEST(MFrame, RotationIsThatInTheLabMinusOmega) {
         Snapshot s = random_discs(30, 7 + k, k / 20.0);
         Noise noise(k);
         for (std::size_t i = 0; i < s.size(); ++i) s.mass[i] = 2.0 + noise();
-        s.container_velocity = {noise(), noise()};  // for any path
+        s.container_velocity = {noise(), noise()};  // any path
         const RotationSample lab = cluster_rotation(s);
         const RotationSample there = cluster_rotation(seen_from(m_frame(s), s));
         EXPECT_NEAR(there.individual, lab.individual - omega, 1e-12);

@@ -97,9 +97,9 @@ TEST(PairCorrelation, IsNaNBeyondTheContainerAndForASingleDisc) {
     correlation.sample(ideal_gas(20, 1));
     correlation.close_block();
     const DistanceBins& bins = correlation.bins();
-    EXPECT_TRUE(std::isnan(correlation.g(bins.bin_of(15.25)).mean));  // beyond 2 · 7.6
+    EXPECT_TRUE(std::isnan(correlation.g(bins.bin_of(15.25)).mean));  // larger than 2 · 7.6
     EXPECT_FALSE(std::isnan(correlation.g(bins.bin_of(15.05)).mean));
-    EXPECT_TRUE(std::isnan(correlation.inner_g(bins.bin_of(3.35)).mean));  // beyond R/2 − 1
+    EXPECT_TRUE(std::isnan(correlation.inner_g(bins.bin_of(3.35)).mean));  // larger than R/2 − 1
     EXPECT_FALSE(std::isnan(correlation.inner_g(bins.bin_of(3.15)).mean));
 }
 

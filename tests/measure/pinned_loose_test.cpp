@@ -27,7 +27,7 @@ Snapshot frame_of(int k, std::size_t discs, Path&& path) {
 /// 60°, then smoothly off the wall and down to 240°, then a sharp turn back along the wall to 180°.
 Vec2 cycle(double k) {
     const double r = 7.0;
-    const int along = static_cast<int>(120.0 / 360.0 * frames);  // with the wall's own speed
+    const int along = static_cast<int>(120.0 / 360.0 * frames);  // the wall's own speed
     const int across = 100, back = 43;
     const double phase = std::fmod(k, along + across + back);
     const Vec2 leave = r * unit_circle(60.0 / 360.0), arrive = r * unit_circle(240.0 / 360.0);
@@ -62,7 +62,7 @@ TEST(PinnedLoose, CriteriaAreTimesAtAnyFrameRate) {
     const auto found_at = [](int per_frame) {
         PinnedLoose pinning(frame_window(511.0 * per_frame));
         for (int k = 0; k < 5 * 313 * per_frame; ++k) {
-            const double time = static_cast<double>(k) / per_frame;  // in 511ths of a period
+            const double time = static_cast<double>(k) / per_frame;  // unit: 511ths of a period
             Snapshot s = empty_container(std::fmod(time, frames) / frames);
             s.periods = static_cast<std::int64_t>(time) / frames;
             add_disc(s, m_frame(s).lab_position(cycle(time)), {0.0, 0.0});
@@ -128,7 +128,7 @@ TEST(PinnedLoose, SharpTurnChangesTheVelocityByHalfTheSpeedOfTheWall) {
     for (const double change : {0.49, 0.51}) {
         const double step = change * paper_container_radius * 2.0 * pi / frames;
         PinnedLoose pinning;
-        for (int k = 0; k < 40; ++k)  // at rest, then outwards
+        for (int k = 0; k < 40; ++k)  // rest, then outwards
             pinning.sample(frame_of(k, 1, [&](std::size_t, int t) {
                 return Vec2{1.0 + step * std::max(t - 20, 0), 0};
             }));

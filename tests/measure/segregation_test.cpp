@@ -129,7 +129,7 @@ TEST(Segregation, OfHalfDiscsIsSeenAmongNeighboursOnly) {
             lattice(rings), [](const Vec2& p, std::size_t) { return p.y + 0.1 * p.x > 0.2; }));
         EXPECT_NEAR(mean_of(halves, "radial"), 0.0, 0.1) << rings;
         const double S = mean_of(halves, "neighbours");
-        EXPECT_GT(S, last);  // towards 1 as the interface becomes a smaller part
+        EXPECT_GT(S, last);  // 1 is the limit as the interface becomes a smaller part
         last = S;
     }
     EXPECT_GT(last, 0.85);

@@ -47,7 +47,7 @@ TEST(VelocityCorrelation, GearsHaveMinusOneAndARigidBodyOne) {
         correlation.sample(two_discs({0.0, 0.0}, {0.0, 0.0}, 0.7, sign * 0.7));
         correlation.close_block();
         EXPECT_DOUBLE_EQ(row_of(correlation, "near_spin").mean, sign);
-        EXPECT_TRUE(std::isnan(row_of(correlation, "near_along").mean));  // at rest
+        EXPECT_TRUE(std::isnan(row_of(correlation, "near_along").mean));  // discs at rest
     }
 }
 

@@ -103,7 +103,7 @@ TEST(Voronoi, OneDiscHasTheWholeContainer) {
     cells.find(s);
     EXPECT_NEAR(cells.area(0), pi * R * R, 1e-12);
     EXPECT_EQ(cells.begin(0), cells.end(0));
-    add_disc(s, {1.0, 2.0}, {0.0, 0.0});  // at the same point
+    add_disc(s, {1.0, 2.0}, {0.0, 0.0});  // a second disc at this point
     add_disc(s, {not_available, 2.0}, {0.0, 0.0});
     cells.find(s);
     EXPECT_NEAR(cells.area(1), pi * R * R, 1e-12);
@@ -167,7 +167,7 @@ TEST(HexaticOrder, SixNeighboursAreCountedAwayFromTheWallAlone) {
         return std::pair{order.six().mean, order.six_pinned().mean};
     };
     EXPECT_EQ(share(lattice(2)).first, 1.0);
-    EXPECT_TRUE(std::isnan(share(lattice(2)).second));  // without pinned flags
+    EXPECT_TRUE(std::isnan(share(lattice(2)).second));  // pinned flags are missing
     // In a ring of five, one disc has five neighbours and five have three.
     Snapshot five = empty_container(0.15);
     add_disc(five, five.container_centre, {0.0, 0.0});

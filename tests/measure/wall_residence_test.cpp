@@ -7,7 +7,7 @@
 namespace swirl {
 namespace {
 
-constexpr int samples = 511;  // per period
+constexpr int samples = 511;  // samples per period
 
 /// A disc at a position in the M-frame, at the k-th sample.
 Snapshot at_sample(int k, const std::vector<Vec2>& places) {

@@ -137,7 +137,7 @@ RC_GTEST_PROP(SphereCollision, ImpulsesActAtTheContact, ()) {
 // About vertical axes only: about horizontal ones the floor's reaction to J_z has a torque.
 RC_GTEST_PROP(SphereCollision, ConservesMomentumAndVerticalAngularMomentum, ()) {
     Collision c = draw_collision(false);
-    const Vec2 position = draw_vector(5.0);  // of i
+    const Vec2 position = draw_vector(5.0);  // position of i
     const auto momentum = [&] {
         return (1.0 / c.i.inverse_mass) * c.i.velocity + (1.0 / c.j.inverse_mass) * c.j.velocity;
     };

@@ -175,7 +175,7 @@ TEST(Warnings, ReportSpheresThatSinkIntoTheWallWithoutContactDuration) {
     result.config.floor = true;
     result.max_overlap = 3.3e-10;
     EXPECT_TRUE(
-        warnings(result).empty());  // with a contact duration, a large container may cause it
+        warnings(result).empty());  // a large container may cause it with a contact duration
     result.config.contact_duration = 0.0;
     EXPECT_THAT(warnings(result),
                 testing::ElementsAre(testing::AllOf(testing::HasSubstr("spheres that the floor"),

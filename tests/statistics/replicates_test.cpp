@@ -20,7 +20,7 @@ TEST(Ensemble, StudentQuantilesAgreeWithTables) {
     EXPECT_NEAR(student_95(1.0), 12.706, 1e-3);
     EXPECT_NEAR(student_95(2.0), 4.303, 1e-3);
     EXPECT_NEAR(student_95(7.0), 2.365, 1e-3);
-    EXPECT_NEAR(student_95(10.0), 2.228, 3e-3);  // from here on by the expansion
+    EXPECT_NEAR(student_95(10.0), 2.228, 3e-3);  // the expansion begins here
     EXPECT_NEAR(student_95(30.0), 2.042, 1e-3);
     EXPECT_NEAR(student_95(1e9), 1.960, 1e-3);
     // Between whole numbers, by integration of the density: a little too large is on the safe side.

@@ -282,7 +282,7 @@ TEST(SignChanges, AnUndeterminedHumpBeyondNcIsListed) {
     const Crossing c = find_crossing(points);
     EXPECT_NEAR(c.discs, 19.5, 1e-9);
     EXPECT_EQ(c.undetermined_after(), (std::vector<double>{28, 30}));
-    points[3].mean = 0.007;  // as after more runs, which make the sign certain
+    points[3].mean = 0.007;  // more runs made the sign certain
     const Crossing more = find_crossing(points);
     EXPECT_EQ(more.changes.size(), 3u);
     EXPECT_EQ(more.last()->before, 28.0);

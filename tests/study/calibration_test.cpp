@@ -171,7 +171,7 @@ class SlowCalibrationOfTheCrossing : public testing::TestWithParam<Setting> {
 TEST_P(SlowCalibrationOfTheCrossing, TheIntervalContainsTheCrossingForTwoRanges) {
     CrossingSettings precise = settings_of(1'000'000);
     precise.config.events = 500'000;
-    precise.tolerance = 0.08;  // at most a quarter of the tested errors
+    precise.tolerance = 0.08;  // a quarter of the tested errors or less
     precise.seeds = 8;
     const CrossingResult best = search_crossing(precise);
     ASSERT_EQ(best.crossing().verdict, Crossing::Verdict::crosses);

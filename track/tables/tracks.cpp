@@ -101,7 +101,7 @@ class TrackSeries {
     Tracks tracks_;
     TrackScale scale_;
     std::int64_t step_;  // usual difference between two frame numbers
-    double period_;      // in units of the result
+    double period_;      // unit: that of the result
 };
 
 }  // namespace
@@ -118,9 +118,9 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         Vec2 position;
         double radius, spin;
     };
-    std::map<std::int64_t, std::map<std::int64_t, Entry>> tracks;  // by particle and frame
+    std::map<std::int64_t, std::map<std::int64_t, Entry>> tracks;  // keys: particle and frame
     std::optional<std::size_t> radius, spin;
-    if (table.find({"seen"})) {  // by `swirl track`
+    if (table.find({"seen"})) {  // a file of `swirl track`
         radius = table.find({"radius"});
         spin = table.find({"spin"});
     }

@@ -38,7 +38,7 @@ struct TrackFrame {
 };
 
 struct Tracks {
-    std::vector<TrackFrame> frames;  // in order of time
+    std::vector<TrackFrame> frames;  // sorted by time
     bool y_down = false;
     struct {
         std::uint64_t filled = 0;      // positions interpolated in short gaps
@@ -54,12 +54,12 @@ inline constexpr std::int64_t longest_gap = 5;  // frames
 struct TrackScale {
     double frames_per_time = 960.0;
     double pixels_per_radius = 1.0;
-    Vec2 swirl_centre{0.0, 0.0};    // in pixels
+    Vec2 swirl_centre{0.0, 0.0};    // unit: pixels
     double period = 1.0;            // T, in time units
-    double amplitude = 0.0;         // of the container's path, in disc radii
-    double phase = 0.0;             // of the container at frame 0, as seen in the image, rad,
+    double amplitude = 0.0;         // unit: disc radii
+    double phase = 0.0;             // container's phase at frame 0, as seen in the image, rad,
                                     // counter-clockwise from +x
-    double container_radius = 0.0;  // in disc radii
+    double container_radius = 0.0;  // unit: disc radii
     bool clockwise = false;         // the container moves clockwise in the image: mirror x
 
     /// T, and the camera's unit of time, in units of the result.

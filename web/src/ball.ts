@@ -40,7 +40,7 @@ export function visiblePart(outline: readonly Direction[]): [number, number][] {
     const part: [number, number][] = [], n = outline.length;
     const first = outline.findIndex(([, , z], k) => z > 0 && outline[(k + n - 1) % n]![2] <= 0);
     if (first < 0) return outline[0]![2] > 0 ? outline.map(([x, y]) => [x, y]) : [];
-    const rimAngle = (a: Direction, b: Direction): number => { // where an edge crosses the rim
+    const rimAngle = (a: Direction, b: Direction): number => { // angle at which an edge crosses the rim
         const t = a[2] / (a[2] - b[2]);
         return Math.atan2(a[1] + t * (b[1] - a[1]), a[0] + t * (b[0] - a[0]));
     };
@@ -101,7 +101,7 @@ export function drawBall(context: CanvasRenderingContext2D, x: number, y: number
         for (const [u, v] of visiblePart(patch.map((point) => rotated(orientation, point)))) context.lineTo(u, v);
         context.fill();
     }
-    const cap = 0.93; // of the distance from the centre: 21° about the pole
+    const cap = 0.93; // share of the distance from the centre: 21° about the pole
     const pole = rotated(orientation, [0, 0, 1]), side = pole[2] < 0 ? -cap : cap;
     context.fillStyle = "rgb(0 0 0 / 0.72)";
     context.beginPath();

@@ -10,7 +10,7 @@ import {fill, texts} from "./texts";
 export const pancakeGamma = (slip: number, size: number): number => slip / size;
 
 const pace = 0.4; // periods per second of the pictures
-const amplitude = 0.22; // of the container's radius, as in the paper
+const amplitude = 0.22; // unit: the container's radius, as in the paper
 
 type Context = CanvasRenderingContext2D;
 

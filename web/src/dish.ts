@@ -16,7 +16,7 @@ const mapKinds: readonly string[] = ["density", "flow", "spin"];
 const isMap = (view: Views): view is MapKind => mapKinds.includes(view);
 
 const trailLength = 45; // frames, at most
-const trailPeriods = 0.3; // at most, as in `swirl movie`
+const trailPeriods = 0.3; // longest trail, as in `swirl movie`
 const mapInterval = 700; // milliseconds
 const strobeTrail = 12; // images, one per period
 
@@ -47,7 +47,7 @@ export class Dish {
     private maps: Maps | undefined;
     private lastMaps = 0;
     private measures = ""; // what the worker was told
-    private shown: Frame | undefined; // with the stroboscope, the last image
+    private shown: Frame | undefined; // the last image of the stroboscope
     private history: Float64Array[] = [];
     private dragged: number | undefined; // the disc under the pointer
     private held: number | undefined; // the disc selected by keys

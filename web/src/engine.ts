@@ -41,7 +41,7 @@ export function perRate<T>(of: (rate: Rate) => T): Record<Rate, T> {
 }
 
 export interface Rotation extends Record<Rate, Estimate> {
-    warmup: number; // in periods
+    warmup: number; // unit: periods
     /** Means over blocks of periods, of the mean over the discs and of the rigid body; the warm-up's come
      *  first. */
     blocks: (number | null)[];

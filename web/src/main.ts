@@ -42,7 +42,7 @@ const discovery = new Discovery(byId("discovery"), host, (message) => showError(
 const explorer = new Explorer(byId("explorer"), host);
 const lesson = new Lesson(byId("lesson"), byId("lesson-start"), byId("panels"), host, (message) => showError(message));
 const lessonButton = byId("lesson-open") as HTMLButtonElement;
-lessonButton.disabled = true; // until the page has read the parameters in its address, which would replace the lesson's
+lessonButton.disabled = true; // the parameters in the page's address would replace the lesson's
 lab.on("ready", () => { lessonButton.disabled = false; });
 new OpenedFile(byId("controls"), byId("options"), host, (message) => showError(message));
 for (const kind of ["started", "changed"] as const) lab.on(kind, () => { if (lab.missing === 0) discovery.visit(); });
@@ -67,7 +67,7 @@ function showError(message: string, parameter?: string): void {
     error.hidden = false;
 }
 lab.on("error", showError);
-lab.on("warning", (message) => setTimeout(() => showError(message))); // after the beginning, which hides messages
+lab.on("warning", (message) => setTimeout(() => showError(message))); // the beginning hides messages
 lab.on("begin", () => { error.hidden = true; });
 
 let isFirst = false; // frame of a simulation

@@ -98,11 +98,11 @@ export function drawHeld(context: CanvasRenderingContext2D, f: Float64Array, fra
 export function drawEvent(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
                    hair: number): void {
     const e = look.event;
-    if (!e || e[1]! >= 2) return; // without an impulse
+    if (!e || e[1]! >= 2) return; // no impulse
     const wall = e[1] === 1;
     const k = frameHead + frameDisc * e[wall ? 2 : 3]!;
     const [nx, ny] = [e[4]!, e[5]!];
-    const sign = wall ? -1 : 1; // on the disc, not on the wall
+    const sign = wall ? -1 : 1; // the force on the disc, not on the wall
     const jx = sign * (e[6]! * nx + e[7]! * ny), jy = sign * (e[6]! * ny - e[7]! * nx);
     const [x, y] = [f[k]!, f[k + 1]!];
     const [ax, ay] = shown(frame, look.view, x, y);

@@ -6,8 +6,8 @@ import type {ToWorker} from "./messages";
 
 /** In the time-lapse, one image per period. Next to another container it is slower, because a few discs turn fast. */
 const lapsePace = 16, comparedPace = 10; // periods per second
-const unseen = 10; // of these periods, so that the first image of two containers shows their directions
-const averagedInLapse = minPeriods; // after the warm-up, so that the average has an error
+const unseen = 10; // periods not shown, so that the first image of two containers shows their directions
+const averagedInLapse = minPeriods; // periods after the warm-up, so that the average has an error
 /** A period of more discs takes too long for a time-lapse. */
 const lapseDiscs = 300;
 /** Time for which a change of parameters is shown at the usual pace, before the time-lapse to its averages. */

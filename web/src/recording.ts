@@ -7,7 +7,7 @@ import {fill, texts} from "./texts";
 /** In order of preference. Safari before 18.4 records MP4 only. */
 const movieTypes = ["video/webm;codecs=vp8", "video/webm", "video/mp4"];
 const movieNames: Record<string, string> = {webm: "WebM", mp4: "MP4"};
-const maxNumbers = 2e7; // per recording, eight bytes each
+const maxNumbers = 2e7; // limit of a recording, eight bytes each
 
 /** A frame as extended XYZ. */
 export function xyz(f: Float64Array): string {

@@ -18,15 +18,15 @@ export interface DrawOptions {
     trails: Float64Array[]; // earlier frames, the oldest first
     event: Float64Array | undefined;
     next: Float64Array | undefined; // the next event, whose particles are marked
-    omega: number; // of the container's path; if above 0, forces are drawn in the M-frame
+    omega: number; // frequency of the path; above 0, forces are drawn in the M-frame
     dark: boolean;
     room: number; // largest distance of the container from S, for the scale of the lab frame
-    turns: number; // of the cluster; drawn as an arc in the lab frame
+    turns: number; // turns of the cluster, an arc in the lab frame
     held: number | undefined; // the disc selected by keys
-    contacts?: readonly Contact[]; // for the colouring by contacts
+    contacts?: readonly Contact[]; // used by the colouring by contacts
     isSmall?: boolean; // a thumbnail, without marks
     map?: MapLayer | undefined; // averages behind the discs, in the M-frame
-    note?: string; // in the lower right corner
+    note?: string; // text in the lower right corner
 }
 
 export interface Frame {
@@ -85,7 +85,7 @@ function orientationOf(f: Float64Array, i: number): Orientation | undefined {
 export interface Palette {
     ink: string;
     paper: string;
-    floor: string; // of the container
+    floor: string; // floor of the container
     quiet: string;
     with: string;
     against: string;

@@ -10,7 +10,7 @@
 namespace swirl {
 namespace {
 
-constexpr std::int64_t min_side = 16, max_side = 8192;  // of an image, pixels
+constexpr std::int64_t min_side = 16, max_side = 8192;  // side of an image, pixels
 constexpr double longest_trail = 100.0;                 // periods
 
 std::vector<Frame> parse_frames(const std::string& name) {

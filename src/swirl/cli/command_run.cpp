@@ -40,7 +40,7 @@ struct RunCall {
 
 /// A call with all its options resolved.
 struct PreparedRun {
-    std::string config_text;  // of the configuration file
+    std::string config_text;  // text of the configuration file
     RunConfig config;
     Observation observation;
     RunFiles files;

@@ -126,7 +126,7 @@ Json repeated_result(const std::string& file, const Json& json, bool quiet) {
     // Older versions wrote no format number (result.hpp).
     if (version_of(json) != version() && !json.contains("format")) result.erase("format");
     result["command"] = "";
-    if (json.contains("point")) {  // of a sweep
+    if (json.contains("point")) {  // a result of a sweep
         result["point"] = 0;
         result["replicate"] = 0;
         if (json.contains("direction")) {

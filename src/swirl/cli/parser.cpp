@@ -41,7 +41,7 @@ std::string wrapped(const std::string& text, std::size_t width) {
         std::string line = text.substr(from, end - from);
         const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
         const std::string margin(indent == 0 ? 0 : indent + 2, ' ');
-        const bool is_command = line.compare(indent, 6, "swirl ") == 0;  // to copy
+        const bool is_command = line.compare(indent, 6, "swirl ") == 0;  // a command to copy
         while (!is_command) {
             std::size_t at = line.size();
             while (at != line.npos && at > indent && characters(line.substr(0, at)) > width)
@@ -58,7 +58,7 @@ std::string wrapped(const std::string& text, std::size_t width) {
 }
 
 constexpr std::size_t column_of_descriptions = 34;
-constexpr int max_values = 100;  // of a repeated option
+constexpr int max_values = 100;  // values of a repeated option
 
 /// The named subcommand, or the program itself.
 const CLI::App& selected_app(const CLI::App& app) {

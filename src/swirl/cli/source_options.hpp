@@ -19,7 +19,7 @@ struct SourceTexts {
     std::shared_ptr<ParameterTexts> parameters;
     std::string file;  // a recording, or a configuration before take_video_config()
     TrackTexts camera;
-    std::string images;  // of the camera
+    std::string images;  // images of the camera
     std::int64_t first_image = 0;
     std::optional<std::int64_t> compared_discs;
     std::optional<double> slip;

@@ -52,7 +52,7 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file);
 /// Further contents of camera_file(file); defaults if it does not exist.
 struct CameraRecord {
     std::int64_t first_frame = 0;
-    std::vector<std::array<double, 4>> poses;  // of the moving camera, from first_frame on
+    std::vector<std::array<double, 4>> poses;  // poses of the moving camera, from first_frame on
     std::optional<double> uneven_times;        // largest deviation of a step, relative to the mean
 };
 CameraRecord camera_record(const std::string& file);

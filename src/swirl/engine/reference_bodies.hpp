@@ -148,7 +148,7 @@ class ReferenceBodies {
     }
 
     InitialState state_;
-    std::vector<FloorMotion> motions_;  // of spheres
+    std::vector<FloorMotion> motions_;  // empty without spheres
     Vec2 floor_velocity_;
 };
 

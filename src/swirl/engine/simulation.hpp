@@ -54,7 +54,7 @@ struct Tuning {
 struct LoopCounts {
     std::uint64_t invalidated = 0;    // events whose partner had collided; predicted again
     std::uint64_t list_rebuilds = 0;  // neighbour lists rebuilt, or cells entered
-    std::uint64_t overflows = 0;      // of these, rebuilds that had to rebuild other lists, too
+    std::uint64_t overflows = 0;      // those that had to rebuild other lists, too
     std::uint64_t full_rebuilds = 0;  // times that all lists or all cells were rebuilt
     std::uint64_t bytes = 0;          // memory of the arrays
     const char* width = "";

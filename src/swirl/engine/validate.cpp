@@ -36,7 +36,7 @@ bool is_positive(double value) { return value > 0.0 && value <= largest_magnitud
 bool is_share(double value) { return value >= 0.0 && value <= 1.0; }
 
 Problem problem_with(const ContainerPath& path, Shape shape) {
-    constexpr double rounding = 1e-9;  // of the period, and of the largest coordinate
+    constexpr double rounding = 1e-9;  // relative to the period and the largest coordinate
     const std::vector<Segment>& segments = path.segments;
     if (!is_positive(path.period))
         return joined(
@@ -201,7 +201,7 @@ std::optional<std::string> validate(const InitialState& scene, const Progress& p
 
 void stop_if(const std::optional<std::string>& problem) {
     if (!problem) return;
-#if !defined(__wasm__)  // which has no standard error
+#if !defined(__wasm__)  // WebAssembly has no standard error
     std::fprintf(stderr, "swirl::Simulation: %s\n", problem->c_str());
 #endif
     std::abort();

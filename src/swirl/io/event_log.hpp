@@ -153,7 +153,7 @@ class Replay {
     std::vector<Disc> discs_;
     double period_end_;
     std::optional<MovingFloor> floor_;
-    std::vector<FloorMotion> motions_;  // of spheres, from the stored states
+    std::vector<FloorMotion> motions_;  // motions of spheres, from the stored states
     std::size_t segment_ = 0;
     std::int64_t periods_ = 0;
 };

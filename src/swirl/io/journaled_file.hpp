@@ -88,10 +88,10 @@ class JournaledFile {
     Page first_page() const;
 
     std::filesystem::path path_, journal_path_;
-    Page first_page_when_opened_;  // in mode `read`
+    Page first_page_when_opened_;  // used in mode `read`
     int file_ = -1, journal_ = -1;
     std::uint64_t committed_ = 0, size_ = 0;
-    std::map<std::uint64_t, Page> pending_;    // by page number; all below `committed_`
+    std::map<std::uint64_t, Page> pending_;    // key: page number, below `committed_`
     std::uint64_t bytes_since_writeback_ = 0;  // written, but still in the system's cache
     bool is_new_ = false;                      // nothing has been committed yet
     bool journal_is_needed_ = false;           // it may hold a commit that the file does not

@@ -124,9 +124,9 @@ class TrajectoryReader {
     std::string path_, run_;
     std::unique_ptr<Hdf5File> file_;
     bool are_spheres_ = false, complete_ = false, period_changes_ = false;
-    std::vector<Column> series_;                       // by trajectory_layout::Series
-    std::vector<std::vector<std::int64_t>> counters_;  // by trajectory_layout::Counter
-    std::vector<std::vector<double>> scalars_;         // by trajectory_layout::Scalar
+    std::vector<Column> series_;                       // index: trajectory_layout::Series
+    std::vector<std::vector<std::int64_t>> counters_;  // index: trajectory_layout::Counter
+    std::vector<std::vector<double>> scalars_;         // index: trajectory_layout::Scalar
     Snapshot constants_;
     std::uint64_t frames_ = 0, frames_per_block_ = 1;
     // The frames of one block, as they are in the file: a vector for each series.

@@ -277,8 +277,8 @@ class FrameFile {
     std::array<Column, counters> counter_columns_;
     std::array<Column, scalars> scalar_columns_;
     std::uint64_t discs_ = 0;
-    std::uint64_t frames_ = 0;  // in the file
-    bool is_changed_ = true;    // since the last commit
+    std::uint64_t frames_ = 0;  // frames in the file
+    bool is_changed_ = true;    // changed since the last commit
 };
 
 }  // namespace

@@ -95,8 +95,8 @@ SWIRL_INLINE double fall_between(const Quartic& f, double low, double high, doub
     }
     ends[count++] = horizon;
 
-    double begin = 0.0;       // of the interval in which f is monotonic
-    double low = 0.0;         // of the interval in which f' is monotonic
+    double begin = 0.0;       // f is monotonic from here on
+    double low = 0.0;         // f' is monotonic from here on
     double direction = f.c1;  // the last slope that was not 0
     for (int k = 0; k < count; ++k) {
         const double slope = f.slope(ends[k]);

@@ -76,7 +76,7 @@ class AngularProfile {
 
   private:
     CellMeans<4> cells_;
-    std::vector<double> own_, wall_, slice_;  // of one sample
+    std::vector<double> own_, wall_, slice_;  // sums of one sample
 };
 
 }  // namespace swirl

@@ -200,8 +200,8 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     void follow_centre(const Snapshot& snapshot, const Event& event);
     void follow_angles(const Snapshot& snapshot, const Event& event);
 
-    const RotationKernel* kernel_;  // for this processor's vector width
-    RotationCentre centre_{};       // after the last impulse of the wall, or path vertex
+    const RotationKernel* kernel_;  // fits this processor's vector width
+    RotationCentre centre_{};       // value after the last wall impulse or path vertex
     SweptAngles angles_;
     OpenBlock event_, time_;
     BlockSeries individual_by_event_, individual_by_time_, rigid_by_event_, rigid_by_time_;

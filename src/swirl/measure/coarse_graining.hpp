@@ -162,7 +162,7 @@ struct Transfer {
     Vec2 impulse;      // J, on body j
     double torque_i = 0.0, torque_j = 0.0;
     bool at_wall = false;
-    double loss = 0.0;  // of kinetic energy
+    double loss = 0.0;  // lost kinetic energy
 
     Vec2 end() const { return begin + line; }
 };

@@ -27,7 +27,7 @@ class FittingPhase {
     void sample(const Snapshot& s);
 
     struct Fit {
-        double phase = 0.0;       // of C at time 0, rad, 0 ≤ phase < 2π
+        double phase = 0.0;       // angle of C at time 0, rad, 0 ≤ phase < 2π
         double protrusion = 0.0;  // sum over samples, with that phase
     };
     /// For a container that moves on the circle counter-clockwise, or clockwise.
@@ -37,9 +37,9 @@ class FittingPhase {
 
   private:
     struct Sample {
-        double turns;  // of the container since time 0
+        double turns;  // container's turns since time 0
         double container_radius;
-        Vec2 centre;  // as in the snapshot
+        Vec2 centre;  // unit and frame of the snapshot
         std::vector<Vec2> positions;
         std::vector<double> radii;
     };

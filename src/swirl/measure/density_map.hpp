@@ -55,7 +55,7 @@ class DensityMap {
   private:
     SquareGrid grid_;
     CellRates counts_;                // the last cell is outside
-    std::vector<std::int32_t> cell_;  // of every disc, at one sample
+    std::vector<std::int32_t> cell_;  // one per disc, at one sample
 };
 
 /// The density by time and by event.

@@ -44,10 +44,10 @@ namespace swirl {
 
 /// The change of energy in one collision.
 struct EnergyChange {
-    double work = 0.0;            // of the wall
+    double work = 0.0;            // work done by the wall
     double friction_loss = 0.0;   // tangential
     double inelastic_loss = 0.0;  // normal
-    Vec2 push{0.0, 0.0};          // on all bodies together: minus the impulse on the wall
+    Vec2 push{0.0, 0.0};          // impulse on all bodies: minus that on the wall
 };
 
 EnergyChange energy_change(const Event& event, const Snapshot& after);

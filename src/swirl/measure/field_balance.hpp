@@ -47,7 +47,7 @@ struct BalanceTerms {
     FieldDensities transport;    // minus the divergence of the flux of the discs
     Vec2 stress{0.0, 0.0};       // divergence of the collisional stress
     double couple_stress = 0.0;  // divergence of the collisional couple stress
-    double torque = 0.0;         // of the stress: σ_yx − σ_xy
+    double torque = 0.0;         // torque of the stress: σ_yx − σ_xy
     Vec2 wall{0.0, 0.0};         // force at the contacts with the wall
     Vec2 floor{0.0, 0.0};        // force of the floor on spheres
     // Scales of the rounding errors: the sum of all transfers of discs, flights and collisions near
@@ -97,7 +97,7 @@ class FieldBalance {
   private:
     struct Held {
         FieldDisc disc;
-        double time;  // since the start of the period in which the balance began
+        double time;  // time since the start of the period in which the balance began
     };
     void add(const Transfer& t);
     void fly(Held& held, double until);
@@ -118,8 +118,9 @@ class FieldBalance {
     BalanceTerms terms_;
     std::vector<Held> held_;
     bool begun_ = false;
-    std::int64_t start_periods_ = 0, last_periods_ = 0;  // at the beginning, at the last event
-    double now_ = 0.0, last_clock_ = 0.0;                // time and clock of the last event
+    std::int64_t start_periods_ = 0,
+                 last_periods_ = 0;        // value at the beginning, at the last event
+    double now_ = 0.0, last_clock_ = 0.0;  // time and clock of the last event
 };
 
 }  // namespace swirl

@@ -106,7 +106,7 @@ struct FieldPoint {
 struct FieldWeights {
     double samples = 0.0;
     double forces = 0.0;    // samples with a known force of the floor
-    double duration = 0.0;  // of the collisions
+    double duration = 0.0;  // time covered by the collisions
 
     void add(const FieldWeights& other, double factor = 1.0) {
         samples += factor * other.samples;
@@ -181,8 +181,8 @@ class FieldGrid {
     SquareGrid grid_;
     CoarseKernel kernel_;
     Sums open_;                 // the open period
-    std::vector<Sums> groups_;  // of this run, in order of time
-    std::vector<Sums> merged_;  // of other runs
+    std::vector<Sums> groups_;  // this run's, in order of time
+    std::vector<Sums> merged_;  // those of merged runs
     std::int64_t periods_per_group_ = 1, periods_in_last_ = 0;
 };
 

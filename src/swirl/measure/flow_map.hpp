@@ -66,7 +66,7 @@ class FlowMap {
   private:
     SquareGrid grid_;
     CellMeans<2> cells_;              // the last cell is outside
-    std::vector<std::int32_t> cell_;  // of every disc, at one sample
+    std::vector<std::int32_t> cell_;  // one per disc, at one sample
 };
 
 }  // namespace swirl

@@ -94,8 +94,8 @@ class LongResidences {
 
     double first_ = never, last_ = -never;  // times of the first and the last sample
     double minimum_ = never;                // length of a long residence, in units of the views
-    std::vector<double> begin_;             // of the present residence; never: not in the layer
-    std::vector<double> long_begin_, long_end_;  // of the last long one; never: none yet
+    std::vector<double> begin_;             // start of the present one; never: not in the layer
+    std::vector<double> long_begin_, long_end_;  // last long one; never: none yet
 };
 
 }  // namespace swirl

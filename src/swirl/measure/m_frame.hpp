@@ -89,7 +89,7 @@ class MFrameView {
     std::size_t size() const { return x.size(); }
 
     MFrame frame{};
-    double time = 0.0;  // since the beginning
+    double time = 0.0;  // time since the beginning
     double container_radius = 0.0;
 
     std::vector<double> x, y;    // M-frame

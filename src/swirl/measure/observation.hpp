@@ -166,10 +166,10 @@ class Observation {
 
     std::int64_t samples_ = 0;
     std::uint64_t events_ = 0;
-    std::size_t discs_ = 0;     // at the last event
+    std::size_t discs_ = 0;     // number at the last event
     bool block_begins_ = true;  // the present block has no sample yet
     PinnedFrames pinned_;
-    LongResidences residences_;  // of the frames that pinned_ knows
+    LongResidences residences_;  // covers the frames that pinned_ knows
     MFrameView view_;  // the present sample if pinned discs are not followed; also the last event
     Voronoi cells_;
 };

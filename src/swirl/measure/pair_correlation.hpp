@@ -98,8 +98,8 @@ class PairCorrelation : public BlockAverages<PairCorrelation>, public Strided {
 
     double inner_radius_, container_radius_;
     DistanceBins bins_;
-    CellRates pairs_;     // per pair of discs
-    CellRates partners_;  // per disc in the inner circle
+    CellRates pairs_;     // rates per pair of discs
+    CellRates partners_;  // rates per disc in the inner circle
     BlockMean contact_, inside_, packing_, radius_;
     std::vector<std::uint32_t> order_;
     std::vector<char> is_inside_;

@@ -68,7 +68,7 @@ inline bool is_pinned(PinnedFlags pinned, std::size_t disc) {
 
 struct PinningCriteria {
     double deviation = pi / 18.0;  // 10°
-    double sharp_turn = 0.5;       // in units of ΩR
+    double sharp_turn = 0.5;       // unit: ΩR
 };
 
 /// Lowest frame rate at which pinned discs are determined, and at which sharp turns are.
@@ -76,8 +76,8 @@ inline constexpr double min_rate_of_pinned = 400.0, min_rate_of_turns = 120.0;
 
 /// Numbers of frames in the criteria.
 struct FrameWindow {
-    int half_width = 7;        // of the path direction; one less than the frames of a change
-    int turn = 1;              // between the three positions of a second difference
+    int half_width = 7;        // half width for the path direction; a change has one frame more
+    int turn = 1;              // frames between the positions of a second difference
     bool knows_pinned = true;  // otherwise only sharp turns are found
 
     int width() const { return 2 * half_width + 1; }
@@ -151,14 +151,14 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
 
     FrameWindow window_;
     double sine_square_, sharp_turn_;
-    std::int64_t frames_ = 0;  // in the present tracks
+    std::int64_t frames_ = 0;  // frames of the present tracks
     double last_time_ = 0.0, step_ = 0.0, breaks_ = 0.0;
     // The positions of every disc in the window, frame by frame in a ring.
     std::vector<double> past_x_, past_y_;
     // Over those: Σ r and Σ k r.
     std::vector<double> sum_x_, sum_y_, slope_x_, slope_y_;
     std::vector<double> loose_for_;        // frames since it left; 0: it did not, or was counted
-    std::vector<double> left_x_, left_y_;  // where it was no longer parallel
+    std::vector<double> left_x_, left_y_;  // position where it was no longer parallel
     std::vector<double> parallel_for_;     // frames in a row
     std::vector<double> is_pinned_;        // 0 or 1
     std::vector<double> freed_, turned_sharply_;  // 0 or 1, at this frame
@@ -213,8 +213,8 @@ class PinnedByCollisions {
   private:
     void collide(std::size_t disc, double time, const Vec2& position);
 
-    std::vector<Collision> last_;  // of every disc
-    std::vector<Flight> longest_;  // of every disc in this period
+    std::vector<Collision> last_;  // one per disc
+    std::vector<Flight> longest_;  // one per disc and period
     CircularMean pinning_, depinning_;
 };
 

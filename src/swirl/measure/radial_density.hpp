@@ -61,7 +61,7 @@ class RadialDensity {
   private:
     double container_radius_;
     CellRates counts_;                // the last ring is outside
-    std::vector<std::int32_t> ring_;  // of every disc, at one sample
+    std::vector<std::int32_t> ring_;  // one per disc, at one sample
 };
 
 }  // namespace swirl

@@ -79,7 +79,7 @@ class SampleTimes {
 
     int per_period_;
     double period_, interval_;
-    std::int64_t index_ = 0;     // of the next sample
+    std::int64_t index_ = 0;     // index of the next sample
     std::int64_t periods_ = 0;   // whole periods before that in which it counts
     double due_ = undetermined;  // its time in this period, once determined
 };

@@ -38,7 +38,7 @@ double RadialSegregation::operator()(const std::vector<double>& size,
     tree_.assign(sizes_.size() + 1, 0);
     double larger_outside = 0.0, larger_inside = 0.0;
     for (std::size_t begin = 0; begin < n;) {
-        std::size_t end = begin;  // of the particles at the same distance
+        std::size_t end = begin;  // end of the particles at the same distance
         while (end < n && distance[order_[end]] == distance[order_[begin]]) ++end;
         for (std::size_t k = begin; k < end; ++k) {
             const std::size_t rank = rank_[order_[k]];

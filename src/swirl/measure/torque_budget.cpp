@@ -153,7 +153,7 @@ void TorqueBudget::sample_residences(const LongResidences& residences) {
         if (c.time > known_since_) {
             const int pinned =
                 (residences.resident(c.i, c.time) ? 1 : 0) +
-                (residences.resident(c.j, c.time) ? 1 : 0);  // of a wall contact: 0 or 2
+                (residences.resident(c.j, c.time) ? 1 : 0);  // a wall contact counts 0 or 2
             zones_[pinned > 0 ? 0 : 1] += c.wall_normal;
             zones_[pinned > 0 ? 2 : 3] += c.wall_tangential;
             zones_[static_cast<std::size_t>(6 - pinned)] += c.transfer;

@@ -64,9 +64,9 @@ AngularMomentum angular_momentum(const Snapshot& snapshot);
 
 /// The changes in one collision; all 0 for other events.
 struct AngularImpulse {
-    double wall_normal = 0.0, wall_tangential = 0.0, transfer = 0.0;  // of L
-    double wall_on_spins = 0.0, discs_on_spins = 0.0;                 // of S
-    double wall_about_centre = 0.0;                                   // of L_C
+    double wall_normal = 0.0, wall_tangential = 0.0, transfer = 0.0;  // torques on L
+    double wall_on_spins = 0.0, discs_on_spins = 0.0;                 // torques on S
+    double wall_about_centre = 0.0;                                   // torque on L_C
 };
 AngularImpulse angular_impulse(const Event& event, const Snapshot& after);
 
@@ -164,10 +164,10 @@ class TorqueBudget : public ReportedAverages<TorqueBudget, MergedAverages> {
     bool begun_ = false, compared_ = false;    // ever, and in this block
     double orbit_of_cluster_ = not_available;  // Q after the last event that changed it
 
-    std::vector<Pending> pending_;  // in order of time
+    std::vector<Pending> pending_;  // sorted by time
     // The collisions after `known_since_` up to `known_until_` are counted by zone.
     double known_since_ = not_available, known_until_ = not_available;
-    double zone_time_ = 0.0;  // in the open block
+    double zone_time_ = 0.0;  // time in the open block
 };
 
 }  // namespace swirl

@@ -36,7 +36,7 @@ class VelocityDistribution : public BlockAverages<VelocityDistribution>, public 
         return std::tie(s.square_, s.kurtosis_, s.spin_square_, s.spin_kurtosis_, s.speeds_,
                         s.spins_);
     }
-    static constexpr double width = 0.1, largest = 4.0;  // of the tables, in units of s and w
+    static constexpr double width = 0.1, largest = 4.0;  // size of the tables; units: s and w
     static constexpr std::size_t speed_bins = 40, spin_bins = 80;
 
     explicit VelocityDistribution(int every = 8) : Strided(every) {}

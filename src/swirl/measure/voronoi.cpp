@@ -61,7 +61,7 @@ double distance_square(const MFrameView& view, std::uint32_t i, std::uint32_t j)
 
 /// How far a neighbour of a disc can be and still cut something off its cell.
 struct Voronoi::Reach {
-    double max_radius;  // of all discs
+    double max_radius;  // largest radius of all discs
     double far;         // distance of the farthest corner: a border beyond it cuts nothing off
     double neighbour;   // distance of a neighbour whose border is that far
 

@@ -32,7 +32,7 @@ class Voronoi {
   public:
     struct Border {
         std::uint32_t neighbour;
-        double length;  // inside the container
+        double length;  // part inside the container
     };
 
     void find(const MFrameView& view);
@@ -44,7 +44,7 @@ class Voronoi {
 
   private:
     struct Corner {
-        Vec2 at;               // from the container's centre
+        Vec2 at;               // position relative to the container's centre
         std::uint32_t beyond;  // the neighbour behind the side that begins here
     };
     struct Reach;
@@ -58,7 +58,7 @@ class Voronoi {
     std::vector<double> areas_;
     std::vector<std::size_t> first_;
     std::vector<Border> borders_;
-    std::vector<std::uint32_t> order_;  // of the discs, by x
+    std::vector<std::uint32_t> order_;  // discs sorted by x
     std::vector<Corner> cell_, next_;
     std::vector<double> depth_;
     std::vector<std::pair<double, std::uint32_t>> near_;  // squared distance and disc

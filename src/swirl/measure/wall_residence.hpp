@@ -152,7 +152,7 @@ class WallResidences {
 
     double last_time_ = 0.0;
     std::size_t discs_ = 0;
-    std::vector<Residence> residences_;  // of every disc, layer by layer
+    std::vector<Residence> residences_;  // one per disc, layer by layer
     std::array<std::array<Averages, minimum.size()>, layers.size()> averages_;
     BlockMean length_;
     CellRates lengths_{length_bins};

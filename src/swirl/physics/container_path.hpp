@@ -18,7 +18,7 @@ namespace swirl {
 /// One segment of the path. Times count from the start of the period.
 struct Segment {
     double begin, end;
-    Vec2 start, velocity;  // at `begin`
+    Vec2 start, velocity;  // values at `begin`
     double turn_rate;      // rad per unit time; 0 for a straight segment
 
     SWIRL_INLINE Vec2 position_at(double t) const {

@@ -19,7 +19,7 @@ struct Event {
     EventKind kind;
     std::uint32_t i, j;  // the discs, i < j; j = i for wall and floor; both 0 at a path vertex
     Vec2 normal;         // unit vector from i to j, or from i to the wall
-    Impulse impulse;     // on j (on the wall), along the normal and along (n_y, −n_x)
+    Impulse impulse;     // impulse on j or the wall along the normal and (n_y, −n_x)
     double overlap;      // contact distance σ minus the actual one: a rounding error
 };
 
@@ -33,7 +33,7 @@ struct EventSpan {
     static constexpr std::uint64_t capacity = 64;
     std::uint64_t events = 0;
     double max_overlap = 0.0;
-    EventDiscs discs[capacity];  // of event k at k modulo `capacity`
+    EventDiscs discs[capacity];  // event k is at k modulo `capacity`
 };
 
 }  // namespace swirl

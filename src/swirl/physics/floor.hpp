@@ -90,7 +90,7 @@ struct FloorMotion {
     /// when a rolling sphere that slows down has stopped. `never` if neither happens.
     double begins_to_roll = never;
     bool slows_down = false;        // it rolls, against a resistance
-    Vec2 floor_velocity{0.0, 0.0};  // over which it rolls
+    Vec2 floor_velocity{0.0, 0.0};  // velocity of the floor under it
 };
 
 /// (ω_x, ω_y) of a sphere that rolls with this velocity relative to the floor.

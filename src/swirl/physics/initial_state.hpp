@@ -18,8 +18,8 @@ struct InitialState {
     double container_radius;
     Surface disc_surface, wall_surface;
     Shape shape = Shape::disc;
-    Floor floor{};                                   // for spheres and coins
-    Frictionless frictionless = Frictionless::none;  // for discs
+    Floor floor{};                                   // used by spheres and coins
+    Frictionless frictionless = Frictionless::none;  // used by discs
 };
 
 /// Moves all discs by the same vector. Without a shift, no bit changes.

@@ -19,7 +19,7 @@ struct Pattern {
     Color at(const Direction& d) const {
         const double patch = sign_of(d.x, soft) * sign_of(d.y, soft) * sign_of(d.z, soft);
         const Color body = mix(dark, pale, 0.5 + 0.5 * patch);
-        constexpr double cap = 0.93;  // of the distance from the centre: 21° about the pole
+        constexpr double cap = 0.93;  // share of the distance from the centre: 21° about the pole
         return mix(body, pole, step_at(std::abs(d.z) - cap, 0.4 * soft + 1e-3));
     }
 };

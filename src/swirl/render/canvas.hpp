@@ -76,7 +76,7 @@ class Canvas {
     void set_up();
 
     Size size_;
-    std::string bytes_;  // of a vector file, so far
+    std::string bytes_;  // vector file so far
     ImageFormat format_ = ImageFormat::png;
     cairo_surface_t* surface_;
     cairo_t* cairo_;

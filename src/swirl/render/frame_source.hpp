@@ -27,15 +27,15 @@ using BackdropPlayback = std::function<Backdrop(double periods)>;
 struct FrameSource {
     /// Starts a pass. Passes are independent of each other.
     std::function<Playback()> open;
-    std::vector<Vec2> path;  // of C in the lab frame; empty if it is unknown
+    std::vector<Vec2> path;  // path of C in the lab frame; empty if unknown
     double container_radius = 0.0, amplitude = 0.0, period = 0.0;
     std::string caption;                  // "48 discs"
-    std::vector<std::string> parameters;  // for the list of parameters (render/label.hpp)
+    std::vector<std::string> parameters;  // list of parameters (render/label.hpp)
     /// The range of a recording in periods. Empty: from 0 on, without end.
     std::optional<double> from = {}, to = {};
     /// The quantities that the states hold.
     bool has_spin = true, has_orientation = true;
-    bool has_slip = false;  // of spheres on a floor
+    bool has_slip = false;  // spheres on a floor slip
     /// If discs come and go: their IDs at a time, ascending. Empty: every state has the same discs.
     std::function<std::vector<std::int64_t>(double periods)> ids = {};
     /// Starts a pass with interpolated states, if open() returns recorded frames only but discs can
@@ -43,7 +43,7 @@ struct FrameSource {
     std::function<Playback()> open_interpolated = {};
     /// Starts a pass over camera images. Empty: there are none.
     std::function<BackdropPlayback()> open_backdrop = {};
-    double frames_per_period = 0.0;  // of a recording; 0: any number
+    double frames_per_period = 0.0;  // rate of a recording; 0: any number
 };
 
 /// Exact states at exact times. The passes throw Interrupted after `stop` was set.

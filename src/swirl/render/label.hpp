@@ -20,7 +20,7 @@ inline constexpr double min_font_size = 7.0;
 enum class Align { left, center, right };
 
 struct LabelStyle {
-    double size;  // of the font, in pixels
+    double size;  // font size in pixels
     Color color;
     Align align = Align::left;
     bool bold = false;

@@ -14,14 +14,14 @@
 namespace swirl {
 
 struct MovieConfig {
-    std::vector<FrameSource> sources;  // from left to right
+    std::vector<FrameSource> sources;  // order: left to right
     Appearance appearance;
     double start = 0.0;  // periods
     double pace = 0.5;   // periods per second of the movie
     int frames_per_second = 60;
     int frames = 1200;
     std::string out;            // movie file; empty: none
-    std::string frames_folder;  // for PNG files; empty: none
+    std::string frames_folder;  // PNG files go there; empty: none
 };
 
 struct MovieControl {
@@ -31,7 +31,7 @@ struct MovieControl {
 };
 
 struct MovieResult {
-    int frames = 0;  // in the file
+    int frames = 0;  // frames in the file
     bool complete = false;
 };
 

@@ -50,7 +50,7 @@ class MovieWriter {
 
     std::string path_, temporary_;
     std::unique_ptr<Ffmpeg> ffmpeg_;
-    int lock_ = -1;          // on the temporary file, which ffmpeg opens for itself
+    int lock_ = -1;          // lock of the temporary file, which ffmpeg opens for itself
     bool finished_ = false;  // the temporary file is gone
 };
 

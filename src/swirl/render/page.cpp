@@ -11,7 +11,7 @@ namespace swirl {
 
 namespace {
 
-constexpr int plot_samples = 64;  // per period
+constexpr int plot_samples = 64;  // samples per period
 
 /// The 98th percentile, rounded up to a readable number.
 double scale_end(std::vector<double> values) {
@@ -37,7 +37,7 @@ double rotation_of(const Snapshot& s) {
 /// Collects in a first pass what scales and plot need.
 struct Survey {
     std::vector<double> spins, speeds, slips;
-    bool single_disc = true;  // in every snapshot
+    bool single_disc = true;  // true if every snapshot has one
 
     Curve scan(const FrameSource& source, Frame frame, double start, double end) {
         const Playback playback = source.open();

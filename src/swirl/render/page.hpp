@@ -19,7 +19,7 @@ namespace swirl {
 /// is always fitted to the data.
 struct Appearance : SceneStyle {
     std::vector<Frame> frames{Frame::lab};
-    std::optional<double> full_speed = {};  // by default fitted to the data
+    std::optional<double> full_speed = {};  // default: fitted to the data
     bool trails = false;
     double trail_length = 0.3;  // periods
     bool clock = true;

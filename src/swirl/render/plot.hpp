@@ -19,8 +19,8 @@ struct Curve {
 };
 
 struct PlotStyle {
-    double from, to;         // of the time axis, in periods
-    double lowest, highest;  // of the vertical axis
+    double from, to;         // limits of the time axis, in periods
+    double lowest, highest;  // limits of the vertical axis
     std::string vertical_label = "$ϖ$/$Ω$";
     std::string time_label = "periods";
     double em;  // font size in pixels

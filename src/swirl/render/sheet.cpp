@@ -231,7 +231,7 @@ std::vector<Sheet::LegendEntry> Sheet::legend() const {
 void Sheet::draw_legend(const Canvas& canvas) const {
     if (!legend_area_) return;
     using Kind = LegendEntry::Kind;
-    constexpr double spacing = 1.6;  // after each entry, in units of the font size
+    constexpr double spacing = 1.6;  // space after an entry in font sizes
     cairo_t* cairo = canvas.cairo();
     const Theme& theme = spec_.style.theme;
     const Rectangle& area = *legend_area_;

@@ -7,7 +7,7 @@ namespace swirl {
 
 namespace {
 
-constexpr int trail_points = 96;  // per period
+constexpr int trail_points = 96;  // points per period
 
 }  // namespace
 

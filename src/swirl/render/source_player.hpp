@@ -23,8 +23,8 @@ struct SourceState {
 /// All that one source contributes to a drawing. Several threads may read it.
 struct Moment {
     std::shared_ptr<const SourceState> now;
-    std::vector<std::shared_ptr<const SourceState>> past;    // for trails, oldest first
-    std::vector<std::shared_ptr<const SourceState>> ghosts;  // of a stroboscopic image
+    std::vector<std::shared_ptr<const SourceState>> past;    // states of the trails, oldest first
+    std::vector<std::shared_ptr<const SourceState>> ghosts;  // states of a stroboscopic image
     std::vector<std::uint8_t> pinned;                        // empty if it is not needed
     std::optional<Backdrop> backdrop;
 };
@@ -40,7 +40,7 @@ class PinnedPlayback {
     const std::vector<std::uint8_t>& at(double periods);
 
   private:
-    static constexpr int frames_per_period = 511;  // of the paper's camera
+    static constexpr int frames_per_period = 511;  // rate of the paper's camera
 
     Playback playback_;
     std::optional<double> to_;

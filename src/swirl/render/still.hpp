@@ -12,7 +12,7 @@
 namespace swirl {
 
 struct StillConfig {
-    std::vector<FrameSource> sources;  // from left to right
+    std::vector<FrameSource> sources;  // order: left to right
     Appearance appearance;
     double at = 20.0;    // periods
     int flashes = 1;     // instants of the stroboscope; the last one is `at`

@@ -9,17 +9,17 @@
 namespace swirl {
 
 struct Theme {
-    Color page;             // behind everything
-    Color floor;            // inside the container
+    Color page;             // background
+    Color floor;            // the container's inside
     Color wall, wall_mark;  // the ring, and the marks that show its rotation
-    Color ink, faint_ink;   // of text; of captions and axes
-    Color path;             // of the container's centre
-    Color disc;             // without colouring
+    Color ink, faint_ink;   // text; captions and axes
+    Color path;             // path of the container's centre
+    Color disc;             // discs that are not coloured
     Color pinned, loose;    // the paper's red and blue, adapted to colour blindness
     Color neutral;          // middle of the diverging scale
     Color centrifugal, coriolis, velocity;
-    Color accent;  // of the wide mark on the wall
-    Color curve;   // of the running plot
+    Color accent;  // wide mark on the wall
+    Color curve;   // curve of the running plot
 };
 
 /// For projectors and screens.

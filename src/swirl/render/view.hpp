@@ -44,9 +44,9 @@ class FrameTransform {
 
 struct View {
     Frame frame;
-    Vec2 centre;  // on the page: of S in the lab frame, of C in the M-frame
+    Vec2 centre;  // position of S (lab frame) or C (M-frame) on the page
     double pixels_per_unit;
-    double half_side = 0.0;  // of the square on the page that belongs to the view; 0: unlimited
+    double half_side = 0.0;  // half of the view's square on the page; 0: unlimited
 
     Vec2 on_page(const Vec2& p) const {
         return {centre.x + pixels_per_unit * p.x, centre.y - pixels_per_unit * p.y};

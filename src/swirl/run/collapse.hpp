@@ -75,7 +75,7 @@ class CollapseWatch {
     }
 
     std::size_t discs_;
-    RunMark mark_;                   // at the last check
+    RunMark mark_;                   // mark of the last check
     std::array<RunMark, 2> recent_;  // one and two times min_window events ago, at least
 };
 

@@ -15,9 +15,9 @@
 namespace swirl {
 
 struct MeasuredSeries {
-    RotationEstimates rotation;  // by time; those by event are NaN
+    RotationEstimates rotation;  // those by event are NaN
     MeasurementReports reports;
-    std::uint64_t frames = 0;  // after the skipped periods
+    std::uint64_t frames = 0;  // number after the skipped periods
     std::size_t discs = 0;     // maximum over the frames
     double periods = 0.0;
     double frames_per_period = 0.0;

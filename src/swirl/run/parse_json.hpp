@@ -21,7 +21,7 @@ class RepeatedNames {
     const std::string& first() const { return first_; }
 
   private:
-    std::vector<std::set<std::string>> names_;  // of the enclosing objects
+    std::vector<std::set<std::string>> names_;  // names in the enclosing objects
     std::string first_;
 };
 

@@ -46,7 +46,7 @@ struct PeriodAverages {
     bool is_counted;
     std::array<double, rotation_rates.size()> rotation;
     double spin;
-    std::uint64_t events;  // since the start of the run
+    std::uint64_t events;  // count since the start of the run
 };
 
 class PeriodSeries {

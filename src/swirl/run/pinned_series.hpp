@@ -39,8 +39,8 @@ class PinnedSeries {
     double rate_;
     bool knows_pinned_, knows_resident_;
     std::uint64_t margin_;                           // frames before and after a chunk
-    std::uint64_t first_ = 0, begin_ = 0, end_ = 0;  // of found_, and of the chunk in it
-    double last_time_ = 0.0, minimum_ = 0.0;         // of the frame before; of a residence
+    std::uint64_t first_ = 0, begin_ = 0, end_ = 0;  // begin of found_, and the chunk in it
+    double last_time_ = 0.0, minimum_ = 0.0;         // frame before; shortest residence
     std::vector<PinnedColumns> found_;
 };
 

@@ -151,7 +151,7 @@ class LiveSeries {
     const PeriodSeries& series_;
     std::filesystem::path path_;
     std::ofstream file_;
-    std::size_t periods_ = 0;  // in the file
+    std::size_t periods_ = 0;  // periods in the file
 };
 
 /// Renames the checkpoint of an earlier run, so that it is not lost.
@@ -362,7 +362,7 @@ class Recorder {
     std::optional<std::string> resumed_;
     std::optional<RunConfig> extended_;  // the run of the checkpoint, if it has another length
     SampleTimes frame_times_;
-    std::uint64_t events_ = 0;  // since the start of the run
+    std::uint64_t events_ = 0;  // count since the start of the run
     bool is_disabled_ = false;  // a checkpoint could not be written
     Clock::time_point last_checkpoint_;
 };

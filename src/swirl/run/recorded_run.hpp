@@ -18,7 +18,7 @@ namespace swirl {
 /// The times of the frames: at equal phases, unless `interval` or `events` is given. Each frame is
 /// the exact state at the exact time.
 struct FrameTimes {
-    int per_period = 30;                 // at times k T / per_period; 1 is stroboscopic
+    int per_period = 30;                 // frames at k T / per_period; 1 is stroboscopic
     std::optional<double> interval;      // time between frames
     std::optional<std::int64_t> events;  // number of events between frames
 };
@@ -38,7 +38,7 @@ struct RunFiles {
     /// `warn`.
     bool checkpoint_needed = true;
     std::function<void(const std::string&)> warn;
-    bool resume = false;  // from the checkpoint, if it exists
+    bool resume = false;  // continue from the checkpoint, if it exists
     /// Also write a checkpoint at the end, from which the run can be extended.
     bool keep_checkpoint = false;
     /// Start again and replace the unfinished recording of another run. An existing checkpoint is

@@ -150,7 +150,7 @@ std::string changes_text(const RunResult& r) {
 
 /// False if a longer run may show another direction of rotation, or that there is one.
 bool is_direction_known(const Estimate& e) {
-    constexpr std::size_t min_blocks = 5;  // with fewer, the error itself is hardly known
+    constexpr std::size_t min_blocks = 5;  // fewer hardly determine the error itself
     if (e.blocks < min_blocks) return false;
     return direction_of(e) != 0 || e.blocks >= min_blocks_of_a_steady_state;
 }

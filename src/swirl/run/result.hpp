@@ -24,9 +24,9 @@ struct RunResult {
     /// In units of Ω, in the lab frame, over whole periods; mean_by_event is the paper's average. All
     /// values are NaN if there is no whole period after the warm-up.
     RotationEstimates rotation;
-    std::uint64_t events_per_rotation_sample = 1;  // by event, in the last period
-    SteadyState steady;                            // of the rotation by event, after the warm-up
-    SteadyState steady_spin;   // of the mean spin, which may relax much more slowly
+    std::uint64_t events_per_rotation_sample = 1;  // value of the last period
+    SteadyState steady;        // test of the rotation by event, after the warm-up
+    SteadyState steady_spin;   // test of the mean spin, which may relax much more slowly
     double max_overlap = 0.0;  // largest overlap at a contact: a rounding error
     /// Kinetic energy in the lab frame, including spins, at the start and at the end.
     double energy_at_start = 0.0, energy = 0.0;

@@ -24,7 +24,7 @@ class PeriodSeries;
 class StateWriter;
 
 struct RunProgress {
-    double fraction;       // of the run
+    double fraction;       // part of the run
     std::uint64_t events;  // so far
     double periods;        // so far
 };

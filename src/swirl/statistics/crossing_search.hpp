@@ -51,13 +51,13 @@ struct CrossingRules {
     double tolerance = 0.3;            // target standard error of N_c
     std::size_t curves = 1, rate = 0;  // number of curves, and the one that controls the search
     std::int64_t seeds = 3;            // runs of one step at one number of discs
-    std::int64_t max_runs = max_search_runs;  // at one number of discs
+    std::int64_t max_runs = max_search_runs;  // most runs at one number of discs
     int rounds = 10;                          // maximum of step 4 at one number of discs
     int sign_rounds = 4;                      // maximum of step 3
     bool longer_runs = true;
     std::set<std::int64_t> start = {};  // replaces the numbers of the coarse scan
     std::int64_t coarse_numbers = 8;
-    std::int64_t step = 0;     // of the coarse scan in discs, instead of a number of them
+    std::int64_t step = 0;     // step of the coarse scan in discs; 0: coarse_numbers
     std::int64_t at_once = 1;  // so many missing numbers of a bracket are run together
     bool every_change = true;  // otherwise only the bracket of N_c is narrowed
 };
@@ -80,12 +80,12 @@ class CrossingSearch {
     struct Group {
         std::vector<SearchedRun> finished = {};
         std::int64_t failed = 0;
-        int rounds = 0;         // of more runs
-        int doublings = 0;      // of the length, by these rounds
+        int rounds = 0;         // rounds of more runs
+        int doublings = 0;      // doublings of the length in these rounds
         bool scatters = false;  // the replicates disagree, so more runs are no longer
         std::int64_t attempted() const { return std::int64_t(finished.size()) + failed; }
     };
-    using Numbers = std::set<std::int64_t>;  // of discs
+    using Numbers = std::set<std::int64_t>;  // numbers of discs
 
     explicit CrossingSearch(CrossingRules rules) : rules_(std::move(rules)) {}
 
@@ -102,7 +102,7 @@ class CrossingSearch {
     /// A larger range or more runs at one number: the search continues.
     void extend(std::int64_t from, std::int64_t to, std::int64_t max_runs);
 
-    const std::map<std::int64_t, Group>& groups() const { return groups_; }  // by number of discs
+    const std::map<std::int64_t, Group>& groups() const { return groups_; }  // key: number of discs
     Ensemble combined(const Group& group, std::size_t rate) const;
     /// The points of a curve; numbers without a finished run have none.
     std::vector<RotationPoint> curve(std::size_t rate) const;

@@ -20,13 +20,13 @@
 namespace swirl {
 
 struct PowerLawPoint {
-    double x, y, error;  // of y
+    double x, y, error;  // the error is that of y
 };
 
 struct PowerLaw {
     double exponent = not_available, error = not_available;
     double factor = not_available;      // a
-    double chi_square = not_available;  // of ln y
+    double chi_square = not_available;  // fit to ln y
     std::size_t points = 0;
 };
 

@@ -74,10 +74,10 @@ inline double limit_of_change(double freedom) {
 struct MeanChange {
     std::size_t at = 0;  // the first block after it
     double before = not_available, after = not_available;
-    double size = not_available;      // in standard errors
+    double size = not_available;      // unit: standard errors
     double max_size = not_available;  // largest size that chance explains
     bool is_jump = false;             // otherwise a drift
-    double effective_samples = 0.0;   // of the blocks, without the change
+    double effective_samples = 0.0;   // samples in the blocks without the change
 
     bool found() const { return std::abs(size) > max_size; }
     /// Whether the test says something if it finds nothing.
@@ -92,7 +92,7 @@ struct MeanChange {
 struct TwoStates {
     double low = not_available, high = not_available;
     double separation = 0.0;    // share of the variance between the two
-    std::size_t changes = 0;    // from one to the other
+    std::size_t changes = 0;    // steps from one to the other
     double shortest_visit = 0;  // windows: mean over the visits to the state with the shorter ones
     std::size_t window = 1;     // blocks
     /// Windows in the lower and in the higher state, and how often the series leaves it.
@@ -108,13 +108,13 @@ struct SteadyState {
         steady,
         drifting,   // the mean changes gradually
         jumping,    // the mean changes in one step
-        switching,  // between two states
+        switching,  // changes between two states
         too_short,  // fewer than 50 blocks, or too few effective samples: unknown
     };
     Verdict verdict = Verdict::too_short;
     MeanChange change;
     TwoStates states;
-    double period = not_available;  // of the change, from the beginning of the run
+    double period = not_available;  // time of the change since the run's beginning
 
     /// True if a test found a change.
     bool has_changed() const { return verdict != Verdict::steady && verdict != Verdict::too_short; }

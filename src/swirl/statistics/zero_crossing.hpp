@@ -73,7 +73,7 @@ struct Crossing {
         undecided,              // the errors are too large, or there are too few points
     };
     Verdict verdict = Verdict::undecided;
-    std::size_t points = 0;  // with a mean and an error
+    std::size_t points = 0;  // those with a mean and an error
     /// Of the last change to counterrotation; NaN if its bracket comes from a coarse table.
     double discs = not_available, error = not_available;
     double lower = not_available, upper = not_available;

@@ -170,7 +170,7 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
         if (!result.has_whole_period) ++collected.without_period;
         collected.versions.insert(result.version);
     }
-    std::vector<std::size_t> points(results.size());  // by product index
+    std::vector<std::size_t> points(results.size());  // index: that of the product
     for (std::size_t p = 0; p < points.size(); ++p) points[plan.product_index(p)] = p;
     const auto replica_count = static_cast<std::size_t>(plan.replicas);
     for (const std::size_t row : rows_of(plan))
@@ -229,7 +229,7 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
         if (!plan.chain.empty()) texts.erase("direction");  // up or down
         return resolve(texts);
     };
-    std::vector<ParameterTexts> groups;  // in the order of the rows
+    std::vector<ParameterTexts> groups;  // sorted like the rows
     std::map<ParameterTexts, RotationCurves> curves;
     for (const CollectedRow& row : collected.rows) {
         ParameterTexts group = row.parameters;

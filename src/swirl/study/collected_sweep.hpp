@@ -16,18 +16,18 @@ namespace swirl {
 
 struct CollectedRow {
     ParameterTexts parameters;
-    std::array<Estimate, rotation_rates.size()> rotation = {};  // over the replicas
+    std::array<Estimate, rotation_rates.size()> rotation = {};  // means over the replicas
 };
 
 struct CollectedSweep {
     Table table;
     std::vector<CollectedRow> rows = {};
-    std::vector<LoopAreas> loops = {};  // of a chain (hysteresis.hpp)
+    std::vector<LoopAreas> loops = {};  // empty unless a chain (hysteresis.hpp)
     std::vector<std::string> loop_quantities = {};
     std::size_t disagreeing = 0;     // rows whose replicas scatter more than their errors explain
     std::size_t not_steady = 0;      // rows with a replica that is not steady or too short to test
     std::size_t without_period = 0;  // runs without a whole period after the warm-up
-    std::set<std::string> versions = {};  // of the programs that made the runs
+    std::set<std::string> versions = {};  // programs that made the runs
 };
 
 /// One row for each combination of parameters: the mean over the finished replicas and its standard

@@ -67,7 +67,7 @@ class Searcher {
             return {run, ""};
         } catch (const Failure& failure) {
             return {std::nullopt, failure.what()};
-        } catch (const UsageError& error) {  // with this seed, the discs do not fit
+        } catch (const UsageError& error) {  // the discs do not fit with this seed
             return {std::nullopt, error.what()};
         }
     }
@@ -154,7 +154,7 @@ class Searcher {
     const CrossingControl& control_;
     const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
     CrossingSearch search_;
-    std::map<std::int64_t, std::vector<SteadyState::Verdict>> verdicts_;  // by number of discs
+    std::map<std::int64_t, std::vector<SteadyState::Verdict>> verdicts_;  // key: number of discs
     std::string first_failure_;
     std::mutex mutex_;
     std::uint64_t events_ = 0, runs_ = 0;

@@ -34,7 +34,7 @@ struct CrossingSettings : CrossingRules {
         rate = default_rate;  // index in rotation_rates
     }
     RunConfig config = {};          // events: those of the first runs; discs is ignored
-    std::int64_t min_periods = 50;  // of the first runs, after the warm-up
+    std::int64_t min_periods = 50;  // length of the first runs after the warm-up
 };
 
 /// Failed runs at one number of discs.
@@ -44,11 +44,11 @@ struct FailedRuns {
 
 struct CrossingResult {
     std::size_t rate = default_rate;      // that controlled the search
-    Crossings crossings;                  // for each of rotation_rates
-    RotationCurves curves;                // for each of rotation_rates, in the order of N
-    std::vector<std::int64_t> runs_made;  // at each N
-    std::uint64_t events = 0, runs = 0;   // without failed runs
-    std::vector<FailedRuns> failures;     // in the order of N
+    Crossings crossings;                  // one for each of rotation_rates
+    RotationCurves curves;                // one for each of rotation_rates, sorted by N
+    std::vector<std::int64_t> runs_made;  // runs at each N
+    std::uint64_t events = 0, runs = 0;   // failed runs do not count
+    std::vector<FailedRuns> failures;     // sorted by N
     std::string first_failure;            // its error message
     /// Numbers of discs in the bracket of N_c (all, if there is none), and at how many of them the
     /// replicates scatter more than the errors within the runs explain.
@@ -56,7 +56,7 @@ struct CrossingResult {
     /// Runs at these numbers that are not steady after their warm-up, or too short to test.
     std::int64_t not_steady = 0, too_short = 0;
     bool within_tolerance = false;
-    bool stopped = false;  // before its end, by CrossingControl::stop
+    bool stopped = false;  // ended early by CrossingControl::stop
     double seconds = 0.0;
 
     const Crossing& crossing() const { return crossings[rate]; }
@@ -80,7 +80,7 @@ inline std::uint64_t search_seed(const RunConfig& config, std::int64_t replica) 
 /// What a search uses of a run.
 struct SearchRun {
     std::array<Estimate, rotation_rates.size()> rotation;
-    double periods;  // after the warm-up
+    double periods;  // length after the warm-up
     SteadyState::Verdict verdict;
     std::uint64_t events;
 };

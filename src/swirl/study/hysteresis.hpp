@@ -23,7 +23,7 @@ namespace swirl {
 /// The loops with one combination of the other parameters.
 struct LoopAreas {
     ParameterTexts parameters;
-    std::int64_t replicas = 0;  // with complete loops
+    std::int64_t replicas = 0;  // those with complete loops
     std::vector<Estimate> areas = {};
 };
 

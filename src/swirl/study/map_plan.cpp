@@ -244,7 +244,7 @@ MapAxisText read_map_axis(const char* option, const std::string& text) {
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
         throw UsageError(fmt::format("{} is '{}', but it must be NAME=VALUES, for example mu=0:1.",
                                      option, text));
-    std::string name = text.substr(0, equals);  // as given, for error messages
+    std::string name = text.substr(0, equals);  // error messages use it as given
     std::replace(name.begin(), name.end(), '-', '_');
     return {name, text.substr(equals + 1)};
 }

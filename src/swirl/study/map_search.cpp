@@ -40,7 +40,7 @@ class MapAxis {
             for (const SweepStage& stage : plan.before) add_stage(stage.values[a]);
             add_stage(index_.size());
         }
-        while (ranks_.size() <= plan.before.size())  // without a name: one value
+        while (ranks_.size() <= plan.before.size())  // an axis without a name has one value
             ranks_.push_back({0});
     }
 
@@ -102,7 +102,7 @@ class MapAxis {
     }
 
     std::size_t stride_ = 0;
-    std::vector<std::size_t> index_{0};  // by rank: the index of the value in the plan
+    std::vector<std::size_t> index_{0};  // index of the value in the plan, by rank
     // By stage: of its values, ascending.
     std::vector<std::vector<std::size_t>> ranks_ = {std::vector<std::size_t>{0}};
 };
@@ -399,13 +399,13 @@ class MapSearch {
     const FindRun& find_run_;
     const MapAxis x_, y_, discs_;              // discs_: one value, if the map is not of N_c
     const std::vector<std::size_t> point_at_;  // empty if the plan has not grown
-    std::vector<std::size_t> max_runs_of_;     // by stage
+    std::vector<std::size_t> max_runs_of_;     // one per stage
     std::size_t stage_ = 0, max_runs_ = 0;
     Interval numbers_;  // ranks of the numbers of discs in this stage
     std::int64_t first_number_ = 0;
     std::vector<Interval> coarse_x_, coarse_y_;
     std::vector<std::optional<MapSite>> sites_;
-    std::vector<std::optional<CrossingSearch>> searches_;  // of the sites, for N_c
+    std::vector<std::optional<CrossingSearch>> searches_;  // one per site of a map of N_c
     std::vector<std::size_t> missing_;
 };
 

@@ -53,8 +53,8 @@ struct MapSite {
     std::string verdict = {};
     Estimate value = {};
     double lower = not_available, upper = not_available;  // 95 % of N_c
-    double periods = 0.0;                                 // of all runs
-    std::int64_t runs = 0, failed = 0;                    // without and with failed runs
+    double periods = 0.0;                                 // sum over all runs
+    std::int64_t runs = 0, failed = 0;                    // finished and failed ones
 };
 
 struct MapState {

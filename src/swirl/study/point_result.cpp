@@ -35,7 +35,7 @@ bool is_needed(int depth, Json::parse_event_t event, Json& parsed) {
         "format",  "version", "point",    "replicate", "config",      "state_hash",
         "periods", "energy",  "rotation", "measured",  "steady_state"};
     const auto& key = parsed.get_ref<const std::string&>();
-    if (depth == 3) return key != "blocks";  // of a rotation rate
+    if (depth == 3) return key != "blocks";  // a rotation rate has blocks
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
 

@@ -43,7 +43,7 @@ constexpr int poll_interval = 50;  // ms
 
 struct ProcessResult {
     int status;
-    std::string output;  // of stdout and stderr
+    std::string output;  // text of stdout and stderr
 };
 
 /// The words as execv() takes them.
@@ -109,7 +109,7 @@ ProcessResult run_program(const std::vector<std::string>& words, const std::atom
     }
     close(ends[1]);
     pollfd waited{ends[0], POLLIN, 0};
-    int polls_left = -1;  // until the program is killed; -1: not interrupted
+    int polls_left = -1;  // polls until the program is killed; -1: not interrupted
     for (;;) {
         const int ready = poll(&waited, 1, poll_interval);
         if (ready > 0 && !read_output(ends[0], result.output)) break;

@@ -119,7 +119,7 @@ class SweepWorker {
 
     /// Ends at the first point that this call cannot finish: the next one starts from its end.
     void run_chain(const std::vector<std::size_t>& chain) {
-        std::optional<FinalState> last;  // of the point before, if this call has run it
+        std::optional<FinalState> last;  // final state of the point before, if run by this call
         for (std::size_t k = 0; k < chain.size(); ++k) {
             if (done_before_[chain[k]]) continue;
             if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;

@@ -43,7 +43,7 @@ struct SweepShare {
 };
 
 struct SweepOutcome {
-    std::size_t done = 0, failed = 0;  // by this call
+    std::size_t done = 0, failed = 0;  // runs of this call
     std::size_t elsewhere = 0;         // points locked by other processes
     bool stopped = false;
     std::string first_failure;

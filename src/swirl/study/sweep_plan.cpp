@@ -450,7 +450,7 @@ SweepPlan read_plan(const fs::path& folder) {
                         file.string(), count, plan.replicas, max_points));
     reject_shrinking(file, plan);
     plan.product_indices = product_indices_of(plan);
-    try {  // by the functions that validate a call
+    try {  // the functions that validate a call throw
         validate(plan);
         if (!plan.measure.empty())
             read_measurement_list(fmt::format("{}", fmt::join(plan.measure, ",")));

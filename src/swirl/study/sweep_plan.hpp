@@ -57,7 +57,7 @@ struct SweepPlan {
     std::vector<SweepAxis> axes;  // the given parameters, in the order of the table
     std::int64_t replicas = 1;
     std::vector<std::string> measure;  // measurements of every run (measurements.hpp)
-    int frames = 0;                    // per period, of the trajectory of every run; 0: none
+    int frames = 0;                    // frames per period of every trajectory; 0: none
     bool series = false;               // write the table of the periods of every run
     /// The parameter along which each run starts from the end of its neighbour; "" for none.
     std::string chain = {};

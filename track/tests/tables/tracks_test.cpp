@@ -234,7 +234,7 @@ TEST(TrackScale, ClockFollowsFromFrameRateAndPeriod) {
     TrackScale scale{.container_radius = 8.5};
     scale.frames_per_time = 10.0;
     scale.period = 4.0;
-    const Snapshot s = seen(0.0, 0.0, scale, 93);  // at time 9.3
+    const Snapshot s = seen(0.0, 0.0, scale, 93);  // time 9.3
     EXPECT_EQ(s.periods, 2);
     EXPECT_DOUBLE_EQ(s.clock, 1.3);
     EXPECT_EQ(s.period, 4.0);

@@ -51,7 +51,7 @@ struct Species {
 struct ColdDisc {
     std::uint32_t partner;             // a disc; the disc itself for the wall; or a mark, see below
     std::uint32_t partner_collisions;  // the partner's HotDisc::collisions at the prediction
-    double angle;                      // at HotDisc::time
+    double angle;                      // value at HotDisc::time
     // Followed by VerletListsState::list_capacity disc numbers; unused ones are EngineState::size.
     std::uint32_t* neighbours() { return reinterpret_cast<std::uint32_t*>(this + 1); }
     const std::uint32_t* neighbours() const {
@@ -72,13 +72,13 @@ inline constexpr std::uint32_t approaches_wall = 0xffffff05u;
 /// A bound on the container's motion along an arc of its path, from which a lower bound of the time
 /// of a wall contact follows (wall_times.hpp). It is renewed now and then.
 struct ArcBound {
-    Flight<double> centre;  // of the container, at the time of the last renewal
+    Flight<double> centre;  // the container at the last renewal
     double turn_rate, inverse_turn_rate;
     double horizon;         // duration for which the bounding parabola holds
-    double valid_for;       // before and after centre.time
+    double valid_for;       // time before and after centre.time
     double search_at_once;  // a wall contact expected within this time usually happens
     double L, L_of_u2, L_of_square;
-    double margin;  // against rounding errors, as a fraction
+    double margin;  // allowance for rounding, a fraction
 };
 
 /// The state of a simulation, as far as every neighbour search needs it.
@@ -90,7 +90,7 @@ struct EngineState {
     unsigned char* cold_discs;
     const Species* species;
     SphereState* spheres;  // null for discs
-    Floor floor;           // of spheres
+    Floor floor;           // used by spheres
 
     // The container.
     const Segment* segments;
@@ -98,9 +98,9 @@ struct EngineState {
     /// End of the segment; or an earlier time at which the search renews its predictions
     /// (RenewsWithinSegment).
     double interval_end;
-    ArcBound arc_bound;         // on an arc
+    ArcBound arc_bound;         // used on an arc
     double horizons_per_turn;   // sets ArcBound::horizon
-    Flight<double> arc_centre;  // on an arc: the container's centre at the time last requested
+    Flight<double> arc_centre;  // container's centre on an arc, at the time last requested
     double period, container_radius;
     Surface disc_surface, wall_surface;
 
@@ -171,10 +171,10 @@ inline constexpr std::uint32_t max_discs_in_columns = 40, max_spheres_in_columns
 /// in columns are compiled for several sizes.
 struct EventLoops {
     EventLoop lists, cells;
-    EventLoop all_pairs[max_discs_in_columns / 8];  // for up to 8, 16, 24 … discs
+    EventLoop all_pairs[max_discs_in_columns / 8];  // one for up to 8, 16, 24 … discs
     // Up to this many discs, all pairs are fastest (bench/NOTES.md).
     std::uint32_t max_all_pairs;
-    EventLoop few_spheres[max_spheres_in_columns / 16];  // for up to 16, 32 … spheres
+    EventLoop few_spheres[max_spheres_in_columns / 16];  // one for up to 16, 32 … spheres
     EventLoop many_spheres;
 };
 

@@ -167,7 +167,7 @@ void set_up_candidates(CandidateColumns& candidates, std::uint32_t longest_list,
 /// around them.
 void set_up_lists(VerletListsState& state, const InitialState& scene, const RadiusRange& radii,
                   std::size_t species_count, AlignedMemory& memory) {
-    std::map<double, std::uint32_t> smaller_than;  // for each radius: the number of smaller discs
+    std::map<double, std::uint32_t> smaller_than;  // number of smaller discs, by radius
     for (std::uint32_t i = 0; i < state.size && !state.stops_at(i); ++i)
         ++smaller_than[scene.discs[i].radius];
     std::uint32_t counted = 0;

@@ -11,7 +11,7 @@ namespace swirl {
 
 /// The event queue: a tournament of eight (tournament.hpp).
 struct EventQueue {
-    std::uint32_t levels, top_rows;  // of the top level: 1, 2, 4, 6 or 8 rows
+    std::uint32_t levels, top_rows;  // rows of the top level: 1, 2, 4, 6, 8
     bool prefetches;                 // the discs do not all fit into the nearest cache
     double* level_times[12];
     std::uint32_t* level_winners[12];
@@ -162,7 +162,7 @@ struct ListsOrCellsState : EngineState {
     ComovingFrame comoving_frame;
 
     bool chooses_search;         // false: do not replace cells by lists, nor these lists by cells
-    double target_cell_width;    // of the cells that should take over; 0: lists should
+    double target_cell_width;    // cells that should take over; 0: lists should
     double max_cell_width;       // cells must not be wider than this from now on
     std::uint32_t failed_lists;  // times that lists took over and did not last
     std::uint64_t rebuilds_at_test, collisions_at_test;  // when the choice was last tested
@@ -190,7 +190,7 @@ struct CandidateColumns {
 /// Data that the lists of one species need.
 struct SpeciesLists {
     std::uint32_t grid;           // index into VerletListsState::grids
-    std::uint32_t target_length;  // of a list (verlet_skin.hpp)
+    std::uint32_t target_length;  // list length (verlet_skin.hpp)
 };
 inline constexpr std::uint32_t max_grids = 48;
 
@@ -238,12 +238,12 @@ struct LinkedCellsState : ListsOrCellsState {
     std::uint32_t* overflows_of_cells;  // `overflow_capacity` discs for each cell
     std::uint32_t overflow_capacity;    // a multiple of 8; 0 where cells rarely overflow
     Vec2 path_middle;
-    double max_drift;             // of the cells from there within half a period
-    double reach_of_far_cells;    // for cells at rest: cells nearer to the middle than this are far
+    double max_drift;             // drift of the cells within half a period
+    double reach_of_far_cells;    // cells at rest nearer to the middle than this are far
     double far_from_wall_square;  // its square for the current drift
     std::uint32_t near_wall_count, unassigned_count;
     std::uint32_t *near_wall, *unassigned;  // discs that can reach the wall; discs without a cell
-    double min_width;                       // of cells
+    double min_width;                       // smallest width of a cell
     // Counts since the width was last chosen, and the count at which lists are considered next.
     std::uint64_t candidates_tested, cell_changes_before, candidates_at_next_test;
 

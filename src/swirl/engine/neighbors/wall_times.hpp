@@ -122,7 +122,7 @@ SWIRL_INLINE Lanes<2> wall_times_from_now(const EngineState& state, const HotDis
 /// prediction.
 struct Leaving {
     double wall, skin;
-    std::uint32_t mark = leaves_skin;  // for a cell: at which edge
+    std::uint32_t mark = leaves_skin;  // edge of the cell
 };
 /// Added to the wall's time, by HotDisc::far_from_wall: a branch would often be mispredicted.
 static constexpr double far_wait[2] = {0.0, never};
