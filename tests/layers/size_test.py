@@ -1,4 +1,4 @@
-"""The size of each part (CONTRIBUTING.md, Scope): everyone after you reads every line.
+"""The lines of each part (CONTRIBUTING.md, Scope): everyone after you reads every line.
 
 A limit is the goal where the part has reached it; otherwise it is its present size, with the goal and the
 reason beside it. Lower a limit when its part shrinks. Raise it only with a reason that users would accept.
@@ -13,14 +13,17 @@ PROGRAMS = (".cpp", ".hpp", ".inc", ".py", ".ts", ".mjs", ".js", ".sh", ".css", 
 
 # Part: folders, folders in them that belong to another part, most lines.
 LINES = {
-    # Goal 42,000.
-    "engine": (["src"], ["src/swirl/paper", "src/swirl/tracking"], 50_000),
-    "paper": (["paper", "src/swirl/paper"], [], 16_000),
-    "track": (["src/swirl/tracking"], [], 10_000),
+    # Goal 42,000. The rest are exports, movie plots, path shapes, size laws, linked cells and the journal: each is
+    # a loss for users.
+    "engine": (["src"], [], 46_200),
+    # Goal 8,000. The rest is the chapters on published work and the judge of 62 claims.
+    "paper": (["paper"], [], 10_300),
+    # Goal 9,000. It is reached when the parts that change no verdict are gone.
+    "track": (["track"], ["track/tests"], 15_300),
     "page": (["web/src"], [], 6_500),
-    "tests": (["tests"], [], 44_100),
+    # Goal 30,000.
+    "tests": (["tests", "track/tests"], [], 43_800),
 }
-WORDS_OF_THE_DOCS = 99_000
 
 
 def files(folders, others=()):
@@ -42,11 +45,6 @@ class Size(unittest.TestCase):
                             if file.suffix in PROGRAMS)
                 self.assertLessEqual(lines, most)
                 self.assertGreater(lines, 0.9 * most, "lower the limit")
-
-    def test_the_docs_stay_readable(self):
-        words = sum(len(file.read_text(encoding="utf-8").split()) for file in files(["docs", "README.md"])
-                    if file.suffix == ".md")
-        self.assertLessEqual(words, WORDS_OF_THE_DOCS)
 
 
 if __name__ == "__main__":

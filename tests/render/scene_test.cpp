@@ -244,7 +244,7 @@ TEST(Scene, TrailLeadsFromEarlierPositionsToTheDisc) {
 
 TEST(Scene, ForcesHaveTheirDirections) {
     Snapshot s = container(0.0);
-    add_disc(s, {1.892, -4.0});  // at C + (0, −4)
+    add_disc(s, {1.892, -4.0});  // position C + (0, −4)
     const FrameTransform at = FrameTransform(s, Frame::m);
     SceneStyle style = plain_style();
     style.forces = true;
