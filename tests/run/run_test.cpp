@@ -274,7 +274,7 @@ TEST(Run, CondensingRunIsNotCalledSteady) {
         EXPECT_FALSE(warnings(result).empty()) << seed;
     }
     config.warmup_found = true;
-    EXPECT_NEAR(run(config).rotation.mean_by_event.mean, 1.0, 0.01);  // within 1.0004 ± 0.0010
+    EXPECT_NEAR(run(config).rotation.mean_by_event.mean, 1.0, 0.01);  // expected: 1.0004 ± 0.0010
 }
 
 TEST(Run, GrowingSpinsAreNotSteady) {

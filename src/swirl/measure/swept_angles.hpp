@@ -65,9 +65,8 @@ class SweptAngles {
         return sum;
     }
 
-    std::vector<Vec2>
-        from_;            // from the point to the discs, at the last corner; empty: not followed
-    double turns_ = 0.0;  // full turns since begin(), less the angles then
+    std::vector<Vec2> from_;  // directions to the discs at the last corner; empty: not followed
+    double turns_ = 0.0;      // full turns since begin(), less the angles then
     double begun_at_ = 0.0;
 };
 

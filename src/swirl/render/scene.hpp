@@ -23,11 +23,11 @@ namespace swirl {
 
 /// The quantity that a disc's colour shows.
 enum class Coloring : std::uint8_t {
-    sector,  // by the sector of the cluster in which the disc was at the start
+    sector,  // sector of the cluster in which the disc was at the start
     pinned,  // pinned or loose (measure/pinned_loose.hpp)
     spin,    // lab-frame spin ω_i, diverging about zero
-    speed,   // in the frame that is shown
-    slip,    // of spheres against the floor
+    speed,   // speed in the frame that is shown
+    slip,    // slip of spheres against the floor
     none,    // one colour for all
     id,      // seven hues in turn, to follow a disc by eye
 };
@@ -41,8 +41,8 @@ struct SceneStyle {
     double full_speed = 1.0;  // speed or slip at the end of the colour scale
     bool orientation = true;  // marks on the discs
     bool points = true;       // S, C, M
-    double point_size = 1.0;  // of the letters S, C, M, relative to their size in a movie
-    bool path = true;         // of C
+    double point_size = 1.0;  // size of the letters S, C, M relative to that in a movie
+    bool path = true;         // path of C
     bool swirl = false;       // an arrow in the direction of the swirl; lab frame only
     bool forces = false;      // centrifugal and Coriolis force on each disc; M-frame only
     bool angles = false;      // θ at the wall; M-frame only

@@ -23,12 +23,12 @@ struct MapAxisText {
 struct MapSettings {
     MapAxisText x, y = {};  // y without a name: a curve
     std::string of = "mean_by_time";
-    std::string rate = "mean_by_time";  // for N_c
+    std::string rate = "mean_by_time";  // used for N_c only
     double level = 0.0;                 // not for N_c
     std::optional<double> change = {};  // default: 2 for N_c, otherwise nowhere
     double tolerance = 0.5;             // target standard error of N_c
     std::int64_t steps = 16;            // values of a range FROM:TO
-    std::int64_t max_runs = 16;         // at one point
+    std::int64_t max_runs = 16;         // most runs at one point
     std::int64_t from = 5, to = 48;     // numbers of discs in which N_c is searched
     ParameterTexts parameters = {};     // all others; one value each
 };
