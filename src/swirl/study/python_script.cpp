@@ -202,8 +202,9 @@ void become_python_script(const std::string& script, const std::vector<std::stri
     std::fflush(nullptr);
     std::vector<char*> argv = pointers_to(words);
     execv(argv[0], argv.data());
-    throw Failure(fmt::format("'{}' cannot be started: {}.\nhint: install the Debian package python3.",
-                              words.front(), std::generic_category().message(errno)));
+    throw Failure(
+        fmt::format("'{}' cannot be started: {}.\nhint: install the Debian package python3.",
+                    words.front(), std::generic_category().message(errno)));
 }
 
 }  // namespace swirl
