@@ -133,8 +133,7 @@ def maps(folder, video, amplitude):
         style.blocks(style.select(cells, source=source), style.COARSE), 2e-4) for source in there]
     fastest = max((style.speed(row) for flow in flows for row in flow), default=1.0)
     for axes, source, flow in zip(panels[0], there, flows):
-        shown = style.cells(axes, density[source], "density", R)
-        shown.set_clim(0, top)
+        shown = style.cells(axes, density[source], "density", R, top)
         if flow:
             style.arrows(axes, flow, spacing, fastest, color="white")
         style.container(axes, R, color="white", amplitude=amplitude)
@@ -230,10 +229,8 @@ def page(folder, about, videos, figures):
     parts += ["<h2>The paper’s figures</h2>\n"]
     parts += [report.grid([figure_html(folder, name) for name in figures])]
     parts += ["<h2>Each video</h2>\n", report.grid([video_html(folder, f) for f in about["videos"]])]
-    parts += ["<h2>Made by</h2>\n", report.table(["", ""], [
-        (report.td(a), report.td(b)) for a, b in (
-            ("command", about["command"]), ("version", about["version"]),
-            ("built with", about["build"]))]), "</body></html>\n"]
+    parts += ["<h2>Made by</h2>\n", report.pairs((("command", about["command"]), ("version", about["version"]),
+                                                       ("built with", about["build"]))), "</body></html>\n"]
     return "".join(parts)
 
 

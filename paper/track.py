@@ -94,15 +94,12 @@ def page(folder, found, discs):
     def image(file, alt):
         return f'<img alt="{alt}" src="{report.inline(os.path.join(folder, file))}">'
 
-    def rows(pairs):
-        return report.table(["", ""], [(report.td(a), report.td(b)) for a, b in pairs])
-
     return "".join([
         report.opening(html.escape(name)),
         f"<h1>{html.escape(name)}</h1>\n",
         f"<ul>{warnings}</ul>\n" if warnings else "<p>No warnings.</p>\n",
-        "<h2>Results</h2>\n", rows(found_rows(found)),
-        "<h2>Quality</h2>\n", rows(quality_rows(found, discs)),
+        "<h2>Results</h2>\n", report.pairs(found_rows(found)),
+        "<h2>Quality</h2>\n", report.pairs(quality_rows(found, discs)),
         report.grid([
             f"<figure>{image('video.png', 'the video with the detected discs')}<figcaption>"
             "<h3>First frame</h3><p>With the detected discs drawn over it.</p></figcaption></figure>\n",
@@ -111,7 +108,7 @@ def page(folder, found, discs):
             "deepest overlap of two discs, which hard discs cannot have; distance of the rim from the "
             "fitted path.</p><p class=small><code>frames.csv</code>, <code>figure_found.pdf</code></p>"
             "</figcaption></figure>\n"]),
-        "<h2>Made by</h2>\n", rows([("command", found["command"]), ("version", found["version"])]),
+        "<h2>Made by</h2>\n", report.pairs([("command", found["command"]), ("version", found["version"])]),
         "</body></html>\n"])
 
 
