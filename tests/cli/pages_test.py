@@ -22,6 +22,7 @@ NOT_RUN = (
     (r"cmake |cpack |ninja |ctest |apt |cd build/|\./check|bench/|build/release/bench/|taskset ",
      "builds, installs or measures; ./check, tests/library and tests/bench do the same"),
     (r"sbatch ", "needs a cluster"),
+    (r"snakemake ", "a package of its own; cluster_test runs the workflow"),
     (r"python3 tests/mutation/", "takes hours; the suite slow runs it"),
     (r"/usr/bin/python3 paper/|ffmpeg |'\[0\]trim", "draws from the output of a long command"),
     (r"for |done$|grep ", "the shell around a call"),
