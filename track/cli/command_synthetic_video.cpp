@@ -252,7 +252,8 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
                       static_cast<std::size_t>(camera.size.height));
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
     for (std::int64_t k = 0; k < frames; ++k) {
-        if (stopped.load()) throw Interrupted("stopped before the last frame; no video was written.");
+        if (stopped.load())
+            throw Interrupted("stopped before the last frame; no video was written.");
         Snapshot s = playback(call.start + double(k) / double(camera.frames_per_period));
         if (call.still) bring_container_to_rest(s);
         writer.write(planes.of(view.render(s)));

@@ -10,9 +10,6 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
-#include "track/experiment/curves.hpp"
-#include "track/experiment/result_store.hpp"
-#include "track/experiment/seed_ensemble.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parallel_for.hpp"
@@ -22,6 +19,9 @@
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/python_script.hpp"
 #include "track/experiment/camera_sampled_run.hpp"
+#include "track/experiment/curves.hpp"
+#include "track/experiment/result_store.hpp"
+#include "track/experiment/seed_ensemble.hpp"
 
 namespace swirl {
 namespace {
@@ -524,7 +524,8 @@ void check(const ExperimentSettings& settings) {
 }
 
 ExperimentResult make_experiment(const std::vector<ContainerVideo>& videos,
-                                 const ExperimentSettings& settings, const ExperimentControl& control) {
+                                 const ExperimentSettings& settings,
+                                 const ExperimentControl& control) {
     ExperimentResult result;
     Experiment experiment(videos, settings);
     if (settings.simulate) experiment.simulate(control, result);

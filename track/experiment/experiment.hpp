@@ -56,6 +56,7 @@ struct ExperimentControl {
 /// finished runs are stored in OUT/parts.
 void check(const ExperimentSettings& settings);
 ExperimentResult make_experiment(const std::vector<ContainerVideo>& videos,
-                                 const ExperimentSettings& settings, const ExperimentControl& control);
+                                 const ExperimentSettings& settings,
+                                 const ExperimentControl& control);
 
 }  // namespace swirl

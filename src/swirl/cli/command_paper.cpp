@@ -58,8 +58,7 @@ nlohmann::ordered_json json_of(const PaperCall& call) {
                                 {"program", system::program_file().string()}};
     if (!call.share.part.empty()) json["part"] = {share.part, share.parts};
     // In the build tree the module is next to the program; an installed one is where Python looks.
-    if (const fs::path module = system::program_file().parent_path() / "python";
-        fs::exists(module))
+    if (const fs::path module = system::program_file().parent_path() / "python"; fs::exists(module))
         json["module"] = module.string();
     return json;
 }

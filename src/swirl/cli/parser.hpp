@@ -9,9 +9,9 @@ namespace swirl {
 /// The parsed arguments.
 struct Call {
     std::function<void()> check = {};  // throws UsageError for a wrong call
-    std::function<void()> act;  // the subcommand with its options; empty if there is none
-    std::string text;           // the output of --help or --version
-    std::string usage;          // the help of the whole program
+    std::function<void()> act;         // the subcommand with its options; empty if there is none
+    std::string text;                  // the output of --help or --version
+    std::string usage;                 // the help of the whole program
 };
 
 /// Throws UsageError for invalid arguments.
