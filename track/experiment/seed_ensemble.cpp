@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "swirl/io/checksum.hpp"
-#include "track/experiment/results.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/statistics/replicates.hpp"
+#include "track/experiment/results.hpp"
 
 namespace swirl {
 namespace {
