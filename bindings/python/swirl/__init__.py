@@ -21,13 +21,14 @@ from ._runs import Interrupted, Parameter, measurements, parameters, run
 from ._simulation import EventKind, Simulation, load
 from ._study import Crossing, SweepWarning, collect, crossing, parameter_map, sweep
 from ._study import map_runs as map
+from ._track import VideoTracks, track
 
 __version__ = _version().split()[0]
 
 __all__ = [
     "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
     "FileError", "Frames", "Interrupted", "Lab", "Measured", "Parameter", "Recording", "Result", "Rotation",
-    "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "analyse", "collect",
-    "crossing", "lab", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
-    "samples_per_period", "sweep",
+    "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "VideoTracks", "analyse",
+    "collect", "crossing", "lab", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
+    "samples_per_period", "sweep", "track",
 ]
