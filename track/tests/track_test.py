@@ -11,6 +11,7 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -402,9 +403,29 @@ class TrackTest(InFolder):
         # A number that the frames contradict is rejected.
         rejected = swirl("track", video, "--discs", 40, "--out", self.path("none.csv"))
         self.assertEqual(rejected.returncode, 1, rejected.stderr)
-        self.assertIn("40 discs", rejected.stderr)
-        self.assertIn("plain floor", rejected.stderr)
+        self.assertRegex(rejected.stderr, r"--discs is 40, but (the video shows|most frames show) \d+")
         self.assertFalse(os.path.exists(self.path("none.csv")))
+
+    def test_a_number_that_the_video_contradicts_is_rejected_with_both(self):
+        video = self.video()
+        for given in (9, 40):
+            self.assert_rejected(1, f"--discs is {given}", "20", call=swirl(
+                "track", video, "--discs", given, "--out", self.path("tracks.csv")))
+
+    def test_a_killed_ffmpeg_is_an_error(self):
+        video, folder = self.video(), self.path("bin")
+        os.mkdir(folder)
+        # ffmpeg ends in the middle of the frames: killed, or after a signal that it handles.
+        for end in ("kill -KILL $$", "exit 255"):
+            with open(os.path.join(folder, "ffmpeg"), "w", encoding="utf-8") as script:
+                script.write(f"""#!/bin/sh
+case "$*" in *image2pipe*) '{shutil.which("ffmpeg")}' "$@" | head -c 3000000; {end} ;; esac
+exec '{shutil.which("ffmpeg")}' "$@"
+""")
+            os.chmod(os.path.join(folder, "ffmpeg"), 0o755)
+            path = folder + os.pathsep + os.environ["PATH"]
+            self.assert_rejected(1, "before the end of", call=swirl(
+                "track", video, "--out", self.path("tracks.csv"), environment={"PATH": path}))
 
     @slow("six videos of two periods; the wall of most other tests is reached in every frame")
     def test_container_radius_with_few_discs(self):

@@ -110,6 +110,10 @@ Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& su
         tracked.warnings.push_back(
             fmt::format("the video is damaged or cut off after {} frames; ffmpeg reports: {}",
                         all.size(), tracked.damage));
+    else if (settings.max_frames == 0 && std::int64_t(all.size()) < expected)
+        tracked.warnings.push_back(
+            fmt::format("the video has {} frames according to its index, but only {} can be read",
+                        expected, all.size()));
     return all;
 }
 

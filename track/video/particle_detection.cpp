@@ -319,6 +319,35 @@ ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
     return appearance;
 }
 
+std::size_t count_opposite_discs(const std::vector<PreparedFrame>& frames,
+                                 const std::vector<CircleFit>& rims,
+                                 const ParticleAppearance& appearance) {
+    constexpr double clear_support = 0.6;  // a gap between six discs has less
+    constexpr double max_off = 0.25;       // of the radius
+    ParticleSurvey survey{frames, rims};
+    const double radius = appearance.radius();
+    CommonCircle same{1.0, radius * frames.front().shrink, appearance.polarity, appearance.spacing};
+    CommonCircle opposite = same;
+    opposite.polarity = -same.polarity;
+    std::vector<double> numbers;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        survey.edges.push_back(edges_inside(frames[k], rims[k]));
+        if (!rims[k].good) continue;
+        const std::vector<CircleFit> discs = fit_free_circles(survey, k, same);
+        const std::vector<CircleFit> others = fit_free_circles(survey, k, opposite);
+        numbers.push_back(
+            double(std::count_if(others.begin(), others.end(), [&](const CircleFit& other) {
+                return other.support > clear_support &&
+                       std::abs(other.radius - radius) < max_off * radius &&
+                       std::none_of(discs.begin(), discs.end(), [&](const CircleFit& disc) {
+                           return length(disc.centre - other.centre) <
+                                  min_distance * (disc.radius + other.radius);
+                       });
+            })));
+    }
+    return numbers.empty() ? 0 : static_cast<std::size_t>(median(numbers));
+}
+
 namespace {
 
 /// Refines the position of a disc that is known to a pixel or two.

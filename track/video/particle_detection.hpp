@@ -43,6 +43,7 @@ struct ParticleAppearance {
     Polarity polarity = 1;
     std::vector<ParticleSpecies> species;  // one or two, the smaller first
     std::size_t number = 0;                // of all discs
+    std::size_t opposite = 0;              // discs of the other brightness, which are not tracked
     double blur = 0.6;                     // applied to frames against noise, pixels
     double sure = 0.45;                    // support that makes a circle a sure particle
     /// Contact distance relative to the sum of radii: above 1 if circles are a part of each disc.
@@ -82,6 +83,12 @@ struct KnownDiscs {
 ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
                                     const std::vector<CircleFit>& rims, const KnownDiscs& known,
                                     unsigned threads);
+
+/// The number of discs of the same size, but darker than the floor if the others are brighter, and
+/// vice versa: the median over the frames.
+std::size_t count_opposite_discs(const std::vector<PreparedFrame>& frames,
+                                 const std::vector<CircleFit>& rims,
+                                 const ParticleAppearance& appearance);
 
 /// Blur of the survey frames, pixels.
 inline constexpr double survey_blur = 0.6;

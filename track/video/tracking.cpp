@@ -112,7 +112,7 @@ void set_species(const TrackingSettings& settings, const ParticleAppearance& app
             }
         }
     }
-    tracked.number_given = settings.discs.has_value();
+    if (settings.discs) tracked.number_given = static_cast<std::size_t>(*settings.discs);
     if (settings.discs && tracked.species.size() == 1)
         tracked.species[0].number = static_cast<std::size_t>(*settings.discs);
     // The first one of the most frequent.
@@ -136,6 +136,13 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
         tracked.warnings.emplace_back(
             "there is a second circle of the container's size: of two containers in the frame, the "
             "one with the clearer rim was followed; crop the video to one of them");
+    constexpr std::size_t min_opposite = 2;  // a single one may be a mark on the floor
+    if (survey.appearance.opposite >= min_opposite)
+        tracked.warnings.push_back(
+            fmt::format("there are also {} {} discs, which are not tracked: use a floor that is {} "
+                        "than all discs",
+                        survey.appearance.opposite, tracked.bright ? "dark" : "bright",
+                        tracked.bright ? "darker" : "brighter"));
     collect_camera_motion(all, tracked);
     correct_lens(survey, all, tracked);
     tracked.frame_count = static_cast<std::int64_t>(all.size());

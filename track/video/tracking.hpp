@@ -108,7 +108,7 @@ struct TrackedVideo {
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
     std::vector<std::vector<std::uint8_t>> seen;  // 0: interpolated
     std::size_t number = 0;                       // of discs
-    bool number_given = false;                    // by the user
+    std::optional<std::size_t> number_given;      // by the user
     double spacing = 1.0;  // contact distance / sum of visible radii, if these are parts of discs
     double contact_ratio = 0.0;   // distance of discs in contact / sum of radii
     bool contact_fitted = false;  // from the distribution of all distances

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "swirl/math/unit_circle.hpp"
@@ -179,7 +180,45 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
 
 }  // namespace
 
+namespace {
+
+/// The largest number of discs that are detected in more than a seventh of the frames.
+std::size_t detected_at_once(const TrackedVideo& tracked) {
+    constexpr std::size_t one_in = 7;
+    std::vector<std::size_t> numbers;
+    for (const auto& seen : tracked.seen)
+        numbers.push_back(std::size_t(std::count(seen.begin(), seen.end(), 1)));
+    if (numbers.empty()) return 0;
+    const auto at = numbers.begin() + std::ptrdiff_t(numbers.size() / one_in);
+    std::nth_element(numbers.begin(), at, numbers.end(), std::greater<>());
+    return *at;
+}
+
+/// Throws UncertainDiscs if the video contradicts the number that the user gave.
+void reject_contradicted_number(const TrackedVideo& tracked) {
+    constexpr double most = 0.5;         // of the frames
+    constexpr double max_excess = 0.05;  // of the discs: phantoms are rejected
+    const std::size_t found = detected_at_once(tracked), given = *tracked.number_given;
+    if (found < given)
+        throw UncertainDiscs(fmt::format(
+            "--discs is {}, but the video shows {}: hardly any frame has more.\n"
+            "hint: omit --discs, or give the number of discs in the container. Discs that are "
+            "hidden or blurred need a better view.",
+            given, found));
+    const double crowded = double(tracked.crowded), frames = double(tracked.frame_count);
+    if (crowded < most * frames) return;
+    const double excess = double(tracked.rejected) / crowded;
+    if (excess > std::max(1.0, max_excess * double(given)))
+        throw UncertainDiscs(
+            fmt::format("--discs is {}, but most frames show {:.0f} discs.\n"
+                        "hint: omit --discs, or give the number of discs in the container.",
+                        given, double(given) + excess));
+}
+
+}  // namespace
+
 void reject_contradicted_discs(const TrackedVideo& tracked) {
+    if (tracked.number_given) return reject_contradicted_number(tracked);
     constexpr double most = 0.5;        // of the frames
     constexpr double max_excess = 0.1;  // of the discs
     constexpr double max_incomplete = 0.8;
@@ -188,13 +227,13 @@ void reject_contradicted_discs(const TrackedVideo& tracked) {
     const double excess = double(tracked.rejected) / crowded;
     if (excess < max_excess * double(tracked.number)) return;
     throw UncertainDiscs(fmt::format(
-        "{} discs with a radius of {:.1f} pixels were {}, but most frames contradict that: "
+        "{} discs with a radius of {:.1f} pixels were counted, but most frames contradict that: "
         "{:.0f} % have more, on average {:.0f} more, and all {} are found in only {:.0f} %. These "
-        "circles may be texture or noise.\nhint: give {}--disc-diameter and --container-diameter. "
+        "circles may be texture or noise.\nhint: give --discs, or --disc-diameter and "
+        "--container-diameter. "
         "A plain floor, a higher contrast and less compression also help.",
-        tracked.number, tracked.radius, tracked.number_given ? "expected" : "counted",
-        std::min(100.0, 100.0 * crowded / frames), excess, tracked.number,
-        100.0 * tracked.complete_share, tracked.number_given ? "" : "--discs, or "));
+        tracked.number, tracked.radius, std::min(100.0, 100.0 * crowded / frames), excess,
+        tracked.number, 100.0 * tracked.complete_share));
 }
 
 void add_warnings(TrackedVideo& tracked) {

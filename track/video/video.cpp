@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
@@ -114,6 +115,20 @@ std::string read_all(const Ffmpeg& ffmpeg) {
     }
 }
 
+/// Waits for ffmpeg to end. Throws Failure if a signal ended it, since its output is then incomplete.
+/// Errors that ffmpeg itself reports are judged by its output.
+void require_end(Ffmpeg& ffmpeg, const std::string& source) {
+    constexpr int stopped = 255;  // its exit code after a signal that it handles
+    const int status = ffmpeg.end();
+    if (!WIFSIGNALED(status) && WEXITSTATUS(status) != stopped) return;
+    throw Failure(
+        fmt::format("ffmpeg was {} before the end of '{}'\n"
+                    "hint: track the video again; the system kills programs if memory runs out",
+                    WIFSIGNALED(status) ? fmt::format("killed by signal {}", WTERMSIG(status))
+                                        : std::string("stopped by a signal"),
+                    source));
+}
+
 /// Times in ffmpeg's framecrc format: "#tb 0: 1/TICKS", then "0, DTS, PTS, …" for each frame.
 std::vector<double> framecrc_times(const std::string& text) {
     std::vector<double> seconds;
@@ -145,7 +160,7 @@ VideoTimes video_times(const std::string& source) {
     append(arguments, {"-c", "copy", "-copyts", "-f", "framecrc", "pipe:1"});
     Ffmpeg ffmpeg(arguments, Ffmpeg::Side::output, missing_ffmpeg);
     times.seconds = framecrc_times(read_all(ffmpeg));
-    ffmpeg.end();
+    require_end(ffmpeg, source);
     if (times.seconds.empty()) throw Failure(no_frames_message(source, ffmpeg.problem()));
     times.frame_count = static_cast<std::int64_t>(times.seconds.size());
     std::sort(times.seconds.begin(), times.seconds.end());
@@ -212,7 +227,7 @@ FieldOrder field_order(const std::string& source, std::int64_t first) {
                        "-f", "null", "-"});
     Ffmpeg ffmpeg(arguments, Ffmpeg::Side::output, missing_ffmpeg);
     const std::string text = read_all(ffmpeg);
-    ffmpeg.end();
+    require_end(ffmpeg, source);
     const auto number = [&](const std::string& value) {
         const std::string line = "current_frame=" + value + "\n";
         int count = 0;
@@ -291,7 +306,7 @@ bool Video::next(cv::Mat& grey) {
         ++count_;
         return true;
     }
-    ffmpeg_->end();
+    require_end(*ffmpeg_, video_);
     problem_ = ffmpeg_->problem();
     ffmpeg_.reset();
     if (count_ == 0) throw Failure(no_frames_message(video_, problem_));

@@ -72,17 +72,20 @@ ParticleAppearance survey_appearance(const std::vector<cv::Mat>& images,
     const auto by_shading = [&] {
         return survey_shading(part, rims, known, thread_count(settings));
     };
+    std::optional<ParticleAppearance> found;
     try {
         const ParticleAppearance by_edges =
             survey_particles(part, rims, known, thread_count(settings));
         // Circles that are only the lit parts of balls are displaced by different amounts.
         if (by_edges.spacing > 1.0)
-            if (const auto found = by_shading()) return *found;
-        return by_edges;
+            if (const auto shaded = by_shading()) return *shaded;
+        found = by_edges;
     } catch (const Failure&) {
-        if (const auto found = by_shading()) return *found;
+        if (const auto shaded = by_shading()) return *shaded;
         throw;
     }
+    found->opposite = count_opposite_discs(part, rims, *found);
+    return *found;
 }
 
 std::vector<AppearanceTemplate::Example> find_examples(const std::vector<cv::Mat>& images,
