@@ -73,7 +73,7 @@ class MovieTest(InFolder):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(probe(out, "stream=width,height,r_frame_rate,duration,nb_read_frames"),
                          "320,180,30/1,0.700000,21")
-        self.assertIn("21 frames", result.stdout)
+        self.assertIn("frames      21, 30 per second", result.stdout)
 
     def test_duration_in_periods(self):
         out = self.path("x.mp4")

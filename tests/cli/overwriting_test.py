@@ -285,15 +285,15 @@ class Names(InFolder):
         self.assertIn(says, done.stderr)
 
     def test_two_outputs_of_a_run_with_the_same_name(self):
-        for other in ("x", "./x", "../" + os.path.basename(self.folder) + "/x", self.path("x")):
-            self.assert_rejected("run", "--events", 100, "--trajectory", "x", "--json", other)
-            self.assert_rejected("run", "--events", 100, "--log-events", "x", "--trajectory", other)
+        for other in ("x.h5", "./x.h5", "../" + os.path.basename(self.folder) + "/x.h5", self.path("x.h5")):
+            self.assert_rejected("run", "--events", 100, "--trajectory", "x.h5", "--json", other)
+            self.assert_rejected("run", "--events", 100, "--log-events", "x.h5", "--trajectory", other)
         self.assertEqual(self.left_behind(), [])
 
     def test_a_table_and_another_output_with_the_same_name(self):
         os.mkdir(self.path("tables"))
         measured = ["run", "--events", 2000, "--measure", "density,slip", "--tables", "tables", "--quiet"]
-        for other in (["--json", "tables/numbers.csv"], ["--trajectory", "./tables/density.csv"],
+        for other in (["--json", "tables/numbers.csv"], ["--checkpoint", "./tables/density.csv"],
                       ["--tables", "x", "--json", "x"]):
             self.assert_rejected(*(measured if len(other) == 2 else measured[:5]), *other)
         recording = self.recorded()
@@ -344,7 +344,7 @@ class Names(InFolder):
     def test_a_run_does_not_replace_its_configuration(self):
         plan = Path(self.path("plan.toml"))
         plan.write_text("discs = 5\nevents = 1000\n", encoding="utf-8")
-        for option in ("--json", "--trajectory", "--log-events", "--checkpoint"):
+        for option in ("--json", "--checkpoint"):  # recordings end in .h5
             for more in ([], ["--overwrite"]):
                 self.assert_rejected("run", "plan.toml", option, "./plan.toml", *more)
         self.assertEqual(plan.read_text(encoding="utf-8"), "discs = 5\nevents = 1000\n")
@@ -377,17 +377,18 @@ class Names(InFolder):
     def test_a_pipe_is_not_replaced(self):
         recording = self.recorded()
         os.mkfifo(self.path("pipe"))
+        os.mkfifo(self.path("pipe.h5"))
         for call in (["export", recording, "--format", "xyz", "--out", "pipe"],
-                     ["run", "--events", 100, "--trajectory", "pipe"],
-                     ["run", "--events", 100, "--log-events", "pipe"]):
+                     ["run", "--events", 100, "--trajectory", "pipe.h5"],
+                     ["run", "--events", 100, "--log-events", "pipe.h5"]):
             self.assert_rejected(*call, code=1, says="is a device, a pipe or a socket and cannot be replaced by a file")
-            self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode), call)
+            self.assertTrue(stat.S_ISFIFO(os.stat(self.path(call[-1])).st_mode), call)
         laboratory = [os.path.join(SOURCE, "web", "lab.sh"), "--out"]
         for place in (self.path("pipe"), self.folder):
             done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=150)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("which exists and is not a file", done.stderr)
-        self.assertEqual(self.left_behind(), ["pipe", "t.h5"])
+        self.assertEqual(self.left_behind(), ["pipe", "pipe.h5", "t.h5"])
 
 
 if __name__ == "__main__":

@@ -387,6 +387,7 @@ TEST(Sheet, ShortTitleLeavesMoreSpaceForContainers) {
         SheetSpec spec;
         spec.size = {1280, 720};
         spec.title = title;
+        spec.style.points = false;  // their legend takes a line
         spec.parameters = {"$N$ = 48"};
         spec.panels = {{Frame::lab, "lab frame", 8.6, 1.892}, {Frame::m, "M-frame", 8.6, 1.892}};
         spec.plot = PlotStyle{.from = 0.0, .to = 1.0, .lowest = -1.0, .highest = 1.0, .em = 1.0};

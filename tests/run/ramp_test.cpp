@@ -261,7 +261,7 @@ TEST(Ramp, WrongRampsAreRejectedWithAHint) {
              {"mu=0.1:-1@2..9", "in period 9"},
              {"restitution=1:1.5@2..9", "in period 9"},
              {"floor_friction=0.3:0.5@2..9", "there is no floor"},
-             {"", "it has no '='"}}) {
+             {"", "a part of it is empty"}}) {
         EXPECT_THAT(error_of(ramp), HasSubstr(part)) << ramp;
         EXPECT_THAT(error_of(ramp), HasSubstr("--ramp")) << ramp;
     }

@@ -57,9 +57,12 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
                                   : name == "preset"       ? "experiment"
                                   : text.empty()           ? "1"
                                                            : text;
-        const SweepPlan plan = make_plan({{name, value}}, 1);
-        ASSERT_EQ(plan.axes.size(), 1u);
-        EXPECT_EQ(plan.axes[0].name, name);
+        ParameterTexts given{{name, value}};
+        if (name == "floor_friction" || name == "gravity" || name == "rolling_resistance")
+            given = {{name, value}, {"floor", "sliding"}, {"body", "sphere"}};
+        const SweepPlan plan = make_plan(given, 1);
+        ASSERT_EQ(plan.axes.size(), given.size());
+        EXPECT_NE(plan.axis(name), nullptr);
     }
 }
 

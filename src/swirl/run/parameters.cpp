@@ -422,14 +422,21 @@ std::string default_of(const Parameter& p) {
     return shortened(as_text(is_unset ? member_value(p, {}) : written));
 }
 
-/// An explicit `--floor none` switches the floor's parameters off, for example in a sweep.
+/// An explicit `--floor none` switches the floor's parameters off, for example in a sweep. A ramp of
+/// one of them is an error in any case.
 static void reject_parameters_without_floor(const ParameterTexts& texts, const RunConfig& config) {
-    if (config.floor || texts.contains("floor")) return;
-    for (const char* name : {"floor_friction", "gravity", "rolling_resistance"})
+    if (config.floor) return;
+    for (const char* name : {"floor_friction", "gravity", "rolling_resistance"}) {
+        if (config.ramp_of(name))
+            throw_usage_error(
+                fmt::format("--ramp changes {}, but there is no floor.\nhint: add --floor sliding.",
+                            name));
+        if (texts.contains("floor")) continue;
         if (const auto found = texts.find(name); found != texts.end())
             throw_usage_error(
                 fmt::format("{} is {}, but there is no floor.\nhint: add --floor sliding.",
                             option_name(name), found->second));
+    }
 }
 
 RunConfig resolve(const ParameterTexts& given) {
