@@ -40,6 +40,7 @@ class Installed(unittest.TestCase):
         os.chmod(cls.folder, 0o755)
         cls.prefix = os.path.join(cls.folder, "prefix")
         output_of("cmake", "--install", BUILD, "--prefix", cls.prefix)
+        output_of("cmake", "--install", BUILD, "--prefix", cls.prefix, "--component", "python")
         cls.program = os.path.join(cls.prefix, "bin", "swirl")
 
     def test_files_do_not_contain_paths_of_the_build(self):

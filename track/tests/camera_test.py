@@ -95,7 +95,9 @@ class CameraTest(InFolder):
         arguments = [command, self.path("tracks.csv"), "--camera-fps", CAMERA_FPS, "--scale", SCALE,
                      "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--phase", phase,
                      "--amplitude", AMPLITUDE, "--container-radius", RADIUS, "--size",
-                     f"{SIDE}x{SIDE}"]
+                     f"{SIDE}x{SIDE}", "--theme", "dark"]  # the page is no bright blob
+        if "--color" not in more:
+            arguments += ["--color", "none"]
         if over:
             arguments += ["--over", self.path("seen/%04d.png")]
         return swirl(*arguments, *more)

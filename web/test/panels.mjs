@@ -185,7 +185,7 @@ try {
     assert.equal(tableOf([{curve, x: 5, given: {}, done: true, rotation: estimates(1), command: "./swirl run --discs 5"},
                           {curve, x: 6, given: {}, done: true, collapsed: true, command: "c"}, {curve, x: 7, given: {}}],
                          "discs", "rotation"),
-        "mu,discs,runs,collapsed,varpi_by_time,varpi_by_time_error,varpi_by_event,varpi_by_event_error,varpi_rigid_by_time," +
+        "mu,discs,runs,collapsed,varpi_mean_by_time,varpi_mean_by_time_error,varpi_mean_by_event,varpi_mean_by_event_error,varpi_rigid_by_time," +
         "varpi_rigid_by_time_error,varpi_rigid_by_event,varpi_rigid_by_event_error,command\n" +
         "0.5,5,4,0,1,0.5,2,0.5,3,0.5,4,0.5,\"./swirl run --discs 5\"\n0.5,6,4,1,,,,,,,,,\"c\"\n");
 

@@ -57,9 +57,11 @@ nlohmann::ordered_json json_of(const PaperCall& call) {
                                 {"defaults", config_json(config)},
                                 {"program", system::program_file().string()}};
     if (!call.share.part.empty()) json["part"] = {share.part, share.parts};
-    // In the build tree the module is next to the program; an installed one is where Python looks.
-    if (const fs::path module = system::program_file().parent_path() / "python"; fs::exists(module))
-        json["module"] = module.string();
+    // The module is next to the program (build tree), in the same prefix, or where Python looks.
+    for (const char* const where : {"python", "../lib/python3/dist-packages"})
+        if (const fs::path module = system::program_file().parent_path() / where;
+            !json.contains("module") && fs::exists(module / "swirl"))
+            json["module"] = module.lexically_normal().string();
     return json;
 }
 
