@@ -1,23 +1,26 @@
 """The figures of paper/: runs that are stored, reused, shared and combined."""
 
 import csv
-import json
 import os
-import subprocess
 import sys
 from pathlib import Path
 
 PAPER = os.path.join(os.environ["SWIRL_SOURCE"], "paper")
 sys.path.insert(0, PAPER)
+import command  # noqa: E402
 import study  # noqa: E402
 
 EVENTS = 2000
 
 
-def made(out, *figures, **more):
-    call = {"figures": figures, "quick": True, "events": EVENTS, "out": str(out), "draw": False, **more}
-    done = subprocess.run([sys.executable, "-B", PAPER, json.dumps(call)], capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
+def made(out, *figures, part=None):
+    """The counts of the runs of `swirl paper`, which also writes the tables unless it makes only a part."""
+    paper = command.Paper({"figures": list(figures), "quick": True, "events": EVENTS, "out": str(out)})
+    if part:
+        points = [point for figure in paper.figures for point in figure.points(paper.settings)]
+        return study.make(points, paper.settings, part=tuple(part))
+    paper.run(lambda fraction: None)
+    return paper.counts
 
 
 def rows(folder, name):

@@ -10,8 +10,8 @@ import tempfile
 from typing import Any, Optional
 
 from . import _engine
-from .__main__ import program
 from ._optional import optional
+from ._program import program
 from ._recordings import Tracks, _ReadTracks, _camera
 from ._runs import PathName
 
