@@ -33,8 +33,8 @@ def test_a_video_becomes_a_table_and_a_recording(tmp_path, monkeypatch):
     assert len(tracks) == tracks.table["frame"].nunique()
     # The measurement is that of the command line on the same tracks.
     measured = subprocess.run([SWIRL, "measure", csv, "--json", "-"], capture_output=True, check=True, text=True)
-    by_time = json.loads(measured.stdout)["rotation"]["by_time"]["mean"]
-    assert swirl.analyse(tracks).rotation.by_time.mean == by_time
+    by_time = json.loads(measured.stdout)["rotation"]["mean_by_time"]["mean"]
+    assert swirl.analyse(tracks).rotation.mean_by_time.mean == by_time
 
 
 def test_errors_name_the_cause(tmp_path, monkeypatch):

@@ -53,7 +53,7 @@ def track(video: PathName, *, discs: Optional[int] = None, fps: Optional[float] 
 
         tracks = swirl.track("video.mp4")
         tracks.table                          # a DataFrame; tracks.units has the units
-        swirl.analyse(tracks).rotation.by_time
+        swirl.analyse(tracks).rotation.mean_by_time
 
     discs: their number, if it is known. fps: frames per second, if the file is wrong. spin: also measures
     the spins of discs with a texture. frames: the first ones only.

@@ -428,9 +428,8 @@ static void reject_parameters_without_floor(const ParameterTexts& texts, const R
     if (config.floor) return;
     for (const char* name : {"floor_friction", "gravity", "rolling_resistance"}) {
         if (config.ramp_of(name))
-            throw_usage_error(
-                fmt::format("--ramp changes {}, but there is no floor.\nhint: add --floor sliding.",
-                            name));
+            throw_usage_error(fmt::format(
+                "--ramp changes {}, but there is no floor.\nhint: add --floor sliding.", name));
         if (texts.contains("floor")) continue;
         if (const auto found = texts.find(name); found != texts.end())
             throw_usage_error(
