@@ -13,7 +13,7 @@ PARTS = ("N_c", "N_c_error", "N_c_lower", "N_c_upper")
 def search(parameters):
     parameters = dict(parameters)
     given = {name: parameters.pop(name) for name in ("min_discs", "max_discs", "tolerance", "min_periods")}
-    text, report = swirl._engine.crossing(parameters, rate="mean_by_time", threads=1, command="", progress=None, **given)
+    text, report = swirl._engine.crossing(None, parameters, rate="mean_by_time", threads=1, command="", progress=None, **given)
     return {**json.loads(text), "report": report}
 
 

@@ -34,6 +34,7 @@ FIGURES = {
     "fields": {"x", "y", "packing", "packing_error", "torque", "torque_error", "relation", "relation_error"},
     "closure": {"container_radius", "discs", "relation", "packing_low", "coefficient", "coefficient_error", "explained"},
     "gears": {"mu", "discs", "correlation_by_impulse", "resident_error", "wall_sticking"},
+    "friction": {"mu", "crosses", "crossing", "crossing_error"},
     "material_inertia": {"inertia", "restitution", "crossing", "crossing_error", "lowest", "highest"},
     "states": {"setting", "discs", "granular", "granular_error", "coriolis", "coriolis_error"},
 }
