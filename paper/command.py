@@ -21,6 +21,8 @@ def draw(job):
     name, table = job
     try:
         catalogue.named([name])[0].draw(table)
+        import style
+        style.plt.close("all")  # this process draws several figures
     except ModuleNotFoundError as missing:
         if missing.name != "matplotlib":
             raise
