@@ -11,7 +11,7 @@ import time
 import atomic_file
 import catalogue
 import study
-from console import Problem, Progress, duration
+from console import INTERRUPTED, Problem, Progress, duration
 
 SETTINGS = ("quick", "events", "out", "seed", "first_seeds", "threads")
 
@@ -35,10 +35,8 @@ def draw(job):
 def add_seeds_to_undecided(settings, plans):
     """Doubles the seeds of the points on which undecided claims rest. Returns (True if there are any, the number of
     those whose budget is used)."""
-    import claims
-    verdicts = claims.all_verdicts(settings.out)
-    atomic_file.write(os.path.join(settings.out, "verdicts.json"),
-                      json.dumps(verdicts, indent=1, ensure_ascii=False) + "\n")
+    from judge_claims import write_verdicts
+    verdicts = write_verdicts(settings.out)
     seeds = {point.name: len(point.tasks) for plan in plans for point in plan}
     undecided = [name for name in verdicts["points_to_decide"] if name in seeds]
     more = [name for name in undecided if 2 * seeds[name] <= settings.max_seeds]
@@ -158,7 +156,7 @@ def main(call):
             lines += [f"wrote {file}" for file in files]
     except KeyboardInterrupt:
         raise Problem(f"stopped before the end; finished runs are stored in '{os.path.join(paper.settings.out, 'parts')}'."
-                      "\nhint: the same call continues from there.", 130) from None
+                      "\nhint: the same call continues from there.", INTERRUPTED) from None
     print("\n".join(lines), flush=True)
     missing = [made["name"] for made in paper.made if made["problem"]]
     if missing:

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import atomic_file
-from console import Problem, Progress
+from console import INTERRUPTED, Problem, Progress
 from engine import swirl
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
 from study import checksum_of
@@ -122,7 +122,8 @@ def make(call):
                 done += 1
                 progress(done / len(movies))
     except KeyboardInterrupt:
-        raise Problem(f"stopped after {done} of {len(movies)} movies.\nhint: the same call makes the others.", 130) from None
+        raise Problem(f"stopped after {done} of {len(movies)} movies.\nhint: the same call makes the others.",
+                      INTERRUPTED) from None
     with open(PAGE, encoding="utf-8") as file:
         page = jinja2.Template(file.read(), autoescape=True).render(systems=SYSTEMS)
     atomic_file.write(os.path.join(folder, "movies.html"), page + "\n")
