@@ -57,8 +57,19 @@ def named(names):
     """The figures with these names, which may be names of groups or "all"; each once."""
     check(names)
     wanted = [entry for name in names for entry in entries() if name in ("all", entry[0], entry[1])]
-    return [next(figure for figure in importlib.import_module(module).FIGURES if figure.name == name)
-            for name, _, _, module in dict.fromkeys(wanted)]
+    return [loaded(*entry) for entry in dict.fromkeys(wanted)]
+
+
+def loaded(name, group, description, module):
+    """The figure. If its file cannot be imported, one whose points and drawing raise the error: it fails alone."""
+    try:
+        return next(figure for figure in importlib.import_module(module).FIGURES if figure.name == name)
+    except Exception as error:
+        from figure import Figure
+
+        def fail(*_, error=error):
+            raise error
+        return Figure(name, group, description, fail, fail, fail)
 
 
 def main():

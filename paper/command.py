@@ -28,7 +28,7 @@ def draw(job):
             raise
         return "the figures need matplotlib; the tables are written.\nhint: install the Debian package python3-matplotlib."
     except (Exception, SystemExit) as error:  # the other figures are made
-        return f"its table is written, but it cannot be drawn: {type(error).__name__}: {error}"
+        return f"its table is written, but it cannot be drawn: {study.reason_of(error)}"
     return ""
 
 
@@ -52,13 +52,13 @@ class Paper:
         self.settings = study.Settings(**{name: call[name] for name in SETTINGS if call.get(name) is not None})
         self.figures = catalogue.named(call["figures"] or ["all"])
         self.is_all = not call["figures"] or "all" in call["figures"]
-        self.made, self.counts, self.undecided = [], {}, 0
+        self.made, self.counts, self.undecided, self.problems = [], {}, 0, {}
 
     def run(self, progress):
         """Makes the runs and the tables; if all figures are made, also more seeds until the claims are decided."""
         first = None
         while True:
-            plans = [figure.points(self.settings) for figure in self.figures]
+            plans = self.plans()
             counts = study.make([point for plan in plans for point in plan], self.settings, progress)
             first = first or counts
             self.counts = {**counts, "reused": first["reused"]}
@@ -69,12 +69,23 @@ class Paper:
             if not more:
                 return
 
+    def plans(self):
+        """The points of each figure. One that cannot list them fails alone."""
+        plans = []
+        for figure in self.figures:
+            try:
+                plans.append(figure.points(self.settings))
+            except Exception as error:
+                plans.append([])
+                self.problems[figure.name] = study.reason_of(error)
+        return plans
+
     def finished(self, figure, plan):
-        problem, findings, files = "", [], []
+        problem, findings, files = self.problems.get(figure.name) or study.broken(plan), [], []
         try:
-            findings, files = figure.write(plan, self.settings)
+            findings, files = ([], []) if problem else figure.write(plan, self.settings)
         except Exception as error:  # the other figures are made
-            problem = f"{type(error).__name__}: {error}".removeprefix("Failure: ")
+            problem = study.reason_of(error)
         return {"name": figure.name, "description": figure.description, "findings": findings + study.remarks(plan),
                 "files": files, "problem": problem}
 
@@ -124,12 +135,13 @@ class Paper:
 
 
 def make_part(paper, part, progress):
-    points = [point for figure in paper.figures for point in figure.points(paper.settings)]
+    points = [point for plan in paper.plans() for point in plan]
     counts = study.make(points, paper.settings, progress, part)
     print(f"{counts['tasks'] - counts['reused']} runs of part {part[0]}/{part[1]} in "
           f"{duration(time.monotonic() - paper.begin)}; stored in '{os.path.join(paper.settings.out, 'parts')}'.")
-    if counts["failed"]:
-        raise Problem(f"{counts['failed']} runs failed.")
+    problems = [f"figure {name} cannot be made: {problem}" for name, problem in paper.problems.items()]
+    if counts["failed"] or problems:
+        raise Problem("; ".join([f"{counts['failed']} runs failed", *problems]) + ".")
 
 
 def main(call):

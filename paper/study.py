@@ -162,14 +162,24 @@ def do(job):
     begin = time.monotonic()
     try:
         result = task.work(task.parameters) if task.work else plain_run(task.parameters, task.measure)
-    except swirl.Failure as failure:
-        return k, {"result": {"failed": str(failure)}, "seconds": time.monotonic() - begin}
-    result = json.loads(json.dumps(result))  # as it will be read
+        result = json.loads(json.dumps(result))  # as it will be read
+    except Exception as error:  # the other runs are made
+        failure = {"failed": reason_of(error)} | ({} if isinstance(error, swirl.Failure) else {"broken": True})
+        return k, {"result": failure, "seconds": time.monotonic() - begin}
     stored = {"identity": task.identity, "version": swirl._engine.version(), "measure": list(task.measure),
               "seconds": time.monotonic() - begin, "result": result}
     stored["checksum"] = checksum_of(stored)
     atomic_file.write(task.file(out), json.dumps(stored) + "\n")
     return k, stored
+
+
+def reason_of(error):
+    return str(error) if isinstance(error, swirl.Failure) else f"{type(error).__name__}: {error}"
+
+
+def broken(points):
+    """The reason of the first run that ended with an error in the code of its figure, not with a failed simulation."""
+    return next((task.result["failed"] for point in points for task in point.tasks if (task.result or {}).get("broken")), "")
 
 
 def distinct(points):

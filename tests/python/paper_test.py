@@ -5,9 +5,14 @@ import os
 import sys
 from pathlib import Path
 
+import pytest
+
 PAPER = os.path.join(os.environ["SWIRL_SOURCE"], "paper")
 sys.path.insert(0, PAPER)
+import catalogue  # noqa: E402
 import command  # noqa: E402
+import console  # noqa: E402
+import figure  # noqa: E402
 import study  # noqa: E402
 
 EVENTS = 2000
@@ -75,3 +80,36 @@ def test_a_point_with_measurements_serves_one_without(tmp_path):
 def test_more_seeds_for_a_single_point():
     settings = study.Settings(seeds_of_point={"p": 16})
     assert [len(study.Point(settings, name, 8, {"discs": 5}).tasks) for name in "pq"] == [16, 8]
+
+
+def raises(*_):
+    raise LookupError("no such number")
+
+
+@pytest.mark.parametrize("broken", (
+    figure.Figure("broken", "beyond", "", raises, None),
+    figure.Figure("broken", "beyond", "", lambda settings: [study.Point(settings, "b", 1, {"discs": 5}, work=raises)], None),
+    figure.Figure("broken", "beyond", "", lambda settings: [], raises)), ids=("points", "work", "table"))
+def test_an_error_in_the_code_of_a_figure_does_not_end_the_others(tmp_path, monkeypatch, capsys, broken):
+    good = figure.Figure("good", "beyond", "", lambda settings: [study.Point(settings, "g", 1, {"discs": 5})],
+                         lambda points, settings: ({"": [{"point": point.name} for point in points]}, []))
+    monkeypatch.setattr(catalogue, "named", lambda names: [broken, good])
+    call = {"figures": ["beyond"], "quick": True, "events": EVENTS, "out": str(tmp_path), "quiet": True}
+    with pytest.raises(console.Problem, match="figures that could not be made: broken") as problem:
+        command.main(call)
+    assert problem.value.code == 1
+    assert "LookupError: no such number" in capsys.readouterr().out
+    assert rows(tmp_path, "good") == [["point"], ["g"]]
+    if broken.points is raises:
+        with pytest.raises(console.Problem, match="figure broken cannot be made: LookupError"):
+            command.main(call | {"part": [1, 1]})
+
+
+def test_a_file_that_cannot_be_imported_fails_alone(tmp_path, monkeypatch):
+    (tmp_path / "chapters").mkdir()
+    (tmp_path / "chapters" / "scratch.py").write_text(
+        'import nothing_of_this_name\nFIGURES = [Figure("scratch", "chapters", "chapter: a new one", points, table)]\n')
+    monkeypatch.setattr(catalogue, "FOLDER", str(tmp_path))
+    scratch, = catalogue.named(["scratch"])
+    with pytest.raises(ImportError, match="scratch"):
+        scratch.points(study.Settings())
