@@ -12,7 +12,8 @@ import sys
 
 import atomic_file
 from claims.settings import ALSO
-from report import ORDER, cell, judge
+from html_page import cell
+from report import ORDER, judge
 from verdicts import FAILS, HOLDS
 
 

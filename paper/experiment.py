@@ -4,12 +4,13 @@
     /usr/bin/python3 paper/experiment.py marbles
 """
 
-import html
 import math
 import os
 
-import html_page as report
 import style
+from atomic_file import write_or_exit
+from claims.wording import number
+from html_page import described_folder, rendered
 
 LOOK = {"rough": (style.RED, "o"), "smooth": (style.SKY, "D")}
 
@@ -57,8 +58,7 @@ def against_n(folder, name, rows, quantities, ylabel, level=None, surfaces=("rou
         return None
     if level is not None:
         axes.axhline(level, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
-    axes.set_xlabel(r"number of discs $N$")
-    axes.set_ylabel(ylabel)
+    axes.set(xlabel=r"number of discs $N$", ylabel=ylabel)
     numbers = style.column(rows, "discs")
     axes.set_xlim(min(numbers) - 1.5, max(numbers) + 1.5)
     style.legend(axes)
@@ -70,7 +70,7 @@ def profile(folder, name, rows, quantity, level, label):
     rows = [row for row in rows if row["surface"] == "rough"]
     if not rows:
         return None
-    numbers = sorted({row["discs"] for row in rows})
+    numbers = style.distinct(rows, "discs")
     drawing, axes = style.figure(height=2.6)
     colors = style.plt.get_cmap("viridis")
     span = max(numbers[-1] - numbers[0], 1)
@@ -90,9 +90,7 @@ def profile(folder, name, rows, quantity, level, label):
     axes.plot([], [], "o", color=style.GREY, fillstyle="none", markersize=3, label="video")
     axes.plot([], [], color=style.GREY, label="simulation, sampled like the video")
     axes.axhline(level, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
-    axes.set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
-    axes.set_ylabel(label)
-    axes.set_xlim(0, 360)
+    axes.set(xlabel=r"angular position $\theta$ in the M-frame (°); M is at 270°", ylabel=label, xlim=(0, 360))
     axes.set_xticks(range(0, 361, 90))
     style.legend(axes)
     if len(numbers) > 1:
@@ -144,32 +142,17 @@ def maps(folder, video, amplitude):
     return f"figure_2_{video}"
 
 
-def with_error(mean, error):
-    if mean is None or math.isnan(mean):
-        return "–"
-    if error is None or math.isnan(error) or error <= 0:
-        return f"{mean:.3g}"
-    digits = max(0, 1 - math.floor(math.log10(error)))
-    return f"{mean:.{digits}f} ± {error:.{digits}f}".replace("-", "−")
+VIDEO_COLUMNS = ["video", "N", "periods", "frames per period", "disc radius, pixels", "R", "A", "complete frames",
+                 "position error, pixels", "ϖ/Ω by time", "simulated"]
 
 
-def videos_table(rows):
-    head = ["video", "N", "periods", "frames per period", "disc radius, pixels", "R", "A",
-            "complete frames", "position error, pixels", "ϖ/Ω by time", "simulated"]
-    body = []
-    for row in rows:
-        if row["failed"] == row["failed"] and row["failed"]:
-            body.append([report.td(row["video"]), report.td("–"),
-                         f"<td colspan=9>{html.escape(str(row['failed']))}</td>"])
-            continue
-        body.append([report.td(text) for text in (
-            row["video"], f"{row['discs']:.0f}", f"{row['periods']:.1f}",
-            f"{row['frames_per_period']:.0f}", f"{row['radius']:.2f}",
-            f"{row['container_radius']:.3f}", f"{row['amplitude']:.3f}",
+def video_row(row):
+    if isinstance(row["failed"], str):
+        return [row["video"], "–", row["failed"]]
+    return [row["video"], f"{row['discs']:.0f}", f"{row['periods']:.1f}", f"{row['frames_per_period']:.0f}",
+            f"{row['radius']:.2f}", f"{row['container_radius']:.3f}", f"{row['amplitude']:.3f}",
             f"{100 * row['complete_share']:.1f} %", f"{row['position_error']:.2f}",
-            with_error(row["mean_by_time"], row["mean_by_time_error"]),
-            with_error(row["simulated"], row["simulated_error"]))])
-    return report.table(head, body)
+            number(row["mean_by_time"], row["mean_by_time_error"]), number(row["simulated"], row["simulated_error"])]
 
 
 TITLES = {
@@ -185,58 +168,39 @@ TITLES = {
 }
 
 
-def figure_html(folder, name):
-    title, text = TITLES.get(name, (None, None))
-    if title is None:
-        title = f"Figure 2, {name.removeprefix('figure_2_')}"
-        text = ("Density of the discs in the M-frame and their mean flow relative to the container, in "
-                "the video and in a simulation of the same number of discs.")
-    image = (f'<img alt="{html.escape(title)}" '
-             f'src="{report.inline(os.path.join(folder, name + ".png"))}">')
-    wide = " class=wide" if name.startswith("figure_2_") else ""
-    return (f"<figure{wide}>{image}<figcaption><h3>{html.escape(title)}</h3><p>{html.escape(text)}</p>"
-            f"<p class=small><code>{html.escape(name)}.pdf</code></p></figcaption></figure>\n")
+def figure_row(name):
+    title, text = TITLES.get(name) or (
+        f"Figure 2, {name.removeprefix('figure_2_')}", "Density of the discs in the M-frame and their mean flow relative to "
+        "the container, in the video and in a simulation of the same number of discs.")
+    return {"title": title, "images": [f"{name}.png"], "wide": name.startswith("figure_2_"), "caption": text,
+            "command": f"{name}.pdf"}
 
 
-def video_html(folder, video):
-    found, remarks = video.get("found") or {}, video.get("remarks") or []
-    images = [os.path.join(folder, name) for name in video.get("images", [])]
-    image = "".join(f'<img alt="the video with the detected discs" src="{report.inline(p)}">'
-                    for p in images if os.path.exists(p))
-    items = "".join(f"<li>{html.escape(remark)}</li>" for remark in remarks)
-    path = found.get("path", {})
-    said = ""
-    if path:
-        said = (f"<p>{html.escape(str(found.get('discs')))} discs, {found.get('frames')} frames; "
-                f"centre {path['centre'][0]:.2f}, {path['centre'][1]:.2f}, amplitude "
-                f"{path['amplitude']:.2f} pixels, "
-                f"{'clockwise' if path['clockwise'] else 'counter-clockwise'}.</p>")
-    return (f"<figure>{image}<figcaption><h3>{html.escape(video['name'])}</h3>"
-            f"<p class=small>{html.escape(video['video'])}</p>{said}"
-            f"{'<ul>' + items + '</ul>' if items else ''}</figcaption></figure>\n")
+def found_row(folder, video):
+    found, path = video.get("found") or {}, (video.get("found") or {}).get("path")
+    text = path and (f"{found.get('discs')} discs, {found.get('frames')} frames; centre {path['centre'][0]:.2f}, "
+                     f"{path['centre'][1]:.2f}, amplitude {path['amplitude']:.2f} pixels, "
+                     f"{'clockwise' if path['clockwise'] else 'counter-clockwise'}.")
+    return {"title": video["name"], "caption": text, "findings": video.get("remarks"), "remarks": [video["video"]],
+            "images": [name for name in video.get("images", []) if os.path.exists(os.path.join(folder, name))]}
 
 
-def page(folder, about, videos, figures):
-    findings = "".join(f"<li>{report.rich(finding)}</li>" for finding in about["findings"])
+def contents(folder, about, videos, figures):
     runs = (f" Each is compared with {about['seeds']} simulations of the same number of discs in the "
             "same container. They have the same frame rate, position error and smoothing as the video."
             if about["runs"] else "")
-    parts = [report.opening("Experiment and simulation"),
-             "<h1>Experiment and simulation</h1>\n",
-             f"<p>Results from {len(videos)} video{'s' if len(videos) != 1 else ''} of a swirled "
-             f"container.{runs} ± is one standard error, from the scatter between periods.</p>\n",
-             f"<ul>{findings}</ul>\n", "<h2>Videos</h2>\n", videos_table(videos)]
-    parts += ["<h2>The paper’s figures</h2>\n"]
-    parts += [report.grid([figure_html(folder, name) for name in figures])]
-    parts += ["<h2>Each video</h2>\n", report.grid([video_html(folder, f) for f in about["videos"]])]
-    parts += ["<h2>Made by</h2>\n", report.pairs((("command", about["command"]), ("version", about["version"]),
-                                                       ("built with", about["build"]))), "</body></html>\n"]
-    return "".join(parts)
+    return [("text", f"Results from {len(videos)} video{'s' if len(videos) != 1 else ''} of a swirled container.{runs} ± is "
+             "one standard error, from the scatter between periods."), ("bullets", about["findings"]),
+            ("section", "Videos"), ("table", (VIDEO_COLUMNS, [video_row(row) for row in videos])),
+            ("section", "The paper’s figures"), ("figures", [figure_row(name) for name in figures]),
+            ("section", "Each video"), ("figures", [found_row(folder, video) for video in about["videos"]]),
+            ("section", "Made by"), ("table", (["", ""], [
+                ("command", about["command"]), ("version", about["version"]), ("built with", about["build"])]))]
 
 
 def main():
-    folder, about = report.described_folder("experiment.json", "swirl experiment --out",
-                                            "draws the figures and writes report.html")
+    folder, about = described_folder("experiment.json", "swirl experiment --out",
+                                     "draws the figures and writes report.html")
     videos = style.read(os.path.join(folder, "videos.csv"))
     points = style.read(os.path.join(folder, "points.csv"))
     profiles = style.tables.read(os.path.join(folder, "profiles.csv"))
@@ -260,7 +224,8 @@ def main():
     if style.select(points, surface="smooth"):
         made.append(against_n(folder, "4c", points, [("mean_by_time", "")], rotation, 0))
     figures = [name for name in made if name]
-    report.write(os.path.join(folder, "report.html"), page(folder, about, videos, figures))
+    write_or_exit(os.path.join(folder, "report.html"), rendered(
+        "page.html.j2", folder, title="Experiment and simulation", blocks=contents(folder, about, videos, figures)))
 
 
 if __name__ == "__main__":

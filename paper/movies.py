@@ -10,12 +10,12 @@ import numpy as np
 import atomic_file
 from console import INTERRUPTED, Problem, Progress
 from engine import swirl
+from html_page import rendered
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
 from study import checksum_of
 
 WARMUP = 20  # periods before the first frame
 SAMPLES = 64  # per period, of the rotation
-PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "movies.html.j2")
 
 
 def system(title, options, lab_color, m_color, explanation, rotating, counterrotating):
@@ -106,7 +106,6 @@ def make_movie(movie, call):
 
 
 def make(call):
-    import jinja2
     folder, reused, done = call["out"], 0, 0
     os.makedirs(os.path.join(folder, "parts"), exist_ok=True)
     for here in SYSTEMS:
@@ -124,9 +123,7 @@ def make(call):
     except KeyboardInterrupt:
         raise Problem(f"stopped after {done} of {len(movies)} movies.\nhint: the same call makes the others.",
                       INTERRUPTED) from None
-    with open(PAGE, encoding="utf-8") as file:
-        page = jinja2.Template(file.read(), autoescape=True).render(systems=SYSTEMS)
-    atomic_file.write(os.path.join(folder, "movies.html"), page + "\n")
+    atomic_file.write(os.path.join(folder, "movies.html"), rendered("movies.html.j2", systems=SYSTEMS))
     if reused:
         print(f"{reused} of {len(movies)} movies are from an earlier call.")
     print(f"wrote {os.path.join(folder, 'movies.html')} and {len(movies)} movies in the same folder", flush=True)

@@ -4,7 +4,6 @@ folder.
     /usr/bin/python3 paper/report.py out
 """
 
-import html
 import json
 import os
 import struct
@@ -15,8 +14,9 @@ import verdicts
 from captions import CONTRADICTIONS, by_section, figure_texts, image_of, question_of, title_of
 from claims import all_judged
 from claims.claim import UNTESTED
+from console import duration
 from first_page import crossings_of_one_setting, main_results
-from html_page import bullets, described_folder, grid, inline, opening, rich, table, td
+from html_page import described_folder, rendered
 from point_names import in_words
 from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
 
@@ -37,13 +37,6 @@ INTRODUCTION = (
     "012903, 2019), explain it by friction at the wall and between the discs. This report answers which of their "
     "claims are confirmed by exact event-driven simulations: claims about their experiment by spheres that roll on a "
     "floor, claims about their simulation by their discs.")
-
-
-def duration(seconds):
-    seconds = round(seconds)
-    if seconds < 100:
-        return f"{seconds} s"
-    return f"{seconds // 60} min {seconds % 60} s"
 
 
 def judge(folder):
@@ -116,16 +109,21 @@ def how_to_read(about):
 
 FIRST_PICTURES = ("5b", "1b", "4c")  # the first that exists begins the report
 CLAIMS = "Claim by claim"
+# An image wider than this, in pixels, is made for the width of the page; figures for one column have 1012
+# (style.COLUMN). So is an image that is wider than FLAT times its height.
+ONE_COLUMN = 1200
+FLAT = 2.0
 
 
 def contents(folder, about, judged):
-    """[(kind, value)] of the whole report, in its order: what is found, then each figure, then each claim."""
+    """The blocks of the report (html_page.py): what is found, then each figure, then each claim."""
     made = {figure["name"]: image_of(figure) for figure in about["figures"]}
     blocks = [("picture", made[name]) for name in FIRST_PICTURES if made.get(name)][:1]
     blocks += [("bullets", main_results(folder)), ("text", counts(judged)), ("text", INTRODUCTION),
                ("small", f"{how_to_read(about)} {crossings_of_one_setting(folder)}".strip())]
+    texts = figure_texts(about)
     for heading, figures in by_section(about["figures"]):
-        blocks += [("section", heading), ("figures", figures)]
+        blocks += [("section", heading), ("figures", [figure_row(folder, figure, texts) for figure in figures])]
     blocks += [("section", "Contradictions in the paper, and the choices of this program"),
                ("table", (["topic", "the paper", "this program"], CONTRADICTIONS)),
                ("section", "Parameters, versions, time"), ("table", (["", ""], parameter_rows(about))),
@@ -133,54 +131,7 @@ def contents(folder, about, judged):
     for heading, group in disagreements(judged):
         blocks += [("text", f"{heading}:"), ("bullets", [f"{statement}" + (f" — {found}" if found else "")
                                                          for statement, found in group])]
-    return [*blocks, ("claims", judged)]
-
-
-# --- Markdown -----------------------------------------------------------------------------------
-
-def cell(text):
-    return str(text).replace("|", "\\|").replace("\n", " ")
-
-
-def markdown_table(head, rows):
-    def line(cells):
-        return f"| {' | '.join(map(cell, cells))} |"
-    return [line(head), "|---" * len(head) + "|", *map(line, rows), ""]
-
-
-def claim_cells(k, j):
-    sizes = with_sizes(j)
-    return (k, f"{j.claim.statement} ({j.claim.source})", j.claim.on, j.found,
-            f"{MARK[j.verdict]} {j.verdict}{sizes and f' ({sizes})'}", j.claim.command and f"`{j.claim.command}`")
-
-
-def figure_markdown(figure, caption, findings, remarks):
-    title, image, question = title_of(figure), image_of(figure), question_of(figure)
-    return [f"### {title}", "", *([f"![{title}]({image})", ""] if image else []),
-            *([f"*{question}*", ""] if question else []), *([caption, ""] if caption else []),
-            *(f"- {finding}" for finding in findings), *(["", *remarks] if remarks else []),
-            "", f"`swirl paper --figure {figure['name']}`", ""]
-
-
-def markdown(folder, about, judged):
-    texts, lines = figure_texts(about), [f"# {TITLE}", ""]
-    for kind, value in contents(folder, about, judged):
-        lines += {"picture": lambda: [f"![{TITLE}]({value})", ""], "section": lambda: [f"## {value}", ""],
-                  "bullets": lambda: [*(f"- {text}" for text in value), ""], "text": lambda: [value, ""],
-                  "small": lambda: [value, ""], "table": lambda: markdown_table(*value),
-                  "figures": lambda: [line for f in value for line in figure_markdown(f, *texts[f["name"]])],
-                  "claims": lambda: markdown_table(
-                      ["#", "the paper says", "judged on", "found", "verdict", "command"],
-                      [claim_cells(k, j) for k, j in enumerate(value, 1)])}[kind]()
-    return "\n".join(lines).rstrip() + "\n"
-
-
-# --- HTML ---------------------------------------------------------------------------------------
-
-# An image wider than this, in pixels, is made for the width of the page; figures for one column have 1012
-# (style.COLUMN). So is an image that is wider than FLAT times its height.
-ONE_COLUMN = 1200
-FLAT = 2.0
+    return [*blocks, ("claims", [claim_row(k, j) for k, j in enumerate(judged, 1)])]
 
 
 def is_wide(path):
@@ -190,88 +141,29 @@ def is_wide(path):
     return width > ONE_COLUMN or width > FLAT * height
 
 
-def figures_html(folder, figures, texts):
-    """One section of the page: wide images span both columns, which the browser balances."""
-    return grid(figure_html(folder, figure, texts) for figure in figures)
-
-
-def figure_html(folder, figure, texts):
-    title = title_of(figure)
-    image = image_of(figure, (".svg", ".png"))
-    drawn = image_of(figure)
-    kind = " class=wide" if drawn and is_wide(os.path.join(folder, drawn)) else ""
-    image = (f'<img alt="{html.escape(title)}" src="{inline(os.path.join(folder, image))}">' if image else "")
-    caption, findings, remarks = texts[figure["name"]]
-    question = f"<p class=question>{rich(question_of(figure))}</p>" if question_of(figure) else ""
-    caption = f"<p>{rich(caption)}</p>" if caption else ""
-    runs = f"<p class=small>{rich(' '.join(remarks))}</p>" if remarks else ""
-    return (f"<figure{kind}>{image}<figcaption><h3>{rich(title)}</h3>{question}{caption}{bullets(findings)}{runs}"
-            f"<code>swirl paper --figure {html.escape(figure['name'])}</code></figcaption></figure>\n")
+def figure_row(folder, figure, texts):
+    image, (caption, findings, remarks) = image_of(figure), texts[figure["name"]]
+    return {"title": title_of(figure), "images": [image] if image else [], "question": question_of(figure),
+            "wide": bool(image) and is_wide(os.path.join(folder, image)), "caption": caption, "findings": findings,
+            "remarks": remarks, "command": f"swirl paper --figure {figure['name']}"}
 
 
 def claim_row(k, j):
-    claim, sizes = j.claim, with_sizes(j)
-    command = f"<br><code>{html.escape(claim.command)}</code>" if claim.command else ""
-    words = f"<br><span class=small>{html.escape(sizes)}</span>" if sizes else ""
-    return (td(k), f"<td>{rich(claim.statement)} <span class=small>({html.escape(claim.source)})</span></td>",
-            td(claim.on), td(j.found), f"<td><span class='verdict {CLASS.get(j.verdict, 'other')}'>{MARK[j.verdict]} "
-            f"{j.verdict}</span>{words}{command}</td>")
-
-
-def page(folder, about, judged):
-    texts, parts = figure_texts(about), [opening(TITLE), f"<h1>{TITLE}</h1>\n"]
-    for kind, value in contents(folder, about, judged):
-        parts.append({"picture": lambda: f'<img class=first alt="{TITLE}" src="{inline(os.path.join(folder, value))}">\n',
-                      "section": lambda: f"<h2>{value}</h2>\n", "bullets": lambda: bullets(value),
-                      "text": lambda: f"<p>{rich(value)}</p>\n", "small": lambda: f"<p class=small>{rich(value)}</p>\n",
-                      "table": lambda: table(value[0], [map(td, row) for row in value[1]]),
-                      "figures": lambda: figures_html(folder, value, texts),
-                      "claims": lambda: table(
-                          ["", "the paper says", "judged on", "found", "verdict, and how to reproduce it"],
-                          [claim_row(k, j) for k, j in enumerate(value, 1)], "claims")}[kind]())
-    return "".join([*parts, "</body></html>\n"])
-
-
-# --- PDF ----------------------------------------------------------------------------------------
-
-def figure_blocks(figure, caption, findings, remarks):
-    image, question = image_of(figure), question_of(figure)
-    return [("heading", title_of(figure)), *([("image", image)] if image else []),
-            *([("text", question)] if question else []), *([("text", caption)] if caption else []),
-            *(("bullet", finding) for finding in findings), *(("small", remark) for remark in remarks),
-            ("small", f"swirl paper --figure {figure['name']}")]
-
-
-def claim_blocks(k, j):
-    small = "; ".join(filter(None, (f"judged on {j.claim.on}", with_sizes(j), j.claim.command)))
-    return [("text", f"{k}. {j.claim.statement} ({j.claim.source})"), ("bullet", f"{j.verdict}: {j.found}"),
-            ("small", small)]
-
-
-def pdf(folder, about, judged):
-    from report_pdf import report_pdf  # the only part that needs matplotlib
-    texts, sections = figure_texts(about), [("", [])]  # the first page has no heading
-    for kind, value in contents(folder, about, judged):
-        if kind == "section":
-            sections.append((value, []))
-            continue
-        sections[-1][1].extend({
-            "picture": lambda: [("image", value)], "bullets": lambda: [("bullet", text) for text in value],
-            "text": lambda: [("text", value)], "small": lambda: [("small", value)],
-            "table": lambda: [("bullet", f"{row[0]}: " + " Here: ".join(map(str, row[1:]))) for row in value[1]],
-            "figures": lambda: [block for f in value for block in figure_blocks(f, *texts[f["name"]])],
-            "claims": lambda: [block for k, j in enumerate(value, 1) for block in claim_blocks(k, j)]}[kind]())
-    return report_pdf(folder, TITLE, sections[0][1], sections[1:])
+    return {"number": k, "statement": j.claim.statement, "source": j.claim.source, "on": j.claim.on, "found": j.found,
+            "verdict": j.verdict, "mark": MARK[j.verdict], "look": CLASS.get(j.verdict, "other"), "sizes": with_sizes(j),
+            "command": j.claim.command}
 
 
 def write_all(folder):
     """Writes the report from paper.json and the tables."""
     with open(os.path.join(folder, "paper.json"), encoding="utf-8") as file:
         about = json.load(file)
-    judged = judge(folder)
-    atomic_file.write(os.path.join(folder, "report.md"), markdown(folder, about, judged))
-    atomic_file.write(os.path.join(folder, "report.html"), page(folder, about, judged))
-    atomic_file.write(os.path.join(folder, "report.pdf"), pdf(folder, about, judged))
+    from report_pdf import report_pdf  # the only part that needs matplotlib
+    blocks = contents(folder, about, judge(folder))
+    for kind in ("md", "html"):
+        atomic_file.write(os.path.join(folder, f"report.{kind}"),
+                          rendered(f"page.{kind}.j2", folder, title=TITLE, blocks=blocks))
+    atomic_file.write(os.path.join(folder, "report.pdf"), report_pdf(folder, TITLE, blocks))
 
 
 def main():

@@ -161,38 +161,59 @@ def plain(text):
     return re.sub(r"[`*]", "", str(text)).replace("\n", " ")
 
 
-def write_blocks(pages, folder, blocks):
-    for k, (kind, value) in enumerate(blocks):
-        if kind == "heading":
-            following = blocks[k + 1] if k + 1 < len(blocks) else ("", "")
-            below = size_on_page(plt.imread(os.path.join(folder, following[1])))[1] if following[0] == "image" else 0.0
-            pages.heading(plain(value), size=10.5, below=below)
-        elif kind == "image":
-            pages.image(os.path.join(folder, value))
-        elif kind == "bullet":
-            pages.text(plain(value), indent=0.2, bullet="•")
-        else:
-            pages.text(plain(value), size=8 if kind == "small" else 9, color="0.35" if kind == "small" else "black")
+def write_figure(pages, folder, f):
+    images = [os.path.join(folder, name) for name in f.get("images", ())]
+    pages.heading(plain(f["title"]), size=10.5, below=sum(size_on_page(plt.imread(image))[1] for image in images))
+    for image in images:
+        pages.image(image)
+    for name in ("question", "caption"):
+        pages.text(plain(f.get(name, "")))
+    write_block(pages, folder, "bullets", f.get("findings", ()))
+    for text in (*f.get("remarks", ()), f.get("command", "")):
+        write_block(pages, folder, "small", text)
 
 
-def report_pdf(folder, title, opening, sections):
-    """The file as bytes.
+def write_claim(pages, folder, c):
+    pages.text(plain(f"{c['number']}. {c['statement']} ({c['source']})"))
+    write_block(pages, folder, "bullets", [f"{c['verdict']}: {c['found']}"])
+    write_block(pages, folder, "small", "; ".join(filter(None, (f"judged on {c['on']}", c["sizes"], c["command"]))))
 
-    opening: blocks of the first page. sections: [(heading, blocks)] with blocks ("heading", text), ("text", text),
-    ("bullet", text), ("small", text) and ("image", name of a PNG in the folder).
-    """
+
+def write_block(pages, folder, kind, value):
+    """A block of a page (html_page.py)."""
+    if kind == "section":
+        pages.break_page()
+        pages.heading(value)
+    elif kind == "picture":
+        pages.image(os.path.join(folder, value))
+    elif kind == "table":
+        write_block(pages, folder, "bullets", [f"{row[0]}: " + " Here: ".join(map(str, row[1:])) for row in value[1]])
+    elif kind == "text":
+        pages.text(plain(value))
+    elif kind == "small":
+        pages.text(plain(value), size=8, color="0.35")
+    else:
+        for one in value:
+            if kind == "bullets":
+                pages.text(plain(one), indent=0.2, bullet="•")
+            else:
+                (write_figure if kind == "figures" else write_claim)(pages, folder, one)
+
+
+def report_pdf(folder, title, blocks):
+    """The file as bytes. The blocks before the first section are the first page; the contents follow."""
     pages = Pages(title)
     pages.text(title, size=18, weight="bold")
-    write_blocks(pages, folder, opening)
-    entries = sum(1 + sum(kind == "heading" for kind, _ in blocks) for _, blocks in sections)
+    first = next((k for k, (kind, _) in enumerate(blocks) if kind == "section"), len(blocks))
+    for kind, value in blocks[:first]:
+        write_block(pages, folder, kind, value)
+    entries = sum(kind == "section" or len(value) * (kind == "figures") for kind, value in blocks)
     pages.break_page()
     pages.text("Contents", size=13, weight="bold")
     page, top = len(pages.pages) - 1, pages.top - 0.1
     per_page = int((HEIGHT - 2 * MARGIN - 0.6) / 0.2)
     for _ in range((entries - 1) // per_page):
         pages.break_page()
-    for heading, blocks in sections:
-        pages.break_page()
-        pages.heading(heading)
-        write_blocks(pages, folder, blocks)
+    for kind, value in blocks[first:]:
+        write_block(pages, folder, kind, value)
     return pages.bytes(pages.contents(page, top, per_page))

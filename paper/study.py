@@ -174,7 +174,7 @@ def do(job):
 
 
 def reason_of(error):
-    return str(error) if isinstance(error, swirl.Failure) else f"{type(error).__name__}: {error}"
+    return f"{type(error).__name__}: {error}".removeprefix("Failure: ")
 
 
 def broken(points):

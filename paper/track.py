@@ -4,13 +4,13 @@ the files that `swirl track --report` wrote to a folder.
     /usr/bin/python3 paper/track.py FOLDER
 """
 
-import html
 import math
 import os
 
-import experiment
-import html_page as report
 import style
+from atomic_file import write_or_exit
+from claims.wording import number
+from html_page import described_folder, rendered
 
 FEWEST = 0.99  # fraction of the frames: a disc that is seen in fewer is doubtful
 
@@ -35,8 +35,7 @@ def draw(folder, frames, number):
     rims = [row for row in frames if row["rim_off"] >= 0]
     axes[2].plot(style.column(rims, "time"), style.column(rims, "rim_off"), color=style.RED,
                  linewidth=0.8)
-    axes[2].set_ylabel("distance of rim\nfrom path, pixels")
-    axes[2].set_xlabel("time")
+    axes[2].set(ylabel="distance of rim\nfrom path, pixels", xlabel="time")
     style.save(drawing, os.path.join(folder, "figure_found.csv"))
 
 
@@ -48,7 +47,6 @@ def found_rows(found):
     radius = found["camera"]["scale"]
     species = ", ".join(f"{one['number']} of radius {one['radius']:.2f} pixels (scatter of single fits "
                         f"{one['radius_scatter']:.2f})" for one in found["species"])
-    value = experiment.with_error
     rows = [("video", f"{found['video']}, {found['frames']} frames of {found['size'][0]} × "
                       f"{found['size'][1]} pixels"),
             ("discs", f"{found['discs']}, {found['discs_are']}: {species}"),
@@ -56,14 +54,14 @@ def found_rows(found):
                           f"{found['camera']['container-radius']:.3f} disc radii; radius of the visible "
                           f"rim {container['rim_radius']:.2f} pixels"),
             ("centre of the path, pixels", " and ".join(
-                value(c, path["centre_error"]) for c in path["centre"])),
-            ("amplitude, pixels", f"{value(path['amplitude'], path['amplitude_error'])}; "
+                number(c, path["centre_error"]) for c in path["centre"])),
+            ("amplitude, pixels", f"{number(path['amplitude'], path['amplitude_error'])}; "
                                   f"{path['amplitude'] / radius:.3f} disc radii"),
-            (f"Ω, rad/{unit}", value(omega, omega_error)),
-            (f"period, {unit}", value(2 * math.pi / omega, 2 * math.pi * omega_error / omega ** 2)),
+            (f"Ω, rad/{unit}", number(omega, omega_error)),
+            (f"period, {unit}", number(2 * math.pi / omega, 2 * math.pi * omega_error / omega ** 2)),
             ("direction of rotation", "clockwise in the image" if path["clockwise"] else "counter-clockwise"),
             ("path", path["shape"]),
-            ("lens distortion", value(lens["distortion"], lens["distortion_error"])),
+            ("lens distortion", number(lens["distortion"], lens["distortion_error"])),
             ("camera", lens["camera"])]
     if found["millimetres_per_pixel"]:
         rows.append(("scale", f"{found['millimetres_per_pixel']:.5f} mm per pixel"))
@@ -87,38 +85,25 @@ def quality_rows(found, discs):
              f"{100 * found['path']['agreeing_frames']:.1f} % of the frames agree with the path")]
 
 
-def page(folder, found, discs):
-    warnings = "".join(f"<li>{html.escape(text)}</li>" for text in found["warnings"])
-    name = os.path.basename(found["video"]) or found["video"]
-
-    def image(file, alt):
-        return f'<img alt="{alt}" src="{report.inline(os.path.join(folder, file))}">'
-
-    return "".join([
-        report.opening(html.escape(name)),
-        f"<h1>{html.escape(name)}</h1>\n",
-        f"<ul>{warnings}</ul>\n" if warnings else "<p>No warnings.</p>\n",
-        "<h2>Results</h2>\n", report.pairs(found_rows(found)),
-        "<h2>Quality</h2>\n", report.pairs(quality_rows(found, discs)),
-        report.grid([
-            f"<figure>{image('video.png', 'the video with the detected discs')}<figcaption>"
-            "<h3>First frame</h3><p>With the detected discs drawn over it.</p></figcaption></figure>\n",
-            f"<figure>{image('figure_found.png', 'discs, errors and rim over time')}<figcaption>"
-            "<h3>Over time</h3><p>Number of detected discs; position error (rms) from the fits, and the "
-            "deepest overlap of two discs, which hard discs cannot have; distance of the rim from the "
-            "fitted path.</p><p class=small><code>frames.csv</code>, <code>figure_found.pdf</code></p>"
-            "</figcaption></figure>\n"]),
-        "<h2>Made by</h2>\n", report.pairs([("command", found["command"]), ("version", found["version"])]),
-        "</body></html>\n"])
+def contents(found, discs):
+    return [("bullets", found["warnings"]) if found["warnings"] else ("text", "No warnings."),
+            ("section", "Results"), ("table", (["", ""], found_rows(found))),
+            ("section", "Quality"), ("table", (["", ""], quality_rows(found, discs))),
+            ("figures", [{"title": "First frame", "images": ["video.png"], "caption": "With the detected discs drawn over it."},
+                         {"title": "Over time", "images": ["figure_found.png"], "command": "frames.csv, figure_found.pdf",
+                          "caption": "Number of detected discs; position error (rms) from the fits, and the deepest overlap "
+                          "of two discs, which hard discs cannot have; distance of the rim from the fitted path."}]),
+            ("section", "Made by"), ("table", (["", ""], [("command", found["command"]), ("version", found["version"])]))]
 
 
 def main():
-    folder, found = report.described_folder("found.json", "swirl track --report",
-                                            "draws and writes report.html")
+    folder, found = described_folder("found.json", "swirl track --report",
+                                     "draws and writes report.html")
     frames = style.read(os.path.join(folder, "frames.csv"))
     discs = style.read(os.path.join(folder, "discs.csv"))
     draw(folder, frames, found["discs"])
-    report.write(os.path.join(folder, "report.html"), page(folder, found, discs))
+    write_or_exit(os.path.join(folder, "report.html"), rendered(
+        "page.html.j2", folder, title=os.path.basename(found["video"]) or found["video"], blocks=contents(found, discs)))
 
 
 if __name__ == "__main__":

@@ -11,9 +11,9 @@ def number(mean, error=math.nan):
     """1.234 ± 0.012, with as many digits as the error supports; n/a if the mean is unknown."""
     if isinstance(mean, Value):
         mean, error = mean.mean, mean.error
-    if mean != mean:
+    if mean is None or mean != mean:
         return "n/a"
-    if not error > 0:
+    if not error or not error > 0:
         return f"{mean:.3g}".replace("-", "−")
     magnitude = math.floor(math.log10(error))
     # An error that starts with 1 has two digits, others have one.

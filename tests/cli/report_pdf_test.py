@@ -14,9 +14,11 @@ MAKE = """
 import sys
 sys.path.insert(0, sys.argv[1])
 import report_pdf
-sections = [(f"Section {k} with ϖ", [("heading", f"Part {k}"), ("text", "word " * 900), ("bullet", "$x$ a_b")])
-            for k in range(30)]
-made = report_pdf.report_pdf(".", "Title", [("text", "Opening"), ("bullet", "one")], sections)
+figure = {"caption": "word " * 900, "findings": ["$x$ a_b"]}
+blocks = [("text", "Opening"), ("bullets", ["one"])]
+for k in range(30):
+    blocks += [("section", f"Section {k} with ϖ"), ("figures", [{"title": f"Part {k}", **figure}])]
+made = report_pdf.report_pdf(".", "Title", blocks)
 open(sys.argv[2], "wb").write(made)
 """
 

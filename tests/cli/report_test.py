@@ -141,15 +141,16 @@ class FirstPage(HandMadeTables):
 
 
 class Figures(HandMadeTables):
-    def figure(self, name, findings=(), width=1012, height=700, files=()):
+    def figure(self, name, findings=(), width=1012, height=700):
         with open(os.path.join(self.folder, f"figure_{name}.png"), "wb") as file:
             file.write(b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", width, height))
         return {"name": name, "description": "what", "findings": list(findings),
-                "files": [f"figure_{name}.png", *files]}
+                "files": [f"figure_{name}.png"]}
 
     def html(self, *figures):
         texts = captions.figure_texts({"figures": figures})
-        return report.figures_html(self.folder, list(figures), texts)
+        rows = [report.figure_row(self.folder, figure, texts) for figure in figures]
+        return html_page.rendered("page.html.j2", self.folder, title="t", blocks=[("figures", rows)])
 
     def test_every_figure_has_a_caption_or_a_question(self):
         with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
@@ -223,11 +224,6 @@ class Figures(HandMadeTables):
         # An image made for a column is not enlarged across the page, however flat.
         self.assertNotIn("class=wide", self.html(self.figure("5c", height=690), self.figure("4a")))
 
-    def test_drawings_are_embedded_as_svg(self):
-        with open(os.path.join(self.folder, "figure_2a.svg"), "w", encoding="utf-8") as file:
-            file.write("<svg xmlns='http://www.w3.org/2000/svg'/>")
-        self.assertIn("data:image/svg+xml;base64,", self.html(self.figure("2a", files=["figure_2a.svg"])))
-
 
 class Page(HandMadeTables):
     def test_disagreements_come_first(self):
@@ -262,7 +258,8 @@ class Page(HandMadeTables):
                               "files": ["figure_5b.png"]}]}
         with open(os.path.join(self.folder, "figure_5b.png"), "wb") as file:
             file.write(b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 600, 200))
-        page = report.page(self.folder, about, report.judge(self.folder))
+        blocks = report.contents(self.folder, about, report.judge(self.folder))
+        page = html_page.rendered("page.html.j2", self.folder, title=report.TITLE, blocks=blocks)
         self.assertIn("data:image/png;base64,iVBORw", page)
         self.assertIn("<figure class=wide>", page)
         self.assertIn("ϖ &lt; 0 &amp; more", page)
@@ -273,7 +270,7 @@ class Page(HandMadeTables):
         # It begins with a picture; the claims come last.
         self.assertLess(page.index("<img class=first"), page.index("<p>"))
         self.assertLess(page.index("Parameters, versions"), page.index("Claim by claim"))
-        text = report.markdown(self.folder, about, report.judge(self.folder))
+        text = html_page.rendered("page.md.j2", title=report.TITLE, blocks=blocks)
         self.assertTrue(text.startswith(f"# {report.TITLE}\n\n!["))
         self.assertEqual(text.count("\n| "), len(CLAIMS) + len(captions.CONTRADICTIONS) +
                          len(report.parameter_rows(about)) + 3)
@@ -287,7 +284,7 @@ class Call(unittest.TestCase):
             def write(self, plan, settings):
                 raise KeyError("fields")
         call = command.Paper.__new__(command.Paper)
-        call.settings = None
+        call.settings, call.problems = None, {}
         made = call.finished(Broken(), [])
         self.assertEqual((made["problem"], made["files"]), ("KeyError: 'fields'", []))
 
