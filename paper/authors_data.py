@@ -190,8 +190,7 @@ def draw_curves(panels, residuals, rows):
                        markersize=2)
         panel.set_title(title)
         style.zero_line(below)
-        below.set_ylim(-4, 4)
-        below.set_xlabel("number of discs $N$")
+        below.set(ylim=(-4, 4), xlabel="number of discs $N$")
     style.zero_line(panels[0])
     panels[0].legend(title="lines: authors, points: swirl", title_fontsize=style.SMALLEST)
     panels[0].set_ylabel(r"rotation $\varpi/\Omega$, by event")
@@ -219,8 +218,7 @@ def draw_maps(panels, maps):
             panel.text(1.09 * R * to_m.real, 1.09 * R * to_m.imag, "$M$", color=style.PINK, ha="center", va="center")
             panel.text(-0.9 * R, 0.95 * R, "authors", ha="center", fontsize=style.SMALLEST)
             panel.text(0.9 * R, 0.95 * R, "swirl", ha="center", fontsize=style.SMALLEST)
-            panel.set_xlim(-1.2 * R, 1.2 * R)
-            panel.set_ylim(-1.05 * R, 1.2 * R)
+            panel.set(xlim=(-1.2 * R, 1.2 * R), ylim=(-1.05 * R, 1.2 * R))
         density.set_title(f"$N = {discs}$")
 
 
@@ -236,8 +234,7 @@ def draw(out, rows, maps):
         color = style.plt.get_cmap("viridis")(0.95 * k / (len(PROFILES) - 1))
         profile.plot(theta, theirs, color=color, linewidth=0.8)
         profile.plot(theta[::4], ours[::4], "o", color=color, markersize=1.6)
-    profile.set_xlabel("angle + 180°, authors' frame (°)")
-    profile.set_ylabel(r"$\langle u_\theta/r\rangle$, $N = 28\,…\,48$")
+    profile.set(xlabel="angle + 180°, authors' frame (°)", ylabel=r"$\langle u_\theta/r\rangle$, $N = 28\,…\,48$")
     for color, kind in zip(style.CYCLE, ("density", "flow", "profile")):
         z = np.concatenate([found[2].ravel() for (k, _), found in maps.items() if k == kind])
         histogram.hist(z[np.isfinite(z)], np.linspace(-5, 5, 41), density=True, histtype="step", color=color, label=kind)
@@ -251,8 +248,7 @@ def draw(out, rows, maps):
         spinless.errorbar(style.column(here, "discs"), style.column(here, "ours"), style.column(here, "error"),
                           fmt=style.MARKERS[k], color=style.CYCLE[k], markersize=2.4,
                           label=(r"$\mu_d = \mu_w = 1$", r"$\mu_w = 0$", r"$\mu_d = 0$")[k])
-    spinless.set_title("discs that cannot spin")
-    spinless.set_xlabel("number of discs $N$")
+    spinless.set(title="discs that cannot spin", xlabel="number of discs $N$")
     spinless.legend()
     style.save(drawing, os.path.join(out, "authors_data.csv"))
 

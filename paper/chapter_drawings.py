@@ -15,7 +15,7 @@ DOT = 0.3  # in Ω: the rate of the largest dots
 
 def curves(axes, rows, parameter, quantity, label):
     """The quantity against the packing fraction, a curve for each value of the parameter, from dark to light."""
-    values = sorted({row[parameter] for row in rows})
+    values = style.distinct(rows, parameter)
     colors = style.plt.get_cmap("viridis")
     for k, value in enumerate(values):
         here = sorted(tables.select(rows, **{parameter: value}), key=lambda row: row["packing_fraction"])
@@ -49,7 +49,7 @@ def sign_map(axes, rows, changes, parameter):
             axes.errorbar(style.column(here, parameter), style.column(here, "packing_fraction"),
                           yerr=style.column(here, "packing_fraction_error"), fmt=marker, color=style.BLACK,
                           markerfacecolor=color, markeredgewidth=0.6, markersize=4.5, elinewidth=0.7, label=words)
-    values = sorted({row[parameter] for row in rows})
+    values = style.distinct(rows, parameter)
     axes.set_xscale("log")
     axes.set_xticks(values, [f"{value:g}" for value in values], rotation=60)
     axes.minorticks_off()
@@ -59,7 +59,7 @@ def dishes(table, parameter, words, label):
     """A complete figure: curves on the left and the map of changes on the right; a row for each dish radius if the
     parameter is another one."""
     rows, changes = style.read(table), tables.companion(table, "_changes")
-    radii = [None] if parameter == "container_radius" else sorted({row["container_radius"] for row in rows})
+    radii = [None] if parameter == "container_radius" else style.distinct(rows, "container_radius")
     drawing, axes = style.figure(style.PAGE, 3.4 * len(radii), ncols=2, nrows=len(radii), squeeze=False)
     for (left, right), radius in zip(axes, radii):
         here = rows if radius is None else tables.select(rows, container_radius=radius)
@@ -67,12 +67,10 @@ def dishes(table, parameter, words, label):
         style.zero_line(left)
         curves(left, here, parameter, "rigid_by_time", label)
         style.fine_near_zero(left, style.column(here, "rigid_by_time"))
-        left.set_xlabel(PACKING)
-        left.set_ylabel(r"rotation $\varpi/\Omega$, rigid body, by time")
+        left.set(xlabel=PACKING, ylabel=r"rotation $\varpi/\Omega$, rigid body, by time")
         style.legend(left, ncol=4, title=None if radius is None else f"$R/r = {radius:g}$")
         sign_map(right, here, marks, parameter)
-        right.set_xlabel(words)
-        right.set_ylabel(PACKING)
+        right.set(xlabel=words, ylabel=PACKING)
         style.legend(right, ncol=3)
     style.save(drawing, table)
 
@@ -80,7 +78,7 @@ def dishes(table, parameter, words, label):
 def crossing_map(table, x, y, x_label, y_label):
     """A complete figure: N_c as colour and as number with its error, for pairs of two parameters."""
     rows = style.read(table)
-    xs, ys = sorted({row[x] for row in rows}), sorted({row[y] for row in rows})
+    xs, ys = style.distinct(rows, x), style.distinct(rows, y)
     drawing, axes = style.figure(1.4 * style.COLUMN, 0.9 + 0.5 * len(ys))
     values = np.full((len(ys), len(xs)), np.nan)
     for row in rows:
@@ -101,7 +99,6 @@ def crossing_map(table, x, y, x_label, y_label):
             axes.text(*at, words, ha="center", va="center", fontsize=style.SMALLEST, color=style.GREY)
     axes.set_xticks(range(len(xs)), [f"{value:g}" for value in xs])
     axes.set_yticks(range(len(ys)), [f"{value:g}" for value in ys])
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(y_label)
+    axes.set(xlabel=x_label, ylabel=y_label)
     drawing.colorbar(image, ax=axes, label="$N_c$")
     style.save(drawing, table)

@@ -46,6 +46,12 @@ def over_seeds(means, errors=None, weights=(), effective=None, directions=False)
     return tuple(column[0] for column in found) if means.ndim == 1 else found
 
 
+def means(runs, names):
+    """{name: mean over the runs, name_error: its error} of quantities of single runs."""
+    return {f"{name}{end}": value for name in names
+            for end, value in zip(("", "_error"), over_seeds([number(run[name]) for run in runs]))}
+
+
 def failed(result):
     return "failed" in result
 

@@ -20,7 +20,7 @@ from matplotlib.patheffects import withStroke  # noqa: E402
 import atomic_file  # noqa: E402
 import tables  # noqa: E402
 from paper_parameters import AMPLITUDE  # noqa: E402
-from tables import column, select  # noqa: E402, F401
+from tables import column, distinct, select  # noqa: E402, F401
 
 # Column widths of the Physical Review, in inches.
 COLUMN = 3.375
@@ -114,33 +114,42 @@ def note(drawing, text):
 
 def note_not_steady(drawing, rows):
     """For maps and profiles, which have no symbols: a note with the numbers of discs."""
-    numbers = sorted({row["discs"] for row in not_steady(rows)})
+    numbers = distinct(not_steady(rows), "discs")
     if numbers:
         note(drawing, "steady state not verified: N = " + ", ".join(f"{n:.0f}" for n in numbers))
 
 
+def groups(rows, name):
+    """[(value, its rows, colour and marker)] of each value of a column."""
+    return [(value, select(rows, **{name: value}), look_of(k)) for k, value in enumerate(distinct(rows, name))]
+
+
+def look_of(k):
+    return {"color": CYCLE[k], "marker": MARKERS[k]}
+
+
 def curve(axes, rows, x, y, **look):
-    """One line with errors; its symbols are open where the run is not steady. If no run has an average, only its label."""
+    """One line with errors; its symbols are open where the run is not steady. If no run has an average, only its label.
+    Returns the mark for a legend."""
     if not np.isfinite(column(rows, y)).any():
-        axes.errorbar([], [], **look)
-        return
+        return axes.errorbar([], [], **look)
     bars = column(rows, y + "_error")
     if axes.get_yscale() == "log":
         bars = log_errors(column(rows, y), bars)
-    line = axes.errorbar(column(rows, x), column(rows, y), yerr=bars, **({"elinewidth": 0.7} | look))[0]
-    marked = not_steady(rows)
+    across = column(rows, x + "_error") if x + "_error" in rows[0] else None
+    mark = axes.errorbar(column(rows, x), column(rows, y), bars, across, **({"elinewidth": 0.7} | look))
+    line, marked = mark[0], not_steady(rows)
     if marked:
         axes.plot(column(marked, x), column(marked, y), line.get_marker(), color=line.get_color(),
                   markersize=line.get_markersize(), markerfacecolor="white", markeredgewidth=0.6, zorder=line.get_zorder())
         note(axes.figure, "open: steady state not verified")
+    return mark
 
 
 def rotation_curves(table, parameter, symbol):
     """A complete figure: rotation against the number of discs, a curve for each value of a parameter."""
     rows = read(table)
-    curves = [(select(rows, **{parameter: value}),
-               {"label": f"${symbol} = {value:g}$", "color": CYCLE[k], "marker": MARKERS[k]})
-              for k, value in enumerate(sorted({row[parameter] for row in rows}))]
+    curves = [(here, {"label": f"${symbol} = {value:g}$", **look}) for value, here, look in groups(rows, parameter)]
     rotation_figure(table, curves, ncol=3)
 
 
@@ -208,11 +217,11 @@ def legend(axes, ncol=2, **more):
                 borderaxespad=0.2, **more)
 
 
-def legend_of_all(drawing, handles, labels, ncol):
-    """Above all axes of a figure."""
-    lines = math.ceil(len(labels) / ncol)
-    drawing.suptitle("\n".join([" "] * lines), fontsize=SMALLEST)  # reserves the space
-    drawing.legend(handles, labels, loc="upper center", ncol=ncol, columnspacing=1.2,
+def legend_of_all(drawing, marks, ncol):
+    """Above all axes of a figure; `marks` are those of the legend, or the axes that have them."""
+    marks = marks if isinstance(marks, list) else marks.get_legend_handles_labels()[0]
+    drawing.suptitle("\n".join([" "] * math.ceil(len(marks) / ncol)), fontsize=SMALLEST)  # reserves the space
+    drawing.legend(marks, [mark.get_label() for mark in marks], loc="upper center", ncol=ncol, columnspacing=1.2,
                    borderaxespad=0.2)
 
 
@@ -244,14 +253,14 @@ def profiles(table, width, quantity, level, label):
     """A complete figure: a quantity against the angle θ, a curve for each number of discs, and the mean angles where
     residences at the wall begin and end. `width`: that of a sliding slice, or 0."""
     rows = read(table)
-    numbers = sorted({row["discs"] for row in rows})
+    numbers = distinct(rows, "discs")
     settings = [name for name in LOOKS if select(rows, setting=name)]
     drawing, panels = figure(width=PAGE, height=2.7, ncols=len(settings), sharex=True, sharey=True, squeeze=False)
     colors = plt.get_cmap("viridis")
     span = max(numbers[-1] - numbers[0], 1)
     for axes, setting in zip(panels[0], settings):
         axes.set_title(LOOKS[setting][0])
-        for discs in sorted({row["discs"] for row in select(rows, setting=setting)}):
+        for discs in distinct(select(rows, setting=setting), "discs"):
             color = colors(0.95 * (discs - numbers[0]) / span)
             here = select(rows, setting=setting, discs=discs)
             shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > LEAST_VISITS]
@@ -273,7 +282,7 @@ def profiles(table, width, quantity, level, label):
                                                                 ("o", "residences end"))]
     panels[0][len(settings) // 2].set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
     first.set_ylabel(label)
-    legend_of_all(drawing, handles, [mark.get_label() for mark in handles], ncol=2)
+    legend_of_all(drawing, handles, ncol=2)
     bar = drawing.colorbar(scale(numbers, colors), ax=panels)
     bar.set_label(r"number of particles $N$")
     note_not_steady(drawing, rows)
@@ -328,8 +337,7 @@ def container(axes, radius, color=BLACK, amplitude=AMPLITUDE):
         axes.text(1.06 * radius * math.cos(turn), 1.11 * radius * math.sin(turn),
                   r"$\theta = 0$" if degrees == 0 else f"{degrees}°", fontsize=SMALLEST, color="0.3",
                   ha=align, va="center")
-    axes.set_xlim(-1.3 * radius, 1.3 * radius)
-    axes.set_ylim(-1.3 * radius, 1.2 * radius)
+    axes.set(xlim=(-1.3 * radius, 1.3 * radius), ylim=(-1.3 * radius, 1.2 * radius))
 
 
 def cells(axes, rows, name, radius, most):
@@ -354,7 +362,7 @@ COARSE = 2  # cells of the table, in each direction, that share an arrow on a de
 
 def blocks(rows, side):
     """The flow in squares of side × side cells; all visits have the same weight."""
-    across, up = (sorted({row[axis] for row in rows}) for axis in ("x", "y"))
+    across, up = (distinct(rows, axis) for axis in ("x", "y"))
     members = {}
     for row in rows:
         members.setdefault((across.index(row["x"]) // side, up.index(row["y"]) // side),
@@ -405,7 +413,7 @@ def save(drawing, table):
 
 def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
     """ϖ/Ω over two parameters, as colour and as number; `columns` are the parameters along x and y."""
-    across, up = (sorted({row[column] for row in rows}) for column in columns)
+    across, up = (distinct(rows, name) for name in columns)
     values = [[float("nan")] * len(across) for _ in up]
     for row in rows:
         values[up.index(row[columns[1]])][across.index(row[columns[0]])] = row["mean_by_time"]

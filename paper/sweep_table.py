@@ -86,8 +86,7 @@ def main():
     if quantity in tables.RATES:
         axes.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     names = {"discs": "number of discs $N$", "mu": r"friction coefficient $\mu$"}
-    axes.set_xlabel(names.get(x, x.replace("_", " ")))
-    axes.set_ylabel(label_of(quantity))
+    axes.set(xlabel=names.get(x, x.replace("_", " ")), ylabel=label_of(quantity))
     if others:
         style.legend(axes)
     style.save(drawing, table)

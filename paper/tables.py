@@ -34,5 +34,10 @@ def select(rows, **columns):
     return [row for row in rows if all(row[name] == value for name, value in columns.items())]
 
 
+def distinct(rows, name):
+    """The distinct values of a column, sorted."""
+    return sorted({row[name] for row in rows})
+
+
 def column(rows, name):
     return [row[name] for row in rows]

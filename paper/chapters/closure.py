@@ -66,7 +66,7 @@ def draw_closure(table):
     axes[1][0].set_ylabel("share explained")
     if any(row["coefficient"] < 0 for row in rows):
         style.note(drawing, "negative coefficients: torque or force against the sign of the relation")
-    style.legend_of_all(drawing, *axes[0][0].get_legend_handles_labels(), ncol=4)
+    style.legend_of_all(drawing, axes[0][0], ncol=4)
     style.save(drawing, table)
 
 

@@ -47,7 +47,7 @@ import scipy.linalg
 
 import style
 import tables
-from combine import over_seeds
+from combine import means
 from curves import with_error
 from engine import swirl
 from figure import Figure
@@ -55,6 +55,7 @@ from micropolar import contact_correlation
 from study import Point
 
 FRACTION = 0.2  # φ = N r²/R²
+QUANTITIES = ("translation", "spins", "time", "excess", "correlation")  # of a state of the gas
 # Collisions per disc without losses: to reach equilibrium, then to measure the collision rate.
 TO_MIX, TO_COUNT = 40, 20
 MOMENTS = (0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0)
@@ -66,7 +67,7 @@ STICKS = 1e6  # μ
 class Case:
     """One collision law. `beta` is that of the theory: −1 without friction."""
 
-    name: str
+    case: str
     words: str
     restitution: float
     beta: float
@@ -152,7 +153,7 @@ def cooling_run(parameters):
     advance(gas, before, TO_COUNT)
     rate = 2 * (gas.counts.disc_disc - before) / (len(gas) * (gas.time - begin))
     return {"rate": rate / (math.sqrt(state_of(gas)[0]) * collision_rate()),
-            **{case.name: cool(gas, case, parameters) for case in CASES}}
+            **{case.case: cool(gas, case, parameters) for case in CASES}}
 
 
 def points(settings):
@@ -168,16 +169,11 @@ def rows_of_case(case, point):
     """The largest gas, with the theory."""
     discs, rate, rows = point.cells["discs"], collision_rate(), []
     for k, tau in enumerate(MOMENTS):
-        means, errors = over_seeds(np.array([[math.nan if v is None else v for v in run[case.name][k]]
-                                             for run in point.runs]).T)[:2]
-        T, spins = case.after(tau, discs)
-        rows.append({
-            "case": case.name, "words": case.words, "restitution": case.restitution, "beta": case.beta, "mu": case.mu,
-            "inertia": case.inertia, "collisions": tau, "translation": means[0], "translation_error": errors[0],
-            "theory_translation": T, "spins": means[1], "spins_error": errors[1], "theory_spins": spins,
-            "time": means[2] * rate, "time_error": errors[2] * rate, "theory_time": case.time_of(tau, discs),
-            "excess": means[3], "excess_error": errors[3], "correlation": means[4], "correlation_error": errors[4],
-            "seeds": len(point.runs)})
+        found = means([dict(zip(QUANTITIES, run[case.case][k])) for run in point.runs], QUANTITIES)
+        found |= {name: found[name] * rate for name in ("time", "time_error")}
+        theory = dict(zip(QUANTITIES, (*case.after(tau, discs), case.time_of(tau, discs))))
+        rows.append({**dataclasses.asdict(case), "collisions": tau, **found,
+                     **{f"theory_{name}": value for name, value in theory.items()}, "seeds": len(point.runs)})
     return rows
 
 
@@ -189,17 +185,15 @@ def largest_deviation(rows, name):
 
 
 def table(points, settings):
-    rows, findings, rates = [], [], []
+    rows, findings = [], []
     for case in CASES:
         here = rows_of_case(case, points[-1])
         rows += here
         spins = f" and {largest_deviation(here, 'spins')} for the spins" if case.mu else ""
         findings.append(f"{case.words}: the largest deviation from the mean-field theory up to {FIRST_COLLISIONS} "
                         f"collisions of a disc is {largest_deviation(here, 'translation')} for the translation{spins}.")
-    for point in points:
-        rate, error = over_seeds([run["rate"] for run in point.runs])[:2]
-        rates.append({**point.cells, "packing_fraction": FRACTION, "rate": rate, "rate_error": error,
-                      "seeds": len(point.runs)})
+    rates = [{**point.cells, "packing_fraction": FRACTION, **means(point.runs, ["rate"]), "seeds": len(point.runs)}
+             for point in points]
     words = [f"{with_error(r['rate'], r['rate_error'])} at R/r = {r['container_radius']:.0f}" for r in rates]
     return {"": rows, "_rates": rates}, [*findings, f"Collision rate in units of Enskog's: {', '.join(words)}."]
 
@@ -210,62 +204,45 @@ LAST = 10.5  # collisions of a disc that the figure shows
 LINEAR = 15  # per cent: the scale of deviations is logarithmic beyond
 
 
-def temperatures(axes, rows, case, look):
-    here = sorted(tables.select(rows, case=case), key=lambda row: row["collisions"])
-    tau = np.array([0.0] + style.column(here, "collisions"))
-    for name, filled in (("translation", True), ("spins", False)):
-        start = 1.0 if name == "translation" else 0.0
-        if here[0]["mu"] == 0 or here[0]["mu"] == STICKS:
-            axes.plot(tau, [start] + style.column(here, f"theory_{name}"), color=look["color"],
-                      linestyle="-" if filled else "--", linewidth=0.9)
-        axes.errorbar(tau[1:], style.column(here, name), yerr=style.column(here, f"{name}_error"), fmt=look["marker"],
-                      color=look["color"], markerfacecolor=look["color"] if filled else "white", elinewidth=0.7)
+def temperatures(axes, rows, look):
+    tau = [0.0, *style.column(rows, "collisions")]
+    for name, start, face, line in (("translation", 1.0, look["color"], "-"), ("spins", 0.0, "white", "--")):
+        if rows[0]["mu"] in (0, STICKS):
+            axes.plot(tau, [start, *style.column(rows, f"theory_{name}")], color=look["color"], linestyle=line, linewidth=0.9)
+        style.curve(axes, rows, "collisions", name, linestyle="none", markerfacecolor=face, **look)
 
 
-def deviations(axes, rows, case, look, name):
-    here = [row for row in sorted(tables.select(rows, case=case), key=lambda row: row["collisions"])
-            if row[f"theory_{name}"] > 0 and row["collisions"] <= LAST]
-    if not here:
-        return []
-    theory = np.array(style.column(here, f"theory_{name}"))
-    per_cent = 100 * (np.array(style.column(here, name)) / theory - 1)
-    axes.errorbar(style.column(here, "collisions"), per_cent,
-                  yerr=100 * np.array(style.column(here, f"{name}_error")) / theory, elinewidth=0.7, **look)
-    return per_cent
+def deviations(axes, rows, look, name):
+    """Returns the drawn values, in per cent."""
+    here = [row | {"deviation": 100 * (row[name] / row[f"theory_{name}"] - 1),
+                   "deviation_error": 100 * row[f"{name}_error"] / row[f"theory_{name}"]}
+            for row in rows if row[f"theory_{name}"] > 0 and row["collisions"] <= LAST]
+    if here:
+        style.curve(axes, here, "collisions", "deviation", **look)
+    return style.column(here, "deviation")
 
 
 def draw(table):
-    rows = style.read(table)
-    rates = tables.companion(table, "_rates")
-    drawing, panels = style.figure(style.PAGE, 5.4, ncols=2, nrows=2)
-    cases = list(dict.fromkeys(row["case"] for row in rows))
-    handles = []
-    for k, case in enumerate(cases):
-        look = {"color": style.CYCLE[k], "marker": style.MARKERS[k]}
-        temperatures(panels[0, 0], rows, case, look)
-        words = tables.select(rows, case=case)[0]["words"]
-        handles.append(panels[0, 1].plot([], [], label=words, **look)[0])
-    panels[0, 0].set_ylabel("temperature / that at the start")
-    panels[0, 1].set_ylabel("$T$: simulation / theory − 1 (%)")
-    panels[1, 0].set_ylabel("$T_s$: simulation / theory − 1 (%)")
-    for axes, name in ((panels[0, 1], "translation"), (panels[1, 0], "spins")):
+    rows, rates = style.read(table), tables.companion(table, "_rates")
+    drawing, ((both, translation), (spins, last)) = style.figure(style.PAGE, 5.4, ncols=2, nrows=2)
+    cases = [(tables.select(rows, case=case), style.look_of(k))
+             for k, case in enumerate(dict.fromkeys(row["case"] for row in rows))]
+    for here, look in cases:
+        temperatures(both, here, look)
+    both.set_ylabel("temperature / that at the start")
+    for axes, name, words in ((translation, "translation", "T"), (spins, "spins", "T_s")):
         style.zero_line(axes)
-        found = [deviations(axes, rows, case, {"color": style.CYCLE[k], "marker": style.MARKERS[k]}, name)
-                 for k, case in enumerate(cases)]
-        style.fine_near_zero(axes, np.concatenate(found), LINEAR)
-    for axes in (panels[0, 0], panels[0, 1], panels[1, 0]):
-        axes.set_xlim(0, LAST)
-        axes.set_xlabel(r"collisions per disc $\tau$")
-    last = panels[1, 1]
-    inverse = [1 / row["container_radius"] for row in rates]
-    last.errorbar(inverse, style.column(rates, "rate"), yerr=style.column(rates, "rate_error"), fmt="o",
-                  color=style.BLACK, elinewidth=0.7)
+        style.fine_near_zero(axes, np.concatenate([deviations(axes, *case, name) for case in cases]), LINEAR)
+        axes.set_ylabel(f"${words}$: simulation / theory − 1 (%)")
+    for axes in (both, translation, spins):
+        axes.set(xlim=(0, LAST), xlabel=r"collisions per disc $\tau$")
+    rates = [row | {"inverse": 1 / row["container_radius"]} for row in rates]
+    style.curve(last, rates, "inverse", "rate", color=style.BLACK, marker="o", linestyle="none")
     last.axhline(1.0, color=style.GREY, linewidth=0.7, linestyle=":")
-    last.set_xlim(0, 1.1 * max(inverse))
+    last.set_xlim(0, 1.1 * max(style.column(rates, "inverse")))
     last.locator_params(axis="x", nbins=5)
-    last.set_xlabel("$r/R$")
-    last.set_ylabel("collision rate / Enskog's")
-    style.legend_of_all(drawing, handles, [handle.get_label() for handle in handles], ncol=4)
+    last.set(xlabel="$r/R$", ylabel="collision rate / Enskog's")
+    style.legend_of_all(drawing, [translation.plot([], [], label=here[0]["words"], **look)[0] for here, look in cases], ncol=4)
     style.save(drawing, table)
 
 

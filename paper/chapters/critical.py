@@ -92,8 +92,7 @@ KINDS = {"free": "free", "wall": "at the wall", "elongated": "elongated", "back"
 
 def against_packing(axes, rows, quantity, label):
     chapter_drawings.curves(axes, rows, "container_radius", quantity, "$R/r$")
-    axes.set_xlabel(chapter_drawings.PACKING)
-    axes.set_ylabel(label)
+    axes.set(xlabel=chapter_drawings.PACKING, ylabel=label)
 
 
 def against_size(axes, changes, scaling, quantity, label):
@@ -109,12 +108,10 @@ def against_size(axes, changes, scaling, quantity, label):
             ends = np.array([min(x), max(x)])
             axes.plot(ends, law[0]["factor"] * ends ** law[0]["exponent"], color=style.CYCLE[k], linewidth=0.7,
                       linestyle="--")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     axes.set_xticks([6, 12, 24, 60], ["6", "12", "24", "60"])
     axes.xaxis.set_minor_locator(style.matplotlib.ticker.NullLocator())
-    axes.set_xlabel(r"container radius $R/r$")
-    axes.set_ylabel(label)
+    axes.set(xlabel=r"container radius $R/r$", ylabel=label)
 
 
 def draw(table):
@@ -130,8 +127,7 @@ def draw(table):
     axes[0][2].axhline(0, color=style.GREY, linewidth=0.6)
     for lower, (quantity, label) in zip(axes[1], LABELS):
         against_size(lower, changes, scaling, quantity, label)
-    handles, labels = zip(*(pair for row in axes for pair in zip(*row[0].get_legend_handles_labels())))
-    style.legend_of_all(drawing, handles, labels, ncol=5)
+    style.legend_of_all(drawing, [mark for row in axes for mark in row[0].get_legend_handles_labels()[0]], ncol=5)
     style.save(drawing, table)
 
 

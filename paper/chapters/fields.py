@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 import style
-from combine import at, number
+from combine import at, number, over_seeds
 from curves import with_error
 from dishes import Dish, dish_run
 from figure import Figure
@@ -66,8 +66,7 @@ def fields_table(points, settings):
     inside, viscosity, words = x * x + y * y < radius * radius, np.full(len(x), math.nan), []
 
     def mean(arrays):
-        rows = np.array(arrays)
-        return rows.mean(axis=0), rows.std(axis=0, ddof=1) / math.sqrt(len(rows))
+        return over_seeds(np.array(arrays).T)[:2]
 
     maps = {name: mean([f[name] for f in seeds]) for name in MAPPED}
     packing = maps["packing"][0]
@@ -88,7 +87,7 @@ def fields_table(points, settings):
 
 def square(rows, name):
     """The values as an image with the points of the grid as pixels; points without a row are NaN."""
-    x, y = (sorted({row[axis] for row in rows}) for axis in ("x", "y"))
+    x, y = (style.distinct(rows, axis) for axis in ("x", "y"))
     image = np.full((len(y), len(x)), np.nan)
     for row in rows:
         image[y.index(row["y"]), x.index(row["x"])] = row[name]
@@ -107,10 +106,7 @@ def panel(drawing, axes, rows, name, label, unit, colors, symmetric, limit=None)
     shown.set_clip_path(style.plt.Circle((0, 0), radius, transform=axes.transData))
     axes.add_patch(style.plt.Circle((0, 0), radius, fill=False, linewidth=0.8))
     axes.set_axis_off()
-    axes.set_aspect("equal")
-    axes.set_xlim(-1.03 * radius, 1.03 * radius)
-    axes.set_ylim(-1.03 * radius, 1.03 * radius)
-    axes.set_title(label)
+    axes.set(aspect="equal", xlim=(-1.03 * radius, 1.03 * radius), ylim=(-1.03 * radius, 1.03 * radius), title=label)
     drawing.colorbar(shown, ax=axes, shrink=0.7, pad=0.1, label=unit)
     return limit
 
@@ -128,7 +124,7 @@ def draw_fields(table):
     dense = [row for row in rows if row["packing"] > 0.05]
     panel(drawing, axes[0][0], rows, "packing", "(a) packing and flow", r"packing fraction $\varphi$", "Blues", False)
     flow = about_the_mean(dense)
-    step = sorted({row["x"] for row in rows})
+    step = style.distinct(rows, "x")
     style.arrows(axes[0][0], flow, step[1] - step[0], max(map(style.speed, flow), default=1.0) or 1.0, style.RED,
                  key=(0.3, -0.06))
     panel(drawing, axes[0][1], dense, "spin", r"(b) spin $\omega$", r"$\omega$ ($v/r$)", "PuOr_r", True)

@@ -69,9 +69,7 @@ def table(points, settings):
         findings.setdefault((cells["loop"], cells["parameter"]), []).append(
             (f"{with_error(difference, error)} with {cells['periods']} periods for each branch",
              abs(difference) > CERTAIN_DIFFERENCE * error))
-    columns = ["loop", "parameter", "value", "periods", "seeds", "up", "up_error", "down", "down_error", "difference",
-               "difference_error"]
-    return {"": (rows, columns)}, [
+    return {"": rows}, [
         f"{loop}, ramp of {parameter}: most certain difference of the branches, down minus up, in ϖ/Ω: "
         f"{'; '.join(words for words, _ in found)}; {'' if found[-1][1] else 'no certain '}hysteresis at the slowest ramp."
         for (loop, parameter), found in findings.items()]
@@ -80,21 +78,18 @@ def table(points, settings):
 def draw(table):
     rows = style.read(table)
     loops = list(dict.fromkeys(row["loop"] for row in rows))
-    lengths = sorted({row["periods"] for row in rows})
+    lengths = style.distinct(rows, "periods")
     drawing, axes = style.figure(style.PAGE, 2.6, ncols=len(loops), squeeze=False)
     for here, loop in zip(axes[0], loops):
         style.zero_line(here)
         for k, length in enumerate(lengths):
             part = tables.select(rows, loop=loop, periods=length)
             for branch, marker, filled in (("up", "^", True), ("down", "v", False)):
-                here.errorbar(style.column(part, "value"), style.column(part, branch),
-                              yerr=style.column(part, branch + "_error"), color=style.CYCLE[k], marker=marker,
-                              markerfacecolor=style.CYCLE[k] if filled else "white", elinewidth=0.7, linewidth=0.8,
-                              label=f"{branch}, {length:.0f} periods")
-        here.set_title(loop)
-        here.set_xlabel(PARAMETERS[part[0]["parameter"]])
+                style.curve(here, part, "value", branch, color=style.CYCLE[k], marker=marker, linewidth=0.8,
+                            markerfacecolor=style.CYCLE[k] if filled else "white", label=f"{branch}, {length:.0f} periods")
+        here.set(title=loop, xlabel=PARAMETERS[part[0]["parameter"]])
     axes[0][0].set_ylabel(r"rotation $\varpi/\Omega$, rigid body")
-    style.legend_of_all(drawing, *axes[0][0].get_legend_handles_labels(), ncol=4)
+    style.legend_of_all(drawing, axes[0][0], ncol=4)
     style.save(drawing, table)
 
 

@@ -5,9 +5,8 @@ a fluid layer at the wall."""
 import math
 
 import style
-import tables
 from coarse_zero import changes_of_sign, middle_zero, zero_of_curve
-from combine import over_seeds
+from combine import means
 from curves import with_error
 from dishes import SPHERES_OF_CHAPTERS, resolved
 from figure import Figure
@@ -56,10 +55,8 @@ def table(points, settings):
         for point in points:
             if point.cells["packing_fraction"] != fraction:
                 continue
-            row = dict(point.cells)
-            for name in QUANTITIES:
-                row[name], row[f"{name}_error"] = over_seeds([run[name] for run in point.runs])[:2]
-            rows.append({**row, "seeds": len(point.runs)})
+            row = {**point.cells, **means(point.runs, QUANTITIES), "seeds": len(point.runs)}
+            rows.append(row)
             random = distance_of_random_points(row["discs"])
             excess.append((row["amplitude"], row["distance"] / random - UNSTABLE, row["distance_error"] / random))
         found = threshold_of(excess)
@@ -80,21 +77,14 @@ PANELS = (("distance", r"distance of the centre of mass $\langle|q|\rangle/R$"),
 
 def draw_instability(table):
     rows = style.read(table)
-    layers = list(dict.fromkeys(row["packing_fraction"] for row in rows))
     drawing, panels = style.figure(style.PAGE, 5.2, ncols=2, nrows=2)
-    handles = []
     for axes, (quantity, words) in zip(panels.flat, PANELS):
         style.zero_line(axes)
-        handles = []
-        for k, layer in enumerate(layers):
-            here = sorted(tables.select(rows, packing_fraction=layer), key=lambda row: row["amplitude"])
-            handles.append(axes.errorbar(
-                style.column(here, "amplitude"), style.column(here, quantity),
-                yerr=style.column(here, f"{quantity}_error"), color=style.CYCLE[k], marker=style.MARKERS[k],
-                elinewidth=0.7, label=rf"$\varphi = {here[0]['packing_fraction']:g}$, $N = {here[0]['discs']:g}$"))
-        axes.set_ylabel(words)
-        axes.set_xlabel("amplitude $A/r$")
-    style.legend_of_all(drawing, handles, [handle.get_label() for handle in handles], ncol=3)
+        for layer, here, look in style.groups(rows, "packing_fraction"):
+            style.curve(axes, here, "amplitude", quantity, **look,
+                        label=rf"$\varphi = {layer:g}$, $N = {here[0]['discs']:g}$")
+        axes.set(ylabel=words, xlabel="amplitude $A/r$")
+    style.legend_of_all(drawing, panels[0, 0], ncol=3)
     style.save(drawing, table)
 
 

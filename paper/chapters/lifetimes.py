@@ -76,8 +76,7 @@ def draw(table):
     axes.plot([], [], ">", color=style.CYCLE[1], label="no exit: lower bound, 95 %")
     axes.set_xscale("log")
     axes.set_yticks(range(len(rows)), [f"{row['point']}:\n{row['state']}" for row in rows])
-    axes.set_ylim(len(rows) - 0.5, -0.5)
-    axes.set_xlabel("lifetime (periods)")
+    axes.set(ylim=(len(rows) - 0.5, -0.5), xlabel="lifetime (periods)")
     style.legend(axes, ncol=1)
     style.save(drawing, table)
 

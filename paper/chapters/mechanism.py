@@ -75,11 +75,8 @@ def draw_torque(table):
         if zero is not None:
             axes.axvline(zero, color=style.GREY, linewidth=0.7, linestyle="--")
         for k, (name, words) in enumerate(terms):
-            axes.errorbar(style.column(rows, "discs"), style.column(rows, name),
-                          yerr=style.column(rows, name + "_error"), color=style.CYCLE[k],
-                          marker=style.MARKERS[k], elinewidth=0.7, label=words)
-        axes.set_xlabel("number of discs $N$")
-        axes.set_ylabel(r"torque on the orbital motion, $m v^2$")
+            style.curve(axes, rows, "discs", name, label=words, **style.look_of(k))
+        axes.set(xlabel="number of discs $N$", ylabel=r"torque on the orbital motion, $m v^2$")
         axes.text(0.02, 0.95, f"({letter})", transform=axes.transAxes)
         style.legend(axes, ncol=3)
     both[1].set_ylim(np.array(both[1].get_ylim()) * 1.05)
@@ -134,20 +131,14 @@ def draw_gears(table):
     rows = style.read(table)
     ranks = {row["predictor"].split(".")[1]: row for row in tables.companion(table, "_ranks")}
     drawing, panels = style.figure(style.PAGE, 4.6, ncols=2, nrows=2)
-    values = sorted({row["mu"] for row in rows})
     for axes, (name, words) in zip(panels.flat, PANELS):
         style.zero_line(axes)
-        for k, mu in enumerate(values):
-            here = style.select(rows, mu=mu)
-            axes.errorbar(style.column(here, name), style.column(here, "mean_by_time"),
-                          xerr=style.column(here, name + "_error"),
-                          yerr=style.column(here, "mean_by_time_error"), fmt=style.MARKERS[k], color=style.CYCLE[k],
-                          elinewidth=0.7, label=rf"$\mu = {mu:g}$")
+        for mu, here, look in style.groups(rows, "mu"):
+            style.curve(axes, here, name, "mean_by_time", linestyle="none", label=rf"$\mu = {mu:g}$", **look)
         rank = ranks[name]
         axes.text(0.98, 0.55, rf"$\rho$ = {rank['rank_correlation']:.2f} ± {rank['rank_correlation_error']:.2f}"
                   .replace("-", "−"), transform=axes.transAxes, ha="right")
-        axes.set_xlabel(words)
-        axes.set_ylabel(r"rotation $\varpi/\Omega$")
+        axes.set(xlabel=words, ylabel=r"rotation $\varpi/\Omega$")
     style.legend(panels[0, 0], ncol=5)
     style.save(drawing, table)
 

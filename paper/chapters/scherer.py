@@ -10,7 +10,7 @@ import numpy as np
 
 import style
 import tables
-from combine import over_seeds
+from combine import means, over_seeds
 from curves import CERTAIN, listed
 from dishes import SPHERES_OF_CHAPTERS, resolved
 from figure import Figure
@@ -40,12 +40,9 @@ def points(settings):
 
 def row_of(point):
     """The means over the seeds; E = ⟨v²⟩/v_C², with the speed v_C of the container."""
-    row = dict(point.cells)
-    for name in QUANTITIES:
-        values = [run[name.replace("energy", "square")] / (run["speed_square"] if "energy" in name else 1)
-                  for run in point.runs]
-        row[name], row[f"{name}_error"] = over_seeds(values)[:2]
-    return row
+    runs = [run | {name: run[name.replace("energy", "square")] / run["speed_square"] for name in ("energy", "spin_energy")}
+            for run in point.runs]
+    return {**point.cells, **means(runs, QUANTITIES)}
 
 
 def add_slopes(rows):
@@ -75,12 +72,10 @@ def rings_of(point):
     """The radial densities."""
     if not point.runs:
         return []
-    columns = [over_seeds(np.array([run[name] for run in point.runs]).T)
-               for name in ("about_centre_of_mass", "about_container")]
+    names = ("about_centre_of_mass", "about_container")
     return [{"setting": point.cells["setting"], "discs": point.cells["discs"], "distance": (b + 0.5) / RINGS_PER_RADIUS,
-             "about_centre_of_mass": columns[0][0][b], "about_centre_of_mass_error": columns[0][1][b],
-             "about_container": columns[1][0][b], "about_container_error": columns[1][1][b]}
-            for b in range(len(columns[0][0]))]
+             **means([{name: run[name][b] for name in names} for run in point.runs], names)}
+            for b in range(len(point.runs[0][names[0]]))]
 
 
 def table(points, settings):
@@ -101,13 +96,10 @@ def against_number(axes, rows, quantity, settings):
     """A curve for each setting; open symbols where the cluster certainly counterrotates."""
     for k, setting in enumerate(settings):
         here = sorted(tables.select(rows, setting=setting), key=lambda row: row["discs"])
-        color, marker = style.CYCLE[k], style.MARKERS[k]
-        axes.plot(style.column(here, "discs"), style.column(here, quantity), color=color, linewidth=0.8)
-        for open_symbols in (False, True):
-            part = [row for row in here if (row["rotation"] < -3 * row["rotation_error"]) == open_symbols]
-            axes.errorbar(style.column(part, "discs"), style.column(part, quantity),
-                          yerr=style.column(part, f"{quantity}_error"), fmt=marker, color=color, elinewidth=0.7,
-                          markerfacecolor="white" if open_symbols else color)
+        style.curve(axes, here, "discs", quantity, linewidth=0.8, **style.look_of(k))
+        against = [row for row in here if sign(row, "rotation") < 0]
+        axes.plot(style.column(against, "discs"), style.column(against, quantity), linestyle="none", markerfacecolor="white",
+                  zorder=3, **style.look_of(k))
 
 
 def draw_rings(axes, rows, numbers):
@@ -119,8 +111,7 @@ def draw_rings(axes, rows, numbers):
         axes.text(8.95, SHIFT * (k + 0.1), f"$N = {number:g}$", color=style.CYCLE[k], ha="right")
         axes.axhline(SHIFT * k, color=style.GREY, linewidth=0.4)
     axes.set_xlabel("distance from the centre of mass $d/r$")
-    axes.set_ylabel(f"particles per distance (1/$r$), shifted by {SHIFT}")
-    axes.set_xlim(0, 9)
+    axes.set(ylabel=f"particles per distance (1/$r$), shifted by {SHIFT}", xlim=(0, 9))
 
 
 def draw_scherer(table):
@@ -128,12 +119,11 @@ def draw_scherer(table):
     settings = list(dict.fromkeys(row["setting"] for row in rows))
     drawing, panels = style.figure(style.PAGE, 5.6, ncols=2, nrows=2)
     against_number(panels[0, 0], rows, "energy", settings)
-    panels[0, 0].set_ylabel(r"mean kinetic energy $\langle v^2\rangle/v_C^2$")
-    panels[0, 0].set_yscale("log")
+    panels[0, 0].set(ylabel=r"mean kinetic energy $\langle v^2\rangle/v_C^2$", yscale="log")
     against_number(panels[0, 1], rows, "rotation", settings)
     style.zero_line(panels[0, 1])
     panels[0, 1].set_ylabel(r"rotation $\varpi/\Omega$")
-    numbers = sorted({row["discs"] for row in rows})
+    numbers = style.distinct(rows, "discs")
     chosen = [numbers[round(share * (len(numbers) - 1))] for share in (0.2, 0.5, 0.75, 1.0)]
     draw_rings(panels[1, 0], tables.companion(table, "_rings"), chosen)
     against_number(panels[1, 1], rows, "path_distance", settings)
@@ -141,12 +131,11 @@ def draw_scherer(table):
     panels[1, 1].set_ylim(bottom=0)
     for axes in (panels[0, 0], panels[0, 1], panels[1, 1]):
         axes.set_xlabel("number of particles $N$")
-    handles = [panels[0, 0].plot([], [], color=style.CYCLE[k], marker=style.MARKERS[k],
-                                 label=tables.select(rows, setting=setting)[0]["words"])[0]
+    handles = [panels[0, 0].plot([], [], label=tables.select(rows, setting=setting)[0]["words"], **style.look_of(k))[0]
                for k, setting in enumerate(settings)]
     handles.append(panels[0, 0].plot([], [], "o", color=style.GREY, markerfacecolor="white",
                                      label="open: counterrotates")[0])
-    style.legend_of_all(drawing, handles, [handle.get_label() for handle in handles], ncol=4)
+    style.legend_of_all(drawing, handles, ncol=4)
     style.save(drawing, table)
 
 

@@ -164,7 +164,7 @@ def blow_up(study):
         here = tables.select(rows, sides=float(sides))
         return [[row["energy"] for row in sorted(tables.select(here, seed=seed),
                                                  key=lambda row: row["period"])]
-                for seed in sorted({row["seed"] for row in here})]
+                for seed in tables.distinct(here, "seed")]
 
     def growth(sides):
         """From the second part to the last, once the discs are in motion, in units of the mean; the error is

@@ -30,8 +30,7 @@ def draw(table):
     style.curves_by_setting(slip, rows, "pinned_region")
     slip.plot(*SLIP_AT_25, **PAPER)
     slip.axhline(1, color=style.BLACK, linewidth=1.0, linestyle="--", zorder=0)
-    slip.set_ylabel("slip parameter $s$, pinned")
-    slip.set_xlabel(r"number of particles $N$")
+    slip.set(ylabel="slip parameter $s$, pinned", xlabel=r"number of particles $N$")
     style.save(drawing, table)
 
 

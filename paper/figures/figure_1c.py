@@ -67,8 +67,7 @@ def lab_container(axes, centre, reach):
     for name, at, marker in (("S", (0, 0), "+"), ("C", centre, "."), ("M", centre + R * direction, "o")):
         axes.plot(*at, marker, color=style.PINK if name == "M" else style.BLACK, markersize=4, zorder=5)
         axes.annotate(f"${name}$", at, (2, 2), textcoords="offset points", fontsize=style.SMALLEST + 1, zorder=5)
-    axes.set_xlim(-reach, reach)
-    axes.set_ylim(-reach, reach)
+    axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
 
 
 def draw_frames(table):

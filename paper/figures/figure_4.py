@@ -36,10 +36,9 @@ def draw_slip(table):
     for axes, (quantity, title) in zip(panels, SLIPS):
         style.curves_by_setting(axes, rows, quantity)
         axes.axhline(1, color=style.GREY, linewidth=0.6, linestyle="--", zorder=0)
-        axes.set_title(title)
-        axes.set_xlabel(r"number of particles $N$")
+        axes.set(title=title, xlabel=r"number of particles $N$")
     panels[0].set_ylabel("slip parameter $s$")
-    style.legend_of_all(drawing, *panels[0].get_legend_handles_labels(), ncol=5)
+    style.legend_of_all(drawing, panels[0], ncol=5)
     style.save(drawing, table)
 
 
@@ -49,10 +48,9 @@ def draw_spins(table):
     panels[2].sharey(panels[1])
     for axes, (quantity, title) in zip(panels, SPINS):
         style.curves_by_setting(axes, rows, quantity, SHOWN)
-        axes.set_title(title)
-        axes.set_xlabel(r"number of particles $N$")
+        axes.set(title=title, xlabel=r"number of particles $N$")
         style.zero_line(axes)
-    style.legend_of_all(drawing, *panels[0].get_legend_handles_labels(), ncol=3)
+    style.legend_of_all(drawing, panels[0], ncol=3)
     style.save(drawing, table)
 
 

@@ -25,7 +25,7 @@ def table_of(measurement, columns):
 
 def draw_density(table):
     rows = style.read(table)
-    numbers = sorted({row["discs"] for row in rows})
+    numbers = style.distinct(rows, "discs")
     drawing, axes = style.figure(height=2.3, ncols=len(numbers), squeeze=False)
     densest = max(row["by_event"] for row in rows)
     R = style.map_radius(rows)
@@ -41,7 +41,7 @@ def draw_density(table):
 
 def draw_flow(table):
     rows = style.read(table)
-    numbers = sorted({row["discs"] for row in rows})
+    numbers = style.distinct(rows, "discs")
     drawing, axes = style.figure(width=style.PAGE, height=3.6, ncols=len(numbers), squeeze=False)
     R = style.map_radius(rows)
     spacing = 2 * R / len({row["x"] for row in rows})

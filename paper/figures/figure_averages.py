@@ -46,8 +46,7 @@ def draw(table):
     both.plot([], [], color=style.GREY, linestyle=":", marker="o", fillstyle="none",
               label="by time (filled: by event)")
     style.legend(both)
-    difference.set_ylabel(r"by event $-$ by time")
-    difference.set_xlabel(r"number of discs $N$")
+    difference.set(ylabel=r"by event $-$ by time", xlabel=r"number of discs $N$")
     style.save(drawing, table)
 
 

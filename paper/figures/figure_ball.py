@@ -61,23 +61,20 @@ def table(points, settings):
 def draw(table):
     rows = style.read(table)
     drawing, axes = style.figure(height=3.0)
-    steps = sorted({row["mu"] for row in rows})
+    steps = style.distinct(rows, "mu")
     handles = []
     styles = ((style.BLUE, "o"), (style.GREEN, "s"), (style.RED, "^"))
-    for (color, marker), radius in zip(styles, sorted({row["ball_radius"] for row in rows})):
+    for (color, marker), radius in zip(styles, style.distinct(rows, "ball_radius")):
         for restitution, fill, line in BOUNCES:
-            curve = sorted(style.select(rows, ball_radius=radius, restitution=restitution),
-                           key=lambda row: row["mu"])
-            axes.errorbar([steps.index(row["mu"]) for row in curve], style.column(curve, "gamma"),
-                          yerr=style.column(curve, "gamma_error"), color=color, marker=marker,
-                          fillstyle=fill, linestyle=line, elinewidth=0.7)
+            curve = [row | {"step": steps.index(row["mu"])} for row in sorted(
+                style.select(rows, ball_radius=radius, restitution=restitution), key=lambda row: row["mu"])]
+            style.curve(axes, curve, "step", "gamma", color=color, marker=marker, fillstyle=fill, linestyle=line)
         handles.append(axes.plot([], [], color=color, marker=marker, label=f"radius {radius:g}")[0])
         axes.axhline(curve[0]["gamma_no_slip"], color=color, linewidth=0.6, linestyle="--",
                      zorder=0)
     axes.axhline(1, color=style.GREY, linewidth=0.6, zorder=0)
     axes.set_xticks(range(len(steps)), [f"{mu:g}" for mu in steps])
-    axes.set_xlabel(r"friction coefficient of the wall $\mu$")
-    axes.set_ylabel(r"$\gamma = |\varpi_M|/\Omega$")
+    axes.set(xlabel=r"friction coefficient of the wall $\mu$", ylabel=r"$\gamma = |\varpi_M|/\Omega$")
     bounces = [axes.plot([], [], color=style.GREY, marker="o", fillstyle=fill, linestyle=line,
                          label=f"$e = {restitution:g}$")[0] for restitution, fill, line in BOUNCES]
     # By columns: the radii first, below them the restitutions.

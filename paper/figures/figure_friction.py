@@ -32,8 +32,7 @@ def draw(table):
     axes.set_xticks([0.05, 0.1, 0.2, 0.5, 1, 2])
     axes.set_xticklabels(["0.05", "0.1", "0.2", "0.5", "1", "2"])
     axes.minorticks_off()
-    axes.set_xlabel(r"friction coefficient $\mu_d = \mu_w$")
-    axes.set_ylabel(r"crossing $N_c$")
+    axes.set(xlabel=r"friction coefficient $\mu_d = \mu_w$", ylabel=r"crossing $N_c$")
     style.save(drawing, table)
 
 

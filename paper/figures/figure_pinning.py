@@ -35,7 +35,7 @@ def table(points, settings):
 def draw(table):
     rows = style.read(table)
     rows = style.select(rows, setting="smooth") or rows
-    known = sorted({row["discs"] for row in rows})
+    known = style.distinct(rows, "discs")
     # The N of the paper's maps, or the nearest ones.
     numbers = sorted({min(known, key=lambda n: abs(n - target)) for target in (ROTATING_N, COUNTERROTATING_N)})
     drawing, panels = style.figure(width=style.PAGE, height=4.6, nrows=2, ncols=len(numbers),
@@ -66,7 +66,7 @@ def draw(table):
         axes.set_ylabel("per cent in 10°")
     for axes in panels[-1]:
         axes.set_xlabel(r"angular position $\theta$ (°); M is at 270°")
-    style.legend_of_all(drawing, *panels[0][0].get_legend_handles_labels(), ncol=2)
+    style.legend_of_all(drawing, panels[0][0], ncol=2)
     style.note_not_steady(drawing, [row for row in rows if row["discs"] in numbers])
     style.save(drawing, table)
 

@@ -30,13 +30,10 @@ def table(points, settings):
 
 def draw(table):
     rows = style.read(table)
-    numbers = sorted({row["discs"] for row in rows})
-    drawing, axes = style.figure(height=3.4, nrows=len(numbers), sharex=True, squeeze=False)
-    for k, (panel, discs) in enumerate(zip(axes[:, 0], numbers)):
-        here = style.select(rows, discs=discs)
-        polygons = [row for row in here if row["sides"] > 0]
-        style.curve(panel, polygons, "sides", "mean_by_time", color=style.CYCLE[k],
-                    marker=style.MARKERS[k], label="polygon")
+    groups = style.groups(rows, "discs")
+    drawing, axes = style.figure(height=3.4, nrows=len(groups), sharex=True, squeeze=False)
+    for panel, (discs, here, look) in zip(axes[:, 0], groups):
+        style.curve(panel, [row for row in here if row["sides"] > 0], "sides", "mean_by_time", label="polygon", **look)
         for circle in style.select(here, sides=0.0):
             note = " (steady state not verified)" if style.not_steady([circle]) else ""
             panel.axhline(circle["mean_by_time"], color=style.BLACK, linewidth=0.7,
@@ -44,8 +41,7 @@ def draw(table):
             panel.axhspan(circle["mean_by_time"] - circle["mean_by_time_error"],
                           circle["mean_by_time"] + circle["mean_by_time_error"], color=style.GREY,
                           alpha=0.3, linewidth=0)
-        panel.set_xscale("log")
-        panel.set_ylabel(rf"$\varpi/\Omega$,  $N = {discs:.0f}$")
+        panel.set(xscale="log", ylabel=rf"$\varpi/\Omega$,  $N = {discs:.0f}$")
         style.legend(panel)
     axes[-1][0].set_xticks([6, 10, 30, 100, 300])
     axes[-1][0].set_xticklabels(["6", "10", "30", "100", "300"])

@@ -27,7 +27,7 @@ def table(points, settings):
 
 def draw(table):
     rows = style.read(table)
-    numbers = sorted({row["discs"] for row in rows})
+    numbers = style.distinct(rows, "discs")
     drawing, (speed, heat) = style.figure(height=2.5, ncols=2)
     per_speed = 1 / (2 * OMEGA ** 2 * CONTAINER_RADIUS)  # |Coriolis force| = 2 Ω v, in units of ΩR
     for k, (setting, label, color) in enumerate(SETTINGS):
@@ -46,7 +46,7 @@ def draw(table):
         style.zero_line(axes)
     speed.set_title(r"mean speed ($\Omega R$)")
     heat.set_title("granular temp. ($m v_c^2$)")
-    style.legend_of_all(drawing, *speed.get_legend_handles_labels(), ncol=3)
+    style.legend_of_all(drawing, speed, ncol=3)
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
 

@@ -59,16 +59,12 @@ def draw(table):
     rows = style.read(table)
     drawing, (rotation, spin) = style.figure(height=3.6, nrows=2, sharex=True)
     rotation.axhline(1, color=style.GREY, linewidth=0.6, zorder=0)
-    for k, discs in enumerate(sorted({row["discs"] for row in rows})):
-        curve = style.select(rows, discs=discs)
-        look = {"color": style.CYCLE[k], "marker": style.MARKERS[k], "markevery": 5,
-                "label": f"$N = {discs:.0f}$"}
-        rotation.plot(*smoothed(curve, "varpi"), **look)
-        spin.plot(*smoothed(curve, "spin"), **look)
-        for axes in (rotation, spin):
-            after = [row["period"] for row in curve if row["events"] >= EVENTS]
+    for discs, curve, look in style.groups(rows, "discs"):
+        after = [row["period"] for row in curve if row["events"] >= EVENTS]
+        for axes, name in ((rotation, "varpi"), (spin, "spin")):
+            axes.plot(*smoothed(curve, name), markevery=5, label=f"$N = {discs:.0f}$", **look)
             if after:
-                axes.axvline(after[0], color=style.CYCLE[k], linewidth=0.7, linestyle="--")
+                axes.axvline(after[0], color=look["color"], linewidth=0.7, linestyle="--")
     rotation.set_ylabel(r"$\varpi/\Omega$")
     spin.set_ylabel(r"mean spin $\langle\omega_i\rangle/\Omega$")
     spin.set_xlabel(r"periods from rest (dashed: the paper's $10^6$ events)")
