@@ -193,11 +193,10 @@ build_now() {
     mv "$stamp.building" "$stamp" # dated before the build: later changes are newer
 }
 
-# print_section HEADING: prints the first block of text below `## HEADING` of docs/reference/commands.md.
+# print_section HEADING: prints the text below `## HEADING` of cmake/help.txt.
 print_section() {
     heading="## $1" awk '
-        /^```/ { if (here && inside) exit; inside = !inside; next }
-        /^## / && !inside { here = $0 == ENVIRON["heading"] }
-        here && inside { print; found = 1 }
-        END { exit !found }' "$home/docs/reference/commands.md" 2>/dev/null
+        /^## swirl/ { here = $0 == ENVIRON["heading"]; next }
+        here { print; found = 1 }
+        END { exit !found }' "$home/cmake/help.txt" 2>/dev/null
 }

@@ -44,23 +44,20 @@ class Catalogue(HandMadeTables):
             if "Fig. 5b" in claim.source or claim.source == "SI":
                 self.assertEqual(claim.on, DISCS, claim.statement)
 
-    def test_page_about_the_paper_lists_every_claim(self):
-        with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
-            section = file.read().split("## The claims")[1].split("\n## ")[0]
-        rows = [row.split(" | ")[:4] for row in section.splitlines() if row[:3].strip("| ").isdigit()]
-        self.assertEqual(rows, [[f"| {k}", claim.statement.replace("|", "\\|"), claim.on,
-                                 f"`{claim.figure}`" if claim.figure else "–"]
+    def test_stored_results_list_every_claim(self):
+        with open(os.path.join(SOURCE, "docs", "data", "claims.csv"), encoding="utf-8", newline="") as file:
+            rows = [list(row.values())[:4] for row in csv.DictReader(file)]
+        self.assertEqual(rows, [[str(k), claim.statement, claim.on, claim.figure or ""]
                                 for k, claim in enumerate(claims.CLAIMS, 1)])
 
     def test_page_and_stored_results_have_the_same_verdicts(self):
         with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
-            section = file.read().split("## The claims")[1].split("\n## ")[0]
-        page = [re.sub(r"\*| \(size\)", "", row.split(" | ")[4].rstrip(" |"))
-                for row in section.splitlines() if row[:3].strip("| ").isdigit()]
+            rows = re.findall(r"^\| ([a-z ]+) \| (\d+) \| ([\d, ]+) \|$", file.read(), re.M)
+        page = {int(number): verdict for verdict, _, numbers in rows for number in numbers.split(", ")}
+        self.assertEqual([int(count) for _, count, _ in rows], [len(numbers.split(", ")) for _, _, numbers in rows])
         with open(os.path.join(SOURCE, "docs", "data", "claims.csv"), encoding="utf-8", newline="") as file:
             stored = list(csv.DictReader(file))
-        self.assertEqual([row["verdict"] for row in stored], page)
-        self.assertEqual([row["statement"] for row in stored], [claim.statement for claim in claims.CLAIMS])
+        self.assertEqual({int(row["claim"]): row["verdict"] for row in stored}, page)
 
     def test_page_gets_its_tables_from_the_verdicts(self):
         with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
@@ -69,9 +66,7 @@ class Catalogue(HandMadeTables):
         judged = claims.all_judged(self.folder)
         found = claims_page.written(page, judged)
         at = claims.CLAIMS.index(claim_that("Without wall friction there is never")) + 1
-        section = found.split("### Claims that do not hold")[1].split("\n#")[0]
-        self.assertIn(f"| {at}: Without wall friction there is never a transition. | ϖ/Ω is certainly not below", section)
-        self.assertIn("| does not hold | 2 |", found)
+        self.assertRegex(found, rf"\| does not hold \| 2 \| .*\b{at}\b")
         self.assertEqual(claims_page.written(found, judged), found)
         stored = list(csv.DictReader(io.StringIO(claims_page.csv_of(judged))))
         self.assertEqual([row["statement"] for row in stored], [claim.statement for claim in claims.CLAIMS])

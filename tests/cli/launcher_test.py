@@ -287,37 +287,14 @@ exit 100
         for name in ("cmake", "ninja", "g++", "apt-get", "dpkg-query"):
             self.stand_in(name, f'echo {name} >>{self.path("started")}\nexit 1\n')
         self.assertEqual(self.call_with_stand_ins("run", "--help").returncode, 1)
-        self.write("docs/reference/commands.md", """# Commands
-
-## swirl
-
-```text
+        self.write("cmake/help.txt", """## swirl
 Usage: swirl COMMAND
-```
-
 ## swirl run
-
-Runs.
-
-```text
 Usage: swirl run [OPTIONS]
 
 ## not a heading
-```
-
-```sh
-swirl run
-```
-
-## swirl movie
-
-No block of text.
-
 ## swirl python
-
-```text
 Usage: swirl python [ARGUMENTS OF PYTHON]
-```
 """)
         run = "Usage: swirl run [OPTIONS]\n\n## not a heading\n"
         for call, code, text in ((["run", "--help"], 0, run), (["run", "--discs", "4", "-h"], 0, run),

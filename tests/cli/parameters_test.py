@@ -12,7 +12,7 @@ import unittest
 
 from program import SOURCE, SWIRL, InFolder, result_of, swirl
 
-ROW = re.compile(r"^\| `(\w+)` \| [^|]* \| (`--([a-z-]+) [^`]*`)? \|", re.MULTILINE)
+ROW = re.compile(r"^\| `(\w+)` \|", re.MULTILINE)
 
 # Other values for parameters that do not accept 0.9 times their default.
 OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mixture": "2:1.2",
@@ -33,9 +33,8 @@ WITH["rolling_resistance"] = ["--body", "sphere", "--floor", "sliding"]
 
 
 def rows():
-    """Name to option; the option is empty for parameters that are only written."""
-    with open(os.path.join(SOURCE, "docs", "reference", "parameters.md")) as page:
-        return {name: option for name, _, option in ROW.findall(page.read())}
+    with open(os.path.join(SOURCE, "docs", "reference", "parameters.md"), encoding="utf-8") as page:
+        return ROW.findall(page.read())
 
 
 def settings_in(toml):
@@ -44,7 +43,7 @@ def settings_in(toml):
 
 
 PARAMETERS = rows()
-GIVEN = {name: f"--{option}" for name, option in PARAMETERS.items() if option}
+GIVEN = {name: "--" + name.replace("_", "-") for name in PARAMETERS if name != "omega"}  # omega is only written
 PAPER = settings_in(swirl("run", "--dry-run").stdout)
 
 

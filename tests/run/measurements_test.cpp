@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -17,6 +16,7 @@
 namespace swirl {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -354,7 +354,13 @@ std::string text_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
+/// The line of the help on a number or table, empty if there is none.
+std::string line_of(const std::string& help, const std::string& name) {
+    const std::size_t begin = help.find("\n  " + name + " ");
+    return begin == help.npos ? "" : help.substr(begin, help.find('\n', begin + 1) - begin);
+}
+
+TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvAndInTheHelp) {
     const Scratch scratch;
     Observation observation = observation_of(short_run(), everything());
     RunControl control;
@@ -367,25 +373,25 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
                       terminal = measured_text(reports),
                       docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/reference/measurements.md");
     for (const auto& [name, report] : reports) {
-        EXPECT_THAT(docs, HasSubstr("| " + name + " |"));
+        EXPECT_THAT(docs, HasSubstr("\n### " + name + "\n"));
         for (const ReportRow& row : report.rows) {
             const std::string full = name + "." + row.name;
             EXPECT_TRUE(json.at(name).contains(row.name)) << full;
             EXPECT_THAT(numbers, HasSubstr("\n" + full + "," + row.unit + ","));
-            EXPECT_THAT(help, HasSubstr("  " + full + " "));
+            EXPECT_THAT(line_of(help, full),
+                        AllOf(HasSubstr(row.unit), HasSubstr(row.description)));
             // Discs do not roll, and equal ones do not segregate: one line "n/a" replaces the rows
             // of such a measurement.
             const bool is_absent = name == "rolling" || name == "segregation";
             EXPECT_THAT(terminal, HasSubstr(is_absent ? "  " + name + "  " : "  " + full + " "));
-            EXPECT_THAT(docs, HasSubstr("| " + full + " | " + row.unit + " |"));
         }
         for (const ReportTable& table : report.tables) {
             const std::string full = *table.name == '\0' ? name : name + "." + table.name;
             const auto& columns = *table.name == '\0' ? json.at(name) : json.at(name)[table.name];
             const std::string csv = text_of(scratch / (full + ".csv"));
-            EXPECT_THAT(help, HasSubstr("  " + full + " "));
+            EXPECT_THAT(line_of(help, full), HasSubstr(table.description));
+            EXPECT_THAT(help, HasSubstr(" " + std::string(table.columns.front().name)));
             EXPECT_THAT(terminal, HasSubstr("  " + full + " "));
-            EXPECT_THAT(docs, HasSubstr("| " + full + " | " + table.columns.front().name));
             for (const ReportColumn& column : table.columns) {
                 EXPECT_EQ(columns.at(column.name).size(), table.rows()) << full;
                 EXPECT_THAT(csv.substr(0, csv.find('\n')), HasSubstr(column.name));
@@ -394,17 +400,16 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvInTheHelpAndInTheDocs) {
     }
 }
 
-TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
+TEST(Measurements, EveryRowOfEveryRunIsInTheJsonAndInTheHelp) {
     const RunResult result = run(short_run());
     const auto json = result_json(result);
-    const std::string help = measurement_help_text(), docs = measurement_markdown();
+    const std::string help = measurement_help_text();
     int rows = 0;
     result.report([&](const std::string& group, const ReportRow& row) {
         const std::string full = (group.empty() ? "" : group + ".") + row.name;
         const auto& there = group.empty() ? json : json.at(group);
         EXPECT_EQ(there.at(row.name).dump(), row_json(row).dump()) << full;
-        EXPECT_THAT(help, HasSubstr("  " + full + " "));
-        EXPECT_THAT(docs, HasSubstr("| " + full + " | " + row.unit + " |"));
+        EXPECT_THAT(line_of(help, full), AllOf(HasSubstr(row.unit), HasSubstr(row.description)));
         ++rows;
     });
     EXPECT_EQ(rows, 20);
@@ -412,28 +417,6 @@ TEST(Measurements, EveryRowOfEveryRunIsInTheJsonInTheHelpAndInTheDocs) {
               nlohmann::ordered_json(result.steady_spin.change.size).dump());
     EXPECT_EQ(json.at("energy").get<double>(), result.energy);
     EXPECT_EQ(json.at("max_overlap").get<double>(), result.max_overlap);
-}
-
-// This command updates the page:
-//
-//     SWIRL_WRITE_DOCS=1 build/tests/tests/test_run
-//     --gtest_filter='Measurements.TheTablesOfTheDocs*'
-TEST(Measurements, TheTablesOfTheDocsAreUpToDate) {
-    const fs::path page = fs::path(SWIRL_SOURCE_DIR) / "docs/reference/measurements.md";
-    const std::string begin = "<!-- made of swirl run --measure markdown -->\n",
-                      end = "<!-- end -->\n";
-    std::string docs = text_of(page);
-    const std::size_t from = docs.find(begin), to = docs.find(end);
-    ASSERT_NE(from, docs.npos);
-    ASSERT_NE(to, docs.npos);
-    const std::size_t first = from + begin.size();
-    const std::string tables = "\n" + measurement_markdown() + "\n";
-    if (std::getenv("SWIRL_WRITE_DOCS")) {
-        docs.replace(first, to - first, tables);
-        std::ofstream(page) << docs;
-        return;
-    }
-    EXPECT_EQ(docs.substr(first, to - first), tables);
 }
 
 }  // namespace

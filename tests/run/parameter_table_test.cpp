@@ -35,10 +35,8 @@ std::string documentation_of(const Parameter& p) {
 }
 
 std::string row(const Parameter& p) {
-    const std::string option =
-        p.is_settable() ? fmt::format("`{} {}`", option_name(p.name), escaped(p.form)) : "";
-    return fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", p.name, p.symbol, option,
-                       default_of(p), range_of(p), p.unit, escaped(documentation_of(p)));
+    return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, p.symbol, default_of(p),
+                       range_of(p), p.unit, escaped(documentation_of(p)));
 }
 
 std::string table() {
@@ -47,8 +45,8 @@ std::string table() {
     for (const Parameter& p : run_parameters) {
         if (group != p.group)
             text += fmt::format(
-                "\n### {}\n\n| Name | Symbol | Option | Default | Range | Unit | |\n"
-                "|---|---|---|---|---|---|---|\n",
+                "\n### {}\n\n| Name | Symbol | Default | Range | Unit | "
+                "|\n|---|---|---|---|---|---|\n",
                 p.group);
         group = p.group;
         text += row(p);

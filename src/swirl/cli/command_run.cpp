@@ -216,7 +216,6 @@ void finish_checkpoint(const RunCall& call, const RunFiles& files, bool complete
 
 void run_and_report(RunCall& call) {
     if (call.measure == "help") return print_all(measurement_help_text());
-    if (call.measure == "markdown") return print_all(measurement_markdown());
     PreparedRun prepared = prepare(call);
     if (call.dry_run)
         return print_all(config_file_text(prepared.config, *call.recording, call.output_options()));

@@ -140,38 +140,10 @@ std::string measurement_help_text() {
         text += fmt::format("{}: {}\n", name, require_measurement(name).description);
         for (const ReportRow& row : report.rows) line(name, row);
         for (const ReportTable& table : report.tables)
-            text += fmt::format("  {:<38}table of {}\n", full_name(name, table.name),
-                                columns_text(table));
+            text += fmt::format("  {:<38}table: {}\n{:40}{}\n", full_name(name, table.name),
+                                table.description, "", columns_text(table));
     }
     return text;
-}
-
-std::string measurement_markdown() {
-    std::string names = "| name | description | definition |\n|---|---|---|\n";
-    for (const MeasurementKind& kind : measurement_kinds())
-        names += fmt::format("| {} | {} | [{}](../../src/swirl/measure/{}) |\n", kind.name,
-                             kind.description, kind.header, kind.header);
-    std::string rows = "| quantity | unit | description |\n|---|---|---|\n";
-    const auto line = [&](const std::string& name, const ReportRow& row) {
-        rows +=
-            fmt::format("| {} | {} | {} |\n", full_name(name, row.name), row.unit, row.description);
-    };
-    RunResult().report(line);
-    std::string tables = "| table | columns (unit) | description |\n|---|---|---|\n";
-    std::map<std::string, std::string> first;  // the table that lists these columns
-    for (const auto& [name, report] : empty_reports()) {
-        for (const ReportRow& row : report.rows) line(name, row);
-        for (const ReportTable& table : report.tables) {
-            const std::string full = full_name(name, table.name), columns = columns_text(table);
-            const auto [there, is_new] = first.emplace(columns, full);
-            tables += fmt::format(
-                "| {} | {} | {} |\n", full,
-                is_new ? columns
-                       : fmt::format("{}, … as {}", table.columns.front().name, there->second),
-                table.description);
-        }
-    }
-    return names + "\n" + rows + "\n" + tables;
 }
 
 void require_m_frame_for(const std::vector<std::string>& names) {

@@ -29,8 +29,6 @@ std::vector<std::string> read_measurement_list(std::string_view list);
 std::string measurement_list_text();
 /// The same with all their rows and tables, and the units.
 std::string measurement_help_text();
-/// The same as the tables of docs/reference/measurements.md.
-std::string measurement_markdown();
 
 /// Throws UsageError if one of the measurements is defined in the M-frame.
 void require_m_frame_for(const std::vector<std::string>& names);

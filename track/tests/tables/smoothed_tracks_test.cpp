@@ -138,7 +138,7 @@ TEST(SmoothedTracks, RecoversAnglesOfPinningWithinTheirErrors) {
 }
 
 // Collisions hidden by the noise reduce the temperature: by 12 % at 0.2 pixels in this dense
-// container, where finite differences give 37 % too much (docs/results/tracking_accuracy.md).
+// container, where finite differences give 37 % too much (bench/NOTES_tracking.md).
 TEST(SmoothedTracks, RecoversTheTemperature) {
     const Found exact = exactly(laboratory());
     for (const double noise : {0.0, 0.1, 0.2}) {
@@ -178,15 +178,15 @@ std::string line_of(const char* how, double noise, const Found& found) {
                        text(found.squared_path, 4), text(found.speed, 3));
 }
 
-// The table of docs/results/tracking_accuracy.md, from the first row on.
-TEST(SmoothedTracks, TableInTheDocsIsUpToDate) {
+// The table of bench/NOTES_tracking.md, from the first row on.
+TEST(SmoothedTracks, TableInTheNotesIsUpToDate) {
     std::string table = line_of("exact", 0.0, exactly(laboratory()));
     for (const double noise : {0.0, 0.1, 0.2, 0.4}) {
         const Tracks tracks = camera_tracks(laboratory(), noise);
         table += line_of("differences", noise, found_in(series_of(tracks, scale_of(laboratory()))));
         table += line_of("smoothed", noise, smoothed(laboratory(), noise));
     }
-    std::ifstream stream(SWIRL_SOURCE_DIR "/docs/results/tracking_accuracy.md");
+    std::ifstream stream(SWIRL_SOURCE_DIR "/bench/NOTES_tracking.md");
     const std::string page{std::istreambuf_iterator<char>(stream), {}};
     EXPECT_NE(page.find(table), std::string::npos) << table;
 }
