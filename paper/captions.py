@@ -265,7 +265,7 @@ def question_of(figure):
 
 
 def caption_of(figure):
-    return CAPTIONS.get(figure["name"], "")
+    return figure.get("caption") or CAPTIONS.get(figure["name"], "")
 
 
 def image_of(figure, endings=(".png",)):

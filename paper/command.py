@@ -35,7 +35,7 @@ def draw(job):
 def add_seeds_to_undecided(settings, plans):
     """Doubles the seeds of the points on which undecided claims rest. Returns (True if there are any, the number of
     those whose budget is used)."""
-    from judge_claims import write_verdicts
+    from claims import write_verdicts
     verdicts = write_verdicts(settings.out)
     seeds = {point.name: len(point.tasks) for plan in plans for point in plan}
     undecided = [name for name in verdicts["points_to_decide"] if name in seeds]
@@ -86,8 +86,8 @@ class Paper:
             findings, files = ([], []) if problem else figure.write(plan, self.settings)
         except Exception as error:  # the other figures are made
             problem = study.reason_of(error)
-        return {"name": figure.name, "description": figure.description, "findings": findings + study.remarks(plan),
-                "files": files, "problem": problem}
+        return {"name": figure.name, "description": figure.description, "caption": figure.caption,
+                "findings": findings + study.remarks(plan), "files": files, "problem": problem}
 
     def draw(self):
         """The drawings are independent, and take a second each."""

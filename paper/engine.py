@@ -9,3 +9,9 @@ class Module:
 
 
 swirl = Module()
+
+
+def simulation_of(parameters):
+    """A swirl.Simulation with the parameters of a run, without its length."""
+    return swirl.Simulation(**{name: value for name, value in parameters.items()
+                               if name not in ("periods", "warmup", "events")})

@@ -33,17 +33,12 @@ def sides(axes, rows, quantity, surfaces=("rough", "smooth"), label="", second=F
         name = ", ".join(part for part in (surface if several else "", label) if part)
         name = f" ({name})" if name else ""
         if run:
-            axes.errorbar(style.column(run, "discs"), style.column(run, quantity),
-                          yerr=style.column(run, quantity + "_error"), color=color, elinewidth=0.7,
-                          marker="." if len(run) > 1 else "_", markersize=3 if len(run) > 1 else 9,
-                          label="simulation" + name, **look)
+            style.curve(axes, run, "discs", quantity, color=color, marker="." if len(run) > 1 else "_",
+                        markersize=3 if len(run) > 1 else 9, label="simulation" + name, **look)
         if video:
-            axes.errorbar(style.column(video, "discs"), style.column(video, quantity),
-                          yerr=[0 if math.isnan(e) else e
-                                for e in style.column(video, quantity + "_error")],
-                          color=color, marker="s" if second else marker, linestyle="none",
-                          markersize=3.6 if second else 4.5, fillstyle="none", elinewidth=0.9,
-                          alpha=look.get("alpha", 1), label="video" + name)
+            style.curve(axes, video, "discs", quantity, color=color, marker="s" if second else marker, elinewidth=0.9,
+                        markersize=3.6 if second else 4.5, fillstyle="none", label="video" + name,
+                        **(look | {"linestyle": "none"}))
         drawn = drawn or video or run
     return bool(drawn)
 

@@ -19,6 +19,7 @@ class Figure:
     points: Callable
     table: Callable
     draw: Optional[Callable] = None
+    caption: str = ""  # in the report; those of older figures are in captions.py
 
     def write(self, points, settings):
         """Writes the tables. Returns (findings, files)."""

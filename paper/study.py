@@ -16,6 +16,7 @@ import time
 import atomic_file
 import combine
 from combine import at, failed
+from console import Problem
 from engine import swirl
 
 DEFAULT_EVENTS = 1_000_000  # SI: "10^6 iterations"
@@ -27,9 +28,13 @@ class Settings:
     events: float = None  # of a run; scales all lengths in periods likewise
     out: str = "out"
     seed: int = 1
-    first_seeds: int = 0  # runs of a point; 0: the default
+    first_seeds: int = None  # runs of a point
     threads: int = 0  # 0: all cores
     seeds_of_point: dict = dataclasses.field(default_factory=dict)  # more seeds, until a claim is decided
+
+    def __post_init__(self):
+        if self.first_seeds is not None and not 2 <= self.first_seeds <= self.max_seeds:
+            raise Problem(f"--seeds is {self.first_seeds}, but it must be from 2 to {self.max_seeds}.", 2)
 
     @property
     def workers(self):

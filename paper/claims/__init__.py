@@ -19,6 +19,11 @@ Every other claim about it is a prediction without a further parameter. A statem
 listed as "not tested", with the reason.
 """
 
+import json
+import os
+
+import atomic_file
+
 from .catalogue import CLAIMS
 from .study import Study
 
@@ -29,12 +34,13 @@ def all_judged(folder):
     return [claim.judged_with_sizes(study) for claim in CLAIMS]
 
 
-def all_verdicts(folder):
-    """The content of verdicts.json: every verdict, and the points that need more seeds (`swirl paper`
-    reads these)."""
+def write_verdicts(folder):
+    """Writes and returns verdicts.json: every verdict, and the points that need more seeds (command.py adds them)."""
     judged = all_judged(folder)
-    return {"verdicts": [{"statement": j.claim.statement, "judged_on": j.claim.on, "verdict": j.verdict,
-                          "at_half_the_sizes": j.scaled[0.5], "at_twice_the_sizes": j.scaled[2],
-                          "depends_on_size": j.depends_on_size, "found": j.found,
-                          "points": sorted(j.judgement.points)} for j in judged],
-            "points_to_decide": sorted(set().union(*(j.judgement.points for j in judged)))}
+    verdicts = {"verdicts": [{"statement": j.claim.statement, "judged_on": j.claim.on, "verdict": j.verdict,
+                              "at_half_the_sizes": j.scaled[0.5], "at_twice_the_sizes": j.scaled[2],
+                              "depends_on_size": j.depends_on_size, "found": j.found,
+                              "points": sorted(j.judgement.points)} for j in judged],
+                "points_to_decide": sorted(set().union(*(j.judgement.points for j in judged)))}
+    atomic_file.write(os.path.join(folder, "verdicts.json"), json.dumps(verdicts, indent=1, ensure_ascii=False) + "\n")
+    return verdicts

@@ -7,7 +7,7 @@ import numpy as np
 import style
 from combine import MIN_PERIODS, at, number, over_seeds
 from curves import with_error
-from engine import swirl
+from engine import simulation_of, swirl
 from figure import Figure
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
 from runs import NO_DISC, paper_run, with_periods
@@ -25,7 +25,7 @@ def find_condensation(parameters):
     """(whether it condenses, the period, events until then). The cluster counts as condensed from the first period in
     which the mean speed of the discs in the M-frame is below a tenth of the wall's, ΩR, if it stays there for ten periods
     (in a gas that speed is about ΩR). If it does not condense: the length of the run."""
-    simulation = swirl.Simulation(**{name: value for name, value in parameters.items() if name not in ("periods", "warmup")})
+    simulation = simulation_of(parameters)
     condensed, quiet = None, 0
     for period in range(parameters["periods"]):
         events = simulation.counts.total

@@ -5,7 +5,7 @@ import math
 import style
 from combine import failed
 from curves import with_error
-from engine import swirl
+from engine import simulation_of
 from figure import Figure
 from paper_parameters import ROTATING_N
 from runs import sides
@@ -15,7 +15,7 @@ from study import Point
 def energy_series(parameters):
     """The kinetic energy K, and K − ΩL with the angular momentum L, at the start of every period. On a circle K − ΩL is
     conserved."""
-    simulation = swirl.Simulation(**{name: value for name, value in parameters.items() if name not in ("periods", "warmup")})
+    simulation = simulation_of(parameters)
     frames = simulation.sample(parameters["periods"], 1)
     position, velocity = frames.position, frames.velocity
     K = 0.5 * frames.mass * (velocity ** 2).sum(axis=2) + 0.5 * frames.inertia * frames.spin ** 2

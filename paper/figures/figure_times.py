@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 from combine import failed
-from engine import swirl
+from engine import simulation_of, swirl
 from figure import Figure
 from paper_parameters import COUNTERROTATING_N
 from runs import Friction, paper_run
@@ -16,7 +16,7 @@ EVENTS_AT_ONCE = 100_000
 
 def shortest_time(parameters):
     """Between two consecutive collisions, anywhere in the container."""
-    simulation = swirl.Simulation(**{name: value for name, value in parameters.items() if name != "events"})
+    simulation = simulation_of(parameters)
     shortest, last, left = math.inf, np.zeros((0, 2)), parameters["events"]
     while left > 0:
         events = simulation.step(min(left, EVENTS_AT_ONCE))

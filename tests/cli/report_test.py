@@ -277,7 +277,7 @@ class Page(HandMadeTables):
 class Call(unittest.TestCase):
     def test_a_table_that_cannot_be_made_is_a_problem_of_its_figure(self):
         class Broken:
-            name, description = "broken", "what"
+            name, description, caption = "broken", "what", ""
 
             def write(self, plan, settings):
                 raise KeyError("fields")

@@ -21,9 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The runs of a point until its claims are decided (Settings.max_seeds in paper/study.py).
-constexpr int max_seeds = 32, max_seeds_quick = 12;
-
 struct PaperCall {
     std::string config_file, out = "out", events, seed;
     std::optional<int> seeds;
@@ -33,11 +30,6 @@ struct PaperCall {
 };
 
 nlohmann::ordered_json json_of(const PaperCall& call) {
-    if (call.seeds)
-        if (const int most = call.quick ? max_seeds_quick : max_seeds;
-            *call.seeds < 2 || *call.seeds > most)
-            throw UsageError(
-                fmt::format("--seeds is {}, but it must be from 2 to {}.", *call.seeds, most));
     ParameterTexts given{{"events", call.events.empty() ? "1e6" : call.events}};
     if (!call.seed.empty()) given["seed"] = call.seed;
     const RunConfig config = resolve(given);
@@ -50,12 +42,12 @@ nlohmann::ordered_json json_of(const PaperCall& call) {
                                 {"events", config.events},
                                 {"seed", config.seed},
                                 {"threads", share.threads},
-                                {"first_seeds", call.seeds.value_or(0)},
                                 {"command", command_line()},
                                 {"version", version()},
                                 {"build", build_description()},
                                 {"defaults", config_json(config)},
                                 {"program", system::program_file().string()}};
+    if (call.seeds) json["first_seeds"] = *call.seeds;
     if (!call.share.part.empty()) json["part"] = {share.part, share.parts};
     // The module is next to the program (build tree), in the same prefix, or where Python looks.
     for (const char* const where : {"python", "../lib/python3/dist-packages"})
