@@ -535,14 +535,11 @@ class Laboratory(unittest.TestCase):
         return folder
 
     def messages(self):
-        """Error messages of the engine."""
+        """Error messages of the engine that need several values; panels.mjs tries each parameter alone."""
         said = self.engine([{"given": wrong, "events": 1} for wrong in (
-            {"discs": "60"}, {"discs": "1000"}, {"discs": "0"}, {"discs": "x"},
-            {"mixture": "x"}, {"discs": "40", "mixture": "39:2"}, {"radius": "9", "discs": "1"}, {"mu": "-1"}, {"mu": "x"},
-            {"restitution": "1.5"}, {"seed": "-1"}, {"body": "ball"}, {"floor": "rough"},
-            {"path": "circle", "sides": "5"}, {"path": "circle", "floor": "sliding"}, {"gravity": "5"},
-            {"vertical_wall": "0.5"}, {"speed": "2", "amplitude": "1", "period": "5"}, {"preset": "other"},
-            {"direction": "left"}, {"path": "line"}, {"warmup": "x"},
+            {"discs": "60"}, {"discs": "1000"}, {"discs": "40", "mixture": "39:2"}, {"radius": "9", "discs": "1"},
+            {"path": "circle", "sides": "5"}, {"path": "circle", "floor": "sliding"},
+            {"speed": "2", "amplitude": "1", "period": "5"},
             {"body": "sphere", "floor": "sliding", "rolling_resistance": "1", "floor_friction": "0.1"})])["said"]
         collapsed = self.engine([{"given": given, "events": 300000} for given in (
             {"discs": "48", "restitution": "0.5", "contact_duration": "0"}, {"discs": "58"})])["said"]

@@ -95,7 +95,18 @@ try {
     const {translated} = await load("texts");
     const sudden = ["with restitution 0.5 the discs …", "friction has …"].map(
         (reason) => `the last 500 events took no measurable time (collapse after 1.25 periods): ${reason}`);
-    for (const message of [...JSON.parse(readFileSync(join(files, "messages.json"), "utf-8")), ...sudden]) {
+    const {Engine, perRate} = await load("engine"), module = await WebAssembly.compile(readFileSync(wasm)), rejected = new Map();
+    // Every parameter that the page shows, of four scenes, with values that most of them cannot have; one message of each form.
+    const values = ["", "0", "-1", "x", "1e999", "1e308", "1e-300", "0.5", "1000000", "3,5", "1:2:3", "200%:1", "1%:1", "5:1e9", "5:1:1e99",
+                    "auto", "circle", "sphere", "normal:1:0.5", "uniform:0:1", "power:1:2", "ellipse:2"];
+    for (const scene of [{}, {preset: "experiment"}, {mixture: "20:0.6"}, {amplitude: "0"}])
+        for (const name of Object.keys(de.texts.labels)) for (const value of values) try {
+            if (name !== "discs" || Number(value) !== 1000000) new Engine(module).begin({discs: "12", ...scene, [name]: value}); // it would place them
+        } catch ({message}) {
+            rejected.set(message.replace(/'.*?'/g, "").replace(/[-\d.e+]+/g, "#"), message);
+        }
+    assert.ok(rejected.size > 40, `only ${rejected.size} messages`);
+    for (const message of [...JSON.parse(readFileSync(join(files, "messages.json"), "utf-8")), ...sudden, ...rejected.values()]) {
         const shown = translated(message, de.texts.labels), of = (text) => text.replace(/(\d),(?=\d)/g, "$1.").match(/\d+(?:\.\d+)?(?:e[-+]?\d+)?/g) ?? [];
         assert.doesNotMatch(shown, /\b(?:the|is|are|must|but|with|use|hint|container|discs)\b|--|\$|undefined/, message);
         const missing = of(message.split("\n")[0]).filter((number) => !of(shown).includes(number));
@@ -234,7 +245,6 @@ try {
 
     // The search for N_c: runs of a known line ϖ = slope (38.4 − N), with errors of white noise.
     const {searchCrossing, usualSearch} = await load("crossing_search"), {searchedNumbers} = await load("runs");
-    const {Engine, perRate} = await load("engine"), module = await WebAssembly.compile(readFileSync(wasm));
     const line = (n) => 0.004 * (38.4 - n);
     const searched = async (mean, settings = {}) => {
         const calls = [];
