@@ -16,6 +16,16 @@ const texts = {
     })},
 };
 
+/** Moves the script to the end, so that a slow connection shows the first picture before the engine has arrived. */
+const late = {
+    name: "late",
+    enforce: "post",
+    generateBundle: (_, bundle) => {
+        const page = bundle["index.html"], [script] = /<script type="module"[^]*?<\/script>/.exec(page.source);
+        page.source = page.source.replace(script, "").replace("</body>", () => `${script}\n</body>`);
+    },
+};
+
 /** Adds the Content-Security-Policy: the page runs its own script and engine only, and requests nothing. Its worker comes
  *  from a blob (as data: if the browser has none), the engine from data:. */
 const policy = {
@@ -43,7 +53,7 @@ const notices = {
 
 export default defineConfig({
     base: "./",
-    plugins: [texts, viteSingleFile(), policy, notices],
+    plugins: [texts, viteSingleFile(), late, policy, notices],
     assetsInclude: ["**/*.wasm.gz"],
     worker: {format: "iife"},
     build: {outDir: "../build/lab", emptyOutDir: true, assetsInlineLimit: 100_000_000,

@@ -30,6 +30,7 @@ export class ComparedContainer {
     private readonly contacts = new Contacts();
     private waiting = true;
     private isNew = true; // its colours are those of the next frame
+    private skipped = 0; // periods to skip after the first frame
     private room = 0;
     private period = 1;
     private look: Look = {coloring: "sector", strobe: false, isLapse: false, isByHand: false};
@@ -60,10 +61,10 @@ export class ComparedContainer {
         if (!this.waiting) this.send(message);
     }
 
-    /** Runs the periods before the averages without showing them. */
+    /** Runs the periods before the averages without showing them, as soon as it has begun. */
     skip(periods: number): void {
-        this.isNew = true;
-        this.send({kind: "skip", periods});
+        this.skipped = this.last ? 0 : periods;
+        if (this.last) this.send({kind: "skip", periods});
     }
 
     redraw(look = this.look): void {
@@ -94,12 +95,13 @@ export class ComparedContainer {
         const {frame, rotation, turns: [turns]} = data, {look} = this;
         this.waiting = false;
         this.contacts.add(data, this.period);
-        if (this.isNew || this.last?.length !== frame.length) {
+        if (this.isNew || this.last?.length !== frame.length || frame[1]! > this.last[1]! + 1) { // it skipped periods
             this.paint.apply(frame);
             this.glide.clear();
         }
         this.isNew = false;
         this.last = frame;
+        if (this.skipped > 0) this.skip(this.skipped);
         this.particles = frame[10]!;
         const stops = (look.strobe || look.isLapse) && !look.isByHand;
         if (!stops || isWholePeriod(frame, this.period)) {

@@ -47,9 +47,14 @@ lab.on("ready", () => { lessonButton.disabled = false; });
 new OpenedFile(byId("controls"), byId("options"), host, (message) => showError(message));
 for (const kind of ["started", "changed"] as const) lab.on(kind, () => { if (lab.missing === 0) discovery.visit(); });
 lab.on("averages", (rotation) => discovery.follow(rotation));
+// The picture of index.html is shown until both containers have turned, or there is something else to see.
+const endFirstPicture = (): void => document.getElementById("first")?.remove();
+for (const kind of ["changed", "error"] as const) lab.on(kind, endFirstPicture);
+lab.on("averages", () => { if (verdict.finding.mean !== null && (dish.compared?.finding.mean ?? null) !== null) endFirstPicture(); });
 dish.comparedChanged = () => {
     setPageEntry("beside", dish.compared?.follows ? dish.compared.given["discs"] : undefined);
     if (dish.compared) discovery.add(dish.compared.given);
+    else endFirstPicture();
     (byId("compare") as HTMLButtonElement).disabled = dish.compared !== undefined;
     dish.changed();
 };
