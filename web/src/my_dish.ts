@@ -6,6 +6,7 @@ import {estimateOf} from "./estimates";
 import type {Host, Values} from "./host";
 import {measuredFrom} from "./measured";
 import {button, element, localized, typedNumber} from "./page";
+import {showCode} from "./share";
 import {fill, texts} from "./texts";
 
 /** Lengths in mm, and turns of the dish per second. */
@@ -45,6 +46,13 @@ export function pooled(text: string, wanted: string, isParameter: (name: string)
     return {points, pupils: bySeed.size, omitted};
 }
 
+/** The reader of QR codes that some browsers have, such as Chrome on phones. */
+interface CodeReader { detect(image: ImageBitmap): Promise<{rawValue: string}[]>; }
+const codeReader = (): CodeReader | undefined => {
+    const {BarcodeDetector: Reader} = globalThis as {BarcodeDetector?: new (options: {formats: string[]}) => CodeReader};
+    return Reader && new Reader({formats: ["qr_code"]});
+};
+
 /** The two readings of the paper's experiment. */
 const readings: [keyof typeof texts.myDish.readings, DishSizes][] = [
     ["text", {container: 25.5, particle: 3, amplitude: 11.5, rate: 1.88}],
@@ -59,6 +67,7 @@ export class MyDish {
     private readonly found = element("p", {id: "my-found"});
     private readonly counted = element("textarea", {id: "my-points", rows: 4, placeholder: "8 4.4 20\n48 -0.7 20"});
     private readonly results = element("textarea", {id: "class-results", rows: 4});
+    private readonly photo = element("input", {type: "file", id: "class-photo", accept: "image/*"});
     private readonly pooledText = element("p", {id: "class-found"});
 
     constructor(private readonly host: Host, private readonly discovery: Discovery, copy: (text: string, from: HTMLButtonElement) => void,
@@ -66,6 +75,9 @@ export class MyDish {
         const {myDish} = texts, inputOf = (id: string): HTMLInputElement => element("input", {type: "text", id: `my-${id}`, inputMode: "decimal"});
         this.fields = {container: inputOf("container"), particle: inputOf("particle"), amplitude: inputOf("amplitude"), rate: inputOf("rate")};
         const labelled = (text: string, ...inputs: HTMLElement[]): HTMLElement => element("label", {}, `${text} `, ...inputs);
+        const photo = labelled(myDish.photo, this.photo);
+        photo.hidden = !codeReader();
+        this.photo.setAttribute("capture", "environment");
         const show = button(myDish.show, () => this.show(), "my-show"), classLink = button(myDish.classLink, () => copy(classAddress(), classLink), "class-link");
         this.panel = element("details", {id: "my-dish"}, element("summary", {textContent: myDish.title}),
             element("p", {textContent: myDish.help}),
@@ -73,10 +85,11 @@ export class MyDish {
                 labelled(myDish.names[name as keyof DishSizes], input)), labelled(myDish.lengths, this.lengths), labelled(myDish.rates, this.rates), show),
             element("div", {className: "bar"}, ...readings.map(([name, sizes]) => button(myDish.readings[name], () => this.fill(sizes), `my-${name}`))),
             this.found, labelled(myDish.points, this.counted), element("p", {className: "quiet", textContent: myDish.pointsHelp}),
-            element("h3", {textContent: myDish.class}), element("p", {textContent: myDish.classHelp}), element("div", {className: "bar"}, classLink),
-            labelled(myDish.results, this.results), this.pooledText);
+            element("h3", {textContent: myDish.class}), element("p", {textContent: myDish.classHelp}), element("div", {className: "bar"}, classLink,
+            button(myDish.classCode, () => showCode(classAddress()), "class-code")), labelled(myDish.results, this.results), photo, this.pooledText);
         this.counted.addEventListener("input", () => this.showPoints());
         this.results.addEventListener("input", () => this.pool());
+        this.photo.addEventListener("change", () => void this.readCodes());
         this.counted.value = localized(discovery.measured.map((row) => row.join(" ")).join("\n"));
     }
 
@@ -112,6 +125,16 @@ export class MyDish {
         const {rows, wrong} = measuredFrom(typedNumber(this.counted.value));
         this.discovery.showMeasured(rows);
         if (wrong) this.fail(fill(texts.myDish.wrongPoint, {line: wrong}));
+    }
+
+    /** Adds the links in a photograph of QR codes. */
+    private async readCodes(): Promise<void> {
+        const file = this.photo.files?.[0], image = file && await createImageBitmap(file).catch(() => undefined);
+        const codes = image ? await codeReader()!.detect(image).catch(() => []) : [];
+        this.photo.value = ""; // the same name may follow
+        if (codes.length === 0) return this.fail(texts.myDish.noCode);
+        this.results.value = [this.results.value.trim(), ...codes.map(({rawValue}) => rawValue)].filter(Boolean).join("\n");
+        this.pool();
     }
 
     private pool(): void {

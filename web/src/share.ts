@@ -37,7 +37,7 @@ function pictureOf(address: string): string {
 }
 
 /** Shows a link as a QR code, dark on light whatever the theme. */
-function showCode(link: string): void {
+export function showCode(link: string): void {
     const content = element("div", {id: "qr"});
     try {
         const {size, data} = encode(link, {ecc: "L", border: 4}), scale = Math.max(2, Math.floor(320 / size));

@@ -732,7 +732,35 @@ await page.evaluate(() => {
 await page.click("#class-link");
 assert.match(await page.evaluate(() => globalThis.classLink), /\?discs=9&class=1$/);
 await page.fill("#class-results", "?seed=1#points=8_0.1_0.01_200\n?seed=2#points=8_0.2_0.01_200\n?mu=0.1#points=8_0.2_0.01_200");
-assert.equal(await text("class-found"), "Results of 2 seeds give 1 points. Lines without points, or with other parameters: 1.");
+assert.equal(await text("class-found"), "1 point from 2 seeds. Lines without points, or with other parameters: 1.");
+
+// A browser that reads QR codes adds those in a photograph; without one, or in another browser, there are only pasted links.
+assert.equal(await page.isVisible("#class-photo"), false);
+await page.click("#class-code");
+await page.waitForSelector("#qr canvas");
+await page.keyboard.press("Escape");
+const reader = await browser.newPage({bypassCSP: true});
+reader.setDefaultTimeout(180_000);
+reader.on("pageerror", (error) => errors.push(error.message));
+await reader.addInitScript(() => {
+    globalThis.BarcodeDetector = class {
+        constructor({formats: [format]}) { this.format = format; }
+        async detect({width}) { return width > 1 && this.format === "qr_code" ? [{rawValue: "?seed=3#points=8_0.1_0.01_200"}] : []; }
+    };
+});
+await reader.goto(`${address}?discs=9`);
+await reader.waitForFunction(() => document.getElementById("my-dish"));
+await reader.evaluate(() => { document.getElementById("my-dish").open = true; });
+await reader.fill("#class-results", "?seed=4#points=8_0.2_0.01_200\n");
+const imageOf = (width) => reader.evaluate((size) => Object.assign(document.createElement("canvas"), {width: size, height: size}).toDataURL(), width);
+for (const [width, said] of [[2, /^$/], [1, /No QR code was found/], [0, /No QR code was found/]]) { // of width 0: no image
+    const buffer = Buffer.from((await imageOf(width)).split(",")[1], "base64");
+    await reader.setInputFiles("#class-photo", {name: "a.png", mimeType: "image/png", buffer});
+    await reader.waitForFunction(() => document.getElementById("class-photo").value === "" && /^1 point from 2 seeds/.test(document.getElementById("class-found").textContent));
+    await reader.waitForFunction((wanted) => new RegExp(wanted).test(document.getElementById("error").textContent), said.source);
+}
+assert.equal(await reader.inputValue("#class-results"), "?seed=4#points=8_0.2_0.01_200\n?seed=3#points=8_0.1_0.01_200");
+await reader.close();
 
 // A browser that records MP4 only saves a movie of that kind.
 const apple = await browser.newPage({bypassCSP: true});
