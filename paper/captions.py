@@ -83,8 +83,12 @@ QUESTIONS = {
                 "and correlation time at the change grow with the size of the container?",
     "hysteresis": "Does the direction of rotation depend on whether a parameter rises or falls in a ramp?",
     "lifetimes": "Some points of Figure 5b end in different states for different seeds. How long do the states last?",
+    "coexistence": "A round and an elongated cluster exist at the same parameters. How long does each last, and does "
+                   "that grow with the size of the dish?",
     "torque": "Which contacts make the cluster rotate, and which of their torques change sign with N?",
     "gears": "Do opposite spins of strong contacts predict the rotation better than the slip at the wall?",
+    "gear_order": "Do touching particles stop turning like gears before the slip parameter rises, with it, or after "
+                  "it?",
     "contacts": "Which kind of contact needs friction for the change of direction?",
     "material_inertia": "Where does the direction change for other moments of inertia and inelastic discs?",
     "material_friction": "Which of the two friction coefficients shifts the change of direction?",
@@ -103,6 +107,8 @@ QUESTIONS = {
                "the mean kinetic energy E of a particle, and see hypocycloids. Does the model agree?",
     "instability": "Zhao and Pöschel (2020, 2021) see a dense region form above a threshold of the amplitude, and a dense core "
                    "that rotates against the swirl. Above which amplitude does a layer of rolling spheres show them?",
+    "local_speed": "Zhao and Pöschel (2020) explain the instability by a speed of the particles that grows with the "
+                   "local density. Does it?",
 }
 
 # The description of each figure.
@@ -202,6 +208,9 @@ CAPTIONS = {
                   "the "
                   "ramp, for two ramp rates.",
     "lifetimes": "Mean lifetimes of the states at two points: time spent in the state divided by the number of exits.",
+    "coexistence": "Left: mean lifetimes of clusters that were prepared round (full symbols) and elongated (open) "
+                   "against the amplitude; triangles are lower bounds. Right: distribution of the rotation in windows "
+                   "of five periods where both last long.",
     "torque": "Torques on the cluster about its centre of mass against N, at μ = 1. (a) The sums: normal force and "
               "friction of the wall, and friction between discs, which transfers angular momentum to the spins. (b) "
               "The "
@@ -209,6 +218,8 @@ CAPTIONS = {
               "marks the N at which the rotation changes sign.",
     "gears": "Rotation against four possible predictors, for five friction coefficients and six N each; ρ is the rank "
              "correlation over all points.",
+    "gear_order": "Correlation of the spins of touching particles, −1 for gears, against N and against the slip "
+                  "parameter of the resident particles: contacts in no triangle, and contacts in triangles.",
     "contacts": "Rotation against N if one kind of contact has no friction: with the wall; between two discs that are "
                 "both within 1.5 radii of the wall; or all others between discs.",
     "material_inertia": "N_c with its error for pairs of inertia (in units of m r²) and restitution. In empty cells "
@@ -236,6 +247,9 @@ CAPTIONS = {
     "instability": "Layers of rolling spheres in a container of R/r = 17 against the amplitude. Distance between the centre of mass and "
                    "its position in a layer that moves freely; the part of this distance that rotates with the swirl; and "
                    "the rotation of the core and of the layer at the wall.",
+    "local_speed": "Mean speed of rolling spheres in the lab frame, in units of the floor's speed, against the "
+                   "packing fraction within four radii of a sphere, for layers of three packing fractions. Dashed: a "
+                   "sphere that rolls alone, 2/7.",
 }
 
 # Sections of the report: headings, and how the description of their figures begins.

@@ -23,10 +23,10 @@ def cell(value):
 
 
 def write_table(file, rows, columns=None):
-    """Writes rows as CSV; `columns` are needed if there may be none."""
+    """Writes rows as CSV. Without rows and columns the table is empty."""
     text = io.StringIO()
     out = csv.writer(text, lineterminator="\n")
-    out.writerow(columns or rows[0])
+    out.writerow(columns or next(iter(rows), []))
     out.writerows([cell(value) for value in row.values()] for row in rows)
     atomic_file.write(file, text.getvalue())
 

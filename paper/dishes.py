@@ -100,11 +100,11 @@ def shares_of_the_states(point):
 # --- Changes of direction -----------------------------------------------------------------------
 
 def kind_of(change):
-    """The geometry of a change to counterrotation: "elongated" if the elongation of the cluster is above 1.2, otherwise
-    "wall" if discs occupy a tenth of the wall or more, otherwise "free". A change back to rotation: "back"."""
+    """The geometry of a change to counterrotation: "wall" if discs occupy a tenth of the wall or more, otherwise
+    "elongated" if the elongation of the cluster is above 1.2, otherwise "free". A change back to rotation: "back"."""
     if change["direction"] == "rotation":
         return "back"
-    return "elongated" if change["elongation"] > 1.2 else "wall" if change["occupied"] >= 0.1 else "free"
+    return "wall" if change["occupied"] >= 0.1 else "elongated" if change["elongation"] > 1.2 else "free"
 
 
 def change_at(points, curve, found, radius):
@@ -136,14 +136,15 @@ def change_at(points, curve, found, radius):
               # (radius of the hull + distance of its centre from C) / R
               "reach": (between("slip", "cluster_perimeter") / (2 * math.pi) + between("centre", "distance")) / radius}
     change["kind"] = kind_of(change)
-    for name in ("susceptibility", "correlation", "binder"):
-        change[name], change[f"{name}_error"] = between("fluctuations", name), error("fluctuations", name)
+    for family, name in (*(("fluctuations", name) for name in ("susceptibility", "correlation", "binder")),
+                         ("temperature", "granular")):
+        change[name], change[f"{name}_error"] = between(family, name), error(family, name)
     return change
 
 
 CHANGE_COLUMNS = """container_radius amplitude_ratio direction kind packing_fraction packing_fraction_error
     interpolation_error slope slope_error before after largest wall occupied elongation reach susceptibility
-    susceptibility_error correlation correlation_error binder binder_error""".split()
+    susceptibility_error correlation correlation_error binder binder_error granular granular_error""".split()
 
 
 def direction_changes(points):

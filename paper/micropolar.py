@@ -22,12 +22,8 @@ import math
 
 import numpy as np
 
+from hard_discs import pressure_ratio
 from jackknife import jackknife
-
-
-def contact_correlation(packing):
-    """Henderson's pair correlation at contact."""
-    return (1 - 7 / 16 * packing) / ((1 - packing) * (1 - packing))
 
 
 # --- Relations ------------------------------------------------------------------------------------
@@ -73,8 +69,7 @@ RELATIONS = (
              lambda f: tuple(f[f"kinetic_couple_{a}"] + f[f"collisional_couple_{a}"] for a in "xy")),
     Relation("pressure", "pressure relative to smooth elastic discs", "pressure",
              # Discs of radius 1 have the number density φ/π.
-             (lambda f: (f["packing"] / math.pi * f["temperature"] *
-                         (1 + 2 * f["packing"] * contact_correlation(f["packing"])),),), lambda f: (f["pressure"],)),
+             (lambda f: (f["packing"] / math.pi * f["temperature"] * pressure_ratio(f["packing"]),),), lambda f: (f["pressure"],)),
     Relation("odd_viscosity", "odd viscosity η_o", "deviator of the stress, with η and η_n", ODD, deviator, 1),
     Relation("normal_stress", "normal-stress coefficient η_n", "deviator of the stress, with η and η_o", ODD, deviator, 2))
 

@@ -51,7 +51,7 @@ from combine import means
 from curves import with_error
 from engine import swirl
 from figure import Figure
-from micropolar import contact_correlation
+from hard_discs import contact_correlation, pressure_ratio
 from study import Point
 
 FRACTION = 0.2  # φ = N r²/R²
@@ -109,7 +109,7 @@ def radius_of(discs):
 
 def wall_loss(restitution, discs):
     """a_w."""
-    pressure = 1 + 2 * FRACTION * contact_correlation(FRACTION)
+    pressure = pressure_ratio(FRACTION)
     return ((1 - restitution ** 2) * 2 * math.pi * (radius_of(discs) - 1) * FRACTION / math.pi * pressure /
             (math.sqrt(2 * math.pi) * discs * collision_rate()))
 

@@ -1,8 +1,10 @@
 """Is the change of direction a critical phenomenon? The paper leaves it open. At each change of direction of a dish: the
 slope dϖ/dφ, the fluctuations, their correlation time and the Binder cumulant, against the size R/r of the dish. In a
 critical transition slope, fluctuations and correlation time grow with powers of the size. In a transition of first order
-two states coexist, so that the cumulant tends to 2/3. In a crossover none of this happens. The figure has two amplitudes:
-the paper's A/R = 0.22, and A/R = 0.4, where the same change exists in dishes of all sizes."""
+two states coexist, so that the cumulant tends to 2/3. In a crossover slope and correlation time are finite in large dishes:
+their growth ends. The figure has two amplitudes: the paper's A/R = 0.22, and A/R = 0.4, where the change at the wall exists
+in dishes of all sizes. Where a correlation time grows, it is compared with the times that sound and viscosity need across
+the dish, which grow with the size without any criticality."""
 
 import math
 
@@ -14,6 +16,7 @@ from chapters.size import dishes_of_sizes
 from curves import CERTAIN, with_error
 from dishes import Dish, dish_points, dish_tables
 from figure import Figure
+from hard_discs import kinematic_viscosity, sound_speed
 from scipy.stats import t as student
 
 # Quantities at a change, and how sentences call them. Fluctuations do not decide: they grow with the size at every φ.
@@ -21,12 +24,16 @@ QUANTITIES = {"slope": "slope", "susceptibility": "N var τ", "correlation": "co
 DECISIVE = ("slope", "correlation")
 LARGEST_ERROR = 0.5  # of an exponent; a larger error leaves open whether the quantity grows
 TWO_STATES = 1 / 3  # half of the cumulant of two equal states
+LAST_SIZES = 3  # in which growth must have ended in a crossover
+SLOWEST = 3.8317  # first zero of the Bessel function J_1
 
 
 def points(settings):
-    radii = (8.6, 12.0) if settings.quick else (6.0, 8.6, 12.0, 17.2, 24.0)
+    radii = (8.6, 12.0) if settings.quick else (6.0, 8.6, 12.0, 17.2, 24.0, 34.4)
+    # Two packing fractions as far apart in every dish, on both sides of the zero.
     return dish_points(settings, dishes_of_sizes(settings) +
-                       [(Dish(radius, 0.4), fraction) for radius in radii for fraction in (0.46, 0.49)])
+                       [(Dish(radius, 0.4), fraction) for radius in radii
+                        for fraction in ((0.46, 0.49) if radius < 20 else (0.445, 0.475))])
 
 
 def power_law(points):
@@ -46,40 +53,73 @@ def power_law(points):
     return b, math.sqrt(1 / spread) * (wider if chi_square > freedom else 1), math.exp(a), chi_square, len(x)
 
 
-def verdict_on(laws, binder):
-    """By the largest cumulant and by the exponents of slope and correlation time. A missing or uncertain exponent leaves
-    the question open."""
+def laws_of(changes):
+    return {name: power_law([(c["container_radius"], abs(c[name]), c[f"{name}_error"]) for c in changes])
+            for name in QUANTITIES}
+
+
+def verdict_on(laws, last, binder):
+    """By the largest cumulant and by the exponents of slope and correlation time, of all sizes and of the largest ones. A
+    missing or uncertain exponent leaves the question open."""
     if binder[0] - CERTAIN * binder[1] > TWO_STATES:
         return "first order"
-    exponents = [laws[name][:2] for name in DECISIVE]
+    exponents, final = ([each[name][:2] for name in DECISIVE] for each in (laws, last))
     if not any(map(math.isfinite, np.ravel(exponents))):
         return "too few sizes to tell"
-    if all(exponent > CERTAIN * error for exponent, error in exponents):
+    if all(exponent > CERTAIN * error for exponent, error in exponents + final):
         return "critical"
-    if all(exponent <= CERTAIN * error and error <= LARGEST_ERROR for exponent, error in exponents):
+    if all(exponent <= CERTAIN * error and error <= LARGEST_ERROR for exponent, error in final):
         return "crossover"
     return "undecided"
 
 
+def bound_of(change):
+    """The slope of the pancake line 1 − √(φ_c/φ), of clusters that roll without slip, where φ = φ_c."""
+    return 1 / (2 * change["packing_fraction"])
+
+
+def times_of(change):
+    """The correlation time next to the times of sound across the diameter and of viscosity, that of the slowest swirl in a
+    circle at rest, R²/(3.832² ν), in periods; the container has the speed 1."""
+    radius, packing, temperature = (change[name] for name in ("container_radius", "packing_fraction", "granular"))
+    period = 2 * math.pi * change["amplitude_ratio"] * radius
+    return {**{name: change[name] for name in ("container_radius", "amplitude_ratio", "kind", "packing_fraction", "granular",
+                                               "granular_error", "correlation", "correlation_error")},
+            "sound": 2 * radius / sound_speed(packing, temperature) / period,
+            "viscosity": radius * radius / (SLOWEST ** 2 * kinematic_viscosity(packing, temperature)) / period}
+
+
 def table(points, settings):
     found, _ = dish_tables(points, settings)
+    tables, findings = scaling_tables(found["_changes"][0])
+    return {**found, **tables}, findings
+
+
+def scaling_tables(all_changes):
     transitions, rows, findings = {}, [], []
-    for change in found["_changes"][0]:
+    for change in all_changes:
         transitions.setdefault((change["amplitude_ratio"], change["kind"]), []).append(change)
     for (amplitude, kind), changes in transitions.items():
-        laws = {name: power_law([(c["container_radius"], abs(c[name]) if name == "slope" else c[name], c[f"{name}_error"])
-                                 for c in changes]) for name in QUANTITIES}
+        changes.sort(key=lambda change: change["container_radius"])
+        laws, last = laws_of(changes), laws_of(changes[-LAST_SIZES:])
         binder = max(((c["binder"], c["binder_error"]) for c in changes if math.isfinite(c["binder"])),
                      default=(math.nan, math.nan))
-        verdict = verdict_on(laws, binder)
-        rows += [dict(zip(SCALING_COLUMNS, (amplitude, kind, name, *law, verdict))) for name, law in laws.items()]
+        verdict = verdict_on(laws, last, binder)
+        rows += [dict(zip(SCALING_COLUMNS, (amplitude, kind, name, *law, *last[name][:2], verdict)))
+                 for name, law in laws.items()]
         exponents = ", ".join(f"{words} {with_error(*laws[name][:2])}" for name, words in QUANTITIES.items())
-        findings.append(f"A/R = {amplitude:g}, {kind} ({len(changes)} sizes): {verdict}; exponents of R/r: {exponents}; "
-                        f"largest Binder cumulant {with_error(*binder)}.")
-    return {**found, "_scaling": (rows, SCALING_COLUMNS)}, findings
+        findings.append(f"A/R = {amplitude:g}, {kind} ({len(changes)} sizes): {verdict}; exponents of R/r: {exponents}, "
+                        f"of the slope in the largest {len(changes[-LAST_SIZES:])} {with_error(*last['slope'][:2])}; largest slope "
+                        f"{with_error(abs(changes[-1]['slope']), changes[-1]['slope_error'])}, pancake line "
+                        f"{bound_of(changes[-1]):.2f}; largest Binder cumulant {with_error(*binder)}.")
+    times = [times_of(change) for change in all_changes if change["kind"] == "free" and change["granular"] > 0]
+    return {"_scaling": (rows, SCALING_COLUMNS), "_times": (times, TIME_COLUMNS)}, findings
 
 
-SCALING_COLUMNS = "amplitude_ratio kind quantity exponent exponent_error factor chi_square sizes verdict".split()
+SCALING_COLUMNS = """amplitude_ratio kind quantity exponent exponent_error factor chi_square sizes exponent_last
+    exponent_last_error verdict""".split()
+TIME_COLUMNS = """container_radius amplitude_ratio kind packing_fraction granular granular_error correlation
+    correlation_error sound viscosity""".split()
 
 
 # --- Drawing ------------------------------------------------------------------------------------

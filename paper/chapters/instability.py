@@ -15,22 +15,31 @@ from study import Point
 from swirled_state import swirled_run
 
 LAYERS = (0.3, 0.45, 0.65)  # φ
+MORE_LAYERS = (0.2, 0.375, 0.55, 0.75)  # for the threshold only
+AMPLITUDES = (0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)  # A/r
 RADIUS = 17.0
 QUANTITIES = ("distance", "steady", "advance", "core", "layer", "rotation")
 # A layer is unstable if its distance exceeds that of random points by this factor.
 UNSTABLE = 2
 
 
+def layers(settings):
+    return LAYERS if settings.quick else sorted(LAYERS + MORE_LAYERS)
+
+
+def layer_run(fraction, amplitude):
+    return {**SPHERES_OF_CHAPTERS, "discs": int(fraction * RADIUS * RADIUS + 0.5), "container_radius": RADIUS,
+            "amplitude": amplitude, "period": resolved(SPHERES_OF_CHAPTERS)["period"]}
+
+
 def points(settings):
     made = []
-    for fraction in LAYERS:
-        for amplitude in (0.25, 1.0, 2.0) if settings.quick else (0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0):
-            discs = int(fraction * RADIUS * RADIUS + 0.5)
-            run = {**SPHERES_OF_CHAPTERS, "discs": discs, "container_radius": RADIUS, "amplitude": amplitude,
-                   "period": resolved(SPHERES_OF_CHAPTERS)["period"], **lengths(settings, (20, 2), (24, 8))}
-            made.append(Point(settings, f"instability_N{discs}_A{text(amplitude)}_{length_of(run)}",
+    for fraction in layers(settings):
+        for amplitude in (0.25, 1.0, 2.0) if settings.quick else AMPLITUDES if fraction in LAYERS else AMPLITUDES[-3:]:
+            run = layer_run(fraction, amplitude) | lengths(settings, (20, 2), (24, 8))
+            made.append(Point(settings, f"instability_N{run['discs']}_A{text(amplitude)}_{length_of(run)}",
                               settings.chapter_seeds, run, work=swirled_run,
-                              cells={"packing_fraction": fraction, "discs": discs, "amplitude": amplitude}))
+                              cells={"packing_fraction": fraction, "discs": run["discs"], "amplitude": amplitude}))
     return made
 
 
@@ -50,7 +59,7 @@ def threshold_of(excess):
 
 def table(points, settings):
     rows, thresholds, findings = [], [], []
-    for fraction in LAYERS:
+    for fraction in layers(settings):
         excess = []
         for point in points:
             if point.cells["packing_fraction"] != fraction:

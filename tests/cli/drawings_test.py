@@ -128,9 +128,9 @@ TABLES = {
 
 
 # The chapters are drawn from the tables of quick runs, four of them by figures_test.py.
-CHAPTERS = {"amplitude", "closure", "contacts", "cooling", "critical", "fields", "gears", "hysteresis", "instability",
-            "lifetimes", "material_friction", "material_inertia", "material_tangential", "scherer", "size",
-            "spheres_packing", "spheres_size", "torque"}
+CHAPTERS = {"amplitude", "closure", "coexistence", "contacts", "cooling", "critical", "fields", "gear_order", "gears",
+            "hysteresis", "instability", "lifetimes", "local_speed", "material_friction", "material_inertia",
+            "material_tangential", "scherer", "size", "spheres_packing", "spheres_size", "torque"}
 
 
 class Drawings(unittest.TestCase):

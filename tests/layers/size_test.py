@@ -17,7 +17,7 @@ LINES = {
     # a loss for users.
     "engine": (["src"], [], 46_500),
     # Goal 8,000. The rest is the chapters on published work and the judge of 62 claims.
-    "paper": (["paper"], [], 9_950),
+    "paper": (["paper"], [], 10_400),
     # Goal 9,000. It is reached when the parts that change no verdict are gone.
     "track": (["track"], ["track/tests"], 15_300),
     "page": (["web/src"], [], 6_500),

@@ -10,10 +10,11 @@ import pytest
 
 sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
 import curves  # noqa: E402
-from chapters import cooling, lifetimes  # noqa: E402
-from chapters.critical import power_law, verdict_on  # noqa: E402
+from chapters import coexistence, cooling, gear_order, lifetimes, local_speed  # noqa: E402
+from chapters.critical import power_law, scaling_tables, verdict_on  # noqa: E402
 from coarse_zero import last_zero, zero_of_curve  # noqa: E402
-from dishes import fluctuations, shares_of_the_states  # noqa: E402
+from dishes import fluctuations, kind_of, shares_of_the_states  # noqa: E402
+from hard_discs import kinematic_viscosity, sound_speed  # noqa: E402
 from jackknife import jackknife  # noqa: E402
 from micropolar import RELATIONS, Relation, fit_relation  # noqa: E402
 from swirled_state import densities, fit_hypotrochoids  # noqa: E402
@@ -145,14 +146,51 @@ def test_a_power_law_is_recovered_and_two_sizes_have_none():
     assert math.isnan(power_law([(R, R, 0.1) for R in sizes[:2]])[0])
 
 
-@pytest.mark.parametrize("slope, correlation, binder, verdict", [
-    ((1.0, 0.1), (0.9, 0.2), (0.0, 0.1), "critical"), ((0.1, 0.1), (0.0, 0.1), (0.0, 0.1), "crossover"),
-    ((1.0, 5.0), (0.0, 0.1), (0.0, 0.1), "undecided"),  # the error of the slope is no evidence
-    ((math.nan, math.nan), (0.0, 0.1), (0.0, 0.1), "undecided"), ((1.0, 0.1), (0.0, 0.1), (0.0, 0.1), "undecided"),
-    ((0.1, 0.1), (0.0, 0.1), (0.6, 0.05), "first order"),
-    ((math.nan, math.nan), (math.nan, math.nan), (math.nan, math.nan), "too few sizes to tell")])
-def test_missing_evidence_leaves_the_verdict_open(slope, correlation, binder, verdict):
-    assert verdict_on({"slope": slope, "correlation": correlation}, binder) == verdict
+GROWS, ENDED, UNKNOWN = (1.0, 0.1), (0.1, 0.1), (1.0, 5.0)  # exponents; the error of the last is no evidence
+NONE = (math.nan, math.nan)
+
+
+@pytest.mark.parametrize("all_sizes, largest, binder, verdict", [
+    ((GROWS, GROWS), (GROWS, GROWS), 0.0, "critical"), ((ENDED, ENDED), (ENDED, ENDED), 0.0, "crossover"),
+    ((GROWS, ENDED), (ENDED, ENDED), 0.0, "crossover"),  # the growth has ended
+    ((GROWS, GROWS), (ENDED, GROWS), 0.0, "undecided"), ((GROWS, ENDED), (GROWS, ENDED), 0.0, "undecided"),
+    ((ENDED, ENDED), (UNKNOWN, ENDED), 0.0, "undecided"), ((NONE, ENDED), (NONE, ENDED), 0.0, "undecided"),
+    ((ENDED, ENDED), (ENDED, ENDED), 0.6, "first order"), ((NONE, NONE), (NONE, NONE), 0.0, "too few sizes to tell")])
+def test_missing_evidence_leaves_the_verdict_open(all_sizes, largest, binder, verdict):
+    laws, last = (dict(zip(("slope", "correlation"), pair)) for pair in (all_sizes, largest))
+    assert verdict_on(laws, last, (binder, 0.05)) == verdict
+
+
+def change_of(radius, slope, **more):
+    return {"container_radius": radius, "amplitude_ratio": 0.4, "direction": "counterrotation", "kind": "wall",
+            "packing_fraction": 0.47, "slope": -slope, "slope_error": 0.02 * slope, "correlation": 1.3,
+            "correlation_error": 0.05, "susceptibility": radius, "susceptibility_error": 0.1 * radius, "binder": 0.0,
+            "binder_error": 0.05, "granular": 0.06, "granular_error": 0.001, **more}
+
+
+@pytest.mark.parametrize("slopes, verdict", [
+    # A correlation time that is flat rules out that a slope which grows without an end is a crossover.
+    (lambda R: R / 20, "undecided"), (lambda R: 1.06 * (1 - math.exp(-(R / 12) ** 2)), "crossover")])
+def test_a_slope_that_saturates_is_told_from_one_that_grows(slopes, verdict):
+    rows = scaling_tables([change_of(R, slopes(R)) for R in (8.6, 12.0, 24.0, 34.4, 48.0)])[0]["_scaling"][0]
+    assert {row["verdict"] for row in rows} == {verdict}
+
+
+def test_the_occupied_wall_names_a_change_before_its_elongation():
+    names = {kind_of({"direction": direction, "elongation": elongation, "occupied": occupied})
+             for direction, elongation, occupied in (("counterrotation", 1.25, 0.19), ("counterrotation", 1.1, 0.1))}
+    assert names == {"wall"}
+    assert kind_of({"direction": "counterrotation", "elongation": 1.4, "occupied": 0.05}) == "elongated"
+
+
+def test_sound_and_viscosity_of_a_dilute_gas_are_those_of_kinetic_theory():
+    # c² = 2T (two degrees of freedom), η = η_0; at φ = 10⁻⁶ density corrections are 10⁻⁵ and less.
+    assert sound_speed(1e-6, 3.0) == pytest.approx(math.sqrt(6), rel=1e-5)
+    assert kinematic_viscosity(1e-6, 3.0) * 1e-6 / math.pi == pytest.approx(1.022 * math.sqrt(3 / math.pi) / 4, rel=1e-5)
+    (row,) = scaling_tables([change_of(34.4, 1.0, kind="free")])[0]["_times"][0]
+    # Sound crosses the dish in the same number of periods in every dish, viscosity takes longer in proportion to R.
+    (half,) = scaling_tables([change_of(17.2, 1.0, kind="free")])[0]["_times"][0]
+    assert (row["sound"], row["viscosity"]) == pytest.approx((half["sound"], 2 * half["viscosity"]), rel=1e-9)
 
 
 def test_two_equal_states_have_the_binder_cumulant_of_two_thirds():
@@ -183,3 +221,90 @@ def test_the_sign_changes_of_a_curve_are_listed_in_order():
     found = curves.sign_change_rows(curves.Curve("", points), {})
     assert [(row["before"], row["after"], row["direction"]) for row in found] == [
         (8, 8, "undetermined"), (20, 28, "counterrotation"), (28, 36, "rotation"), (44, 44, "undetermined")]
+
+
+# --- Gears and slip -----------------------------------------------------------------------------
+
+NUMBERS = np.arange(24.0, 49.0)
+
+
+def curves_of_gears(lost_at, risen_at, strength=0.4):
+    """Eight seeds of the gear order and the slip parameter, whose halves are at these N."""
+    noise = 0.002 * np.random.default_rng(3).normal(size=(2, 8, len(NUMBERS)))
+    order = strength / (1 + np.exp((NUMBERS - lost_at) / 2))
+    slip = 0.5 + 0.5 / (1 + np.exp(-(NUMBERS - risen_at) / 2))
+    return order + noise[0], slip + noise[1]
+
+
+@pytest.mark.parametrize("lost_at, risen_at, words", [
+    (40, 34, "the loss follows"), (33, 39, "the loss precedes"), (36, 36, "neither comes first for certain")])
+def test_a_loss_of_gear_order_is_timed_against_the_slip(lost_at, risen_at, words):
+    rows = gear_order.timing(NUMBERS, *curves_of_gears(lost_at, risen_at))
+    assert gear_order.verdict(rows) == words
+    # The ends of the range cut the tails of the logistic curves, whose width is 2.
+    assert rows[1]["lag"] == pytest.approx(lost_at - risen_at, abs=0.5)
+
+
+def test_without_gear_order_nothing_is_lost():
+    for strength in (0.0, 0.05):  # the weak order of discs is below the least order of gears
+        rows = gear_order.timing(NUMBERS, *curves_of_gears(36, 36, strength))
+        assert gear_order.verdict(rows) == "no gear order to lose" and math.isnan(rows[1]["loss"])
+    order, slip = curves_of_gears(90, 36)  # order that stays to the last N has no loss, either
+    assert gear_order.verdict(gear_order.timing(NUMBERS, order, slip)) == "no gear order to lose"
+
+
+# --- Two states ---------------------------------------------------------------------------------
+
+def runs_of_two_states(lifetimes, count, windows=60):
+    """Windows of runs that jump between two states at random, half of them prepared in each."""
+    random, runs = np.random.default_rng(5), []
+    for k in range(count):
+        state, values = k % 2, []
+        for _ in range(windows):
+            values.append((1.06, 1.35)[state] + 0.03 * random.normal())
+            state ^= random.uniform() < coexistence.WINDOW / lifetimes[state]
+        runs.append({"rotation": [(-0.04, 0.04)[value > 1.2] for value in values], "elongation": values})
+    return runs
+
+
+def test_lifetimes_of_cut_runs_are_recovered():
+    runs = runs_of_two_states((200, 600), 64)
+    states = [coexistence.states_of(run["elongation"]) for run in runs]
+    for k, exact in enumerate((200, 600)):
+        value, error = coexistence.lifetime_of(*coexistence.visits(states, k))
+        assert abs(value - exact) < 4 * error and error < 0.25 * value
+    # Most runs are shorter than the longer lifetime: the mean over completed visits alone would be too short by half.
+    assert coexistence.lifetime_of(60, 0)[0] == 100
+
+
+def test_a_noisy_state_is_not_left_at_the_middle():
+    assert list(coexistence.states_of([1.2, 1.06, 1.2, 1.1, 1.2, 1.3, 1.2, 1.24])) == [-1, 0, 0, 0, 0, 1, 1, 1]
+    assert coexistence.visits([np.array([-1, 0, 0, 1, 1])], 0) == (2, 1)
+
+
+def test_equal_lifetimes_follow_from_exits_at_two_amplitudes():
+    def row(ratio, round_, elongated):
+        """Exits as expected from ln τ_round = 6 − 400 x and ln τ_elongated = 6 + 200 x with x = A/R − 0.21."""
+        lives = math.exp(6 - 400 * (ratio - 0.21)), math.exp(6 + 200 * (ratio - 0.21))
+        return {"amplitude_ratio": ratio, "periods_round": round_, "exits_round": round_ / lives[0],
+                "periods_elongated": elongated, "exits_elongated": elongated / lives[1]}
+    rows = [row(0.204, 4000, 2000), row(0.21, 3000, 3000), row(0.216, 2000, 4000)]
+    found, error = coexistence.equal_lifetimes(rows)
+    assert found == pytest.approx(0.21, abs=1e-9) and 0 < error < 0.002
+    # A state that is never left at one of two amplitudes still counts by its time, but one with exits at a single
+    # amplitude has no slope.
+    never = [rows[0], rows[1] | {"exits_round": 0}, rows[2]]
+    assert coexistence.equal_lifetimes(never)[0] > found
+    assert math.isnan(coexistence.equal_lifetimes([rows[0] | {"exits_round": 0}, rows[1]])[0])
+
+
+def test_the_slope_of_the_speed_is_that_of_all_particles():
+    count = np.array([0, 5, 0, 20, 7, *[0] * 12])
+    sums = [count * (0.3 + 0.2 * np.arange(17) / 16), count]
+    assert local_speed.slope_of(sums) == pytest.approx(0.2, abs=EXACT)
+    assert math.isnan(local_speed.slope_of([np.zeros(17)] * 2))
+
+
+def test_a_table_whose_runs_all_failed_is_empty(tmp_path):
+    curves.write_table(str(tmp_path / "empty.csv"), [])
+    assert (tmp_path / "empty.csv").read_text() == "\n"

@@ -1,0 +1,197 @@
+"""Two states at the same parameters, and how long each lasts: a round cluster that counterrotates and an elongated one that
+rotates, both prepared on purpose, in dishes of several sizes at one packing fraction, against the amplitude A/R. In a
+transition of first order both lifetimes are much longer than the motion within a state, they grow with the size of the
+dish, and a line of equal lifetimes separates the states. `--seeds 64 --events 3.4e6` runs 64 seeds for 1000 periods, and
+`--part K/N` divides the runs among the jobs of a cluster (docs/how-to/reproduce_paper.md)."""
+
+import math
+
+import numpy as np
+import style
+import tables
+from combine import means
+from curves import with_error
+from dishes import Dish, dish_run, period_of
+from engine import swirl
+from figure import Figure
+from study import Point
+
+FRACTION = 0.32
+WINDOW = 5  # periods
+PREPARED = 90  # periods before the first window
+# A ramp of A/R brings the cluster into a state, and then to the amplitude of the point.
+PREPARATIONS = {"round": (0.19, 0.19), "elongated": (0.27, 0.222, 0.222)}
+ELONGATED, ROUND = 1.25, 1.15  # the elongation above, below which a window is certainly in a state
+RATIOS = {24.0: (0.209, 0.2137), 34.4: (0.206, 0.209, 0.211, 0.2137, 0.217), 48.0: (0.195, 0.2, 0.205, 0.209),
+          60.0: (0.19, 0.195, 0.2, 0.205)}  # A/R
+BISTABLE = 0.2137  # where both states last long at R/r = 34.4
+BUDGET = ("wall_normal", "wall_tangential", "transfer")
+
+
+def windows_of(parameters):
+    """Means of the rotation and the elongation in windows of the run after its preparation."""
+    series = swirl.run(series=True, measure="centre", **parameters).series
+    rows = np.array([series["rigid_by_time"], series["centre.elongation"]])[:, series["counted"] > 0]
+    count = rows.shape[1] // WINDOW
+    means = rows[:, :count * WINDOW].reshape(2, count, WINDOW).mean(axis=2)
+    return dict(zip(("rotation", "elongation"), np.round(means, 5).tolist()))
+
+
+def budget_of(parameters):
+    """Means of the torques on the orbital motion, of the shape and of the contacts, in a short run."""
+    series = swirl.run(series=True, measure=["centre", "torque", "contact_network"], **parameters).series
+    counted = series["counted"] > 0
+    columns = {"elongation": "centre.elongation", "rotation": "rigid_by_time", "wall": "contact_network.wall",
+               "largest": "contact_network.largest", **{name: f"torque.{name}" for name in BUDGET}}
+    return {name: float(np.mean(series[column][counted])) for name, column in columns.items()}
+
+
+def coexistence_run(radius, ratio, prepared, periods):
+    dish = Dish(radius, 0.22)
+    run = dish_run(dish, dish.discs(FRACTION))
+    ramp = ":".join(repr(radius * value) for value in (*PREPARATIONS[prepared], ratio))
+    return {"discs": run["discs"], "container_radius": radius, "period": period_of(run),
+            "ramp": f"amplitude={ramp}@0..{PREPARED}", "warmup": PREPARED, "periods": PREPARED + periods}
+
+
+def coexistence_point(settings, radius, ratio, prepared, periods, seeds, work=windows_of):
+    run = coexistence_run(radius, ratio, prepared, periods)
+    name = "coexistence" if work is windows_of else "budget"
+    return Point(settings, f"{name}_R{radius:g}_A{ratio:g}_{prepared}_{periods}periods", seeds, run, work=work,
+                 cells={"container_radius": radius, "amplitude_ratio": ratio, "discs": run["discs"], "prepared": prepared})
+
+
+def points(settings):
+    seeds = settings.first_seeds or settings.chapter_seeds
+    ratios = {34.4: (BISTABLE,)} if settings.quick else RATIOS
+    return ([coexistence_point(settings, radius, ratio, prepared, settings.periods(300, 2 * WINDOW), seeds)
+             for radius, all_ratios in ratios.items() for ratio in all_ratios for prepared in PREPARATIONS] +
+            [coexistence_point(settings, 34.4, BISTABLE, prepared, settings.periods(60, 2), max(seeds // 2, 1), budget_of)
+             for prepared in PREPARATIONS])
+
+
+# --- Lifetimes ------------------------------------------------------------------------------------
+
+def states_of(elongations):
+    """The state of each window, 0 round or 1 elongated: that of the last window which is certain; −1 before it."""
+    states, state = [], -1
+    for value in elongations:
+        state = 1 if value > ELONGATED else 0 if value < ROUND else state
+        states.append(state)
+    return np.array(states)
+
+
+def visits(all_states, state):
+    """(windows in the state, exits) of several runs."""
+    inside = sum(int(np.sum(states == state)) for states in all_states)
+    return inside, sum(int(np.sum((states[:-1] == state) & (states[1:] == 1 - state))) for states in all_states)
+
+
+def lifetime_of(inside, exits):
+    """The mean of an exponential distribution, (value, error) in periods, for runs that end at any time: the time in the
+    state over the number of exits. Without an exit: the lower bound of 95 %, and no error."""
+    periods = inside * WINDOW
+    return (periods / exits, periods / exits / math.sqrt(exits)) if exits else (periods / 3, math.nan)
+
+
+def rate_law(ratios, periods, exits):
+    """The maximum likelihood of exits per period, exp(a + b x) with x = A/R − BISTABLE, from the time in a state and the
+    number of exits at each A/R: (a, b) and their covariance. None without exits at two A/R: then b is undetermined."""
+    ratios, periods, exits = (np.asarray(column, dtype=float) for column in (ratios, periods, exits))
+    if len(set(ratios[exits > 0])) < 2:
+        return None
+    x = np.array([np.ones_like(ratios), ratios - BISTABLE])
+    law = np.array([math.log(exits.sum() / periods.sum()), 0.0])
+    for _ in range(100):
+        expected = periods * np.exp(law @ x)
+        information = (x * expected) @ x.T
+        step = np.linalg.solve(information, x @ (exits - expected))
+        law = law + step * min(1.0, 2.0 / max(abs(step[1]) * np.ptp(ratios), 1e-300))
+    return law, np.linalg.inv(information)
+
+
+def equal_lifetimes(rows):
+    """The A/R at which both laws of the rates agree, and its error; NaN if a law is undetermined or if the lifetime of the
+    elongated state does not certainly grow relative to that of the round one."""
+    laws = [rate_law(*([row[name] for row in rows] for name in ("amplitude_ratio", f"periods_{state}", f"exits_{state}")))
+            for state in ("round", "elongated")]
+    if None in laws:
+        return math.nan, math.nan
+    (height, slope), spread = laws[0][0] - laws[1][0], laws[0][1] + laws[1][1]
+    if not slope > 2 * math.sqrt(spread[1, 1]):
+        return math.nan, math.nan
+    shift = -height / slope
+    direction = np.array([1.0, shift])
+    return BISTABLE + shift, math.sqrt(direction @ spread @ direction) / slope
+
+
+RATE_STEP = 0.01  # Ω
+
+
+def table(points, settings):
+    rows, histogram, budget, findings = [], [], [], []
+    dishes = dict.fromkeys((p.cells["container_radius"], p.cells["amplitude_ratio"]) for p in points)
+    for radius, ratio in dishes:
+        here = [p for p in points if (p.cells["container_radius"], p.cells["amplitude_ratio"]) == (radius, ratio)]
+        runs = [(p.cells["prepared"], run) for p in here for run in p.runs if isinstance(run["elongation"], list)]
+        if not runs:
+            continue
+        states = [states_of(run["elongation"]) for _, run in runs]
+        row = {"container_radius": radius, "amplitude_ratio": ratio, "discs": here[0].cells["discs"], "runs": len(runs)}
+        for k, name in enumerate(("round", "elongated")):
+            inside, exits = visits(states, k)
+            rates = np.concatenate([np.array(run["rotation"])[s == k] for (_, run), s in zip(runs, states)])
+            longest = np.concatenate([np.array(run["elongation"])[s == k] for (_, run), s in zip(runs, states)])
+            prepared = [s[0] == k for (made, _), s in zip(runs, states) if made == name]
+            life, error = lifetime_of(inside, exits)
+            row |= {f"prepared_{name}": sum(prepared), f"periods_{name}": inside * WINDOW, f"exits_{name}": exits,
+                    f"lifetime_{name}": life if inside else math.nan, f"lifetime_{name}_error": error,
+                    f"rotation_{name}": rates.mean() if inside else math.nan,
+                    f"elongation_{name}": longest.mean() if inside else math.nan,
+                    f"ended_{name}": sum(s[-1] == k for s in states) / len(states)}
+        rows.append(row)
+        counts = np.unique(np.floor(np.concatenate([run["rotation"] for _, run in runs]) / RATE_STEP), return_counts=True)
+        histogram += [{"container_radius": radius, "amplitude_ratio": ratio, "rotation": (k + 0.5) * RATE_STEP,
+                       "windows": int(count)} for k, count in zip(*counts)]
+    for point in points:
+        runs = [run for run in point.runs if not isinstance(run["elongation"], list)]
+        if runs:
+            budget.append(point.cells | {"seeds": len(runs)} | means(runs, runs[0]))
+    for radius in dict.fromkeys(row["container_radius"] for row in rows):
+        here = [row for row in rows if row["container_radius"] == radius]
+        for row in here:
+            words = [f"{name} {'more than ' if not row[f'exits_{name}'] else ''}"
+                     f"{with_error(row[f'lifetime_{name}'], row[f'lifetime_{name}_error'])} periods ({row[f'exits_{name}']} "
+                     f"exits, ϖ/Ω = {row[f'rotation_{name}']:.3f})" if row[f"periods_{name}"] else f"{name}: not visited"
+                     for name in ("round", "elongated")]
+            findings.append(f"R/r = {radius:g}, A/R = {row['amplitude_ratio']:g}, lifetimes: {'; '.join(words)}.")
+        findings.append(f"R/r = {radius:g}: lifetimes are equal at A/R = {with_error(*equal_lifetimes(here))}.")
+    return {"": rows, "_histogram": histogram, "_budget": budget}, findings
+
+
+def draw(table):
+    rows, histogram = style.read(table), tables.companion(table, "_histogram")
+    drawing, (left, right) = style.figure(style.PAGE, 2.8, ncols=2)
+    left.set_yscale("log")
+    for radius, here, look in style.groups(rows, "container_radius"):
+        for name, filled in (("round", look["color"]), ("elongated", "white")):
+            known = [row for row in here if row[f"exits_{name}"]]
+            if known:
+                style.curve(left, known, "amplitude_ratio", f"lifetime_{name}", markerfacecolor=filled, linewidth=0.7,
+                            label=f"$R/r = {radius:g}$, {name}", **look)
+            bounds = [row for row in here if not row[f"exits_{name}"] and row[f"periods_{name}"]]
+            left.plot(style.column(bounds, "amplitude_ratio"), style.column(bounds, f"lifetime_{name}"), "^",
+                      color=look["color"], markerfacecolor=filled)
+        ratio = min(style.distinct(here, "amplitude_ratio"), key=lambda value: abs(value - BISTABLE))
+        found = style.select(histogram, container_radius=radius, amplitude_ratio=ratio)
+        total = sum(style.column(found, "windows")) * RATE_STEP
+        right.step(style.column(found, "rotation"), [row["windows"] / total for row in found], where="mid",
+                   color=look["color"], label=f"$R/r = {radius:g}$, $A/R = {ratio:g}$")
+    left.set(xlabel="amplitude $A/R$", ylabel="lifetime (periods)")
+    right.set(xlabel=r"rotation $\varpi/\Omega$ in five periods", ylabel="probability density")
+    for axes in (left, right):
+        style.legend(axes, ncol=1)
+    style.save(drawing, table)
+
+
+FIGURES = [Figure("coexistence", "chapters", "chapter: how long two prepared states last", points, table, draw)]

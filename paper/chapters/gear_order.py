@@ -1,0 +1,119 @@
+"""Do opposite spins of touching particles ("gears") get lost before the slip parameter rises, with it, or after it? Contacts
+in triangles and in none, of discs and spheres, from the runs of Figure 4.
+
+The gear order is the spin correlation of touching particles with the opposite sign: 1 for gears, 0 for independent spins.
+Its loss is the N beyond its maximum at which a share q of the maximum is left. The rise of the slip is the N at which the
+slip parameter has 1 − q of its way from its lowest value to that at the last N. The lag is the difference, loss minus
+rise, for q = 3/4, 1/2 and 1/4. Errors: jackknife over the seeds. Limits: the rise depends on the range of N; curves are
+interpolated by straight lines; a curve without certain gear order above LEAST_ORDER has no loss."""
+
+import math
+
+import numpy as np
+import style
+from combine import at, number
+from curves import CERTAIN, rows_of, with_error
+from figure import Figure
+from jackknife import jackknife
+from paper_parameters import LAST_N
+from runs import HALF, HIGH, LOW, ROUGH, SMOOTH, measured_point, points_of
+
+FRICTIONS = (LOW, HIGH, SMOOTH, ROUGH, HALF)
+LEFT = (0.75, 0.5, 0.25)  # q
+LEAST_ORDER = 0.1
+QUANTITIES = {"order": "frustration.chain_correlation", "slip": "slip.resident"}
+
+
+def points(settings):
+    return [measured_point(settings, friction, discs) for friction, discs in points_of(settings, FRICTIONS)
+            if discs <= LAST_N]
+
+
+def crossing(x, y, level):
+    """The first x at which the curve rises through the level; NaN if it does not."""
+    for k in range(len(x) - 1):
+        if y[k] <= level < y[k + 1]:
+            return x[k] + (x[k + 1] - x[k]) * (level - y[k]) / (y[k + 1] - y[k])
+    return math.nan
+
+
+def loss(discs, order, left):
+    top = int(np.argmax(order))
+    return crossing(discs[top:], -order[top:], -left * order[top])
+
+
+def rise(discs, slip, left):
+    low = int(np.argmin(slip))
+    return crossing(discs[low:], slip[low:], slip[low] + (1 - left) * (slip[-1] - slip[low]))
+
+
+def timing(discs, order, slip):
+    """Rows for each q; `order` and `slip` are arrays [seed, N]. Without certain gear order there is no loss."""
+    seeds, means = np.arange(len(order)), order.mean(axis=0)
+    top = int(np.argmax(means))
+    error = order[:, top].std(ddof=1) / math.sqrt(len(order)) if len(order) > 1 else math.nan
+    ordered = means[top] - CERTAIN * error > LEAST_ORDER
+    rows = []
+    for left in LEFT:
+        row = {"left": left, "order": means[top], "order_error": error, "order_discs": discs[top]}
+        for name, statistic in (("loss", lambda k: loss(discs, order[k].mean(axis=0), left) if ordered else math.nan),
+                                ("rise", lambda k: rise(discs, slip[k].mean(axis=0), left))):
+            row[name], row[f"{name}_error"] = (statistic(seeds), jackknife(len(seeds), statistic)[1])
+        row["lag"] = row["loss"] - row["rise"]
+        row["lag_error"] = jackknife(len(seeds), lambda k: loss(discs, order[k].mean(axis=0), left) -
+                                     rise(discs, slip[k].mean(axis=0), left))[1] if ordered else math.nan
+        rows.append(row)
+    return rows
+
+
+def verdict(rows):
+    """By all lags that are known."""
+    known = [(row["lag"], row["lag_error"]) for row in rows if math.isfinite(row["lag"])]
+    if not known:
+        return "no gear order to lose"
+    for sign, words in ((1, "the loss follows"), (-1, "the loss precedes")):
+        if all(sign * lag > CERTAIN * error for lag, error in known):
+            return words
+    return "neither comes first for certain"
+
+
+def table(points, settings):
+    rows, findings = [], []
+    for friction in FRICTIONS:
+        here = [p for p in points if p.cells["setting"] == friction.name]
+        runs = min((len(p.runs) for p in here), default=0)
+        if len(here) < 2 or not runs:
+            continue
+        values = {name: np.array([[number(at(run, "measured", *path.split("."), "mean")) for run in p.runs[:runs]]
+                                  for p in here]).T for name, path in QUANTITIES.items()}
+        discs = np.array([p.cells["discs"] for p in here], dtype=float)
+        found = timing(discs, -values["order"], values["slip"])
+        words = verdict(found)
+        rows += [{"setting": friction.name, "seeds": runs, **row, "verdict": words} for row in found]
+        half = found[LEFT.index(0.5)]
+        findings.append(
+            f"{friction.words}: strongest gear order {with_error(half['order'], half['order_error'])} at N = "
+            f"{half['order_discs']:.0f}; half of it is lost at N = {with_error(half['loss'], half['loss_error'])}, the slip "
+            f"has half of its rise at {with_error(half['rise'], half['rise_error'])}: {words}.")
+    return {"": rows_of(points, ("frustration.chain_correlation", "frustration.triangle_correlation",
+                                 "frustration.triangles", "slip.resident=slip")), "_lags": rows}, findings
+
+
+def draw(table):
+    rows = style.read(table)
+    drawing, axes = style.figure(style.PAGE, 2.6, ncols=3)
+    for panel, (x, y) in zip(axes, (("discs", "chain_correlation"), ("slip", "chain_correlation"),
+                                    ("slip", "triangle_correlation"))):
+        style.zero_line(panel)
+        for k, friction in enumerate(FRICTIONS):
+            here = style.select(rows, setting=friction.name)
+            if here:
+                style.curve(panel, here, x, y, linewidth=0.7, label=friction.words, **style.look_of(k))
+        panel.set(xlabel="number of particles $N$" if x == "discs" else "slip parameter, residents",
+                  ylabel="spin correlation, " + ("no triangle" if y.startswith("chain") else "triangles"))
+    style.legend_of_all(drawing, axes[0], ncol=3)
+    style.save(drawing, table)
+
+
+FIGURES = [Figure("gear_order", "chapters", "chapter: does the gear order vanish before the slip rises?", points, table,
+                  draw)]
