@@ -382,6 +382,35 @@ TEST(Sheet, ContainersHaveOneScaleAndDoNotOverlap) {
               (2.0 * reach + 1.892) * sheet.view(0).pixels_per_unit);
 }
 
+TEST(Sheet, NumbersOfTurnsCaptionsAndClockDoNotTouch) {
+    const Snapshot s = container(0.3);
+    const auto drawn = [](const Pixel& p, const Pixel& page) {
+        return p.red != page.red || p.green != page.green || p.blue != page.blue;
+    };
+    for (const Size size : {Size{440, 276}, Size{640, 480}, Size{1280, 720}, Size{500, 900}}) {
+        SheetSpec spec;
+        spec.size = size;
+        spec.parameters = {"$N$ = 48"};
+        spec.panels = {{Frame::lab, "20 discs", 8.6, 1.892, true},
+                       {Frame::lab, "48 discs", 8.6, 1.892, true}};
+        const Sheet sheet(spec);
+        // The canvas of the frame has no page, so only what changes in time is drawn on it.
+        Canvas fixed(size), moving(size);
+        sheet.draw_static(fixed);
+        const std::vector<SceneContent> contents{{.now = s, .turns = 12.34},
+                                                 {.now = s, .turns = -12.53}};
+        sheet.draw_frame(moving, contents, {}, 123.45);
+        const Pixel page = pixel(fixed, 0, 0);
+        int touching = 0;
+        // Four pixels are a third of a letter on the smallest page.
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 4; x < size.width - 4; ++x)
+                for (int k = -4; k <= 4 && drawn(pixel(fixed, x, y), page); ++k)
+                    touching += drawn(pixel(moving, x + k, y), {0, 0, 0});
+        EXPECT_EQ(touching, 0) << size.width << "x" << size.height;
+    }
+}
+
 TEST(Sheet, ShortTitleLeavesMoreSpaceForContainers) {
     const auto scale = [](const std::string& title) {
         SheetSpec spec;

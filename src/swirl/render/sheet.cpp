@@ -31,15 +31,13 @@ Sheet::Sheet(const SheetSpec& spec) : spec_(spec) {
 void Sheet::lay_out_caption(const Canvas& canvas, const Panel& panel, const Rectangle& square,
                             double gap) {
     LabelStyle style{.size = em_, .color = spec_.style.theme.faint_ink, .align = Align::center};
-    const double number = panel.shows_turns ? 7.0 * em_ : 0.0;
-    style.size = fitting_size(canvas, panel.caption, style, square.width + 0.8 * gap - number);
+    // "−12.34 turns" in bold letters takes 8.5 em.
+    const double room = panel.shows_turns ? square.width - 9.0 * em_ : square.width + 0.8 * gap;
+    style.size = fitting_size(canvas, panel.caption, style, room);
     Vec2 position{square.x + 0.5 * square.width, caption_line_};
     if (panel.shows_turns) {
         style.align = Align::right;
         position.x = square.x + square.width;
-        // The clock may be on the same line.
-        if (clock_position_ && clock_align_ == Align::right)
-            position.x = std::min(position.x, clock_position_->x - clock_width());
     }
     texts_.push_back({panel.caption, position, style});
 }
@@ -166,7 +164,8 @@ void Sheet::lay_out_bands(const Canvas& canvas) {
         clock_align_ = Align::right;
     }
     // A short title and the clock share the line of the captions, so that containers are larger.
-    if (readable && !spec_.title.empty() && !title_shares_line(canvas, inner)) top += 2.2 * em_;
+    if ((clock > 0.0 || (readable && !spec_.title.empty())) && !title_shares_line(canvas, inner))
+        top += 2.2 * em_;
     if (readable && !spec_.parameters.empty()) {
         const std::string line = joined(spec_.parameters);
         LabelStyle style{.size = 0.9 * em_, .color = theme.faint_ink, .align = Align::center};
