@@ -147,6 +147,8 @@ class Help(unittest.TestCase):
                            (["collect", "sweep", "--out", "t.csv"], "did you mean --csv? See `swirl collect --help`."),
                            (["run", "--friction=0.5"], "did you mean --mu? See `swirl run --help`."),
                            (["run", "--dicss", "5"], "did you mean --discs? See `swirl run --help`."),
+                           # The unknown option explains why a required one is missing.
+                           (["export", "t.h5", "--to", "xyz"], "did you mean --format? See `swirl export --help`."),
                            (["run", "--frobnicate"], "see `swirl run --help`."),
                            (["frobnicate"], "see `swirl --help`.")):
             with self.subTest(call):

@@ -121,7 +121,14 @@ Message message_on_conversion(const std::string& what) {
                         read_number(value) ? "whole number" : "number")};
 }
 
-Message message_on_missing_option(const CLI::App& selected, const std::string& what) {
+Message message_on_missing_option(const CLI::App& app, const CLI::App& selected,
+                                  const std::string& what) {
+    // An unknown option may be the missing one under another name.
+    const auto extras = app.remaining(true);
+    if (std::any_of(extras.begin(), extras.end(), [](const std::string& extra) {
+            return extra.starts_with("--") && extra != "--";
+        }))
+        return message_on_extras(app, selected);
     const std::string name = what.substr(0, what.find(' '));
     const CLI::Option* const option = selected.get_option_no_throw(name);
     const std::string form = option ? " " + option->get_type_name() : "";
@@ -139,7 +146,7 @@ std::string error_text(const CLI::App& app, const CLI::ParseError& error) {
     else if (dynamic_cast<const CLI::ConversionError*>(&error))
         message = message_on_conversion(error.what());
     else if (dynamic_cast<const CLI::RequiredError*>(&error))
-        message = message_on_missing_option(selected, error.what());
+        message = message_on_missing_option(app, selected, error.what());
     const std::string command = &selected == &app ? "swirl" : "swirl " + selected.get_name();
     return message.hint.empty()
                ? fmt::format("{}\nhint: see `{} --help`.", message.text, command)
