@@ -1,6 +1,6 @@
 """Figures with measured quantities and the rotation against the number of particles, a curve for each setting."""
 
-from curves import at_both_ends, curves_by, rows_of
+from curves import at_both_ends, curve_tables, curves_by
 from runs import measured_point, points_of
 
 
@@ -18,6 +18,6 @@ def against_n(frictions, quantities="", words=(), with_crossings=False):
     def table(points, settings):
         curves = curves_by(points, "setting")
         findings = [f"{curve.name} friction, ϖ by time: {curve.sentence()}" for curve in curves if with_crossings]
-        return ({"": rows_of(points, quantities.split()), "_crossings": [curve.row() for curve in curves]},
+        return (curve_tables(points, curves, quantities.split()),
                 findings + findings_of(points, frictions, dict(words)))
     return points, table

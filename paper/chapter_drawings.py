@@ -78,11 +78,8 @@ def dishes(table, parameter, words, label):
 def crossing_map(table, x, y, x_label, y_label):
     """A complete figure: N_c as colour and as number with its error, for pairs of two parameters."""
     rows = style.read(table)
-    xs, ys = style.distinct(rows, x), style.distinct(rows, y)
+    xs, ys, values = style.grid(rows, x, y, "crossing")
     drawing, axes = style.figure(1.4 * style.COLUMN, 0.9 + 0.5 * len(ys))
-    values = np.full((len(ys), len(xs)), np.nan)
-    for row in rows:
-        values[ys.index(row[y]), xs.index(row[x])] = row["crossing"]
     known = values[np.isfinite(values)]
     low, high = (known.min(), known.max()) if known.size else (0.0, 1.0)
     image = axes.imshow(values, origin="lower", aspect="auto", cmap="viridis", vmin=low, vmax=max(high, low + 1))
@@ -97,8 +94,7 @@ def crossing_map(table, x, y, x_label, y_label):
             words = ("rotates" if row["lowest"] > 3 * row["lowest_error"] else
                      "counter-\nrotates" if row["highest"] < -3 * row["highest_error"] else "undecided")
             axes.text(*at, words, ha="center", va="center", fontsize=style.SMALLEST, color=style.GREY)
-    axes.set_xticks(range(len(xs)), [f"{value:g}" for value in xs])
-    axes.set_yticks(range(len(ys)), [f"{value:g}" for value in ys])
+    style.label_grid(axes, xs, ys)
     axes.set(xlabel=x_label, ylabel=y_label)
     drawing.colorbar(image, ax=axes, label="$N_c$")
     style.save(drawing, table)

@@ -172,6 +172,11 @@ def curves_by(points, column, rate="mean_by_time"):
     return [Curve(value, [p for p in points if p.cells[column] == value], rate) for value in values]
 
 
+def curve_tables(points, curves, measured=()):
+    """The tables of the points and of the crossings of their curves."""
+    return {"": rows_of(points, measured), "_crossings": [curve.row() for curve in curves]}
+
+
 def at_both_ends(points, what, words, quantity):
     """"what (words): 0.5 at N = 24, 0.9 at N = 48.": a measured quantity, such as "slip.cluster", at the first and last
     N of a curve."""

@@ -17,6 +17,7 @@ import html
 import json
 import os
 import re
+import struct
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -48,6 +49,12 @@ def rendered(layout, folder=".", **values):
                                keep_trailing_newline=True)
     pages.filters.update(rich=lambda text: markupsafe.Markup(rich(text)), cell=cell, inline=inline, bullet="- {}".format)
     return pages.get_template(layout).render(**values)
+
+
+def size_of(png):
+    """Width and height in pixels, from the header of the file."""
+    with open(png, "rb") as file:
+        return struct.unpack(">16xII", file.read(24))
 
 
 def described_folder(name, command, what):

@@ -6,7 +6,6 @@ folder.
 
 import json
 import os
-import struct
 import sys
 
 import atomic_file
@@ -16,7 +15,7 @@ from claims import all_judged
 from claims.claim import UNTESTED
 from console import duration
 from first_page import crossings_of_one_setting, main_results
-from html_page import described_folder, rendered
+from html_page import described_folder, rendered, size_of
 from point_names import in_words
 from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
 
@@ -134,17 +133,11 @@ def contents(folder, about, judged):
     return [*blocks, ("claims", [claim_row(k, j) for k, j in enumerate(judged, 1)])]
 
 
-def is_wide(path):
-    """From the header of a PNG."""
-    with open(path, "rb") as file:
-        width, height = struct.unpack(">16xII", file.read(24))
-    return width > ONE_COLUMN or width > FLAT * height
-
-
 def figure_row(folder, figure, texts):
     image, (caption, findings, remarks) = image_of(figure), texts[figure["name"]]
+    width, height = size_of(os.path.join(folder, image)) if image else (0, 0)
     return {"title": title_of(figure), "images": [image] if image else [], "question": question_of(figure),
-            "wide": bool(image) and is_wide(os.path.join(folder, image)), "caption": caption, "findings": findings,
+            "wide": width > ONE_COLUMN or width > FLAT * height, "caption": caption, "findings": findings,
             "remarks": remarks, "command": f"swirl paper --figure {figure['name']}"}
 
 

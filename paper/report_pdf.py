@@ -7,7 +7,10 @@ import os
 import re
 import textwrap
 
+import numpy as np
+
 import style  # noqa: F401 sets the backend
+from html_page import size_of
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 from style import plt
@@ -64,8 +67,8 @@ class Pages:
         self.top -= height
 
     def image(self, file):
-        pixels = plt.imread(file)
-        width, height = size_on_page(pixels)
+        pixels = np.uint8(np.round(255 * plt.imread(file)))  # a quarter of the memory, which all pages together need
+        width, height = size_on_page(*size_of(file))
         self._require(height)
         axes = self.pages[-1].add_axes(((WIDTH - width) / 2 / WIDTH, (self.top - height) / HEIGHT,
                                         width / WIDTH, height / HEIGHT))
@@ -95,10 +98,10 @@ class Pages:
         return with_outline(file.getvalue(), self.headings, links)
 
 
-def size_on_page(pixels, max_width=WIDTH - 2 * MARGIN, max_height=5.0):
+def size_on_page(across, up, max_width=WIDTH - 2 * MARGIN, max_height=5.0):
     """Width and height in inches, of at least 220 pixels per inch."""
-    width = min(max_width, pixels.shape[1] / 220)
-    height = width * pixels.shape[0] / pixels.shape[1]
+    width = min(max_width, across / 220)
+    height = width * up / across
     return (width, height) if height <= max_height else (width * max_height / height, max_height)
 
 
@@ -163,7 +166,7 @@ def plain(text):
 
 def write_figure(pages, folder, f):
     images = [os.path.join(folder, name) for name in f.get("images", ())]
-    pages.heading(plain(f["title"]), size=10.5, below=sum(size_on_page(plt.imread(image))[1] for image in images))
+    pages.heading(plain(f["title"]), size=10.5, below=sum(size_on_page(*size_of(image))[1] for image in images))
     for image in images:
         pages.image(image)
     for name in ("question", "caption"):

@@ -142,22 +142,19 @@ def cells_of(friction, discs):
     return {**friction.cells, "discs": discs}
 
 
-def point(settings, friction, discs):
-    """Rotation only."""
-    return Point(settings, f"{friction.name}_N{discs}", settings.seeds, paper_run(settings, friction, discs),
-                 cells=cells_of(friction, discs))
+def point(settings, friction, discs, measure=(), run=None, prefix=""):
+    """Rotation only, unless there are measurements; `run` are parameters other than those of the paper."""
+    return Point(settings, f"{prefix}{friction.name}_N{discs}", settings.seeds, run or paper_run(settings, friction, discs),
+                 measure, cells=cells_of(friction, discs))
 
 
 def measured_point(settings, friction, discs):
     """The same runs, with all measurements that the figures need."""
-    return Point(settings, f"{friction.name}_N{discs}", settings.seeds, paper_run(settings, friction, discs),
-                 measurements_of_the_paper(friction, discs), cells=cells_of(friction, discs))
+    return point(settings, friction, discs, measurements_of_the_paper(friction, discs))
 
 
 def dense_point(settings, friction, discs):
-    return Point(settings, f"{friction.name}_N{discs}", settings.seeds,
-                 with_periods(paper_run(settings, friction, discs), dense_length(settings)),
-                 cells=cells_of(friction, discs))
+    return point(settings, friction, discs, run=with_periods(paper_run(settings, friction, discs), dense_length(settings)))
 
 
 def settled_run(settings, friction, discs):
@@ -169,5 +166,5 @@ def settled_run(settings, friction, discs):
 
 
 def settled_point(settings, friction, discs):
-    return Point(settings, f"settled_{friction.name}_N{discs}", settings.seeds, settled_run(settings, friction, discs),
-                 measurements_of_the_paper(friction, discs), cells=cells_of(friction, discs))
+    return point(settings, friction, discs, measurements_of_the_paper(friction, discs),
+                 settled_run(settings, friction, discs), "settled_")

@@ -411,18 +411,29 @@ def save(drawing, table):
         atomic_file.write_or_exit(f"{stem}.{kind}", drawn.getvalue())
 
 
+def grid(rows, x, y, name):
+    """(values along x, values along y, image) of a quantity over two parameters; points without a row are NaN."""
+    across, up = distinct(rows, x), distinct(rows, y)
+    image = np.full((len(up), len(across)), np.nan)
+    for row in rows:
+        image[up.index(row[y]), across.index(row[x])] = row[name]
+    return across, up, image
+
+
+def label_grid(axes, across, up):
+    axes.set_xticks(range(len(across)), [f"{value:g}" for value in across])
+    axes.set_yticks(range(len(up)), [f"{value:g}" for value in up])
+
+
 def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
     """ϖ/Ω over two parameters, as colour and as number; `columns` are the parameters along x and y."""
-    across, up = (distinct(rows, name) for name in columns)
-    values = [[float("nan")] * len(across) for _ in up]
-    for row in rows:
-        values[up.index(row[columns[1]])][across.index(row[columns[0]])] = row["mean_by_time"]
+    across, up, rates = grid(rows, *columns, "mean_by_time")
     colors = plt.get_cmap("PuOr_r").copy()
     colors.set_bad("0.85")
     # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.
     span = matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-1, vmax=1)
-    shown = axes.imshow(values, origin="lower", cmap=colors, norm=span)
-    for y, line in enumerate(values):
+    shown = axes.imshow(rates, origin="lower", cmap=colors, norm=span)
+    for y, line in enumerate(rates):
         for x, value in enumerate(line):
             if value == value:
                 number = f"{value:.2f}".replace("-0.00", "0.00").replace("-", "−")
@@ -435,12 +446,11 @@ def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
         axes.add_patch(plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7, linestyle=":"))
     if drifting:
         notes.append("dotted: steady state not verified")
-    if any(value != value for line in values for value in line):
+    if np.isnan(rates).any():
         notes.append("grey: no result")
     if notes:
         note(drawing, "; ".join(notes))
-    axes.set_xticks(range(len(across)), [f"{s:g}" for s in across])
-    axes.set_yticks(range(len(up)), [f"{s:g}" for s in up])
+    label_grid(axes, across, up)
     for side in axes.spines.values():
         side.set_visible(False)
     axes.tick_params(length=0)

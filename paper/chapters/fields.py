@@ -85,23 +85,13 @@ def fields_table(points, settings):
         f"spin, relative to rounding errors: {residual:.1g}."]
 
 
-def square(rows, name):
-    """The values as an image with the points of the grid as pixels; points without a row are NaN."""
-    x, y = (style.distinct(rows, axis) for axis in ("x", "y"))
-    image = np.full((len(y), len(x)), np.nan)
-    for row in rows:
-        image[y.index(row["y"]), x.index(row["x"])] = row[name]
-    step = x[1] - x[0]
-    return image, [x[0] - step / 2, x[-1] + step / 2, y[0] - step / 2, y[-1] + step / 2]
-
-
 def panel(drawing, axes, rows, name, label, unit, colors, symmetric, limit=None):
-    image, extent = square(rows, name)
-    if symmetric:
-        limit = limit or np.nanquantile(np.abs(image), 0.98)
-        shown = axes.imshow(image, origin="lower", extent=extent, cmap=colors, vmin=-limit, vmax=limit)
-    else:
-        shown = axes.imshow(image, origin="lower", extent=extent, cmap=colors, vmin=0)
+    x, y, image = style.grid(rows, "x", "y", name)
+    step = x[1] - x[0]
+    extent = [x[0] - step / 2, x[-1] + step / 2, y[0] - step / 2, y[-1] + step / 2]
+    limit = limit or symmetric and np.nanquantile(np.abs(image), 0.98)
+    shown = axes.imshow(image, origin="lower", extent=extent, cmap=colors, vmin=-limit if symmetric else 0,
+                        vmax=limit or None)
     radius = extent[1]
     shown.set_clip_path(style.plt.Circle((0, 0), radius, transform=axes.transData))
     axes.add_patch(style.plt.Circle((0, 0), radius, fill=False, linewidth=0.8))

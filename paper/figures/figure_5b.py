@@ -5,7 +5,7 @@ import math
 
 import style
 import tables
-from curves import curves_by, lowest_of, rows_of, with_error
+from curves import curve_tables, curves_by, lowest_of, with_error
 from figure import Figure
 from paper_parameters import LAST_N
 from runs import (FRICTION_OF_5B, HIGH, cells_of, dense_point, length_of, numbers_beyond, numbers_of_discs, point,
@@ -65,7 +65,7 @@ def table(points, settings):
         findings.append(f"{friction_words(friction)}: {curve.sentence()}")
         if friction == HIGH:
             findings.append(compare_rates(curve))
-    return {"": rows_of(points), "_crossings": [curve.row() for curve in curves]}, findings
+    return curve_tables(points, curves), findings
 
 
 def draw(table):

@@ -3,7 +3,7 @@ readings of the amplitude."""
 
 import style
 from combine import at
-from curves import curves_by, rows_of, sign_changes_sentence, with_error
+from curves import curve_tables, curves_by, rows_of, sign_changes_sentence, with_error
 from figure import Figure
 from runs import HALF, ROUGH, SMOOTH, length_of, lengths, numbers_of_spheres, paper_run, point, with_periods
 from study import Point
@@ -17,8 +17,7 @@ def points(settings):
 
 def table(points, settings):
     curves = curves_by(points, "setting")
-    return ({"": rows_of(points), "_crossings": [curve.row() for curve in curves]},
-            [f"{curve.name}: {sign_changes_sentence(curve)}" for curve in curves])
+    return curve_tables(points, curves), [f"{curve.name}: {sign_changes_sentence(curve)}" for curve in curves]
 
 
 # --- A few spheres --------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """Spheres that roll: rotation with each ingredient of the model switched off alone."""
 
 import style
-from curves import curves_by, rows_of, sign_change_rows, sign_changes_sentence
+from curves import curve_tables, curves_by, sign_change_rows, sign_changes_sentence
 from figure import Figure
 from runs import ROUGH, SMOOTH, length_of, paper_run
 from study import Point
@@ -42,7 +42,7 @@ def table(points, settings):
     mu, curves = points[0].cells["mu"], curves_by(points, "curve")
     columns = "curve mu crossing crossing_error lower upper before after direction".split()
     changes = [row for curve in curves for row in sign_change_rows(curve, {"curve": curve.name, "mu": mu})]
-    return ({"": rows_of(points), "_crossings": [curve.row() for curve in curves], "_sign_changes": (changes, columns)},
+    return (curve_tables(points, curves) | {"_sign_changes": (changes, columns)},
             [f"{words}, μ = {mu}: {sign_changes_sentence(curve)}" for (words, _), curve in zip(VARIANTS.values(), curves)])
 
 

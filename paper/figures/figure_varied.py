@@ -1,7 +1,7 @@
 """Beyond the paper: a curve ϖ(N) for each value of a parameter that the paper holds fixed."""
 
 import style
-from curves import curves_by, rows_of
+from curves import curve_tables, curves_by
 from figure import Figure
 from paper_parameters import LAST_N
 from runs import HIGH, dense_length, length_of, numbers_beyond, paper_run, sparse_numbers, text, with_periods
@@ -23,12 +23,11 @@ def curve_points(settings, name, parameter, values, numbers, **parameters):
     return points
 
 
-def curve_tables(points, settings):
+def tables_of(points, settings):
     """The rows of all points, and the crossings of the curves."""
     parameter = list(points[0].cells)[1]
     curves = curves_by(points, "curve")
-    return ({"": rows_of(points), "_crossings": [curve.row() for curve in curves]},
-            [f"{parameter} {curve.name}: {curve.sentence()}" for curve in curves])
+    return curve_tables(points, curves), [f"{parameter} {curve.name}: {curve.sentence()}" for curve in curves]
 
 
 def inertia_points(settings):
@@ -52,9 +51,9 @@ def drawn_by(parameter, symbol):
     return lambda table: style.rotation_curves(table, parameter, symbol)
 
 
-FIGURES = [Figure("inertia", "beyond", "beyond the paper: moment of inertia ½ to 10⁴", inertia_points, curve_tables,
+FIGURES = [Figure("inertia", "beyond", "beyond the paper: moment of inertia ½ to 10⁴", inertia_points, tables_of,
                   drawn_by("inertia", "I")),
-           Figure("restitution", "beyond", "beyond the paper: restitution e = 1, 0.99, 0.9", restitution_points, curve_tables,
+           Figure("restitution", "beyond", "beyond the paper: restitution e = 1, 0.99, 0.9", restitution_points, tables_of,
                   drawn_by("restitution", "e")),
            Figure("tangential", "beyond", "beyond the paper: tangential restitution, solid discs", tangential_points,
-                  curve_tables, drawn_by("tangential_restitution", r"\beta"))]
+                  tables_of, drawn_by("tangential_restitution", r"\beta"))]
