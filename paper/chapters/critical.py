@@ -43,14 +43,11 @@ def power_law(points):
     x, y, error = np.array([p for p in points if min(p) > 0 and math.isfinite(p[1] / p[2])]).reshape(-1, 3).T
     if len(x) < 3 or len(set(x)) < 2:
         return math.nan, math.nan, math.nan, math.nan, len(x)
-    w, lx, ly = (y / error) ** 2, np.log(x), np.log(y)
-    apart = lx - np.sum(w * lx) / np.sum(w)
-    spread = np.sum(w * apart ** 2)
-    b = np.sum(w * apart * ly) / spread
-    a = np.sum(w * (ly - b * lx)) / np.sum(w)
-    chi_square, freedom = float(np.sum(w * (ly - a - b * lx) ** 2)), len(x) - 2
+    w, lx, ly = y / error, np.log(x), np.log(y)
+    (b, a), spread = np.polyfit(lx, ly, 1, w=w, cov="unscaled")
+    chi_square, freedom = float(np.sum((w * (ly - a - b * lx)) ** 2)), len(x) - 2
     wider = math.sqrt(chi_square / freedom) * student.ppf(0.975, freedom) / student.ppf(0.975, 1e9)
-    return b, math.sqrt(1 / spread) * (wider if chi_square > freedom else 1), math.exp(a), chi_square, len(x)
+    return b, math.sqrt(spread[0, 0]) * (wider if chi_square > freedom else 1), math.exp(a), chi_square, len(x)
 
 
 def laws_of(changes):

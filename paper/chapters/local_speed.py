@@ -60,11 +60,10 @@ def points(settings):
 def slope_of(sums):
     """Of the speed against the local packing fraction, a fit to all particles."""
     speed, count = np.asarray(sums)
-    if np.count_nonzero(count) < 2:
+    x = np.flatnonzero(count)
+    if len(x) < 2:
         return math.nan
-    x = np.arange(len(count)) / REACH ** 2
-    apart = x - np.sum(count * x) / np.sum(count)
-    return float(np.sum(apart * speed) / np.sum(apart ** 2 * count))
+    return float(np.polyfit(x / REACH ** 2, speed[x] / count[x], 1, w=np.sqrt(count[x]))[0])
 
 
 def table(points, settings):

@@ -139,11 +139,25 @@ def test_the_density_in_rings_counts_every_particle_once():
     found = densities(distance)
     rings = np.arange(len(found) + 1) / 5
     assert np.sum(found * np.pi * np.diff(rings ** 2)) == pytest.approx(40, abs=1e-9)
+
+
 def test_a_power_law_is_recovered_and_two_sizes_have_none():
     sizes = (8.6, 12, 17.2, 24)
     exponent, error, factor, chi_square, count = power_law([(R, 3 * R ** 1.5, 0.01 * R ** 1.5) for R in sizes])
     assert (exponent, factor, count) == pytest.approx((1.5, 3, 4), abs=EXACT) and chi_square < EXACT and error < 0.01
     assert math.isnan(power_law([(R, R, 0.1) for R in sizes[:2]])[0])
+    # Points without a positive finite value or error are omitted.
+    omitted = power_law([(1, 1, 0.1), (2, 2, 0.1), (3, -1, 0.1), (4, 1, 0), (5, math.nan, 0.1)])
+    assert omitted[4] == 2 and math.isnan(omitted[0]) and math.isnan(omitted[1])
+
+
+def test_the_error_of_a_power_law_grows_with_the_scatter():
+    # Equal relative errors e at ln x = −1, 0, 1: the error of the slope is e/√2.
+    points = [(math.exp(x), math.exp(2 * x), 0.02 * math.exp(2 * x)) for x in (-1, 0, 1)]
+    assert power_law(points)[1] == pytest.approx(0.02 / math.sqrt(2), abs=EXACT)
+    # Weighted residuals of 0.2/0.01: the errors alone would give an error below 0.01.
+    _, error, _, chi_square, _ = power_law([(1, 1, 0.01), (2, 1.5, 0.01), (4, 1, 0.01), (8, 1.5, 0.01)])
+    assert chi_square > 100 and error > 0.1
 
 
 GROWS, ENDED, UNKNOWN = (1.0, 0.1), (0.1, 0.1), (1.0, 5.0)  # exponents; the error of the last is no evidence
