@@ -11,7 +11,7 @@ const most = 60; // points in a link
 function rowOf(words: string[]): Measured | undefined {
     const [n, turns, circles, ...more] = words.map(Number) as [number, number, number, ...number[]];
     const isValid = words.length === 3 && more.length === 0 && Number.isInteger(n) && n >= 1 && n <= 20_000 &&
-        Math.abs(turns) <= 1e4 && circles > 0 && circles <= 1e5 && Math.abs(turns) <= 3 * circles + 1;
+        Math.abs(turns) <= 1e4 && circles >= 1 && circles <= 1e5 && Math.abs(turns) <= 3 * circles + 1;
     return isValid ? [n, turns, circles] : undefined;
 }
 

@@ -78,7 +78,7 @@ try {
     assert.deepEqual(measuredFromLink(measuredText(counted.rows)), counted);
     assert.equal(rateOf([8, 4.5, 20])[0], 0.225);
     assert.ok(Math.abs(rateOf([8, 4.5, 20])[1] - 0.0059) < 1e-4); // √2/12 of a turn in 20 circles
-    for (const wrong of ["8 4", "x 4 20", "8 4 0", "8.5 4 20", "8 4 20 1", "8 1e99 20", "8 900 20", "-1 0 20", "8 4 Infinity"])
+    for (const wrong of ["8 4", "x 4 20", "8 4 0", "8 1 1e-300", "8.5 4 20", "8 4 20 1", "8 1e99 20", "8 900 20", "-1 0 20", "8 4 Infinity"])
         assert.deepEqual(measuredFrom(`8 4 20\n${wrong}`), {rows: [[8, 4, 20]], wrong}, wrong);
     // Results of a class: each seed counts once, the error is that between pupils, and other parameters are omitted.
     const isKnown = (name) => ["discs", "mu", "seed"].includes(name), link = (seed, points, more = "") => `https://x.org/lab.html?seed=${seed}${more}#points=${points}`;
