@@ -1,117 +1,32 @@
 """Against published theory: does a gas of rough discs cool as the mean-field theory of Huthmann and Zippelius says (Phys.
 Rev. E 56, R6275, 1997, cond-mat/9708093)? Luding, Huthmann, McNamara and Zippelius compared it with simulations (Phys. Rev.
 E 58, 3416, 1998). The container is at rest, and its wall is smooth. The gas first reaches equilibrium without friction and
-losses. Then the collision law is switched on, with all spins zero.
-
-The theory describes the translational temperature T = ½m⟨v²⟩ and that of the spins T_s = I⟨ω²⟩ of a homogeneous gas whose
-velocities and spins have normal distributions. Two discs of mass m and radius r approach with the speed u along the
-normal. Their contact slips at the rate s = w + rΣ, with w the tangential part of the relative velocity and Σ the sum of
-the spins. If every contact sticks (μ → ∞), the tangential impulse is −mηs, with
-
-    η = q (1 + β) / (2q + 2),   q = I/(m r²),
-
-because the effective mass of two equal discs is mq/(2q + 2). The impulse changes the energies by
-
-    translation   −(1 − e²) m u²/4 − mη s w + mη² s²
-    spins                          − mη s rΣ + (mη²/q) s².
-
-Pairs collide at a rate proportional to u, so ⟨u²⟩ = 4T/m. The tangential components do not affect the rate: ⟨w²⟩ = 2T/m and
-r²⟨Σ²⟩ = 2T_s/(mq), and both are independent. A gas of N discs has the energy N T + N T_s/2. With τ the mean number of
-collisions of a disc with others, N/2 of them for each unit of τ give
-
-    dT/dτ   = −a T + b T_s        a = (1 − e²)/2 + η(1 − η) + a_w,   b = η²/q
-    dT_s/dτ = 2b T − 2c T_s       c = (η/q)(1 − η/q).
-
-The wall has the same restitution e. Each collision with it removes (1 − e²) m v²/2 of the normal velocity v, on average
-(1 − e²) T. The discs at the wall have the number density p/T, so √(T/2πm) p/T of them hit a unit of its length in a unit
-of time. With p = n T (1 + 2φg) and the circle of radius R − r on which their centres are,
-
-    a_w = (1 − e²) 2π(R − r) n (1 + 2φg) / (√(2πm) N ν),   ν that of T = 1.
-
-The time follows from the collision rate of a disc,
-
-    dτ/dt = ν = 2√π n σ g √(T/m),   σ = 2r,   g = (1 − 7φ/16)/(1 − φ)²,
-
-with n the number of discs per area and Henderson's pair correlation g at contact (1975, doi:10.1080/00268977500102511).
-
-Limits. β = −1, or no friction (η = 0): only e matters, which is Haff's law. e = β = 1: a = b = c, so the energy is constant
-and T = T_s in the end.
-"""
+losses. Then the collision law is switched on, with all spins zero. The theory is in rough_gas.py."""
 
 import dataclasses
 import math
 
 import numpy as np
-import scipy.integrate
-import scipy.linalg
-
 import style
 import tables
 from combine import means
 from curves import with_error
 from engine import swirl
 from figure import Figure
-from hard_discs import contact_correlation, pressure_ratio
+from rough_gas import FRACTION, Case, collision_rate, radius_of
 from study import Point
 
-FRACTION = 0.2  # φ = N r²/R²
 QUANTITIES = ("translation", "spins", "time", "excess", "correlation")  # of a state of the gas
 # Collisions per disc without losses: to reach equilibrium, then to measure the collision rate.
 TO_MIX, TO_COUNT = 40, 20
 MOMENTS = (0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0, 15.0, 20.0, 30.0)
 FIRST_COLLISIONS = 2  # of the findings
 STICKS = 1e6  # μ
-
-
-@dataclasses.dataclass(frozen=True)
-class Case:
-    """One collision law. `beta` is that of the theory: −1 without friction."""
-
-    case: str
-    words: str
-    restitution: float
-    beta: float
-    mu: float
-    inertia: float
-
-    def rates(self, discs):
-        """The matrix of the theory."""
-        e, q = self.restitution, self.inertia
-        eta = q * (1 + self.beta) / (2 * q + 2)
-        b, c = eta * eta / q, eta / q * (1 - eta / q)
-        a = (1 - e * e) / 2 + eta * (1 - eta) + wall_loss(e, discs)
-        return np.array([[-a, b], [2 * b, -2 * c]])
-
-    def after(self, tau, discs):
-        """(T, T_s) after τ collisions of a disc, in units of T at the start."""
-        return scipy.linalg.expm(self.rates(discs) * tau) @ [1, 0]
-
-    def time_of(self, tau, discs):
-        """The time of τ collisions, in units of the inverse collision rate at the start: the integral of √(T₀/T)."""
-        return scipy.integrate.quad(lambda t: 1 / math.sqrt(self.after(t, discs)[0]), 0, tau)[0]
-
-
 CASES = (Case("haff", "smooth, e = 0.9", 0.9, -1, 0, 0.5), Case("elastic", "e = 1, β = 1, I = ½", 1, 1, STICKS, 0.5),
          Case("partly", "e = 0.95, β = 0.5, I = ½", 0.95, 0.5, STICKS, 0.5),
          Case("solid", "e = 0.9, β = 0, I = ½", 0.9, 0, STICKS, 0.5),
          Case("sticking", "e = 1, β = 0, I = 10", 1, 0, STICKS, 10), Case("paper", "e = 1, β = 0, I = 10, μ = 1", 1, 0, 1, 10),
          Case("slippery", "e = 1, β = 0, I = 10, μ = 0.1", 1, 0, 0.1, 10))
-
-
-def collision_rate():
-    """Enskog's, of discs of radius 1 and mass 1 at T = 1."""
-    return 4 * math.sqrt(math.pi) * (FRACTION / math.pi) * contact_correlation(FRACTION)
-
-
-def radius_of(discs):
-    return math.sqrt(discs / FRACTION)
-
-
-def wall_loss(restitution, discs):
-    """a_w."""
-    pressure = pressure_ratio(FRACTION)
-    return ((1 - restitution ** 2) * 2 * math.pi * (radius_of(discs) - 1) * FRACTION / math.pi * pressure /
-            (math.sqrt(2 * math.pi) * discs * collision_rate()))
 
 
 # --- Runs -----------------------------------------------------------------------------------------

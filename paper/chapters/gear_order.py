@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 import style
-from combine import at, number
+from combine import at, number, over_seeds
 from curves import CERTAIN, rows_of, with_error
 from figure import Figure
 from jackknife import jackknife
@@ -49,9 +49,9 @@ def rise(discs, slip, left):
 
 def timing(discs, order, slip):
     """Rows for each q; `order` and `slip` are arrays [seed, N]. Without certain gear order there is no loss."""
-    seeds, means = np.arange(len(order)), order.mean(axis=0)
+    seeds, (means, errors) = np.arange(len(order)), over_seeds(order.T)[:2]
     top = int(np.argmax(means))
-    error = order[:, top].std(ddof=1) / math.sqrt(len(order)) if len(order) > 1 else math.nan
+    error = errors[top]
     ordered = means[top] - CERTAIN * error > LEAST_ORDER
     rows = []
     for left in LEFT:

@@ -46,6 +46,13 @@ class Size(unittest.TestCase):
                 self.assertLessEqual(lines, most)
                 self.assertGreater(lines, 0.9 * most, "lower the limit")
 
+    def test_a_chapter_is_a_script_of_at_most_200_lines(self):
+        chapters = [file for file in files(["paper/chapters"]) if file.suffix == ".py"]
+        self.assertGreater(len(chapters), 10)
+        for file in chapters:
+            with self.subTest(file.name):
+                self.assertLessEqual(file.read_bytes().count(b"\n"), 200)
+
 
 if __name__ == "__main__":
     unittest.main()
