@@ -12,7 +12,7 @@ CONTRADICTIONS = [
     ("Amplitude of the experiment", "The main text has 1.15 cm and forces of up to 460 and 200 cm/s². The SI's A/R = 0.22 "
      "implies 0.575 cm.", "A = 1.15 cm, since then one friction coefficient reproduces N_c, the slip and the single change "
      "of direction. The force of 460 cm/s² needs 1.05 cm. A Coriolis force of at most 200 cm/s² fits neither value. "
-     "“Half the amplitude” shows 0.575 cm."),
+     "Claims about the experiment are judged there, and “half the amplitude” shows 0.575 cm."),
     ("Moment of inertia", "The table has I = 10 for m = r = 1. A rigid plane disc cannot exceed 1 (a ring); a "
      "solid disc has ½.", "The paper's 10 is the default. Figure “inertia” shows 1 and ½."),
     ("Minimal time between collisions", "The paper discards predicted contacts that are less than 10⁻¹³ ahead, since "
@@ -34,9 +34,6 @@ CONTRADICTIONS = [
      "body without torque has no direction of rotation.",
      "Without torque its spin in the lab stays 0, so γ = 1 and s = R_ball/R_container: figure “ball” simulates it. "
      "Rotation also needs a torque."),
-    ("Amplitude of the experiment", "1.15 cm in a dish of 5.1 cm diameter is 0.45 R. The SI's A/R = 0.22 fits half of "
-     "it.", "Claims about the experiment are judged at the stated A = 11.5 mm, which has its single change of direction "
-     "and its slip. For comparison the report has A = 5.75 mm. Coriolis forces of at most 200 cm/s² fit neither."),
     ("Coriolis force", "The paper states 0–200 cm/s². A disc that moves with the wall has about 720 cm/s² in the "
                        "M-frame.",
      "This program computes it from the velocities in the M-frame (measurement “centre”)."),

@@ -23,6 +23,14 @@ from curves import with_error
 from engine import swirl
 
 
+def rise_through(x, y, level):
+    """The first x at which straight lines between the points rise through the level; NaN if they do not."""
+    for a, b, c, d in zip(x, x[1:], y, y[1:]):
+        if c <= level < d:
+            return a + (b - a) * (level - c) / (d - c)
+    return math.nan
+
+
 @dataclasses.dataclass
 class CurveZero:
     fraction: float  # of the way from point k to point k + 1

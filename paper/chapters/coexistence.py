@@ -9,6 +9,7 @@ import math
 import numpy as np
 import style
 import tables
+from chapters.lifetimes import lifetime_of
 from combine import means
 from curves import with_error
 from dishes import Dish, dish_run, period_of
@@ -82,16 +83,9 @@ def states_of(elongations):
 
 
 def visits(all_states, state):
-    """(windows in the state, exits) of several runs."""
+    """(periods in the state, exits) of several runs."""
     inside = sum(int(np.sum(states == state)) for states in all_states)
-    return inside, sum(int(np.sum((states[:-1] == state) & (states[1:] == 1 - state))) for states in all_states)
-
-
-def lifetime_of(inside, exits):
-    """The mean of an exponential distribution, (value, error) in periods, for runs that end at any time: the time in the
-    state over the number of exits. Without an exit: the lower bound of 95 %, and no error."""
-    periods = inside * WINDOW
-    return (periods / exits, periods / exits / math.sqrt(exits)) if exits else (periods / 3, math.nan)
+    return inside * WINDOW, sum(int(np.sum((states[:-1] == state) & (states[1:] == 1 - state))) for states in all_states)
 
 
 def rate_law(ratios, periods, exits):
@@ -139,15 +133,15 @@ def table(points, settings):
         states = [states_of(run["elongation"]) for _, run in runs]
         row = {"container_radius": radius, "amplitude_ratio": ratio, "discs": here[0].cells["discs"], "runs": len(runs)}
         for k, name in enumerate(("round", "elongated")):
-            inside, exits = visits(states, k)
+            periods, exits = visits(states, k)
             rates = np.concatenate([np.array(run["rotation"])[s == k] for (_, run), s in zip(runs, states)])
             longest = np.concatenate([np.array(run["elongation"])[s == k] for (_, run), s in zip(runs, states)])
             prepared = [s[0] == k for (made, _), s in zip(runs, states) if made == name]
-            life, error = lifetime_of(inside, exits)
-            row |= {f"prepared_{name}": sum(prepared), f"periods_{name}": inside * WINDOW, f"exits_{name}": exits,
-                    f"lifetime_{name}": life if inside else math.nan, f"lifetime_{name}_error": error,
-                    f"rotation_{name}": rates.mean() if inside else math.nan,
-                    f"elongation_{name}": longest.mean() if inside else math.nan,
+            life, error = lifetime_of(periods, exits)
+            row |= {f"prepared_{name}": sum(prepared), f"periods_{name}": periods, f"exits_{name}": exits,
+                    f"lifetime_{name}": life if periods else math.nan, f"lifetime_{name}_error": error,
+                    f"rotation_{name}": rates.mean() if periods else math.nan,
+                    f"elongation_{name}": longest.mean() if periods else math.nan,
                     f"ended_{name}": sum(s[-1] == k for s in states) / len(states)}
         rows.append(row)
         counts = np.unique(np.floor(np.concatenate([run["rotation"] for _, run in runs]) / RATE_STEP), return_counts=True)

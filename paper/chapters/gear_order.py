@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 import style
+from coarse_zero import rise_through
 from combine import at, number, over_seeds
 from curves import CERTAIN, rows_of, with_error
 from figure import Figure
@@ -29,22 +30,14 @@ def points(settings):
             if discs <= LAST_N]
 
 
-def crossing(x, y, level):
-    """The first x at which the curve rises through the level; NaN if it does not."""
-    for k in range(len(x) - 1):
-        if y[k] <= level < y[k + 1]:
-            return x[k] + (x[k + 1] - x[k]) * (level - y[k]) / (y[k + 1] - y[k])
-    return math.nan
-
-
 def loss(discs, order, left):
     top = int(np.argmax(order))
-    return crossing(discs[top:], -order[top:], -left * order[top])
+    return rise_through(discs[top:], -order[top:], -left * order[top])
 
 
 def rise(discs, slip, left):
     low = int(np.argmin(slip))
-    return crossing(discs[low:], slip[low:], slip[low] + (1 - left) * (slip[-1] - slip[low]))
+    return rise_through(discs[low:], slip[low:], slip[low] + (1 - left) * (slip[-1] - slip[low]))
 
 
 def timing(discs, order, slip):

@@ -7,7 +7,7 @@ import scipy.stats
 
 import style
 import tables
-from coarse_zero import last_zero, measured_curve
+from coarse_zero import last_zero, measured_curve, rise_through
 from combine import at, number
 from curves import curves_by, lowest_of, rows_of, with_error
 from figure import Figure
@@ -58,21 +58,14 @@ def rows_without_curve(points, measured=()):
     return [{name: value for name, value in row.items() if name != "curve"} for row in rows_of(points, measured)]
 
 
-def zero_of_rotation(n, rate):
-    """Where a straight line between two N has no rotation; None if the sign does not change."""
-    for k in reversed(range(len(n) - 1)):
-        if rate[k] > 0 > rate[k + 1]:
-            return n[k] + (n[k + 1] - n[k]) * rate[k] / (rate[k] - rate[k + 1])
-    return None
-
-
 def draw_torque(table):
     rows = sorted(style.read(table), key=lambda row: row["discs"])
     drawing, both = style.figure(style.PAGE, 2.8, ncols=2)
-    zero = zero_of_rotation(style.column(rows, "discs"), style.column(rows, "mean_by_time"))
+    # The last change to counterrotation.
+    zero = rise_through(*(style.column(rows, name)[::-1] for name in ("discs", "mean_by_time")), 0)
     for axes, terms, letter in zip(both, (SUMS, ZONES), "ab"):
         style.zero_line(axes)
-        if zero is not None:
+        if zero == zero:
             axes.axvline(zero, color=style.GREY, linewidth=0.7, linestyle="--")
         for k, (name, words) in enumerate(terms):
             style.curve(axes, rows, "discs", name, label=words, **style.look_of(k))

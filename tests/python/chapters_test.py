@@ -288,12 +288,12 @@ def test_lifetimes_of_cut_runs_are_recovered():
         value, error = coexistence.lifetime_of(*coexistence.visits(states, k))
         assert abs(value - exact) < 4 * error and error < 0.25 * value
     # Most runs are shorter than the longer lifetime: the mean over completed visits alone would be too short by half.
-    assert coexistence.lifetime_of(60, 0)[0] == 100
+    assert coexistence.lifetime_of(300, 0)[0] == 100
 
 
 def test_a_noisy_state_is_not_left_at_the_middle():
     assert list(coexistence.states_of([1.2, 1.06, 1.2, 1.1, 1.2, 1.3, 1.2, 1.24])) == [-1, 0, 0, 0, 0, 1, 1, 1]
-    assert coexistence.visits([np.array([-1, 0, 0, 1, 1])], 0) == (2, 1)
+    assert coexistence.visits([np.array([-1, 0, 0, 1, 1])], 0) == (2 * coexistence.WINDOW, 1)
 
 
 def test_equal_lifetimes_follow_from_exits_at_two_amplitudes():
