@@ -105,18 +105,20 @@ def rate_law(ratios, periods, exits):
 
 
 def equal_lifetimes(rows):
-    """The A/R at which both laws of the rates agree, and its error; NaN if a law is undetermined or if the lifetime of the
-    elongated state does not certainly grow relative to that of the round one."""
+    """The A/R at which both laws of the rates agree, and the lifetime there, each with its error. None if a law is
+    undetermined, or if the lifetime of the elongated state does not certainly grow relative to that of the round one."""
     laws = [rate_law(*([row[name] for row in rows] for name in ("amplitude_ratio", f"periods_{state}", f"exits_{state}")))
             for state in ("round", "elongated")]
     if None in laws:
-        return math.nan, math.nan
+        return None
     (height, slope), spread = laws[0][0] - laws[1][0], laws[0][1] + laws[1][1]
     if not slope > 2 * math.sqrt(spread[1, 1]):
-        return math.nan, math.nan
+        return None
     shift = -height / slope
     direction = np.array([1.0, shift])
-    return BISTABLE + shift, math.sqrt(direction @ spread @ direction) / slope
+    lifetime = math.exp(-laws[0][0] @ direction)
+    return ((BISTABLE + shift, math.sqrt(direction @ spread @ direction) / slope),
+            (lifetime, lifetime * math.sqrt(direction @ laws[0][1] @ direction)))
 
 
 RATE_STEP = 0.01  # Ω
@@ -159,7 +161,10 @@ def table(points, settings):
                      f"exits, ϖ/Ω = {row[f'rotation_{name}']:.3f})" if row[f"periods_{name}"] else f"{name}: not visited"
                      for name in ("round", "elongated")]
             findings.append(f"R/r = {radius:g}, A/R = {row['amplitude_ratio']:g}, lifetimes: {'; '.join(words)}.")
-        findings.append(f"R/r = {radius:g}: lifetimes are equal at A/R = {with_error(*equal_lifetimes(here))}.")
+        equal = equal_lifetimes(here)
+        findings.append(f"R/r = {radius:g}: " + (
+            f"lifetimes are equal at A/R = {with_error(*equal[0])}, {with_error(*equal[1])} periods." if equal else
+            "no certain line of equal lifetimes."))
     return {"": rows, "_histogram": histogram, "_budget": budget}, findings
 
 

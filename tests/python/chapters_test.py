@@ -303,13 +303,13 @@ def test_equal_lifetimes_follow_from_exits_at_two_amplitudes():
         return {"amplitude_ratio": ratio, "periods_round": round_, "exits_round": round_ / lives[0],
                 "periods_elongated": elongated, "exits_elongated": elongated / lives[1]}
     rows = [row(0.204, 4000, 2000), row(0.21, 3000, 3000), row(0.216, 2000, 4000)]
-    found, error = coexistence.equal_lifetimes(rows)
-    assert found == pytest.approx(0.21, abs=1e-9) and 0 < error < 0.002
+    (found, error), (lifetime, _) = coexistence.equal_lifetimes(rows)
+    assert (found, lifetime) == pytest.approx((0.21, math.exp(6)), rel=1e-9) and 0 < error < 0.002
     # A state that is never left at one of two amplitudes still counts by its time, but one with exits at a single
     # amplitude has no slope.
     never = [rows[0], rows[1] | {"exits_round": 0}, rows[2]]
-    assert coexistence.equal_lifetimes(never)[0] > found
-    assert math.isnan(coexistence.equal_lifetimes([rows[0] | {"exits_round": 0}, rows[1]])[0])
+    assert coexistence.equal_lifetimes(never)[0][0] > found
+    assert coexistence.equal_lifetimes([rows[0] | {"exits_round": 0}, rows[1]]) is None
 
 
 def test_the_slope_of_the_speed_is_that_of_all_particles():
