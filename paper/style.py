@@ -176,7 +176,7 @@ def fine_near_zero(axes, values, linear=LINEAR):
     if max(high, -low) <= linear:
         return
     axes.set_yscale("symlog", linthresh=linear, linscale=2)
-    ticks = [sign * linear * k for sign in (-1, 1) for k in (0, 0.5, 1, 3, 10, 30, 100, 300)]
+    ticks = [0, *(sign * linear * k for sign in (-1, 1) for k in (0.5, 1, 3, 10, 30, 100, 300))]
     axes.set_yticks([t for t in ticks if low - linear / 4 <= t <= max(high, linear)])
     axes.yaxis.set_major_formatter(lambda y, _: f"{y:g}".replace("-", "−"))
     axes.minorticks_off()

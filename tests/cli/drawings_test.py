@@ -294,7 +294,11 @@ class Drawings(unittest.TestCase):
         near = curves("setting", SPHERES, range(8, 56, 4))
         near = [row | {"mean_by_time": -0.05} for row in near]
         self.assertEqual(self.drawn("spheres", near).axes[0].get_yscale(), "linear")
-        self.assertEqual(self.drawn("spheres", TABLES["spheres"]).axes[0].get_yscale(), "symlog")
+        axes = self.drawn("spheres", TABLES["spheres"]).axes[0]
+        self.assertEqual(axes.get_yscale(), "symlog")
+        shown = [axes.yaxis.get_major_formatter()(tick, None) for tick in axes.get_yticks()]
+        self.assertEqual(shown.count("0"), 1)
+        self.assertNotIn("−0", shown)
 
 
 if __name__ == "__main__":
