@@ -65,8 +65,10 @@ def included(path):
         found.add(path)
         for name in re.findall(r'^#include "([^"]+)"', text_of(path), re.M):
             folder = "src" if name.startswith("swirl/") else "bench" if name.startswith("baselines/") else "tests"
+            if name.startswith("../"):
+                folder = os.path.dirname(path)
             if name != "version.inc":  # made by the build
-                waiting.append(f"{folder}/{name}")
+                waiting.append(os.path.normpath(f"{folder}/{name}"))
     return frozenset(found)
 
 
@@ -197,8 +199,12 @@ class Builder:
 
 
 def check_table():
-    """Each text before occurs exactly once, and the text after is another."""
+    """Each text before occurs exactly once, and the text after is another; the tests of each file can be found."""
     wrong = 0
+    for file in sorted({file for file, *_ in MUTATIONS}):
+        if not tests_of(file):
+            print(f"error: no test includes {file}")
+            wrong += 1
     for number, (file, before, after, *_) in enumerate(MUTATIONS):
         count = text_of(file).count(before)
         if count != 1 or before == after:
