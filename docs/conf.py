@@ -32,6 +32,8 @@ html_copy_source = False
 html_show_sourcelink = False
 html_show_copyright = False
 pygments_style = "default"
+# Quotes and ellipses only: the hyphens of "--mu" in a table stay as they are.
+smartquotes_action = "qe"
 html_math_renderer = "mathtext"
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]

@@ -132,6 +132,10 @@ class Site(unittest.TestCase):
         self.assertIn("R<sub>c</sub>", text)
         self.assertRegex(text, r'class="formula" style="vertical-align: -[0-9.]+em"><svg [^>]*width="[0-9.]+em"')
 
+    def test_options_keep_their_hyphens(self):
+        with open(os.path.join(self.site, "docs", "reference", "parameters.html"), encoding="utf-8") as opened:
+            self.assertIn("value of --mu]", opened.read())
+
     def test_the_home_page_leads_to_the_documentation(self):
         with open(os.path.join(self.site, "index.html"), encoding="utf-8") as opened:
             self.assertIn('href="docs/index.html"', opened.read())

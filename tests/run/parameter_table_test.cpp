@@ -35,8 +35,9 @@ std::string documentation_of(const Parameter& p) {
 }
 
 std::string row(const Parameter& p) {
-    return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, p.symbol, default_of(p),
-                       range_of(p), p.unit, escaped(documentation_of(p)));
+    const std::string range = range_of(p), separator = range.empty() || !*p.unit ? "" : " ";
+    return fmt::format("| `{}` | {} | {} | {}{}{} | {} |\n", p.name, p.symbol, default_of(p), range,
+                       separator, p.unit, escaped(documentation_of(p)));
 }
 
 std::string table() {
@@ -45,8 +46,7 @@ std::string table() {
     for (const Parameter& p : run_parameters) {
         if (group != p.group)
             text += fmt::format(
-                "\n### {}\n\n| Name | Symbol | Default | Range | Unit | "
-                "|\n|---|---|---|---|---|---|\n",
+                "\n### {}\n\n| Name | Symbol | Default | Range | |\n|---|---|---|---|---|\n",
                 p.group);
         group = p.group;
         text += row(p);
