@@ -22,6 +22,7 @@ export class ComparedContainer {
     readonly figure: HTMLElement;
     particles = 0;
     finding: Finding = findingOf(undefined, 0, 0);
+    hasAverages = false;
     last: Float64Array | undefined;
     private readonly worker: Worker;
     private readonly caption = element("figcaption");
@@ -111,6 +112,7 @@ export class ComparedContainer {
         this.redraw();
         if (look.isByHand) this.caption.textContent = `${this.name}: ${fill(texts.turns, {turns: signed(turns, 2)})}`;
         else if (rotation) {
+            this.hasAverages = rotation.mean_by_time.blocks > 0;
             this.finding = findingOf(rotation, turns, frame[1]! + frame[2]! / this.period);
             this.caption.textContent = captionOf(this.name, this.finding, look.coloring === "contacts" ? data.cause : undefined);
         }

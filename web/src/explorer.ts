@@ -101,7 +101,7 @@ export function tableOf(points: Point[], x: string, quantity: Quantity): string 
     const names = [...new Set(done.flatMap(({curve}) => Object.keys(curve.given)))].filter((name) => name !== x);
     const columns = quantity === "rotation"
         ? ["runs", "collapsed", ...rates.flatMap((rate) => [`varpi_${rate}`, `varpi_${rate}_error`]), "command"]
-        : ["verdict", ...rates.flatMap((rate) => ["N_c", "N_c_error", "N_c_lower", "N_c_upper"].map((each) => `${each}_${rate}`))];
+        : ["verdict", ...rates.flatMap((rate) => ["", "_error", "_lower", "_upper"].map((each) => `N_c_${rate}${each}`))];
     const rows = done.map((point) => [
         ...names.map((name) => point.curve.given[name] ?? ""), point.x,
         ...(quantity === "rotation"

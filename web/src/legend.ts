@@ -8,7 +8,7 @@ const margin = 10, barWidth = 110, barHeight = 7, row = 17, narrow = 450; // pix
 
 /** `size` is the width of the image in pixels of the page. */
 export function drawLegend(context: CanvasRenderingContext2D, size: number, look: DrawOptions, palette: Palette): void {
-    if (size < 220) return;
+    if (size < 220 || (size < 320 && look.coloring === "contacts")) return; // its rows would hide discs
     context.font = "500 12px Inter, system-ui, sans-serif";
     context.textBaseline = "alphabetic";
     context.textAlign = "left";

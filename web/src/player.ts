@@ -16,7 +16,7 @@ const watched = 3000; // milliseconds
 export class Player {
     isPlaying: boolean;
     pace = 1; // periods per second
-    /** The motion within a period is visible: at a third of the pace, and no time-lapse starts automatically. */
+    /** The motion within a period is visible: at a third of the pace. Instead of a time-lapse, the periods to the averages are skipped. */
     isSlow = false;
     /** The time-lapse starts automatically at the beginning and after a change of parameters. */
     lapsesByItself = true;
@@ -86,22 +86,22 @@ export class Player {
 
     /** The time-lapse at the beginning and after a change. */
     lapseByItself(): void {
-        if (this.lapsesByItself && !this.isSlow && (this.isPlaying || this.reducedMotion)) this.lapse();
+        if (this.lapsesByItself && (this.isPlaying || this.reducedMotion)) this.lapse();
     }
 
     /** Runs until there are averages, or further; after the warm-up it draws one image per period, or none with reduced
-     *  motion. */
+     *  motion or at a slow pace. */
     lapse(): void {
         const {lab, dish} = this;
         if (!lab.last || lab.isByHand || this.lapseEnd > 0 || lab.last.frame[10]! > lapseDiscs) return;
         const now = Math.floor(this.period + 1e-6), warmup = Number(lab.averages?.warmup ?? 0);
         const end = Math.max(now, warmup) + averagedInLapse;
-        const skipped = this.reducedMotion ? end - now : warmup - now + (dish.compared?.follows ? unseen : 0);
-        if ((this.reducedMotion || now < warmup) && lab.request({kind: "skip", periods: skipped})) {
+        const skipsAll = this.reducedMotion || this.isSlow, skipped = skipsAll ? end - now : warmup - now + (dish.compared?.follows ? unseen : 0);
+        if ((skipsAll || now < warmup) && lab.request({kind: "skip", periods: skipped})) {
             this.skips = true;
             if (dish.compared?.follows) dish.compared.skip(skipped);
         }
-        if (this.reducedMotion) return;
+        if (skipsAll) return;
         this.lapseEnd = end;
         this.isPlaying = true;
         dish.isLapse = true;

@@ -115,8 +115,8 @@ export class Verdict {
         const strong = (words: Record<Direction, string>, way: Direction): HTMLElement =>
             element("strong", {textContent: words[way], className: way});
         const other = this.other(), beside = other?.finding.direction;
-        // Both in one sentence, if only their numbers differ.
-        if (other && beside && settingOf(other.given) === settingOf(lab.given)) {
+        // Both in one sentence, if only their numbers differ, and not from the warm-up.
+        if (other?.hasAverages && beside && (lab.averages?.mean_by_time.blocks ?? 0) > 0 && settingOf(other.given) === settingOf(lab.given)) {
             return this.write(fill(texts.both, {few: lab.counted(other.particles), many: n}),
                               {one: strong(texts.ways, beside), other: strong(texts.ways, direction)});
         }

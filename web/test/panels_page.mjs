@@ -119,7 +119,7 @@ const [, found] = await page.$$eval("#explorer-findings tr", (rows) => rows.map(
 assert.match(found[1], /^4\d\.\d+ ± 0\.\d+ \(95 %: 4\d\.\d to 4\d\.\d\)$/);
 assert.match(await text("explorer-command"), /^\.\/swirl crossing --mu 0\.5 --seed 3 --to 48$/);
 const [[...head], values] = rowsOf((await downloaded("#explorer-table"))[1]);
-assert.deepEqual([head.slice(0, 4), values.slice(0, 2)], [["mu", "verdict", "N_c_mean_by_time", "N_c_error_by_time"], ["0.5", "crosses"]]);
+assert.deepEqual([head.slice(0, 4), values.slice(0, 2)], [["mu", "verdict", "N_c_mean_by_time", "N_c_mean_by_time_error"], ["0.5", "crosses"]]);
 // Wrong input is an error message; so is a parameter that the engine rejects.
 for (const [fields, said] of [[{"explorer-values": "x"}, /FROM:STEP:TO/], [{"explorer-values": "1:1:1000"}, /limit is 400/],
                               [{"explorer-values": "-1"}, /^Friction is '-1', but/]]) {
@@ -166,6 +166,11 @@ for (let step = 1; step <= 6; ++step) {
             resolve([seen.size, performance.now() - begun]);
         }, 1000);
     }));
+    if (step === 6) { // both have averages, and the slip that the explanation speaks of
+        await page.waitForFunction(() => /with it.*against it/.test(document.getElementById("headline").textContent));
+        const slips = await page.$$eval("#views figcaption", (all) => all.map((each) => Number(/s = (\d\.\d+)/.exec(each.textContent)?.[1])));
+        assert.ok(Math.abs(slips[0] - 0.6) < 0.06 && Math.abs(slips[1] - 0.98) < 0.03, `${slips}`); // three errors of 50 periods
+    }
     if (step === 4) assert.ok(marks[0] > 24, `the wall moves: ${marks[0]} positions of its marks`);
     if (step === 5) { // the next experiment is one click away, and the fields show both coefficients
         assert.equal(await page.getAttribute("#parameter-mu", "placeholder"), "1:0");
