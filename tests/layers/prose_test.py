@@ -57,13 +57,14 @@ PREPOSITIONS = """after about above across against along among around as at befo
 COMMENTED = ("src", "bindings", "bench", "tests", "examples", "web/src")
 # Share of the sentences in comments of src, track and paper in which verbless() finds no verb. It must not grow; lower it
 # when it falls. Of 45 such sentences that were read, one has a verb that the test does not know.
-VERBLESS = 0.086
-VERBS = set("""am are be become becomes been bounce bounces build builds can cannot come comes consist consists cost costs could
-    cut cuts deserve did do does draw draws err errs fall falls find finds get gets give gives go goes grow grows had has have hit hits hold holds is keep keeps know knows leave
-    leaves let lets lie lies lose loses make makes may mean means meet meets might must need needs observed produce
-    produces put puts read reads rise rises
-    run runs say says see sees send sends set sets shall should split splits stand stands stay stays sum sums take takes throw
-    throws took was were will would wrap wraps write writes""".split())
+VERBLESS = 0.082
+VERBS = set("""am are be become becomes been bounce bounces build builds can cannot come comes consist consists convolves cost
+    costs could cut cuts deserve did do does draw draws equals err errs fall falls find finds flip flips form forms
+    get gets give gives go goes grow grows had has have hit hits hold holds is keep keeps know knows lack lacks
+    leave leaves let lets lie lies lose loses make makes matter matters may mean means meet meets might must need
+    needs observed produce produces put puts read reads reorders rest rests rise rises run runs say says see sees
+    send sends set sets shall should show shows split splits stand stands stay stays stop stops sum sums take takes
+    throw throws took touch touches was were will would wrap wraps write writes""".split())
 
 
 def trailing_comments(text):
