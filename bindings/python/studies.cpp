@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <mutex>
 #include <optional>
 
@@ -15,8 +16,10 @@
 #include "swirl/study/crossing.hpp"
 #include "swirl/study/map.hpp"
 #include "swirl/study/map_plan.hpp"
+#include "swirl/study/point_table.hpp"
 #include "swirl/study/search_folder.hpp"
 #include "swirl/study/sweep.hpp"
+#include "swirl/study/sweep_folder.hpp"
 
 namespace swirl::python {
 namespace {
@@ -45,24 +48,36 @@ class LatestProgress {
     std::optional<std::tuple<Parts...>> latest_;
 };
 
+using Rows = std::optional<std::vector<py::dict>>;
+
+/// The rows of a table of points. A value None is not given.
+std::vector<PointRow> point_rows(const std::vector<py::dict>& given, std::int64_t replicas) {
+    std::vector<PointRow> rows;
+    for (const py::dict& cells : given) {
+        const std::string where = fmt::format("points, row {}", rows.size() + 1);
+        const py::dict parameters = cells.attr("copy")();
+        const py::object seeds = parameters.attr("pop")("seeds", py::none());
+        try {
+            ParameterTexts texts = texts_of(parameters);
+            if (!seeds.is_none()) texts["seeds"] = py::str(seeds);
+            rows.push_back(point_row(where, texts, replicas));
+        } catch (const py::type_error& error) {
+            throw py::type_error(where + ": " + error.what());
+        }
+    }
+    return rows;
+}
+
 SweepPlan plan_of(const py::dict& given, std::int64_t replicas,
                   const std::vector<std::string>& measured, int frames, const std::string& chain,
-                  bool series) {
-    if (replicas < 1 || replicas > 1'000'000)
-        throw UsageError(
-            fmt::format("seeds is {}, but it must be a whole number from 1 to 1000000.", replicas));
-    if (frames < 0 || frames > 1'000'000)
-        throw UsageError(
-            fmt::format("frames is {}, but it must be a whole number from 0 to 1000000.", frames));
-    SweepPlan plan = make_plan(lists_of(given), replicas);
+                  bool series, const Rows& rows) {
+    SweepPlan plan = rows ? make_plan(point_rows(*rows, replicas), lists_of(given))
+                          : make_plan(lists_of(given), replicas);
     plan.measure = measured;
     plan.frames = frames;
     plan.series = series;
-    if (!chain.empty()) set_chain(plan, chain);
-    if (!chain.empty() && frames > 0)
-        throw UsageError(
-            "chain and frames cannot be combined: a recording does not store the state in which "
-            "its run starts.\nhint: use series, or swirl.run(ramp=...) with a trajectory.");
+    plan.chain = plain_name(chain);
+    validate_extras(plan);
     return plan;
 }
 
@@ -76,9 +91,24 @@ std::vector<std::map<std::string, std::string>> points_of(const SweepPlan& plan)
     return points;
 }
 
-py::tuple sweep(const std::string& folder, unsigned threads, const ProgressCallback& callback) {
+/// The files of the results of each row, and of the messages of failed runs.
+std::vector<std::vector<std::pair<std::string, std::string>>> result_files(
+    const std::string& folder, const std::vector<py::dict>& rows, std::int64_t replicas) {
     const SweepPlan plan = read_plan(folder);
-    SweepShare share;
+    std::vector<std::vector<std::pair<std::string, std::string>>> files;
+    for (const auto& points : points_of_rows(plan, point_rows(rows, replicas))) {
+        files.emplace_back();
+        for (const std::size_t point : points)
+            files.back().emplace_back(result_file(folder, plan, point).string(),
+                                      failure_file(folder, point).string());
+    }
+    return files;
+}
+
+py::tuple sweep(const std::string& folder, unsigned threads, const ProgressCallback& callback,
+                std::size_t part, std::size_t parts) {
+    const SweepPlan plan = read_plan(folder);
+    SweepShare share{.part = part, .parts = parts};
     share.threads = threads;
     std::atomic<bool> stop = false;
     LatestProgress<double, double, std::uint64_t> latest;
@@ -217,7 +247,8 @@ py::tuple make_map(const std::string& folder, unsigned threads, const ProgressCa
 void bind_studies(py::module_& module) {
     py::class_<SweepPlan>(module, "Plan")
         .def(py::init(&plan_of), py::arg("parameters"), py::arg("seeds"), py::arg("measured"),
-             py::arg("frames"), py::arg("chain") = "", py::arg("series") = false)
+             py::arg("frames"), py::arg("chain") = "", py::arg("series") = false,
+             py::arg("rows") = py::none())
         .def("__len__", &SweepPlan::points)
         .def_property_readonly("axes",
                                [](const SweepPlan& plan) {
@@ -230,11 +261,19 @@ void bind_studies(py::module_& module) {
         .def("write",
              [](const SweepPlan& plan, const std::string& folder) { write_plan(folder, plan); });
     module.def("grow", [](const std::string& folder, const py::dict& more, std::int64_t replicas,
-                          const std::vector<std::string>& measured) {
+                          const std::vector<std::string>& measured, const Rows& rows) {
         const SweepPlan before = read_plan(folder);
-        write_plan(folder, grown(before, lists_of(more), replicas, measured), &before);
+        const ParameterTexts texts = lists_of(more);
+        const auto plan = [&] {
+            if (!rows) return grown(before, texts, replicas, measured);
+            return grown(before, point_rows(*rows, std::max<std::int64_t>(replicas, 1)), texts,
+                         measured);
+        };
+        write_plan(folder, plan(), &before);
     });
-    module.def("sweep", &sweep);
+    module.def("result_files", &result_files);
+    module.def("sweep", &sweep, py::arg("folder"), py::arg("threads"), py::arg("progress"),
+               py::arg("part") = 1, py::arg("parts") = 1);
     module.def("collect", &collect);
     module.def("crossing", &crossing, py::arg("folder"), py::arg("parameters"),
                py::arg("min_discs"), py::arg("max_discs"), py::arg("tolerance"), py::arg("rate"),

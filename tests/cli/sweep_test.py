@@ -132,6 +132,58 @@ class Sweep(InFolder):
         self.assertEqual(done.returncode, 1)
         self.assertIn("holds another sweep", done.stderr)
 
+    def test_a_table_of_points_makes_the_runs_of_a_product(self):
+        table = [line.split(",") for line in self.whole().splitlines()]
+        points = self.path("points.csv")
+        with open(points, "w") as opened:
+            opened.write("# chosen points\nmu,discs,seeds\n1,12,3\n0.5,5,3\n")
+        call = ["sweep", "--points", points, "--events", 20000, "--out", self.path("a"), "--quiet"]
+        for part in ("2/2", "1/2", "1/1"):
+            self.assertEqual(swirl(*call, "--part", part).returncode, 0)
+        self.assertEqual(len(os.listdir(self.path("a/results"))), 6)
+        rows = [line.split(",") for line in self.table(self.path("a")).splitlines()]
+        self.assertEqual(rows, [table[0], table[16], table[1]])
+        # The table need not exist any more, and a lost result is made again.
+        os.remove(points)
+        os.remove(self.path("a/results/000004.json"))
+        done = swirl("sweep", "--out", self.path("a"))
+        self.assertIn("6 of 6 runs done (1 by this call)", done.stdout)
+        self.assertRegex(done.stdout, r"points +2 rows, 3 replicates")
+        self.assertEqual([line.split(",") for line in self.table(self.path("a")).splitlines()], rows)
+
+    def test_a_table_grows_by_rows_and_by_replicates_of_single_points(self):
+        points = self.path("points.csv")
+
+        def sweep(text, *more):
+            with open(points, "w") as opened:
+                opened.write(text)
+            return swirl("sweep", "--points", points, "--events", 3000, "--out", self.path("a"), *more)
+
+        self.assertEqual(sweep("discs\n5\n6\n").returncode, 0)
+        self.assertIn("--grow", sweep("discs\n5\n6\n7\n").stderr)
+        before = {name: os.stat(self.path(f"a/results/{name}")).st_mtime_ns for name in os.listdir(self.path("a/results"))}
+        done = sweep("discs,seeds\n6,3\n7,1\n", "--grow")
+        self.assertIn("5 of 5 runs done (3 by this call)", done.stdout)
+        self.assertIn("3 rows, 1 to 3 replicates", done.stdout)
+        self.assertEqual({name: os.stat(self.path(f"a/results/{name}")).st_mtime_ns for name in before}, before)
+        self.assertEqual([row.split(",")[:3] for row in self.table(self.path("a")).splitlines()],
+                         [["discs", "events", "replicates"], ["5", "3000", "1"], ["6", "3000", "3"], ["7", "3000", "1"]])
+        for wrong, says in ((["--discs", 9], "table of points"), (["--chain", "mu"], "--chain")):
+            done = swirl("sweep", "--out", self.path("a"), "--grow", *wrong)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(says, done.stderr)
+        done = swirl("sweep", "--out", self.path("a"), "--grow", "--seeds", 2, "--dry-run")
+        self.assertIn("7 runs:\n  table of 3 points\n  discs: 5 6 7\n  events: 3000 3000 3000\n  replicates: 2 3 2\n",
+                      done.stdout)
+
+    def test_a_failed_run_of_a_table_does_not_stop_the_others(self):
+        with open(self.path("points.csv"), "w") as opened:
+            opened.write("discs,radius\n5,0.5\n250,0.5\n6,0.5\n")
+        done = swirl("sweep", "--points", self.path("points.csv"), "--events", 1000, "--out", self.path("a"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("point 1: 250 discs", done.stderr)
+        self.assertEqual(len(self.table(self.path("a")).splitlines()), 3)
+
     def test_two_processes_share_one_folder(self):
         table = self.whole()
         both = [subprocess.Popen([SWIRL, *PLAN, "--out", self.path("a")],

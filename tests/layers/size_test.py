@@ -14,15 +14,15 @@ PROGRAMS = (".cpp", ".hpp", ".inc", ".py", ".ts", ".mjs", ".js", ".sh", ".css", 
 # Part: folders, folders in them that belong to another part, most lines.
 LINES = {
     # Goal 42,000. The rest are exports, movie plots, path shapes, size laws, linked cells and the journal: each is
-    # a loss for users.
-    "engine": (["src"], [], 46_500),
+    # a loss for users. Tables of points for sweeps came later (360 lines).
+    "engine": (["src"], [], 46_700),
     # Goal 8,000. The rest is the chapters on published work and the judge of 62 claims.
     "paper": (["paper"], [], 10_400),
     # Goal 9,000. It is reached when the parts that change no verdict are gone.
     "track": (["track"], ["track/tests"], 15_300),
     "page": (["web/src"], [], 6_500),
     # Goal 30,000.
-    "tests": (["tests", "track/tests"], [], 44_100),
+    "tests": (["tests", "track/tests"], [], 44_400),
 }
 
 

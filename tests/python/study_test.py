@@ -40,6 +40,55 @@ def test_sweep_equals_that_of_the_command_line(tmp_path):
     pandas.testing.assert_frame_equal(swirl.sweep(tmp_path / "theirs"), more)
 
 
+TABLE = [{"discs": 5, "mu": 0.5}, {"discs": 7, "mu": 0.1, "seeds": 3}]
+
+
+@pytest.mark.parametrize("points", (TABLE, pandas.DataFrame({"discs": [5, 7], "mu": [0.5, 0.1], "seeds": [1, 3]}),
+                                    {"discs": np.array([5, 7]), "mu": (0.5, 0.1), "seeds": [None, 3]}))
+def test_a_table_of_points_equals_that_of_the_command_line(tmp_path, points):
+    ours = swirl.sweep(tmp_path / "ours", points=points, events=3000, measure="slip")
+    (tmp_path / "points.csv").write_text("discs,mu,seeds\n5,0.5,1\n7,0.1,3\n")
+    done = command("sweep", "--points", tmp_path / "points.csv", "--events", 3000, "--measure", "slip", "--out",
+                   tmp_path / "theirs", "--quiet")
+    assert done.returncode == 0, done.stderr
+    pandas.testing.assert_frame_equal(ours, table_of(tmp_path / "theirs"), check_exact=True)
+    assert ours["replicates"].tolist() == [1, 3]
+    # Points that a row does not give have the default.
+    more = swirl.sweep(tmp_path / "ours", points=[{"discs": 6, "seeds": 2}, {**TABLE[0], "seeds": 2}], events=3000,
+                       grow=True)
+    assert more["replicates"].tolist() == [2, 3, 2] and np.isnan(more["mu"][2])
+    files = swirl._engine.result_files(str(tmp_path / "ours"), [{"discs": 6, "events": 3000}, {**TABLE[0], "events": 3000}], 2)
+    assert [[json.loads(open(file).read())["config"]["discs"] for file, _ in row] for row in files] == [[6, 6], [5, 5]]
+
+
+@pytest.mark.parametrize("points, kind, message", [
+    ([], ValueError, "points has no rows"), ("points.csv", TypeError, "read_csv"), ([5, 6], TypeError, "DataFrame"),
+    ({"discs": 5}, TypeError, "column"), ({"discs": "5:7"}, TypeError, "column"),
+    ({"discs": [5, 6], "mu": [1]}, ValueError, "different lengths"),
+    ([{"discs": 5}, {"disks": 6}], TypeError, "points, row 2: there is no parameter 'disks'.\nhint: did you mean 'discs'"),
+    ([{"discs": 5}, {"discs": [6]}], TypeError, "points, row 2: discs is"),
+    ([{"discs": 5}, {"discs": True}], TypeError, "points, row 2: discs is"),
+    ([{"discs": 5, "mu": ""}], ValueError, "points, row 1: mu is empty"),
+    ([{"discs": 5, "seeds": 1.5}], ValueError, "points, row 1: seeds is '1.5'"),
+    ([{"discs": 5}, {"discs": 5.0}], ValueError, "points, row 2: the run is that of points, row 1"),
+    (pandas.DataFrame({"discs": [5, 6], "mu": [1, np.nan]}), ValueError, "points, row 2: mu is 'nan'"),
+    (pandas.DataFrame([[5, 6]], columns=["discs", "discs"]), ValueError, "two columns discs"),
+])
+def test_invalid_tables_of_points_are_rejected(tmp_path, points, kind, message):
+    with pytest.raises(kind, match=message):
+        swirl.sweep(tmp_path / "s", points=points, events=1000)
+    assert not (tmp_path / "s").exists()
+
+
+def test_a_table_excludes_lists_and_chains(tmp_path):
+    for call in (dict(mu=[0.1, 1]), dict(discs=5), dict(chain="discs", periods=3)):
+        with pytest.raises(ValueError, match="points"):
+            swirl.sweep(tmp_path / "s", points=TABLE, **call)
+    swirl.sweep(tmp_path / "product", discs=[5, 6], events=1000)
+    with pytest.raises(ValueError, match="points is given, but the folder holds a sweep of lists"):
+        swirl.sweep(tmp_path / "product", points=TABLE, grow=True)
+
+
 def test_sweep_without_a_folder_leaves_no_files(tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     import tempfile

@@ -11,7 +11,7 @@ import os
 import tempfile
 import threading
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _engine
@@ -43,7 +43,33 @@ def _count(name: str, value: object, lowest: int) -> int:
     return number
 
 
-def sweep(out: Optional[PathName] = None, *, seeds: int = 1, measure: Optional[Measure] = None,
+def _rows(points: Any) -> Optional[list[dict[str, Any]]]:
+    """The rows of a table: a DataFrame, a dictionary of columns, or a list of dictionaries."""
+    if points is None:
+        return None
+    if hasattr(points, "columns") and hasattr(points, "to_dict"):
+        if not points.columns.is_unique:
+            twice = sorted({str(name) for name in points.columns[points.columns.duplicated()]})
+            raise ValueError(f"points has two columns {', '.join(twice)}.")
+        rows = points.to_dict("records")
+    elif isinstance(points, Mapping):
+        if any(isinstance(values, str) or not hasattr(values, "__len__") for values in points.values()):
+            raise TypeError("points is a dictionary, but not each of its values is a column, a list of values.")
+        lengths = {name: len(values) for name, values in points.items()}
+        if len(set(lengths.values())) > 1:
+            raise ValueError(f"the columns of points have different lengths: {lengths}.")
+        rows = [dict(zip(points, row)) for row in zip(*points.values())]
+    elif isinstance(points, Sequence) and all(isinstance(row, Mapping) for row in points):
+        rows = [dict(row) for row in points]
+    else:
+        raise TypeError(f"points is {points!r}, but it must be a DataFrame, a list of dictionaries, or a dictionary "
+                        "of columns.\nhint: read a file with pandas.read_csv(\"points.csv\", comment=\"#\").")
+    if not rows:
+        raise ValueError("points has no rows.")
+    return rows
+
+
+def sweep(out: Optional[PathName] = None, *, points: Any = None, seeds: int = 1, measure: Optional[Measure] = None,
           frames: int = 0, threads: int = 0, grow: bool = False,
           progress: Union[bool, Callable[[float, float, int], object], None] = None,
           chain: Optional[str] = None, series: bool = False,
@@ -55,19 +81,20 @@ def sweep(out: Optional[PathName] = None, *, seeds: int = 1, measure: Optional[M
             raise ValueError(f"{'grow' if grow else 'frames' if frames else 'series'} is given, but out, "
                              "the folder of the sweep, is not.")
         with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as folder:
-            return sweep(folder, seeds=seeds, measure=measure, threads=threads, progress=progress,
+            return sweep(folder, points=points, seeds=seeds, measure=measure, threads=threads, progress=progress,
                          chain=chain, **parameters)
     folder = os.fspath(out)
+    rows = _rows(points)
     names = _names(measure, "A sweep")
     given = {name: value for name, value in parameters.items() if value is not None}
     if grow and (chain or series):
         raise ValueError("chain and series cannot be used with grow: they apply to all runs of a sweep or to "
                          "none.")
     if grow:
-        _engine.grow(folder, given, 0 if seeds == 1 else _count("seeds", seeds, 1), names)
-    elif given or names or chain or series:
+        _engine.grow(folder, given, 0 if seeds == 1 else _count("seeds", seeds, 1), names, rows)
+    elif given or rows or names or chain or series:
         _engine.Plan(given, _count("seeds", seeds, 1), names, _count("frames", frames, 0), chain or "",
-                     bool(series)).write(folder)
+                     bool(series), rows).write(folder)
     elif not os.path.exists(os.path.join(folder, "plan.json")):
         raise ValueError("there is no parameter to sweep over.\n"
                          "hint: give lists, such as discs=range(5, 49), mu=[0.1, 0.5, 1].")
@@ -276,15 +303,19 @@ _LISTS = """    Every parameter may be a list (discs=range(5, 49), mu=[0.1, 0.5,
     command line ("5:48", "0:0.25:1"); a tuple is one value (mixture=(12, 1.3)).
 """
 
-with_parameters(sweep, f"""Runs all combinations of parameter lists on all cores: `swirl sweep` and `swirl collect`.
+with_parameters(sweep, f"""Runs all combinations of parameter lists, or a table of points: `swirl sweep` and `swirl collect`.
 
     table = swirl.sweep("study", discs=range(5, 49), mu=[0.1, 0.5, 1], seeds=8)
+    table = swirl.sweep("pairs", points=[{{"discs": 30, "mu": 0.1}}, {{"discs": 40, "mu": 1, "seeds": 16}}], seeds=8)
 
 Returns a pandas DataFrame (swirl.collect()).
 
 out: folder of the sweep, in the format of the command line. Another call with the same folder makes
     the missing runs; Python and the command line can continue each other's sweeps. Without `out` only
     the table is returned.
+points: a table instead of lists: a DataFrame, a list of dictionaries or a dictionary of columns. A column is a
+    parameter, or `seeds`, the replicates of each row. A row with the parameter `seed` has that seed and the next
+    ones. Other parameters then have one value for all rows. With grow, rows and replicates are added.
 seeds: replicates of each point. measure: names of measurements. frames: record every run with this
     number of frames per period. threads: simultaneous runs [one per core]. grow: add these values, replicates
     and measurements to an existing sweep. progress: True for a bar (needs tqdm), or a function of

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <optional>
 
 #include "swirl/cli/commands.hpp"
@@ -20,6 +19,7 @@
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/study/collected_sweep.hpp"
+#include "swirl/study/point_table.hpp"
 #include "swirl/study/python_script.hpp"
 #include "swirl/study/slurm.hpp"
 #include "swirl/study/sweep.hpp"
@@ -32,24 +32,10 @@ namespace fs = std::filesystem;
 
 struct SweepCall {
     std::shared_ptr<ParameterTexts> parameters;
-    std::string config_file, out, seeds, measure, frames, chain;
+    std::string config_file, out, points, seeds, measure, frames, chain;
     ShareOptions sharing;
     bool status = false, dry_run = false, quiet = false, grow = false, series = false, plot = false;
 };
-
-constexpr std::int64_t max_replicas = 1'000'000, max_frames = 1'000'000;
-
-void apply_config_file(SweepCall& call) {
-    const std::map<std::string, std::string*> others{{"seeds", &call.seeds},
-                                                     {"measure", &call.measure},
-                                                     {"frames", &call.frames},
-                                                     {"chain", &call.chain}};
-    std::vector<std::string> names = parameter_names();
-    for (const auto& [name, target] : others) names.push_back(name);
-    const ConfigFile plan = read_config_file(call.config_file, names, Lists::accepted, "sweep");
-    *call.parameters = overridden(plan.parameters, *call.parameters);
-    fill_empty(plan.others, others);
-}
 
 std::vector<std::string> further_measurements(const SweepCall& call) {
     if (!call.frames.empty() || call.series || !call.chain.empty())
@@ -66,8 +52,15 @@ struct PlanOfCall {
     std::optional<SweepPlan> grown_from = {};
 };
 
+std::vector<PointRow> points_of_call(const SweepCall& call) {
+    return read_points(call.points, whole_number("seeds", call.seeds, 1, max_replicas));
+}
+
 PlanOfCall grown_plan(const SweepCall& call) {
     const SweepPlan before = read_plan(call.out);
+    if (!call.points.empty())
+        return {grown(before, points_of_call(call), *call.parameters, further_measurements(call)),
+                before};
     return {grown(before, *call.parameters, whole_number("seeds", call.seeds, 0, max_replicas),
                   further_measurements(call)),
             before};
@@ -82,22 +75,20 @@ SweepPlan existing_plan(const SweepCall& call) {
     return read_plan(call.out);
 }
 
-PlanOfCall plan_of(SweepCall& call) {
-    if (!call.config_file.empty()) apply_config_file(call);
+PlanOfCall plan_of(const SweepCall& call) {
     if (call.grow) return grown_plan(call);
-    if (call.parameters->empty() && call.seeds.empty() && call.measure.empty() &&
-        call.frames.empty() && call.chain.empty() && !call.series)
+    if (call.parameters->empty() && call.points.empty() && call.seeds.empty() &&
+        call.measure.empty() && call.frames.empty() && call.chain.empty() && !call.series)
         return {existing_plan(call)};
     SweepPlan plan =
-        make_plan(*call.parameters, whole_number("seeds", call.seeds, 1, max_replicas));
+        call.points.empty()
+            ? make_plan(*call.parameters, whole_number("seeds", call.seeds, 1, max_replicas))
+            : make_plan(points_of_call(call), *call.parameters);
     if (!call.measure.empty()) plan.measure = read_measurement_list(call.measure);
     plan.frames = static_cast<int>(whole_number("frames", call.frames, 0, max_frames));
     plan.series = call.series;
-    if (!call.chain.empty()) set_chain(plan, call.chain);
-    if (!plan.chain.empty() && plan.frames > 0)
-        throw UsageError(
-            "--chain and --frames cannot be combined: a recording does not store the state in "
-            "which its run starts.\nhint: use --series, or `swirl run --ramp` with --trajectory.");
+    plan.chain = plain_name(call.chain);
+    validate_extras(plan);
     return {plan};
 }
 
@@ -124,6 +115,15 @@ void print_status(const SweepCall& call, const SweepPlan& plan) {
     warn_of_damaged_results(s, call.out);
 }
 
+/// "8 replicates"; "3 to 8 replicates" for a table whose rows differ.
+std::string replicates_text(const SweepPlan& plan) {
+    if (plan.is_table())
+        if (const auto few = *std::min_element(plan.row_replicas.begin(), plan.row_replicas.end());
+            few < plan.replicas)
+            return fmt::format("{} to {} replicates", few, plan.replicas);
+    return counted(plan.replicas, "replicate");
+}
+
 void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutcome& outcome) {
     const SweepStatus s = sweep_status(call.out, plan);
     if (!call.quiet) {
@@ -131,10 +131,11 @@ void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutc
             fmt::format("{} of {} runs done ({} by this call)", s.done, s.points, outcome.done);
         if (s.running > 0) text += fmt::format(", {} running elsewhere", s.running);
         std::vector<std::string> axes;
+        if (plan.is_table()) axes.push_back(counted(std::int64_t(plan.rows()), "row"));
         for (const SweepAxis& axis : plan.axes)
-            if (axis.values.size() > 1)
+            if (axis.values.size() > 1 && !plan.is_table())
                 axes.push_back(fmt::format("{} values of {}", axis.values.size(), axis.name));
-        axes.push_back(counted(plan.replicas, "replicate"));
+        axes.push_back(replicates_text(plan));
         print_all(text + "\n" + report_line("points", fmt::format("{}", fmt::join(axes, ", "))) +
                   report_line("results", (fs::path(call.out) / "results").string()) +
                   report_line("table", "swirl collect " + shell_word(call.out)));
@@ -151,16 +152,21 @@ void print_outcome(const SweepCall& call, const SweepPlan& plan, const SweepOutc
 
 std::string plan_text(const SweepPlan& plan) {
     std::string text = fmt::format("{} runs:\n", plan.points());
+    if (plan.is_table())
+        text += fmt::format("  table of {}\n", counted(std::int64_t(plan.rows()), "point"));
     for (const SweepAxis& axis : plan.axes) {
         text += fmt::format("  {}:", axis.name);
-        for (const std::string& value : axis.values) text += " " + value;
+        for (const std::string& value : axis.values) text += " " + (value.empty() ? "-" : value);
         text += "\n";
     }
     if (!plan.measure.empty()) text += fmt::format("  measure: {}\n", fmt::join(plan.measure, " "));
     if (plan.frames > 0) text += fmt::format("  frames per period: {}\n", plan.frames);
     if (plan.series) text += "  series of every run\n";
     if (!plan.chain.empty()) text += fmt::format("  chain along {}, up and down\n", plan.chain);
-    return text + fmt::format("  replicates: {}\n", plan.replicas);
+    text += "  replicates:";
+    if (!plan.is_table()) text += fmt::format(" {}", plan.replicas);
+    for (const std::int64_t replicas : plan.row_replicas) text += fmt::format(" {}", replicas);
+    return text + "\n";
 }
 
 SweepOutcome run_with_progress(const SweepCall& call, const SweepPlan& plan,
@@ -198,7 +204,7 @@ void draw_sweep(const SweepCall& call, const SweepPlan& plan) {
     collect(tables);
 }
 
-void sweep(SweepCall& call) {
+void sweep(const SweepCall& call) {
     if (call.status) return print_status(call, read_plan(call.out));
     if (call.plot && (call.sharing.slurm || !call.sharing.part.empty()))
         throw UsageError(fmt::format(
@@ -234,6 +240,8 @@ void add_sweep_command(Subcommand& subcommand) {
         .add_option("--out", call->out, "Folder of the sweep; a repeated call completes it", "DIR",
                     group)
         ->required();
+    subcommand.add_option("--points", call->points, "Table of points instead of lists of values",
+                          "FILE.csv", group);
     subcommand.add_option("--seeds", call->seeds, "Number of replicates of each point [1]", "N",
                           group);
     subcommand.add_option("--measure", call->measure, "Measurements, as for swirl run", "LIST",
@@ -255,19 +263,27 @@ void add_sweep_command(Subcommand& subcommand) {
     subcommand.add_flag("--quiet", call->quiet, "No progress and no report", group);
     add_cluster_options(subcommand, call->sharing, true);
     subcommand.explain(
-        "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. With "
+        "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. A table of "
+        "points has a column for each parameter that varies, and may have a column seeds, the "
+        "number of replicates of each row; other parameters have one value. With "
         "--grow, the given values, replicates (--seeds is their new total) and measurements are "
         "added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in DIR/series. "
         "With --chain NAME, the runs follow each other in rising and then in falling values of "
         "NAME, and each starts from the final state of the run before it.\n");
-    subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--seeds", "--out",
-                                 "--measure", "--threads", "--grow", "--status"});
+    subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--points", "--seeds",
+                                 "--out", "--measure", "--threads", "--grow", "--status"});
     subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
                              "swirl sweep --out study --grow --discs 49:55 --seeds 16",
+                             "swirl sweep --points points.csv --periods 200 --seeds 8 --out study",
                              "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
                              "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop --plot",
                              "swirl sweep --out study --status"});
-    subcommand.callback([call] { sweep(*call); });
+    subcommand.callback([call, &subcommand] {
+        if (!call->config_file.empty())
+            take_config_file(subcommand, call->config_file, *call->parameters, Lists::accepted,
+                             "sweep");
+        sweep(*call);
+    });
 }
 
 /// The table must not overwrite the files of the sweep.

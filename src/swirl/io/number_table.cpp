@@ -93,8 +93,10 @@ std::string_view TextLines::expect(std::string_view what) {
     return line;
 }
 
+std::string TextLines::position() const { return fmt::format("{}, line {}", source_, number_); }
+
 void TextLines::fail(std::string_view problem) const {
-    throw FileError(fmt::format("{}, line {}: {}.", source_, number_, problem));
+    throw FileError(fmt::format("{}: {}.", position(), problem));
 }
 
 void TextLines::fail_at_end(std::string_view what) const {

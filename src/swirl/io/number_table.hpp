@@ -23,6 +23,8 @@ class TextLines {
     TextLines(std::string source, std::string_view text, bool needs_last_break = true);
 
     bool next(std::string_view& line);
+    /// "'a.csv', line 3"
+    std::string position() const;
     std::string_view expect(std::string_view what);
 
     [[noreturn]] void fail(std::string_view problem) const;
@@ -54,6 +56,9 @@ class NumberTable {
 
     /// Reads the next row; false at the end of the text.
     bool next();
+    /// The names in the header.
+    const std::vector<std::string>& names() const { return names_; }
+    std::string_view text(std::size_t column) const { return cells_[column]; }
     bool is_empty(std::size_t column) const { return cells_[column].empty(); }
     double number(std::size_t column);
     std::int64_t integer(std::size_t column);

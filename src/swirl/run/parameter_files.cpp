@@ -23,7 +23,9 @@ bool is_there(const std::string& file) {
     return std::filesystem::exists(file, ignored);
 }
 
-std::string table_text(const std::string& option, const std::string& file) {
+}  // namespace
+
+std::string text_of_table_file(const std::string& option, const std::string& file) {
     if (!is_there(file))
         throw UsageError(fmt::format("{} is '{}', but there is no such file.", option, file));
     std::error_code ignored;
@@ -40,6 +42,8 @@ std::string table_text(const std::string& option, const std::string& file) {
                                      option, file, max_table_bytes >> 20));
     return text;
 }
+
+namespace {
 
 /// True if a file has this name, or if it looks like one: "a/b", "a.csv". A misspelled shape is not
 /// reported as a missing file.
@@ -59,7 +63,7 @@ struct TableColumn {
 /// The rows of a table as texts, with colons between the columns.
 std::string table_rows(const std::string& option, const std::string& file,
                        const std::vector<TableColumn>& columns, std::size_t max_rows) {
-    const std::string text = table_text(option, file);
+    const std::string text = text_of_table_file(option, file);
     try {
         TextLines lines(fmt::format("{} '{}'", option, file), text, false);
         NumberTable table(lines, columns.size());

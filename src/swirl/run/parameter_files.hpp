@@ -14,6 +14,9 @@ namespace swirl {
 /// (an axis of a sweep) each is replaced. Throws UsageError if a file cannot be read.
 std::string with_file_contents(std::string_view name, const std::string& text);
 
+/// The text of a table, a regular file of at most 16 MB. Throws UsageError.
+std::string text_of_table_file(const std::string& option, const std::string& file);
+
 /// Replaces file names by contents in all parameters.
 ParameterTexts with_file_contents(ParameterTexts texts);
 

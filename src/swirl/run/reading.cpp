@@ -38,6 +38,7 @@ constexpr std::pair<std::string_view, std::string_view> names_of_equal_meaning[]
     {"output", "csv"},
     {"friction", "mu"},
     {"number", "discs"},
+    {"replicates", "seeds"},
     {"spheres", "discs"},
     {"particles", "discs"},
     {"jobs", "threads"},

@@ -29,6 +29,11 @@ namespace fs = std::filesystem;
 /// given. If the plan has grown, axes of numbers are sorted.
 std::vector<std::size_t> rows_of(const SweepPlan& plan) {
     std::vector<std::size_t> rows{0};
+    if (plan.is_table()) {
+        rows.resize(plan.rows());
+        std::iota(rows.begin(), rows.end(), std::size_t{0});
+        return rows;
+    }
     for (const SweepAxis& axis : plan.axes) {
         std::vector<std::size_t> order(axis.values.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -50,7 +55,7 @@ std::string worst_verdict(const std::vector<const PointResult*>& replicas) {
     return replicas.front()->verdict;
 }
 
-/// In the order of the product of the axes.
+/// In the order of the points.
 std::vector<PointResult> read_results(const fs::path& folder, const SweepPlan& plan) {
     const std::vector<bool> done =
         numbered_files(part_of_sweep(folder, "results", plan), ".json", plan.points());
@@ -58,7 +63,7 @@ std::vector<PointResult> read_results(const fs::path& folder, const SweepPlan& p
     constexpr std::size_t batch = 256;
     parallel_for((results.size() + batch - 1) / batch, [&](std::size_t b) {
         for (std::size_t p = b * batch; p < std::min(results.size(), (b + 1) * batch); ++p)
-            if (done[p]) results[plan.product_index(p)] = read_result(folder, plan, p);
+            if (done[p]) results[p] = read_result(folder, plan, p);
     });
     return results;
 }
@@ -104,6 +109,12 @@ std::vector<std::string> columns_of(const SweepPlan& plan,
     return columns;
 }
 
+/// Empty if a row of a table does not give the parameter.
+std::string text_in(const ParameterTexts& texts, const std::string& name) {
+    const auto found = texts.find(name);
+    return found == texts.end() ? std::string() : found->second;
+}
+
 /// The state hash of a single replica, or a checksum of those of all replicas.
 std::string combined_hash(const std::vector<const PointResult*>& replicas) {
     std::string hashes;
@@ -115,7 +126,7 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
              const std::vector<Quantity>& quantities,
              const std::vector<const PointResult*>& replicas) {
     std::vector<Table::Cell> row;
-    for (const SweepAxis& axis : plan.axes) row.push_back(cell_of(texts.at(axis.name)));
+    for (const SweepAxis& axis : plan.axes) row.push_back(cell_of(text_in(texts, axis.name)));
     if (!plan.chain.empty()) row.emplace_back(texts.at("direction"));
     const auto n = static_cast<double>(replicas.size());
     double periods = 0.0, energy = 0.0;
@@ -170,18 +181,19 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
         if (!result.has_whole_period) ++collected.without_period;
         collected.versions.insert(result.version);
     }
-    std::vector<std::size_t> points(results.size());  // index: that of the product
-    for (std::size_t p = 0; p < points.size(); ++p) points[plan.product_index(p)] = p;
-    const auto replica_count = static_cast<std::size_t>(plan.replicas);
+    // The replicas of a combination and direction have ascending numbers.
+    std::vector<std::vector<std::size_t>> points(plan.rows() * plan.directions());
+    for (std::size_t p = 0; p < results.size(); ++p)
+        points[plan.product_index(p) / std::size_t(plan.replicas)].push_back(p);
     for (const std::size_t row : rows_of(plan))
         for (std::size_t direction = 0; direction < plan.directions(); ++direction) {
-            const std::size_t first = (row * plan.directions() + direction) * replica_count;
+            const std::vector<std::size_t>& here = points[row * plan.directions() + direction];
             std::vector<const PointResult*> replicas;
-            for (std::size_t r = first; r < first + replica_count; ++r)
-                if (results[r].exists) replicas.push_back(&results[r]);
+            for (const std::size_t p : here)
+                if (results[p].exists) replicas.push_back(&results[p]);
             if (replicas.empty()) continue;
-            ParameterTexts texts = plan.parameters(points[first]);
-            if (!plan.chain.empty()) texts["direction"] = plan.direction(points[first]);
+            ParameterTexts texts = plan.parameters(here.front());
+            if (!plan.chain.empty()) texts["direction"] = plan.direction(here.front());
             add_row(collected, plan, texts, quantities, replicas);
         }
     if (plan.chain.empty()) return collected;
@@ -232,15 +244,15 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
     std::vector<ParameterTexts> groups;  // sorted like the rows
     std::map<ParameterTexts, RotationCurves> curves;
     for (const CollectedRow& row : collected.rows) {
+        const RunConfig config = config_of(row);
         ParameterTexts group = row.parameters;
         group.erase("discs");
         RotationCurves& all = curves[group];
         if (all.front().empty()) {
             groups.push_back(group);
-            require_crossing(config_of(row));
+            require_crossing(config);
         }
-        const double sign = swirl_sign(config_of(row));
-        const double discs = read_number(row.parameters.at("discs")).value_or(not_available);
+        const double sign = swirl_sign(config), discs = double(config.discs);
         for (std::size_t r = 0; r < all.size(); ++r)
             all[r].push_back({discs, sign * row.rotation[r].mean, row.rotation[r].error});
     }
@@ -250,7 +262,7 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
     Table table(columns);
     for (const ParameterTexts& group : groups) {
         std::vector<Table::Cell> row;
-        for (const std::string& name : others) row.push_back(cell_of(group.at(name)));
+        for (const std::string& name : others) row.push_back(cell_of(text_in(group, name)));
         const RotationCurves& all = curves.at(group);
         add_crossings(row, find_crossings(all), default_rate);
         row.emplace_back(std::int64_t(all.front().size()));

@@ -93,13 +93,6 @@ std::string measurement_of(const std::string& quantity) {
                      : name + " has " + rows + "."));
 }
 
-void validate_whole_number(const char* option, std::int64_t value, std::int64_t least,
-                           std::int64_t most) {
-    if (value < least || value > most)
-        throw UsageError(fmt::format("{} is {}, but it must be a whole number from {} to {}.",
-                                     option, value, least, most));
-}
-
 void validate_steps(std::int64_t steps) { validate_whole_number("--steps", steps, 2, max_steps); }
 
 void validate_runs(std::int64_t runs) {

@@ -24,6 +24,7 @@
 #include "swirl/run/ramp.hpp"
 #include "swirl/study/crossing.hpp"
 #include "swirl/study/map_plan.hpp"
+#include "swirl/study/point_table.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
@@ -39,6 +40,15 @@ constexpr std::size_t max_points = 10'000'000;
 template <class Visit>
 void for_each_new_index(const SweepPlan& plan, const SweepStage& stage, const SweepStage* before,
                         const Visit& visit) {
+    if (plan.is_table()) {
+        for (std::size_t row = 0; row < stage.row_replicas.size(); ++row) {
+            const bool existed = before && row < before->row_replicas.size();
+            for (std::int64_t r = existed ? before->row_replicas[row] : 0;
+                 r < stage.row_replicas[row]; ++r)
+                visit(row * std::size_t(plan.replicas) + std::size_t(r));
+        }
+        return;
+    }
     std::vector<std::size_t> value(stage.values.size(), 0);  // index of the value on each axis
     for (;;) {
         std::size_t combination = 0;
@@ -58,14 +68,15 @@ void for_each_new_index(const SweepPlan& plan, const SweepStage& stage, const Sw
 }
 
 SweepStage size_of(const SweepPlan& plan) {
-    SweepStage stage{{}, plan.replicas};
+    SweepStage stage{{}, plan.replicas, plan.row_replicas};
+    if (plan.is_table()) return stage;
     for (const SweepAxis& axis : plan.axes) stage.values.push_back(axis.values.size());
     return stage;
 }
 
 std::vector<std::size_t> product_indices_of(const SweepPlan& plan) {
     std::vector<std::size_t> indices;
-    if (plan.before.empty()) return indices;
+    if (plan.before.empty() && !plan.is_table()) return indices;
     const SweepStage now = size_of(plan);
     const SweepStage* before = nullptr;
     const auto add = [&](const SweepStage& stage) {
@@ -123,17 +134,11 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
 
 /// The number of runs, as a double: the counts in a damaged file may overflow an integer.
 double number_of_runs(const SweepPlan& plan) {
+    if (plan.is_table())
+        return std::accumulate(plan.row_replicas.begin(), plan.row_replicas.end(), 0.0);
     double count = double(plan.replicas) * double(plan.directions());
     for (const SweepAxis& axis : plan.axes) count *= double(axis.values.size());
     return count;
-}
-
-/// Equal for equal runs. A contact duration has no effect without dissipation and floor.
-std::uint64_t identity_of(const ParameterTexts& texts) {
-    RunConfig config = resolve(texts);
-    if (!config.uses_contact_duration()) config.contact_duration = RunConfig{}.contact_duration;
-    if (config.mixture) config.mixture->percent.reset();
-    return checksum(config_text(config));
 }
 
 /// True if two values of an axis give different runs for some value of another axis.
@@ -147,7 +152,7 @@ bool differ_elsewhere(const SweepPlan& plan, const SweepAxis& axis, const std::s
             a[axis.name] = one;
             b[axis.name] = two;
             try {
-                if (identity_of(a) != identity_of(b)) return true;
+                if (identity_of(resolve(a)) != identity_of(resolve(b))) return true;
             } catch (const UsageError&) {  // reported when the point runs
             }
         }
@@ -161,7 +166,7 @@ void reject_repeated_runs(const SweepPlan& plan, const SweepAxis& axis) {
     std::map<std::uint64_t, std::string> seen;
     for (const std::string& value : axis.values) {
         texts[axis.name] = value;
-        const auto [before, is_new] = seen.emplace(identity_of(texts), value);
+        const auto [before, is_new] = seen.emplace(identity_of(resolve(texts)), value);
         if (!is_new && !differ_elsewhere(plan, axis, before->second, value))
             throw UsageError(
                 fmt::format("{0} {1} and {0} {2} are the same run here.\nhint: omit one of them, "
@@ -171,26 +176,21 @@ void reject_repeated_runs(const SweepPlan& plan, const SweepAxis& axis) {
     }
 }
 
-/// Finds errors of single values before anything is run. Errors of combinations appear when the
-/// point runs.
-void validate(const SweepPlan& plan) {
-    if (const double count = number_of_runs(plan); count > double(max_points))
-        throw UsageError(fmt::format("the call plans {:.3g} runs, but at most {} are possible.",
-                                     count, max_points));
-    for (const SweepAxis& axis : plan.axes) reject_repeated_runs(plan, axis);
-}
-
 /// Each stage must contain the one before it.
 void reject_shrinking(const fs::path& file, const SweepPlan& plan) {
     std::vector<SweepStage> stages = plan.before;
     stages.push_back(size_of(plan));
     for (std::size_t k = 0; k + 1 < stages.size(); ++k) {
         const SweepStage &stage = stages[k], &next = stages[k + 1];
-        bool valid = stage.values.size() == plan.axes.size() && stage.replicas >= 1 &&
-                     stage.replicas <= next.replicas;
-        for (std::size_t a = 0; valid && a < stage.values.size(); ++a)
+        bool valid = stage.values.size() == next.values.size() && stage.replicas >= 1 &&
+                     stage.replicas <= next.replicas &&
+                     stage.row_replicas.size() <= next.row_replicas.size() &&
+                     stage.row_replicas.empty() == next.row_replicas.empty();
+        for (std::size_t row = 0; valid && row < stage.row_replicas.size(); ++row)
             valid =
-                stage.values[a] >= 1 && a < next.values.size() && stage.values[a] <= next.values[a];
+                stage.row_replicas[row] >= 1 && stage.row_replicas[row] <= next.row_replicas[row];
+        for (std::size_t a = 0; valid && a < stage.values.size(); ++a)
+            valid = stage.values[a] >= 1 && stage.values[a] <= next.values[a];
         if (!valid)
             throw FileError(fmt::format(
                 "'{}' is damaged: the plan before it grew is not a part of the present plan.",
@@ -201,14 +201,18 @@ void reject_shrinking(const fs::path& file, const SweepPlan& plan) {
 Json plan_json(const SweepPlan& plan) {
     Json axes = Json::object();
     for (const SweepAxis& axis : plan.axes) axes[axis.name] = axis.values;
-    Json json{{"format", sweep_format}, {"axes", axes}, {"replicates", plan.replicas}};
+    Json json{{"format", sweep_format},
+              {plan.is_table() ? "columns" : "axes", axes},
+              {"replicates", plan.is_table() ? Json(plan.row_replicas) : Json(plan.replicas)}};
     if (!plan.measure.empty()) json["measure"] = plan.measure;
     if (plan.frames > 0) json["frames"] = plan.frames;
     if (plan.series) json["series"] = true;
     if (!plan.chain.empty()) json["chain"] = plan.chain;
     if (plan.generation > 1) json["generation"] = plan.generation;
     for (const SweepStage& stage : plan.before)
-        json["before"].push_back({{"values", stage.values}, {"replicates", stage.replicas}});
+        json["before"].push_back(
+            plan.is_table() ? Json{{"replicates", stage.row_replicas}}
+                            : Json{{"values", stage.values}, {"replicates", stage.replicas}});
     if (plan.search) json["search"] = true;
     if (plan.map) {
         const MapTarget& m = *plan.map;
@@ -239,7 +243,13 @@ const SweepAxis* SweepPlan::axis(std::string_view name) const {
 }
 
 std::size_t SweepPlan::points() const {
-    std::size_t count = static_cast<std::size_t>(replicas) * directions();
+    return is_table() ? product_indices.size()
+                      : rows() * directions() * static_cast<std::size_t>(replicas);
+}
+
+std::size_t SweepPlan::rows() const {
+    if (is_table()) return row_replicas.size();
+    std::size_t count = 1;
     for (const SweepAxis& axis : axes) count *= axis.values.size();
     return count;
 }
@@ -255,17 +265,27 @@ const char* SweepPlan::direction(std::size_t point) const {
 }
 
 ParameterTexts SweepPlan::parameters(std::size_t point) const {
+    return parameters_of_row(product_index(point) /
+                             (static_cast<std::size_t>(replicas) * directions()));
+}
+
+ParameterTexts SweepPlan::parameters_of_row(std::size_t row) const {
     ParameterTexts texts;
-    std::size_t index = product_index(point) / (static_cast<std::size_t>(replicas) * directions());
     for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
-        texts[axis->name] = axis->values[index % axis->values.size()];
-        index /= axis->values.size();
+        const std::string& value = axis->values[row % axis->values.size()];
+        if (!is_table()) row /= axis->values.size();
+        if (!value.empty()) texts[axis->name] = value;
     }
     return texts;
 }
 
 RunConfig SweepPlan::config(std::size_t point) const {
-    RunConfig config = resolve(parameters(point));
+    const ParameterTexts texts = parameters(point);
+    RunConfig config = resolve(texts);
+    if (is_table() && texts.contains("seed")) {
+        config.seed += static_cast<std::uint64_t>(replica(point));
+        return config;
+    }
     if (search) {
         config.seed = search_seed(config, replica(point));
         return config;
@@ -299,6 +319,37 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
     return values;
 }
 
+// A contact duration has no effect without dissipation and floor.
+std::uint64_t identity_of(RunConfig config) {
+    if (!config.uses_contact_duration()) config.contact_duration = RunConfig{}.contact_duration;
+    if (config.mixture) config.mixture->percent.reset();
+    return checksum(config_text(config));
+}
+
+void validate_whole_number(const char* option, std::int64_t value, std::int64_t least,
+                           std::int64_t most) {
+    if (value < least || value > most)
+        throw UsageError(fmt::format("{} is {}, but it must be a whole number from {} to {}.",
+                                     option, value, least, most));
+}
+
+// Finds errors of single values, and of the rows of a table. Errors of combinations of values appear
+// when the point runs.
+void validate(const SweepPlan& plan) {
+    validate_whole_number("--seeds", plan.replicas, 1, max_replicas);
+    for (const std::int64_t row : plan.row_replicas)
+        validate_whole_number("--seeds", row, 1, max_replicas);
+    if (const double count = number_of_runs(plan); count > double(max_points))
+        throw UsageError(fmt::format("the call plans {:.3g} runs, but at most {} are possible.",
+                                     count, max_points));
+    if (plan.is_table()) {
+        if (plan.axes.empty() || plan.map || plan.search)
+            throw UsageError("a table of points has columns, and is not that of a map or search.");
+        return validate_rows(plan);
+    }
+    for (const SweepAxis& axis : plan.axes) reject_repeated_runs(plan, axis);
+}
+
 SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
     SweepPlan plan;
     plan.replicas = replicas;
@@ -314,18 +365,21 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
     return plan;
 }
 
-void set_chain(SweepPlan& plan, std::string_view parameter) {
-    const std::string name = plain_name(parameter);
+static void validate_chain(const SweepPlan& plan) {
+    const std::string& name = plan.chain;
     const SweepAxis* const axis = plan.axis(name);
+    if (plan.is_table())
+        throw UsageError(
+            "--chain and --points cannot be combined.\nhint: give lists of values instead.");
     const std::vector<std::string> names = ramp_parameter_names();
     if (std::find(names.begin(), names.end(), name) == names.end())
-        throw UsageError(fmt::format("--chain is '{}', but it must be one of: {}.{}", parameter,
+        throw UsageError(fmt::format("--chain is '{}', but it must be one of: {}.{}", name,
                                      fmt::join(names, ", "), nearest_value_hint(name, names)));
     if (!axis || axis->values.size() < 2)
         throw UsageError(fmt::format(
             "--chain is '{}', but the sweep has fewer than two values of it.\nhint: give "
             "{} with several values, for example {} 0.1:0.1:1.",
-            parameter, option_name(name), option_name(name)));
+            name, option_name(name), option_name(name)));
     if (!plan.axis("periods"))
         throw UsageError(
             "a chain needs runs of whole periods.\nhint: give their length with --periods.");
@@ -333,8 +387,19 @@ void set_chain(SweepPlan& plan, std::string_view parameter) {
         if (plan.axis(other))
             throw UsageError(fmt::format(
                 "--chain and --{} cannot be combined.\nhint: omit one of them.", other));
-    plan.chain = name;
-    validate(plan);
+    if (plan.frames > 0)
+        throw UsageError(
+            "--chain and --frames cannot be combined: a recording does not store the state in "
+            "which its run starts.\nhint: use --series, or `swirl run --ramp` with --trajectory.");
+}
+
+void validate_extras(const SweepPlan& plan) {
+    validate_whole_number("--frames", plan.frames, 0, max_frames);
+    if (!plan.measure.empty())
+        read_measurement_list(fmt::format("{}", fmt::join(plan.measure, ",")));
+    if (!plan.chain.empty()) validate_chain(plan);
+    if (number_of_runs(plan) > double(max_points)) validate(plan);  // a chain doubles the runs
+    if (plan.map) validate_map(plan);
 }
 
 SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
@@ -346,6 +411,10 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
         throw UsageError(
             "a sweep with a chain cannot grow: each run starts from the one before it.\nhint: use "
             "another folder.");
+    if (plan.is_table() && !more.empty())
+        throw UsageError(
+            "the sweep in the folder has a table of points.\nhint: give further points with "
+            "--points.");
     std::vector<SweepAxis> values;
     for (const auto& [given, text] : more) {
         const std::string name = plain_name(given);
@@ -371,10 +440,19 @@ SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
             if (std::find(axis->values.begin(), axis->values.end(), value) == axis->values.end())
                 axis->values.push_back(value);
     }
-    if (replicas > 0 && replicas < plan.replicas)
+    const std::int64_t existing =
+        plan.is_table() ? *std::min_element(plan.row_replicas.begin(), plan.row_replicas.end())
+                        : plan.replicas;
+    if (replicas > 0 && replicas < existing)
         throw UsageError(fmt::format("--seeds is {}, but the {} already has {} and can only grow.",
-                                     replicas, plan.kind(), plan.replicas));
+                                     replicas, plan.kind(), existing));
     larger.replicas = std::max(replicas, plan.replicas);
+    for (std::int64_t& row : larger.row_replicas) row = std::max(replicas, row);
+    return extended(plan, std::move(larger), measure);
+}
+
+SweepPlan extended(const SweepPlan& plan, SweepPlan larger,
+                   const std::vector<std::string>& measure) {
     for (const std::string& name : measure)
         if (std::find(larger.measure.begin(), larger.measure.end(), name) == larger.measure.end())
             larger.measure.push_back(name);
@@ -419,30 +497,46 @@ SweepPlan read_plan(const fs::path& folder) {
         if (json.at("format") != sweep_format)
             throw FileError(fmt::format("'{}' is in format {}, but this program reads format {}.",
                                         file.string(), json.at("format").dump(), sweep_format));
-        for (const auto& [name, values] : json.at("axes").items())
+        const bool is_table = json.contains("columns");
+        for (const auto& [name, values] : json.at(is_table ? "columns" : "axes").items())
             plan.axes.push_back({plain_name(name), values.get<std::vector<std::string>>()});
-        plan.replicas = json.at("replicates").get<std::int64_t>();
+        const auto read_replicas = [&](const Json& from, auto& size) {
+            if (is_table) size.row_replicas = from.get<std::vector<std::int64_t>>();
+            size.replicas =
+                !is_table ? from.get<std::int64_t>()
+                : size.row_replicas.empty()
+                    ? 0
+                    : *std::max_element(size.row_replicas.begin(), size.row_replicas.end());
+        };
+        read_replicas(json.at("replicates"), plan);
         plan.measure = json.value("measure", std::vector<std::string>());
         plan.frames = json.value("frames", 0);
         plan.series = json.value("series", false);
-        plan.chain = json.value("chain", std::string());
+        plan.chain = plain_name(json.value("chain", std::string()));
         plan.generation = json.value("generation", 1);
         plan.search = json.value("search", false);
-        for (const Json& stage : json.value("before", Json::array()))
-            plan.before.push_back({stage.at("values").get<std::vector<std::size_t>>(),
-                                   stage.at("replicates").get<std::int64_t>()});
+        for (const Json& stage : json.value("before", Json::array())) {
+            SweepStage& before = plan.before.emplace_back();
+            if (!is_table) before.values = stage.at("values").get<std::vector<std::size_t>>();
+            read_replicas(stage.at("replicates"), before);
+        }
         if (const auto map = json.find("map"); map != json.end()) plan.map = map_target_of(*map);
     } catch (const nlohmann::json::exception&) {
         throw FileError(
             fmt::format("'{}' is damaged: it is not the plan of a sweep or map.", file.string()));
     }
-    if (plan.frames < 0 || plan.generation < 1)
-        throw FileError(fmt::format("'{}' is damaged: it has {} frames and the generation {}.",
-                                    file.string(), plan.frames, plan.generation));
-    for (const SweepAxis& axis : plan.axes)
+    if (plan.generation < 1)
+        throw FileError(fmt::format("'{}' is damaged: it has the generation {}.", file.string(),
+                                    plan.generation));
+    for (const SweepAxis& axis : plan.axes) {
         if (axis.values.empty())
             throw FileError(fmt::format("'{}' is damaged: {} has no values, but it must have one.",
                                         file.string(), axis.name));
+        if (plan.is_table() && axis.values.size() != plan.rows())
+            throw FileError(
+                fmt::format("'{}' is damaged: {} has {} values, but the table has {} rows.",
+                            file.string(), axis.name, axis.values.size(), plan.rows()));
+    }
     if (const double count = number_of_runs(plan); !(count >= 1.0 && count <= double(max_points)))
         throw FileError(
             fmt::format("'{}' is damaged: it plans {:.3g} runs with {} replicates of "
@@ -452,10 +546,7 @@ SweepPlan read_plan(const fs::path& folder) {
     plan.product_indices = product_indices_of(plan);
     try {  // the functions that validate a call throw
         validate(plan);
-        if (!plan.measure.empty())
-            read_measurement_list(fmt::format("{}", fmt::join(plan.measure, ",")));
-        if (!plan.chain.empty()) set_chain(plan, plan.chain);
-        if (plan.map) validate_map(plan);
+        validate_extras(plan);
     } catch (const UsageError& error) {
         throw FileError(fmt::format("'{}' is damaged: {}", file.string(), error.what()));
     }

@@ -1,4 +1,5 @@
-// The plan of a sweep: the product of lists of parameters, with some replicas of each.
+// The plan of a sweep: the product of lists of parameters, with some replicas of each; or a table of
+// points, each with its own number of replicas (point_table.hpp).
 //
 // Growth. A plan accepts further values of its parameters, further replicas and further
 // measurements. Existing points keep their numbers and results; new points get the next numbers.
@@ -27,16 +28,20 @@
 
 namespace swirl {
 
+inline constexpr std::int64_t max_replicas = 1'000'000, max_frames = 1'000'000;
+
 struct SweepAxis {
     std::string name;
     std::vector<std::string> values;
     bool operator==(const SweepAxis&) const = default;
 };
 
-/// The size of a plan before it grew: the number of values of each axis, and of replicas.
+/// The size of a plan before it grew: the number of values of each axis, and of replicas; or the
+/// replicas of each row of a table.
 struct SweepStage {
     std::vector<std::size_t> values;
     std::int64_t replicas = 1;
+    std::vector<std::int64_t> row_replicas = {};
     bool operator==(const SweepStage&) const = default;
 };
 
@@ -55,7 +60,10 @@ struct MapTarget {
 
 struct SweepPlan {
     std::vector<SweepAxis> axes;  // the given parameters, in the order of the table
-    std::int64_t replicas = 1;
+    std::int64_t replicas = 1;    // the largest of row_replicas for a table
+    /// For a table of points, the replicas of each row. The axes are then the columns of the table,
+    /// and an empty value is a parameter that its row does not give.
+    std::vector<std::int64_t> row_replicas = {};
     std::vector<std::string> measure;  // measurements of every run (measurements.hpp)
     int frames = 0;                    // frames per period of every trajectory; 0: none
     bool series = false;               // write the table of the periods of every run
@@ -66,8 +74,9 @@ struct SweepPlan {
     std::optional<MapTarget> map = {};  // only for an adaptive map
     /// Only for a search for N_c (search_folder.hpp), which chooses points, seeds and lengths of runs.
     bool search = false;
-    /// For each point, its index in the product of the axes, with the replica varying fastest.
-    /// Empty if the index is the number of the point. Follows from the other members.
+    /// For each point, its index in the product of the axes (of a table: its row), with the replica
+    /// varying fastest. Empty if the index is the number of the point. Follows from the other
+    /// members.
     std::vector<std::size_t> product_indices = {};
 
     const char* kind() const { return map ? "map" : search ? "search for N_c" : "sweep"; }
@@ -76,12 +85,16 @@ struct SweepPlan {
     bool needs_all_points() const { return !map && !search; }
     /// The axis of this name, or null.
     const SweepAxis* axis(std::string_view name) const;
+    bool is_table() const { return !row_replicas.empty(); }
+    /// The number of combinations of the axes, or of rows of the table.
+    std::size_t rows() const;
     std::size_t points() const;
     std::size_t product_index(std::size_t point) const {
         return product_indices.empty() ? point : product_indices[point];
     }
     /// The parameters of a point, without its seed.
     ParameterTexts parameters(std::size_t point) const;
+    ParameterTexts parameters_of_row(std::size_t row) const;
     std::int64_t replica(std::size_t point) const;
     /// A chain passes each point twice: first with rising, then with falling values.
     std::size_t directions() const { return chain.empty() ? 1 : 2; }
@@ -101,9 +114,6 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
 /// and for two values that give the same run.
 SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas);
 
-/// Makes the plan a chain along this parameter (sweep_chain.hpp). Throws UsageError.
-void set_chain(SweepPlan& plan, std::string_view parameter);
-
 /// The plan with further values, replicas and measurements; 0 replicas and no measurements leave
 /// them unchanged. Throws UsageError for parameters that the plan does not have.
 SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t replicas,
@@ -112,6 +122,24 @@ SweepPlan grown(const SweepPlan& plan, const ParameterTexts& more, std::int64_t 
 /// The same for values of axes that the plan has.
 SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
                       std::int64_t replicas, const std::vector<std::string>& measure);
+
+/// A plan that was extended, with the measurements added and the earlier stage noted.
+SweepPlan extended(const SweepPlan& plan, SweepPlan larger,
+                   const std::vector<std::string>& measure);
+
+/// Equal for equal runs.
+std::uint64_t identity_of(RunConfig config);
+
+/// Throws UsageError for a value with which a point cannot be run, and for equal runs.
+void validate(const SweepPlan& plan);
+
+/// The same for everything else in a plan: measurements, recordings, chain and map. Plans of the
+/// command line, of Python and of files are validated by these two functions.
+void validate_extras(const SweepPlan& plan);
+
+/// Throws UsageError if the value of the option ("--seeds") is outside the range.
+void validate_whole_number(const char* option, std::int64_t value, std::int64_t least,
+                           std::int64_t most);
 
 /// The indices of an axis's values, the numbers ascending; as they are if a value is no number.
 std::vector<std::size_t> ascending_order(const SweepAxis& axis);
