@@ -101,7 +101,8 @@ def draw(table):
         for k, friction in enumerate(FRICTIONS):
             here = style.select(rows, setting=friction.name)
             if here:
-                style.curve(panel, here, x, y, linewidth=0.7, label=friction.words, **style.look_of(k))
+                words = friction.words if "spheres" in friction.words else f"discs, {friction.words}"
+                style.curve(panel, here, x, y, linewidth=0.7, label=words, **style.look_of(k))
         panel.set(xlabel="number of particles $N$" if x == "discs" else "slip parameter, residents",
                   ylabel="spin correlation, " + ("no triangle" if y.startswith("chain") else "triangles"))
     style.legend_of_all(drawing, axes[0], ncol=3)
