@@ -54,33 +54,37 @@ bool is_list(const py::handle& value) {
            !py::isinstance<py::bytes>(value) && py::hasattr(value, "__iter__");
 }
 
-/// Parameters whose value may be an array: path, with the rows t, x and y, and sizes, with a radius
-/// or the rows radius and mass.
-bool takes_array(const std::string& name) { return name == "path" || name == "sizes"; }
+/// A parameter whose value may be an array, as rows of a text: "points T:X:Y T:X:Y …".
+struct ArrayParameter {
+    const char *name, *word, *expected;
+    py::ssize_t min_columns, max_columns;
+};
+constexpr ArrayParameter array_parameters[] = {
+    {"path", "points", "a text or an array of numbers with the columns t, x and y", 3, 3},
+    {"sizes", "list", "a text or an array of numbers, a radius or the columns radius and mass", 1,
+     2},
+    {"initial", "states", "a text or an array of numbers with the columns x, y, vx, vy and spin", 5,
+     5}};
 
-/// "points T:X:Y T:X:Y …" or "list R:M R:M …".
-std::string array_text(const std::string& name, const py::handle& value) {
-    const bool is_path = name == "path";
-    const auto reject = [&] {
-        throw_wrong_type(name, value,
-                         is_path ? "a text or an array of numbers with the columns t, x and y"
-                                 : "a text or an array of numbers, a radius or the columns radius "
-                                   "and mass");
-    };
+const ArrayParameter* array_parameter(const std::string& name) {
+    for (const ArrayParameter& p : array_parameters)
+        if (name == p.name) return &p;
+    return nullptr;
+}
+
+std::string array_text(const ArrayParameter& p, const py::handle& value) {
     Numbers array;
     try {
         const py::array given = py::module_::import("numpy").attr("asarray")(value);
         const char kind = given.dtype().kind();
-        if (kind != 'i' && kind != 'u' && kind != 'f') reject();
-        array = Numbers::ensure(given);
+        if (kind == 'i' || kind == 'u' || kind == 'f') array = Numbers::ensure(given);
     } catch (const py::error_already_set&) {
-        reject();
     }
     const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 1;
-    const bool fits = is_path ? array.ndim() == 2 && columns == 3
-                              : array.ndim() == 1 || (array.ndim() == 2 && columns <= 2);
-    if (!fits || array.size() == 0) reject();
-    std::string text = is_path ? "points" : "list";
+    if (array.size() == 0 || array.ndim() < 1 || array.ndim() > 2 || columns < p.min_columns ||
+        columns > p.max_columns)
+        throw_wrong_type(p.name, value, p.expected);
+    std::string text = p.word;
     for (py::ssize_t k = 0; k < array.size(); ++k)
         text += fmt::format("{}{}", k % columns == 0 ? ' ' : ':', array.data()[k]);
     return text;
@@ -89,7 +93,8 @@ std::string array_text(const std::string& name, const py::handle& value) {
 /// A tuple is one value with several parts: mixture=(12, 1.3), or several ramps.
 std::string value_text(const std::string& name, const py::handle& value) {
     if (py::isinstance<py::str>(value)) return utf8_text(name, value);
-    if (takes_array(name) && is_list(value)) return array_text(name, value);
+    if (const auto* array = array_parameter(name); array && is_list(value))
+        return array_text(*array, value);
     if (!py::isinstance<py::tuple>(value)) return number_text(name, value);
     std::string text;
     const char* const separator = name == "ramp" ? ";" : ":";
@@ -135,7 +140,7 @@ ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
 
 ParameterTexts texts_of(const py::dict& given) {
     return texts_by(given, [](const std::string& name, const py::handle& value) {
-        if (is_list(value) && !takes_array(name))
+        if (is_list(value) && !array_parameter(name))
             throw_wrong_type(name, value,
                              "one number or text (only swirl.sweep() and swirl.map() take lists)");
         return value_text(name, value);
@@ -145,7 +150,7 @@ ParameterTexts texts_of(const py::dict& given) {
 ParameterTexts lists_of(const py::dict& given) {
     return texts_by(given, [](const std::string& name, const py::handle& value) {
         // One array is one path; a list is an axis with several.
-        const bool is_array = takes_array(name) && py::isinstance<py::array>(value);
+        const bool is_array = array_parameter(name) && py::isinstance<py::array>(value);
         return is_list(value) && !is_array ? list_text(name, value) : value_text(name, value);
     });
 }

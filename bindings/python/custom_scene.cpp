@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
-#include "swirl/engine/validate.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/initial_parameter.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/particle_sizes.hpp"
 
@@ -21,18 +21,6 @@ std::string shape_text(const Numbers& a) {
     return a.ndim() == 0 ? "one number" : text;
 }
 
-/// Squares and products of larger numbers could overflow. The parameters of a run cannot lead to
-/// speeds of this size.
-constexpr double max_given = 1e15;
-
-void require_finite(const char* name, const Numbers& values) {
-    for (py::ssize_t k = 0; k < values.size(); ++k)
-        if (!(std::abs(values.data()[k]) <= max_given))
-            throw UsageError(
-                fmt::format("{} contains {}, but all values must be numbers from {} to {}.", name,
-                            values.data()[k], -max_given, max_given));
-}
-
 /// `rows` is 0 if any number of rows is allowed.
 void require_pairs(const char* name, const Numbers& values, std::size_t rows) {
     if (values.ndim() != 2 || values.shape(1) != 2 ||
@@ -40,14 +28,12 @@ void require_pairs(const char* name, const Numbers& values, std::size_t rows) {
         throw UsageError(fmt::format("{} has shape {}, but it must be {} × 2: x and y of each.",
                                      name, shape_text(values),
                                      rows ? fmt::format("{}", rows) : "N"));
-    require_finite(name, values);
 }
 
 /// One value for each of n discs; `otherwise` for all if `values` is not given.
 std::vector<double> column_of(const char* name, const std::optional<Numbers>& values, std::size_t n,
                               double otherwise) {
     if (!values) return std::vector<double>(n, otherwise);
-    require_finite(name, *values);
     if (values->ndim() == 0) return std::vector<double>(n, *values->data());
     if (values->ndim() != 1 || values->shape(0) != signed_size(n))
         throw UsageError(
@@ -56,24 +42,11 @@ std::vector<double> column_of(const char* name, const std::optional<Numbers>& va
     return {values->data(), values->data() + n};
 }
 
-void require_between(const char* name, const std::vector<double>& values, double from, double to) {
-    for (const double value : values)
-        if (!(value >= from && value <= to))
-            throw UsageError(fmt::format("{} is {} for one disc, but it must be from {} to {}.",
-                                         name, value, from, to));
-}
-
 }  // namespace
 
-void require_sizes_in_range(const std::vector<double>& radius, const std::vector<double>& mass,
-                            const std::vector<double>& inertia) {
-    require_between("radius", radius, smallest_value, largest_value);
-    require_between("mass", mass, smallest_value, largest_value);
-    require_between("inertia", inertia, 1e-30, 1e30);
-}
-
-void require_no_overlap(const InitialState& scene, const Vec2& centre, double tolerance) {
-    if (const auto problem = overlap_in(scene, centre, tolerance)) throw UsageError(*problem);
+void require_valid_discs(const InitialState& scene, const Vec2& centre, double tolerance) {
+    if (const auto problem = problem_with_given_discs(scene, centre, tolerance))
+        throw UsageError(*problem);
 }
 
 std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
@@ -96,7 +69,6 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
     const double multiple = config.inertia / (config.mass * config.radius * config.radius);
     for (std::size_t i = 0; i < n; ++i) inertia[i] = multiple * mass[i] * radius[i] * radius[i];
     if (given.inertia) inertia = column_of("inertia", given.inertia, n, 0.0);
-    require_sizes_in_range(radius, mass, inertia);
     std::vector<Disc> discs;
     discs.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -115,7 +87,7 @@ ContainerPath polygon(const Numbers& vertices, const std::optional<Numbers>& tim
     const auto n = static_cast<std::size_t>(vertices.shape(0));
     if (n < 2) throw UsageError("path has one vertex, but it must have at least two.");
     for (std::size_t k = 0; k < 2 * n; ++k)
-        if (std::abs(vertices.data()[k]) > largest_value)
+        if (!(std::abs(vertices.data()[k]) <= largest_value))
             throw UsageError(fmt::format("path contains {}, but it must be from {} to {}.",
                                          vertices.data()[k], -largest_value, largest_value));
     if (static_cast<double>(n) > max_sides)

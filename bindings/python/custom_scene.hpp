@@ -16,8 +16,7 @@ struct GivenDiscs {
     std::optional<Numbers> velocity, angle, spin, radius, mass, inertia;
 };
 
-/// Throws UsageError for arrays of wrong shapes and for values out of range. Values that are not
-/// given are those of `config`; discs without velocities move with the container, and given radii
+/// Throws UsageError for arrays of wrong shapes. Values that are not given are those of `config`; discs without velocities move with the container, and given radii
 /// without masses are those of one material.
 std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
                            const Segment& first_segment);
@@ -27,12 +26,8 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
 /// UsageError.
 ContainerPath polygon(const Numbers& vertices, const std::optional<Numbers>& times, double period);
 
-/// Throws UsageError if a disc has a radius, mass or inertia out of range.
-void require_sizes_in_range(const std::vector<double>& radius, const std::vector<double>& mass,
-                            const std::vector<double>& inertia);
-
-/// Throws UsageError if discs overlap each other or the wall, with the container at `centre`.
-/// Overlaps up to the share `tolerance` of their radii are allowed.
-void require_no_overlap(const InitialState& scene, const Vec2& centre, double tolerance);
+/// Throws UsageError if numbers of the discs are out of range, or if discs overlap each other or the
+/// wall, with the container at `centre` (run/initial_parameter.hpp).
+void require_valid_discs(const InitialState& scene, const Vec2& centre, double tolerance);
 
 }  // namespace swirl::python

@@ -17,6 +17,7 @@
 #include "simulation_archive.hpp"
 #include "swirl/run/collapse_guard.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/initial_parameter.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/ramp.hpp"
 #include "swirl/run/simd.hpp"
@@ -368,6 +369,7 @@ std::unique_ptr<InteractiveSimulation> make_simulation(const py::dict& parameter
         one_disc.discs = 1;
         one_disc.mixture.reset();
         one_disc.sizes.reset();
+        one_disc.initial.clear();
         scene = make_initial_state(one_disc);
     } else {
         scene = interruptible(stop, [&] { return make_initial_state(config, &stop); });
@@ -382,9 +384,7 @@ std::unique_ptr<InteractiveSimulation> make_simulation(const py::dict& parameter
         }
     }
     if (given) scene.discs = discs_of(*given, config, scene.path.segments.front());
-    // Discs of a snapshot may be in contact, and then overlap by a rounding error.
-    constexpr double rounding = 1e-9;
-    if (is_custom) require_no_overlap(scene, scene.path.segments.front().start, rounding);
+    if (is_custom) require_valid_discs(scene, scene.path.segments.front().start, initial_overlap);
     return interruptible(stop, [&] {
         return std::make_unique<InteractiveSimulation>(config, is_custom, std::move(scene),
                                                        Progress{}, &stop);

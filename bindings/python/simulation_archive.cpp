@@ -63,10 +63,9 @@ void require_discs(const InitialState& scene, const RunConfig& config, bool is_c
         d = d.at(clock);
     }
     if (is_custom) {
-        require_sizes_in_range(radius, mass, inertia);
         // Long-lasting contacts leave overlaps larger than rounding errors.
         constexpr double tolerance = 1e-3;
-        return require_no_overlap(now, scene.path.segment_at(clock).position_at(clock), tolerance);
+        return require_valid_discs(now, scene.path.segment_at(clock).position_at(clock), tolerance);
     }
     const std::vector<ParticleProperties> particles = particles_of(config);
     bool same = radius.size() == particles.size();

@@ -144,7 +144,7 @@ ParameterTexts search_parameters(const py::dict& given, std::int64_t minimum,
             minimum, maximum));
     ParameterTexts texts = texts_of(given);
     texts.try_emplace("events", default_search_events);
-    reject_listed_sizes(texts);
+    reject_listed_particles(texts);
     return texts;
 }
 

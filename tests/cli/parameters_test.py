@@ -17,13 +17,13 @@ ROW = re.compile(r"^\| `(\w+)` \|", re.MULTILINE)
 # Other values for parameters that do not accept 0.9 times their default.
 OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mixture": "2:1.2",
          "speed": "2", "path": "circle", "direction": "clockwise", "frictionless": "bulk", "path_phase": "90",
-         "sizes": "uniform:0.9:1.1", "ramp": "mu=0.5:0.7@2..9", "periods": "50", "warmup": "2", "seed": "7",
+         "sizes": "uniform:0.9:1.1", "initial": "states 2:0:1:0:0", "ramp": "mu=0.5:0.7@2..9", "periods": "50", "warmup": "2", "seed": "7",
          "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
          "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
          "container_radius": "9", "gravity": "2", "rolling_resistance": "0.01", "vertical_disc": "0.5", "vertical_wall": "0.5",
          "events_per_sample": "7"}
 # Only in results of runs that set them.
-IF_SET = {"direction", "events_per_sample", "frictionless", "path_phase", "ramp", "sizes"}
+IF_SET = {"direction", "events_per_sample", "frictionless", "initial", "path_phase", "ramp", "sizes"}
 # Only in results of spheres or floors, and the options that they require.
 OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc",
               "vertical_wall"}

@@ -14,8 +14,8 @@ PROGRAMS = (".cpp", ".hpp", ".inc", ".py", ".ts", ".mjs", ".js", ".sh", ".css", 
 # Part: folders, folders in them that belong to another part, most lines.
 LINES = {
     # Goal 42,000. The rest are exports, movie plots, path shapes, size laws, linked cells and the journal: each is
-    # a loss for users. Tables of points for sweeps came later (360 lines).
-    "engine": (["src"], [], 46_700),
+    # a loss for users. Tables of points for sweeps (360 lines) and initial states (170) came later.
+    "engine": (["src"], [], 46_870),
     # Goal 8,000. The rest is the chapters on published work and the judge of 62 claims.
     "paper": (["paper"], [], 10_400),
     # Goal 9,000. It is reached when the parts that change no verdict are gone.

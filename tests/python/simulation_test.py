@@ -266,7 +266,7 @@ def test_the_polygon_as_an_array_gives_the_bitwise_identical_run(tmp_path):
             assert again.state_hash == whole.state_hash
 
 
-def test_a_run_takes_a_path_and_sizes_as_arrays():
+def test_a_run_takes_a_path_sizes_and_states_as_arrays():
     triangle = np.array([[0, 1, 0], [4, -1, 1], [8, -1, -1], [12, 1, 0]], dtype=float)
     run = swirl.run(discs=10, path=triangle, events=3000)
     assert run.config["period"] == 12 and run.config["path"].startswith("points 0")
@@ -277,6 +277,13 @@ def test_a_run_takes_a_path_and_sizes_as_arrays():
     np.testing.assert_array_equal(with_mass.snapshot().mass, [1, 3])
     spheres = swirl.Simulation(sizes=[1, 0.5], body="sphere")
     np.testing.assert_array_equal(spheres.snapshot().mass, [1, 0.125])
+    start = swirl.Simulation(discs=9).snapshot()
+    states = np.column_stack((start.position, start.velocity, start.spin))
+    assert swirl.run(initial=states, events=1000).state_hash == swirl.run(discs=9, events=1000).state_hash
+    with pytest.raises(TypeError, match="columns x, y, vx, vy and spin"):
+        swirl.run(initial=states[:, :4])
+    with pytest.raises(ValueError, match="initial and position are both given"):
+        swirl.Simulation(initial=states, position=start.position)
     with pytest.raises(ValueError, match="times must increase"):
         swirl.run(discs=3, path=triangle[[0, 2, 1, 3]])
     with pytest.raises(ValueError, match="not closed"):
@@ -346,13 +353,13 @@ two = [[1.0, 0.0], [4.0, 0.0]]
     (dict(position=3), "position has shape one number, but"), (dict(path=3), "path has shape one number, but"),
     (dict(position=[]), "position has shape 0, but it must be N × 2"),
     (dict(position=np.zeros((0, 2))), "at least one disc"),
-    (dict(position=[[0, float("nan")]]), "position contains nan"),
+    (dict(position=[[0, float("nan")]]), "y of disc 0 is nan"),
     (dict(position=two, velocity=[[1, 1]]), "velocity has shape 1 × 2, but it must be 2 × 2"),
-    (dict(position=two, velocity=[[1, 1], [np.inf, 0]]), "velocity contains inf"),
+    (dict(position=two, velocity=[[1, 1], [np.inf, 0]]), "vx of disc 1 is inf"),
     (dict(position=two, spin=[1, 2, 3]), "spin has shape 3, but it must be 2 numbers"),
-    (dict(position=two, radius=[1, -1]), "radius is -1 for one disc"),
-    (dict(position=two, mass=[1, 0]), "mass is 0 for one disc"),
-    (dict(position=two, inertia=[1, 0]), "inertia is 0 for one disc"),
+    (dict(position=two, radius=[1, -1]), "radius of disc 1 is -1"),
+    (dict(position=two, mass=[1, 0]), "mass of disc 1 is 0"),
+    (dict(position=two, inertia=[1, 0]), "inertia of disc 1 is 0"),
     (dict(position=two, discs=2), "discs and position are both given"),
     (dict(velocity=two), "velocity is given for each disc, but position is not"),
     (dict(position=two, body="sphere"), "only for discs without a floor"),
@@ -361,7 +368,7 @@ two = [[1.0, 0.0], [4.0, 0.0]]
     (dict(path=two, path_times=[0, 20]), "times must increase"),
     (dict(path=two, path_times=[1, 2]), "begins with 1"),
     (dict(path=two, path_times=[0, 1, 2]), "path_times has shape 3, but"),
-    (dict(path=[[0, 0], [1e9, 0]]), "path contains 1000000000"), (dict(position=two, spin=1e200), "spin contains 1e"),
+    (dict(path=[[0, 0], [1e9, 0]]), "path contains 1000000000"), (dict(position=two, spin=1e200), "spin of disc 0 is 1e"),
     (dict(path=two, amplitude=2), "both define the path"),
     (dict(path_times=[0, 1]), "path_times is given, but path is not"),
     (dict(path="spiral"), "path is 'spiral'"), (dict(position=two, mu=-1), "mu is '-1'"),

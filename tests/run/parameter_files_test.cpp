@@ -51,6 +51,8 @@ TEST_F(ParameterFiles, PathsAreReadInEveryCommonForm) {
               "list 1:2 0.5:1");
     EXPECT_EQ(with_file_contents("sizes", "file:" + written("1\n0.5\n")), "list 1 0.5");
     EXPECT_EQ(with_file_contents("sizes", "file:" + written("id,r\n3,1\n4,0.5\n")), "list 1 0.5");
+    EXPECT_EQ(with_file_contents("initial", written("y,x,vx,vy,spin\n0,2,0,1,-1\n3,2,0,1,0\n")),
+              "states 2:0:0:1:-1 2:3:0:1:0");
 }
 
 TEST_F(ParameterFiles, OtherTextsAreLeftAlone) {
@@ -96,6 +98,8 @@ TEST_F(ParameterFiles, HostileFilesAreRejected) {
     for (int k = 0; k < 30000; ++k) many += std::to_string(k) + ",1,0\n";
     expect_error(many, "more than 20000 rows");
     expect_error(std::string((1 << 24) + 2, '#'), "more than 16 MB");
+    for (const char* text : {"x,y,vx,vy\n2,0,0,0\n", "2,0,0,0\n", "x,y,vx,vy,spin\n2,0,0,0,nan\n"})
+        EXPECT_THROW(with_file_contents("initial", written(text)), UsageError) << text;
 }
 
 TEST_F(ParameterFiles, OnlyRegularFilesAreRead) {

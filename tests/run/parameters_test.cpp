@@ -76,6 +76,7 @@ std::string another(const Parameter& p) {
                                                              {"container_radius", "9"},
                                                              {"direction", "clockwise"},
                                                              {"sizes", "uniform:0.9:1.1"},
+                                                             {"initial", "states 2:0:1:0:0"},
                                                              {"periods", "50"},
                                                              {"warmup", "7"},
                                                              {"ramp", "mu=0.5:0.7@2..9"},

@@ -136,7 +136,7 @@ TEST(SearchOptions, ASearchMakesTheRunsOfItsOptionsOrRefusesThem) {
             return known_run(config);
         };
         try {
-            reject_listed_sizes(texts);
+            reject_listed_particles(texts);
             ParameterTexts largest = texts;
             largest["discs"] = std::to_string(settings.to);
             settings.config = resolve(largest);

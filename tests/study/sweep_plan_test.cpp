@@ -5,6 +5,7 @@
 #include "io/scratch.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/sweep_plan.hpp"
 
 namespace swirl {
@@ -51,6 +52,7 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
         const std::string value = name == "mixture"        ? "2:1.2"
                                   : name == "frictionless" ? "bulk"
                                   : name == "sizes"        ? "uniform:0.9:1.1"
+                                  : name == "initial"      ? "states 2:0:1:0:0"
                                   : name == "ramp"         ? "mu=0.5:0.7@2..9"
                                   : name == "warmup"       ? "7"
                                   : name == "periods"      ? "50"
@@ -64,6 +66,15 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
         ASSERT_EQ(plan.axes.size(), given.size());
         EXPECT_NE(plan.axis(name), nullptr);
     }
+}
+
+TEST(SweepPlan, EqualRunsFromGivenStatesAreRejected) {
+    const ParameterTexts states{{"initial", "states 2:0:0:0:0"}, {"mu", "0.1,0.5"}};
+    EXPECT_EQ(make_plan(states, 1).points(), 2u);
+    EXPECT_THROW(make_plan(states, 2), UsageError);
+    EXPECT_THROW(reject_listed_particles(states), UsageError);
+    EXPECT_THAT(error_of({{"initial", "states 2:0:0:0:0"}, {"seed", "1,2"}}),
+                testing::HasSubstr("seed"));
 }
 
 TEST(SweepPlan, AnAxisWithoutEffectIsRejected) {

@@ -13,7 +13,7 @@ interface Field {
 
 const main = ["discs", "mu", "amplitude"];
 /** The page has runs of any length, without ramps: moving a slider is the ramp. Samples are chosen by the engine. */
-const notShown = ["events", "events_per_sample", "frictionless", "periods", "ramp"];
+const notShown = ["events", "events_per_sample", "frictionless", "initial", "periods", "ramp"];
 const groups = {
     friction: ["mu_disc", "mu_wall"],
     particles: ["preset", "body", "radius", "mass", "inertia", "mixture", "sizes"],

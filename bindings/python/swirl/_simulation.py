@@ -46,7 +46,7 @@ class Simulation:
         if discs and position is None:
             raise ValueError(f"{next(iter(discs))} is given for each disc, but position is not.")
         columns = {name: _floats(name, values) for name, values in discs.items()}
-        for name in ("discs", "mixture", "sizes"):
+        for name in ("discs", "mixture", "sizes", "initial"):
             if columns and parameters.get(name) is not None:
                 raise ValueError(f"{name} and position are both given, but both define the discs.")
         custom_path = None

@@ -58,7 +58,7 @@ std::string name_of(const SweepPlan& plan, const ParameterTexts& texts) {
 
 SweepPlan plan_of(const CrossingCall& call) {
     ParameterTexts given = overridden(defaults, *call.parameters);
-    reject_listed_sizes(given);
+    reject_listed_particles(given);
     given["discs"] = std::to_string(call.settings.to);  // the largest number that must fit
     return make_plan(given, 1);
 }

@@ -10,6 +10,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/initial_parameter.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/ramp.hpp"
@@ -250,6 +251,7 @@ std::string no_placement_message(const RunConfig& c) {
 InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* stop) {
     // A configuration may have been changed since resolve() validated it.
     if (const auto message = problem(c)) throw_usage_error(*message);
+    if (!c.initial.empty()) return given_initial_state(c);
     const std::vector<ParticleProperties> particles = particles_of(c);
     std::vector<double> radii;
     radii.reserve(particles.size());

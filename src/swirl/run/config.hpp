@@ -24,7 +24,7 @@ const char* body_word(const RunConfig& config);
 /// configuration's.
 InitialState without_discs(const RunConfig& config, const ContainerPath& path);
 
-/// The initial state: discs placed without overlap, with small random velocities relative to the
+/// The initial state: that of --initial, or discs placed without overlap, with small random velocities relative to the
 /// container, all determined by the seed. Throws UsageError if the discs do not fit, Interrupted if
 /// `stop` is set meanwhile (the placement may take seconds).
 InitialState make_initial_state(const RunConfig& config, const std::atomic<bool>* stop = nullptr);

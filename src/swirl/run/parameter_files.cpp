@@ -101,14 +101,22 @@ std::string sizes_text(const std::string& text) {
                                max_listed_sizes);
 }
 
+std::string initial_text(const std::string& text) {
+    if (text.starts_with("states ") || text.empty()) return text;
+    return "states" + table_rows("--initial", text,
+                                 {{{"x"}}, {{"y"}}, {{"vx"}}, {{"vy"}}, {{"spin"}}},
+                                 max_listed_sizes);
+}
+
 }  // namespace
 
 std::string with_file_contents(std::string_view name, const std::string& text) {
     const std::string plain = plain_name(name);
-    if (plain != "path" && plain != "sizes") return text;
-    const auto read = [&](const std::string& one) {
-        return plain == "path" ? path_text(one) : sizes_text(one);
-    };
+    const auto read = plain == "path"      ? path_text
+                      : plain == "sizes"   ? sizes_text
+                      : plain == "initial" ? initial_text
+                                           : nullptr;
+    if (!read) return text;
     const bool is_one_file = is_there(text) || text.find(',') == text.npos;
     if (is_one_file) return read(text);
     std::string list;

@@ -9,6 +9,7 @@
 
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/initial_parameter.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/ramp.hpp"
@@ -457,6 +458,8 @@ RunConfig resolve(const ParameterTexts& given) {
     read_all(ReadingOrder::last);
     reject_parameters_without_floor(texts, config);
     if (const auto message = problem(config)) throw_usage_error(*message);
+    // It depends on the final path and sizes, so it is not part of problem().
+    if (const auto message = problem_with_initial(config)) throw_usage_error(*message);
     return config;
 }
 

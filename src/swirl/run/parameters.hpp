@@ -75,6 +75,11 @@ struct Mixture {
 
 /// Laws of the radii (particle_sizes.hpp).
 enum class SizeLaw { uniform, normal, lognormal, power, listed };
+/// State of one disc at the start of a run, in the lab frame (initial_parameter.hpp).
+struct InitialMotion {
+    Vec2 position, velocity;
+    double spin;
+};
 struct ListedSize {
     double radius;
     std::optional<double> mass;  // default: mass of the same material
@@ -121,6 +126,7 @@ struct RunConfig {
     double period = paper_period;
     std::optional<Mixture> mixture;
     std::optional<Sizes> sizes;
+    std::vector<InitialMotion> initial;  // one per disc; empty: random
 
     /// The run ends after this many events of all kinds, as in the paper. If `periods` is set, it
     /// ends after that many periods instead. Both include the warm-up.
@@ -186,11 +192,11 @@ using ParameterFormatter = std::string(const RunConfig& config);
 
 /// Most parameters are a plain member of RunConfig; the others have their own functions.
 ParameterReader read_preset, read_mu, read_frictionless, read_body, read_inertia, read_floor,
-    read_mixture, read_sizes, read_speed, read_path, read_direction, read_sides, read_periods,
-    read_warmup, read_ramp;
-ParameterWriter write_frictionless, write_body, write_floor, write_mixture, write_sizes,
-    write_speed, write_omega, write_path, write_direction, write_sides, write_events, write_warmup,
-    write_ramp;
+    read_initial, read_mixture, read_sizes, read_speed, read_path, read_direction, read_sides,
+    read_periods, read_warmup, read_ramp;
+ParameterWriter write_initial, write_frictionless, write_body, write_floor, write_mixture,
+    write_sizes, write_speed, write_omega, write_path, write_direction, write_sides, write_events,
+    write_warmup, write_ramp;
 ParameterFormatter format_inertia, format_mixture;
 
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
@@ -379,6 +385,16 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .default_text = "",
      .written = WrittenIf::set,
      .overrides = {"mixture"}},
+    {.name = "initial",
+     .form = "FILE",
+     .description = "CSV file with initial x, y, vx, vy, spin of the discs",
+     .details = "In the lab frame (docs/how-to/sizes.md). Only for discs without a floor.",
+     .group = parameter_group::particles,
+     .read = read_initial,
+     .write = write_initial,
+     .default_text = "",
+     .written = WrittenIf::set,
+     .overrides = {"discs"}},
     {.name = "restitution",
      .symbol = "e",
      .form = "0..1",

@@ -199,12 +199,16 @@ void require_crossing(const RunConfig& config) {
             "ramp is given, but a search for N_c needs a steady state.\nhint: omit it.");
 }
 
-void reject_listed_sizes(const ParameterTexts& given) {
+void reject_listed_particles(const ParameterTexts& given) {
     const auto sizes = given.find("sizes");
     if (sizes != given.end() && sizes->second.find("list ") != std::string::npos)
         throw UsageError(
             "--sizes lists every particle, but a search for N_c varies their number.\nhint: give a "
             "distribution, such as --sizes normal:1:0.1.");
+    if (given.contains("initial"))
+        throw UsageError(
+            "--initial gives every disc, but a search for N_c varies their number.\nhint: omit "
+            "it.");
 }
 
 CrossingResult search_crossing(const CrossingSettings& settings, const CrossingControl& control) {

@@ -125,7 +125,7 @@ void require_crossing(const RunConfig& config);
 
 /// Throws UsageError if the parameters list the sizes of all particles: a search varies their
 /// number.
-void reject_listed_sizes(const ParameterTexts& given);
+void reject_listed_particles(const ParameterTexts& given);
 
 /// The sign of a rotation with the swirl: −1 on a clockwise path.
 inline double swirl_sign(const RunConfig& config) { return config.clockwise ? -1.0 : 1.0; }

@@ -265,7 +265,7 @@ SweepPlan make_map_plan(const MapSettings& s) {
         }
     if (given.contains("events")) given.erase("periods");
     if (target.is_of_crossing()) {
-        reject_listed_sizes(given);
+        reject_listed_particles(given);
         given["discs"] = fmt::format("{}:{}", s.from, s.to);
     }
     SweepPlan plan = make_plan(given, s.max_runs);

@@ -306,8 +306,8 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
         if (part.empty())
             throw UsageError(fmt::format("{} is '{}', but a value in the list is empty.",
                                          option_name(name), text));
-        const bool has_colons =
-            name == "mixture" || name == "path" || name == "sizes" || name == "ramp";
+        const bool has_colons = name == "mixture" || name == "path" || name == "sizes" ||
+                                name == "ramp" || name == "initial";
         if (part.find(':') != part.npos && !has_colons) {
             const auto more = range(name, part);
             values.insert(values.end(), more.begin(), more.end());
@@ -323,6 +323,7 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
 std::uint64_t identity_of(RunConfig config) {
     if (!config.uses_contact_duration()) config.contact_duration = RunConfig{}.contact_duration;
     if (config.mixture) config.mixture->percent.reset();
+    if (!config.initial.empty() && !config.sizes) config.seed = 0;
     return checksum(config_text(config));
 }
 
@@ -342,6 +343,13 @@ void validate(const SweepPlan& plan) {
     if (const double count = number_of_runs(plan); count > double(max_points))
         throw UsageError(fmt::format("the call plans {:.3g} runs, but at most {} are possible.",
                                      count, max_points));
+    const bool has_replicates =
+        plan.is_table() ? std::ranges::any_of(plan.row_replicas, [](auto n) { return n > 1; })
+                        : plan.replicas > 1;
+    if (has_replicates && plan.axis("initial") && !plan.axis("sizes"))
+        throw UsageError(
+            "replicates of a point would be equal, because --initial gives their state.\nhint: use "
+            "one replicate.");
     if (plan.is_table()) {
         if (plan.axes.empty() || plan.map || plan.search)
             throw UsageError("a table of points has columns, and is not that of a map or search.");

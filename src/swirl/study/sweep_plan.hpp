@@ -127,7 +127,7 @@ SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
 SweepPlan extended(const SweepPlan& plan, SweepPlan larger,
                    const std::vector<std::string>& measure);
 
-/// Equal for equal runs.
+/// Equal for equal runs: the seed has no effect if the initial state is given.
 std::uint64_t identity_of(RunConfig config);
 
 /// Throws UsageError for a value with which a point cannot be run, and for equal runs.
