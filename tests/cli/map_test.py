@@ -5,9 +5,7 @@ import csv
 import io
 import json
 import os
-import random
 import subprocess
-import time
 import unittest
 
 import private_slurm
@@ -57,25 +55,6 @@ class Map(InFolder):
         self.assertFalse(os.path.exists(self.path("two/map.csv")))  # left to a call without a part
         self.good("map", "--out", self.path("two"), "--no-figure", "--quiet")
         self.assertEqual((self.table(self.path("two")), self.results(self.path("two"))), (table, results))
-
-    def test_repeated_calls_complete_a_map_that_is_killed(self):
-        begin = time.monotonic()
-        table, results = self.whole()
-        longest = 0.7 * (time.monotonic() - begin)
-        choose = random.Random(7)
-        kills = 0
-        for _ in range(200):
-            process = subprocess.Popen([SWIRL, *MAP, "--out", self.path("killed")], stderr=subprocess.PIPE)
-            try:
-                process.communicate(timeout=choose.uniform(0.01, longest) if kills < 8 else 100)
-                break
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.communicate()
-                kills += 1
-        self.assertEqual(process.returncode, 0)
-        self.assertGreater(kills, 0)
-        self.assertEqual((self.table(self.path("killed")), self.results(self.path("killed"))), (table, results))
 
     def test_lost_and_damaged_results_are_made_again(self):
         table, results = self.whole()

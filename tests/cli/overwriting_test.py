@@ -258,13 +258,6 @@ saved[sys.argv[2]] = int(sys.argv[3])
             subprocess.run(["/usr/bin/python3", "-c", floor, self.path("changed.h5"), attribute, str(value)],
                            check=True)
             self.assert_rejected("verify", self.path("changed.h5"), says="differs from frame 0")
-        for part, value in (("energy", 0.5), ("periods", None), ("max_overlap", "0")):
-            with open(self.path("r.json")) as opened:
-                result = json.load(opened)
-            result[part] = value
-            with open(self.path("changed.json"), "w") as opened:
-                json.dump(result, opened)
-            self.assert_rejected("verify", self.path("changed.json"), says=part + " is")
 
 
 class Names(InFolder):

@@ -82,14 +82,6 @@ class Everywhere(InFolder):
         self.assertEqual(swirl("run", "--mu_disc", "0.5", "--dry-run").stdout,
                          swirl("run", "--mu-disc=0.5", "--dry-run").stdout)
 
-    def test_axis_of_a_sweep(self):
-        for name, option in GIVEN.items():
-            with self.subTest(name):
-                done = swirl("sweep", option, another(name), *WITH.get(name, []), "--out",
-                             self.path("s"), "--dry-run")
-                self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertIn(f"  {name}: {another(name)}", done.stdout)
-
     def test_identity_of_a_resumed_run(self):
         call = [SWIRL, "run", "--events", "1e14", "--quiet", "--checkpoint", self.path("kept")]
         process = subprocess.Popen(call, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -64,26 +64,6 @@ class Simd(InFolder):
         resumed = self.result(last, "--checkpoint", checkpoint, "--resume", "--periods", 30)
         self.assertEqual(resumed["state_hash"], whole["state_hash"])
 
-    def test_verify_compares_the_results_of_two_widths(self):
-        result = self.path("result.json")
-        made = swirl("run", "--discs", 48, "--periods", 5, "--json", result, "--quiet",
-                     environment={"SWIRL_SIMD": widths()[0]})
-        self.assertEqual(made.returncode, 0, made.stderr)
-        done = swirl("verify", result, environment={"SWIRL_SIMD": widths()[-1]})
-        self.assertEqual(done.returncode, 0, done.stderr)
-
-    def test_a_sweep_has_the_same_table(self):
-        tables = []
-        for width in widths():
-            folder, table = self.path(width), self.path(width + ".csv")
-            for call in (("sweep", "--discs", "5,9", "--periods", 12, "--out", folder, "--quiet"),
-                         ("collect", folder, "--csv", table)):
-                done = swirl(*call, environment={"SWIRL_SIMD": width})
-                self.assertEqual(done.returncode, 0, done.stderr)
-            with open(table, "rb") as file:
-                tables.append(file.read())
-        self.assertEqual(len(set(tables)), 1)
-
     def test_unknown_and_unsupported_widths_are_rejected_by_every_command(self):
         for command in (("run", "--discs", 5, "--events", 1000), ("sweep", "--out", self.path("s")),
                         ("verify", self.path("none.json"))):
