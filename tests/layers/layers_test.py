@@ -145,7 +145,23 @@ def bindings_sources():
         yield from (os.path.join(folder, name) for name in names if name.endswith((".hpp", ".cpp")))
 
 
+def depends_on(header, file, known):
+    """Whether the file includes the header, perhaps through others. `known` are the answers so far."""
+    if file not in known:
+        known[file] = False  # for headers that include each other
+        known[file] = any(what == header or depends_on(header, header_of(what), known)
+                          for what, quoted in includes(file) if quoted and layer_of(what))
+    return known[file]
+
+
 class Layers(unittest.TestCase):
+    def test_a_change_of_the_collision_law_compiles_the_event_loops_only(self):
+        # Each event loop takes longer to compile than a whole layer, so nothing else is to be compiled then.
+        known = {}
+        compiled = {os.path.basename(file) for file in all_sources() if file.endswith(".cpp")
+                    and depends_on("swirl/physics/collision_law.hpp", file, known)}
+        self.assertEqual(compiled, {f"event_loop_{name}.cpp" for name in ("avx2", "avx512", "baseline", "partial_friction")})
+
     def test_every_folder_of_src_is_a_layer(self):
         self.assertEqual(os.listdir(os.path.join(SOURCE, "src")), ["swirl"])
         self.assertEqual(set(os.listdir(os.path.join(SOURCE, "src", "swirl"))), set(ENGINE_PROGRAM))

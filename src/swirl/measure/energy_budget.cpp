@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/body.hpp"
 
 namespace swirl {
 namespace {

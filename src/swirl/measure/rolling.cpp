@@ -1,7 +1,5 @@
 #include "swirl/measure/rolling.hpp"
 
-#include "swirl/physics/collision_law.hpp"
-
 namespace swirl {
 namespace {
 

@@ -95,6 +95,7 @@
 
 #include "swirl/math/real.hpp"
 #include "swirl/math/vec2.hpp"
+#include "swirl/physics/body.hpp"
 #include "swirl/physics/contact.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/floor.hpp"
@@ -113,27 +114,6 @@ SWIRL_INLINE constexpr bool is_elastic_by_tc_model(const Surface& surface, doubl
 SWIRL_INLINE constexpr Surface at_contact(Surface surface, double since_last) {
     if (is_elastic_by_tc_model(surface, since_last)) surface.restitution = 1.0;
     return surface;
-}
-
-/// The properties of a body that the law uses, at the instant of contact.
-struct Body {
-    Vec2 velocity;
-    double spin;
-    double radius;
-    double inverse_mass, inverse_inertia;
-};
-
-/// A sphere has two more spins (ω_x, ω_y).
-struct SphereBody : Body {
-    Vec2 rolling_spin;
-};
-
-/// The wall has infinite mass and does not turn.
-SWIRL_INLINE constexpr Body wall_body(const Vec2& velocity) {
-    return {velocity, 0.0, 0.0, 0.0, 0.0};
-}
-SWIRL_INLINE constexpr SphereBody wall_for_spheres(const Vec2& velocity) {
-    return {wall_body(velocity), {0.0, 0.0}};
 }
 
 /// For discs, a tangential quantity has one component, along r. It is the slip of a contact, the

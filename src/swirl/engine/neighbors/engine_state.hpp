@@ -8,7 +8,6 @@
 #include <cstdint>
 
 #include "swirl/engine/pending_event.hpp"
-#include "swirl/physics/collision_law.hpp"
 #include "swirl/physics/container_path.hpp"
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/event.hpp"
