@@ -134,7 +134,9 @@ def curve(axes, rows, x, y, **look):
     if not np.isfinite(column(rows, y)).any():
         return axes.errorbar([], [], **look)
     bars = column(rows, y + "_error")
-    if axes.get_yscale() == "log":
+    if not np.isfinite(bars).any():  # a video of few periods; matplotlib needs a finite one
+        bars = None
+    elif axes.get_yscale() == "log":
         bars = log_errors(column(rows, y), bars)
     across = column(rows, x + "_error") if x + "_error" in rows[0] else None
     mark = axes.errorbar(column(rows, x), column(rows, y), bars, across, **({"elinewidth": 0.7} | look))

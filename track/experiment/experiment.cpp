@@ -16,6 +16,7 @@
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/statistics/few_blocks.hpp"
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/python_script.hpp"
 #include "track/experiment/camera_sampled_run.hpp"
@@ -28,8 +29,6 @@ namespace {
 
 /// Radii and amplitudes of the same container agree within this share.
 constexpr double same_container = 0.02;
-/// With fewer blocks (periods) an error is only a rough estimate.
-constexpr std::size_t few_blocks = 5;
 
 const std::vector<std::string>& numbers_against_n() {
     static const std::vector<std::string> names{"slip.cluster_perimeter",
@@ -433,12 +432,11 @@ void Experiment::add_video_findings(const ContainerVideo& video, const Json& sim
                                 std::abs(seen.mean - run.mean) / error);
     }
     findings.push_back(text + ".");
-    const Json& blocks = at(video.result, {"rotation", "mean_by_time", "blocks"});
-    if (blocks.is_number_integer() && blocks.get<std::size_t>() < few_blocks)
+    if (std::isnan(seen.error))
         findings.push_back(fmt::format(
-            "{} shows {:.1f} periods: an error from {} blocks is only a rough estimate. Twenty "
-            "periods would make it reliable.",
-            video.name, number(at(video.result, {"periods"})), blocks.get<std::size_t>()));
+            "{} shows {:.1f} periods, too few for an error, so it is not compared with the "
+            "simulation: {} are needed, and twenty make the error reliable.",
+            video.name, number(at(video.result, {"periods"})), min_blocks_of_an_error));
     for (const char* name : {"container-radius", "amplitude"}) {
         const double median = name[0] == 'c' ? radius_ : amplitude_;
         const double measured = of_camera(video, name);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "swirl/io/trajectory.hpp"
 #include "swirl/measure/observation.hpp"
@@ -11,6 +12,7 @@
 #include "swirl/run/json.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/simd.hpp"
+#include "swirl/statistics/few_blocks.hpp"
 
 namespace swirl {
 
@@ -40,6 +42,36 @@ std::string rate_remark(const std::vector<std::string>& names, double rate) {
         "hint: record {} frames per period, or use `swirl run --measure`.",
         rate > 0.0 ? fmt::format("{:.3g} frames per period are", rate) : "a single frame is",
         fmt::join(missing, "; "), samples_per_period);
+}
+
+/// The whole periods that the frames show; each frame stands for a step of time.
+std::size_t whole_periods(const MeasuredSeries& measured) {
+    constexpr double rounding = 0.02;  // periods: the period of a video is measured
+    const double step = measured.frames_per_period > 0.0 ? 1.0 / measured.frames_per_period : 0.0;
+    return static_cast<std::size_t>(std::max(measured.periods, 0.0) + step + rounding);
+}
+
+/// Corrects the errors for few blocks. A recording begins and ends within a period, and parts of
+/// periods count as no block. All columns of a table are averages over the same blocks.
+void correct_errors(MeasuredSeries& measured) {
+    const std::size_t all = whole_periods(measured);
+    const auto factor = [&](std::size_t blocks) {
+        return few_blocks_factor(std::min(blocks, all));
+    };
+    const auto correct = [&](Estimate& e) {
+        if (e.blocks > 0) e.error *= factor(e.blocks);
+    };
+    correct(measured.rotation.mean_by_time);
+    correct(measured.rotation.rigid_by_time);
+    for (MeasurementReport& measurement : measured.reports) {
+        for (ReportRow& row : measurement.report.rows) correct(row.estimate);
+        for (ReportTable& table : measurement.report.tables)
+            for (std::size_t c = 0; c < table.columns.size(); ++c) {
+                if (!table.columns[c].name.ends_with("_error")) continue;
+                for (std::size_t r = 0; r < table.rows(); ++r)
+                    table.values[r * table.columns.size() + c] *= factor(all);
+            }
+    }
 }
 
 }  // namespace
@@ -123,6 +155,12 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     measured.rotation = rotation.estimates();
     measured.reports = observation.report();
     measured.periods = series.frame(series.frames - 1).time() / first.period - skip;
+    correct_errors(measured);
+    if (measured.frames > 1 && whole_periods(measured) < min_blocks_of_an_error)
+        measured.remark += fmt::format(
+            "{}errors are n/a, because {:.1f} periods are too few for an error: {} are needed, and "
+            "twenty make it reliable.",
+            measured.remark.empty() ? "" : "\n", measured.periods, min_blocks_of_an_error);
     return measured;
 }
 

@@ -1,5 +1,6 @@
 // The measurements on recorded frames: of a trajectory, of a camera's tracks, or of a run sampled
-// as a camera would. Blocks are whole periods, as in a run.
+// as a camera would. Blocks are whole periods, as in a run. Recordings are often short, so errors are
+// corrected for few blocks (few_blocks.hpp).
 #pragma once
 
 #include <atomic>
@@ -21,7 +22,7 @@ struct MeasuredSeries {
     std::size_t discs = 0;     // maximum over the frames
     double periods = 0.0;
     double frames_per_period = 0.0;
-    /// Values that are missing because of the frame rate. A warning without "warning:"; "" if none.
+    /// Values that are missing because of the frame rate or of the length. A warning without "warning:"; "" if none.
     std::string remark;
 };
 
