@@ -254,8 +254,8 @@ Video::Video(std::string source, std::int64_t every, std::int64_t first, FieldOr
         every > 1 || first > 0
             ? fmt::format("select=gte(n\\,{0})*not(mod(n-{0}\\,{1})),", first, every)
             : "";
-    append(arguments,
-           {"-vf", deinterlace + select + "settb=1/25,setpts=N", "-enc_time_base", "1:25"});
+    append(arguments, {"-vf", deinterlace + select + square_pixels + ",settb=1/25,setpts=N",
+                       "-enc_time_base", "1:25"});
     append(arguments, {"-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1"});
     ffmpeg_ = std::make_unique<Ffmpeg>(arguments, Ffmpeg::Side::output, missing_ffmpeg);
 }

@@ -9,6 +9,9 @@
 
 namespace swirl {
 
+/// Filter that makes the pixels of a video square, as its sample aspect ratio says.
+inline constexpr const char* square_pixels = "scale=round(iw*sar):ih";
+
 class Ffmpeg {
   public:
     /// The end of ffmpeg that the socket is connected to. With `both`, it is a filter: what is sent

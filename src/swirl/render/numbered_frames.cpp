@@ -94,8 +94,8 @@ void NumberedFrames::start_ffmpeg(std::int64_t number) {
         add({"-f", "image2", "-start_number", std::to_string(number)});
         next_ = number;
     }
-    add({"-i", "file:" + pattern_, "-an", "-fps_mode", "passthrough", "-c:v", "ppm", "-f",
-         "image2pipe", "pipe:1"});
+    add({"-i", "file:" + pattern_, "-an", "-fps_mode", "passthrough", "-vf", square_pixels, "-c:v",
+         "ppm", "-f", "image2pipe", "pipe:1"});
     ffmpeg_ = std::make_unique<Ffmpeg>(
         arguments, Ffmpeg::Side::output,
         fmt::format("reading '{}' needs the program ffmpeg, which was not found.\n"
