@@ -9,7 +9,8 @@ SWIRL is the program. Each video has 28 discs and is made by `swirl synthetic-vi
 per second, 2 periods per second, 640x480 pixels) with the options of its kind.
 
 In interlaced videos the odd rows are half a frame interval later than the even rows. The ground truth is that of
-the even rows. A video that is rejected with a hint is tracked again with the options of the hint.
+the even rows. A video by hand starts and stops, and its speed varies by a fourth. A video that is rejected with a
+hint is tracked again with the options of the hint.
 
 trackpy gets more than swirl: the size and the number of the discs, whether they are bright, and the position of
 the container in each frame, outside which the image is blank. Its diameter is the best of three on a few frames.
@@ -32,6 +33,7 @@ from program import swirl  # noqa: E402
 
 PERIOD = 15  # frames
 WIDTH, HEIGHT = 640, 480  # pixels
+REST, PAUSE = 4, 3.4  # periods: two seconds before the start, and a stop of 1.7 s
 COMMON = ["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23]
 LARGE = ["--width", 1920, "--height", 1080, "--scale", 44]
 # Name, options of synthetic-video, what is done to the video afterwards.
@@ -49,6 +51,10 @@ KINDS = [
     ("colour balls, patterned floor", ["--floor-pattern", 60, "--disc-variation", 0.25], None),
     ("transparent marbles", ["--transparency", 0.8, "--gloss", 180], None),
     ("coins", ["--flat", "--texture", 0.3, "--gloss", 0], None),
+    ("by hand", ["--speed-variation", 0.25, "--rest", REST, "--pause", PAUSE], "by hand"),
+    ("dark and bright", ["--disc-level", 40, "--other-level", 215, "--floor-level", 125, "--gloss", 0], None),
+    ("moving shadow", ["--shadow", 60], None),
+    ("pixels of 4:3", [], "anamorphic"),
 ]
 
 
@@ -62,16 +68,15 @@ class Video:
     def __init__(self, folder, kind, periods):
         self.name, options, after = kind
         made = os.path.join(folder, "made.mp4")
-        done = swirl("synthetic-video", *COMMON, "--length", periods, *options, "--out", made, "--quiet",
-                     "--overwrite", timeout=3000)
-        if done.returncode != 0:
-            sys.exit(done.stderr)
-        self.about = track_test.Truth(made).about
-        self.truth = track_test.positions(made[:-4] + ".truth.csv", "x_ideal", "y_ideal")
+        if after == "by hand":  # the true ϖ is that of the same periods at an even speed
+            self.make(made, [], periods)
+            even = self.truth
+            periods += REST + PAUSE
+        self.make(made, options, periods)
         self.centres = [(float(row["x_ideal"]), float(row["y_ideal"]))
                         for row in track_test.rows(made[:-4] + ".container.csv")]
         self.dark = self.name == "steel balls"
-        self.path, regular = made, self.truth
+        self.path, regular = made, even if after == "by hand" else self.truth
         if after == "uneven":
             regular = self.drop_frames(folder, made)
         elif after == "interlaced":
@@ -83,9 +88,20 @@ class Video:
                                     "stream_side_data=rotation", "-of", "csv=p=0", self.path],
                                    capture_output=True, check=True, text=True).stdout
             self.turns_left = float(angle.strip()) > 0.0
+        elif after == "anamorphic":
+            self.path = os.path.join(folder, "anamorphic.mp4")
+            ffmpeg("-i", made, "-vf", "scale=iw*3/4:ih,setsar=4/3", "-crf", 18, self.path)
         self.varpi = rotation(folder, regular, self.about)
         if after == "rotated":
             self.turn_truth()
+
+    def make(self, made, options, periods):
+        done = swirl("synthetic-video", *COMMON, "--length", periods, *options, "--out", made, "--quiet",
+                     "--overwrite", timeout=3000)
+        if done.returncode != 0:
+            sys.exit(done.stderr)
+        self.about = track_test.Truth(made).about
+        self.truth = track_test.positions(made[:-4] + ".truth.csv", "x_ideal", "y_ideal")
 
     def drop_frames(self, folder, made):
         """One frame in four, at uneven times that the file gives."""
@@ -176,7 +192,7 @@ def track(folder, video):
         said += done.stderr
         if done.returncode == 0:
             break
-        options = re.findall(r"--(?:from|to|accept) \S+|--discs", done.stderr.partition("hint:")[2])
+        options = re.findall(r"--(?:from|to|correct-frames) \S+|--discs", done.stderr.partition("hint:")[2])
         options = [word for option in options
                    for word in ((option, video.about["discs"]) if option == "--discs" else option.split())]
         if not options:
@@ -301,7 +317,8 @@ def main():
 
 def scores(result, with_error=True):
     """Cells of the table."""
-    varpi = f"{result.varpi[0]:+.3f}" + (f" ± {result.varpi[1]:.3f}" if with_error else "")
+    varpi = f"{result.varpi[0]:+.3f}" + (
+        f" ± {result.varpi[1]:.3f}" if with_error and math.isfinite(result.varpi[1]) else "")
     return [f"{100 * result.found:.1f} %", f"{result.swaps_per_thousand:.0f}", f"{result.rms:.2f}", varpi]
 
 

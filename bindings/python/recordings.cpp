@@ -16,6 +16,7 @@
 #include "swirl/io/trajectory.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measured_series.hpp"
+#include "track/tables/equal_steps.hpp"
 #include "track/tables/track_fit.hpp"
 #include "track/tables/track_repair.hpp"
 #include "track/tables/tracks.hpp"
@@ -79,7 +80,7 @@ class Recording {
 /// The columns of a trackpy table in a file. The radius is there only if `swirl track` wrote it.
 py::dict read_tracks(const std::string& file) {
     std::vector<std::int64_t> frame, particle;
-    std::vector<double> x, y, radius;
+    std::vector<double> x, y, radius, time;
     for (const TrackFrame& at : read_trackpy_csv(file).frames)
         for (std::size_t i = 0; i < at.id.size(); ++i) {
             frame.push_back(at.number);
@@ -87,6 +88,7 @@ py::dict read_tracks(const std::string& file) {
             x.push_back(at.position[i].x);
             y.push_back(at.position[i].y);
             if (!at.radius.empty()) radius.push_back(at.radius[i]);
+            if (at.time) time.push_back(*at.time);
         }
     py::dict columns;
     const auto add = [&](const char* name, auto&& column) {
@@ -98,17 +100,18 @@ py::dict read_tracks(const std::string& file) {
     add("x", std::move(x));
     add("y", std::move(y));
     add("radius", std::move(radius));
+    add("time", std::move(time));
     return columns;
 }
 
-/// Rows of a trackpy table in order of frames. `radius` may be empty.
+/// Rows of a trackpy table in order of frames. `radius` and `time` may be empty.
 std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers& particle,
                                   const Numbers& x, const Numbers& y, const Numbers& radius,
-                                  const py::dict& scale, double max_invalid) {
+                                  const Numbers& time, const py::dict& scale, double max_invalid) {
     const py::ssize_t n = frame.size();
     if (n == 0) throw UsageError("the tracks are empty.");
     if (particle.size() != n || x.size() != n || y.size() != n ||
-        (radius.size() != n && radius.size() != 0))
+        (radius.size() != n && radius.size() != 0) || (time.size() != n && time.size() != 0))
         throw UsageError("the columns of the tracks have different lengths.");
     Tracks tracks;
     tracks.y_down = true;
@@ -119,6 +122,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
         if (tracks.frames.empty() || tracks.frames.back().number != number) {
             tracks.frames.emplace_back();
             tracks.frames.back().number = number;
+            if (time.size() == n) tracks.frames.back().time = time.data()[k];
         }
         TrackFrame& at = tracks.frames.back();
         if (!at.id.empty() && at.id.back() >= id)
@@ -139,6 +143,7 @@ std::unique_ptr<Recording> tracks(const WholeNumbers& frame, const WholeNumbers&
     s.swirl_centre = {number("centre_x"), number("centre_y")};
     if (tracks.frames.size() == 1)
         throw UsageError("the tracks have a single frame, but velocities need at least two.");
+    tracks = at_equal_steps(std::move(tracks), s);
     repair(tracks, s.pixels_per_radius);
     FittedSeries fitted = fitted_series(tracks, s, max_invalid);
     auto recording = std::make_unique<Recording>(std::move(fitted.series));

@@ -18,8 +18,9 @@ LINES = {
     "engine": (["src"], [], 46_870),
     # Goal 8,000. The rest is the chapters on published work and the judge of 62 claims.
     "paper": (["paper"], [], 10_400),
-    # Goal 9,000. It is reached when the parts that change no verdict are gone.
-    "track": (["track"], ["track/tests"], 15_300),
+    # Goal 9,000. It is reached when the parts that change no verdict are gone. The phase of a container that is moved
+    # by hand takes 500.
+    "track": (["track"], ["track/tests"], 15_820),
     "page": (["web/src"], [], 6_500),
     # Goal 30,000.
     "tests": (["tests", "track/tests"], [], 44_400),

@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/output.hpp"
@@ -39,7 +42,7 @@ struct SyntheticVideoCall {
         floor, rim, table, flicker, tilt, towards, view_angle, rim_height, light_from,
         light_elevation, light_share, contrast;
     std::optional<double> rolling_shutter, auto_exposure, floor_pattern, disc_variation,
-        transparency, hands;
+        transparency, hands, other_disc, speed_variation, rest, pause, shadow;
     std::optional<int> width, height;
     int fps = 60, quality = 18;
     bool rolls = false, mirrored = false, still = false, flat = false, interlaced = false;
@@ -104,6 +107,9 @@ CameraSettings camera_settings(const SyntheticVideoCall& call, const RunConfig& 
     apply("auto-exposure", call.auto_exposure, camera.auto_exposure, 0.0, 0.9);
     apply("floor-pattern", call.floor_pattern, camera.floor_pattern, 0.0, 255.0);
     apply("disc-variation", call.disc_variation, camera.disc_variation, 0.0, 1.0);
+    if (call.other_disc) camera.other_disc = camera.disc;
+    apply("other-level", call.other_disc, camera.other_disc, 0.0, 255.0);
+    apply("shadow", call.shadow, camera.shadow, 0.0, 255.0);
     apply("transparency", call.transparency, camera.transparency, 0.0, 1.0);
     apply("width", call.width, camera.size.width, 64.0, 4096.0);
     apply("height", call.height, camera.size.height, 64.0, 4096.0);
@@ -128,6 +134,12 @@ void validate(const SyntheticVideoCall& call) {
                                      call.quality, worst_quality));
     if (!(call.periods > 0.0))
         throw UsageError(fmt::format("--length is {}, but it must be above 0.", call.periods));
+    for (const auto& [name, value, most] :
+         {std::tuple("speed-variation", call.speed_variation, 0.9),
+          std::tuple("rest", call.rest, 1e6), std::tuple("pause", call.pause, 1e6)})
+        if (value && !(*value >= 0.0 && *value <= most))
+            throw UsageError(
+                fmt::format("--{} is {}, but it must be from 0 to {}.", name, *value, most));
     if (!(call.start >= 0.0))
         throw UsageError(fmt::format("--start is {}, but it must be at least 0.", call.start));
     if (call.frames && *call.frames < 1)
@@ -149,6 +161,24 @@ void bring_container_to_rest(Snapshot& s) {
         s.set_motion(i, {p, v, s.clock}, s.orientation(i), s.spin[i]);
     }
     s.container_centre = s.container_velocity = {0.0, 0.0};
+}
+
+/// Periods of the path that have passed at a time of the video, as if a hand moved the container.
+double periods_at(const SyntheticVideoCall& call, double length, double time) {
+    constexpr double slow = 2.7;  // periods from one slow part to the next
+    const double half = 0.5 * (length - call.rest.value_or(0.0) - call.pause.value_or(0.0));
+    double moving = std::max(0.0, time - call.rest.value_or(0.0));
+    if (moving > half) moving = std::max(half, moving - call.pause.value_or(0.0));
+    return moving + call.speed_variation.value_or(0.0) * slow / (2.0 * pi) *
+                        (1.0 - std::cos(2.0 * pi * moving / slow));
+}
+
+/// Slows all motion down, as far as the exposure shows it.
+void slow_down(Snapshot& s, double rate) {
+    for (std::size_t i = 0; i < s.size(); ++i)
+        s.set_motion(i, {s.position(i), rate * s.velocity(i), s.clock}, s.orientation(i),
+                     rate * s.spin[i]);
+    s.container_velocity = rate * s.container_velocity;
 }
 
 /// Grey levels as YUV 4:2:0 planes, in the limited range of videos (16 to 235).
@@ -250,11 +280,19 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     GroundTruth truth;
     GreyPlanes planes(static_cast<std::size_t>(camera.size.width) *
                       static_cast<std::size_t>(camera.size.height));
+    const double length = double(frames) / double(camera.frames_per_period);
+    const bool by_hand = call.speed_variation || call.rest || call.pause;
+    constexpr double instant = 1e-4;  // periods
     ProgressLine line(fmt::format("{} frames", frames), call.quiet);
     for (std::int64_t k = 0; k < frames; ++k) {
         if (stopped.load())
             throw Interrupted("stopped before the last frame; no video was written.");
-        Snapshot s = playback(call.start + double(k) / double(camera.frames_per_period));
+        const double time = double(k) / double(camera.frames_per_period);
+        Snapshot s = playback(call.start + periods_at(call, length, time));
+        if (by_hand)
+            slow_down(s, 0.5 / instant *
+                             (periods_at(call, length, time + instant) -
+                              periods_at(call, length, time - instant)));
         if (call.still) bring_container_to_rest(s);
         writer.write(planes.of(view.render(s)));
         truth.add(k, s, view, camera);
@@ -336,13 +374,17 @@ void add_synthetic_video_command(Subcommand& subcommand) {
         "Brightness variation from disc to disc (colours) [0]");
     add("--transparency", call->transparency, "FRACTION",
         "Transparency of the discs: 0 opaque, 1 clear glass [0]");
+    add("--speed-variation", call->speed_variation, "FRACTION", "Speed variation, as by hand [0]");
+    add("--rest", call->rest, "PERIODS", "Time at rest before the motion starts [0]");
+    add("--pause", call->pause, "PERIODS", "Time at rest in the middle of the motion [0]");
     flag("--flat", call->flat, "Draw discs as flat coins with a bright edge");
+    add("--other-level", call->other_disc, "LEVEL", "Brightness of every second disc, of 255");
+    add("--shadow", call->shadow, "LEVELS", "Darkness of a shadow that moves over the table [0]");
     add("--light-from", call->light_from, "DEG",
         "Side of the light, counter-clockwise from +x [135]");
     add("--light-elevation", call->light_elevation, "DEG",
         "Elevation of the light above the floor; 90: above [60]");
-    add("--light-share", call->light_share, "FRACTION",
-        "Fraction of the light that comes from --light-from");
+    add("--light-share", call->light_share, "FRACTION", "Fraction of light from --light-from");
     add("--contrast", call->contrast, "RATIO",
         "Disc brightness relative to the floor's; sets --disc-level");
     flag("--roll", call->rolls, "Draw discs as spheres that roll on the floor");

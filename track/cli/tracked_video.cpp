@@ -116,6 +116,7 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
           {"shake", video.shake}}},
         {"camera_motion", camera_motion_json(video)},
         {"uneven_times", video.uneven_times ? Json(video.jitter) : Json(nullptr)},
+        {"times_by_phase", video.by_phase},
         {"path",
          {{"centre", vector_json(video.path.centre)},
           {"centre_error", video.path.centre_error},
@@ -162,6 +163,16 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
         {"version", version()}};
 }
 
+/// True if the numbers of the frames do not give their times.
+bool has_uneven_steps(const std::vector<double>& times) {
+    constexpr double rounding = 1e-6;  // of a step
+    if (times.size() < 3) return false;
+    const double step = (times.back() - times.front()) / double(times.size() - 1);
+    for (std::size_t k = 0; k < times.size(); ++k)
+        if (std::abs(times[k] - times.front() - step * double(k)) > rounding * step) return true;
+    return false;
+}
+
 /// The columns of the table after frame, particle, x and y.
 std::vector<TrackColumn> extra_columns(const TrackedVideo& video, const VideoSpins* spins) {
     std::vector<TrackColumn> columns;
@@ -182,6 +193,8 @@ std::vector<TrackColumn> extra_columns(const TrackedVideo& video, const VideoSpi
     add("radius", [&](std::size_t k, std::size_t i) { return video.tracks.frames[k].radius[i]; });
     add("error", [&](std::size_t k, std::size_t i) { return video.errors[k][i]; });
     add("seen", [&](std::size_t k, std::size_t i) { return video.seen[k][i] ? 1.0 : 0.0; });
+    if (has_uneven_steps(video.times))
+        add("time", [&](std::size_t k, std::size_t) { return video.times[k]; });
     if (!spins) return columns;
     // Per second if the frame rate is known, else per frame.
     const double rate = 1.0 / video.step();

@@ -268,7 +268,8 @@ void CameraView::draw_disc(const Vec2& centre, const Vec2& step, double radius,
     const double half =
         std::sqrt((lx + ex) * (lx + ex) + (ly + ey) * (ly + ey) + (lz + ez) * (lz + ez));
     const double side = settings_.mirrored ? -1.0 : 1.0;
-    const double own = settings_.disc * (1.0 + settings_.disc_variation * variation_of(i));
+    const double base = i % 2 == 1 ? settings_.other_disc.value_or(settings_.disc) : settings_.disc;
+    const double own = base * (1.0 + settings_.disc_variation * variation_of(i));
     for (int row = top; row <= bottom; ++row)
         for (int column = left; column <= right; ++column) {
             const std::size_t k =
@@ -326,6 +327,20 @@ void CameraView::draw_hand() {
                              static_cast<std::size_t>(settings_.size.width) +
                          static_cast<std::size_t>(column)] = static_cast<float>(skin);
         }
+}
+
+/// A soft shadow, as of a person, that goes to and fro along the lower edge of the image.
+void CameraView::draw_shadow() {
+    constexpr double there_and_back = 2.3;  // periods
+    const double turns = double(frame_) / (there_and_back * double(settings_.frames_per_period));
+    const double wide = 0.2 * settings_.size.height;
+    const Vec2 centre{settings_.size.width * (0.5 - 0.4 * std::cos(2.0 * pi * turns)),
+                      0.95 * settings_.size.height};
+    for (std::size_t k = 0; k < exposed_.size(); ++k) {
+        const Vec2 d = positions_[k] - centre;
+        exposed_[k] -=
+            static_cast<float>(settings_.shadow * std::exp(-dot(d, d) / (2.0 * wide * wide)));
+    }
 }
 
 double CameraView::brightness() {
@@ -417,6 +432,7 @@ const std::vector<std::uint8_t>& CameraView::render(const Snapshot& s) {
             if (far < 12.0) exposed_[k] += static_cast<float>(settings_.glare * std::exp(-far));
         }
     }
+    if (settings_.shadow > 0.0) draw_shadow();
     if (settings_.hand_frames > 0) draw_hand();
     blur(exposed_);
     const double illumination = brightness();

@@ -70,10 +70,12 @@ struct CameraSettings {
     bool interlaced = false;       // odd rows half a frame interval after even rows
     double auto_exposure = 0.0;    // relative amplitude of a slow variation of the brightness
     // Other discs and floors.
-    double floor_pattern = 0.0;   // of squares on the floor, grey levels; moves with it
-    double disc_variation = 0.0;  // relative, from disc to disc, as colours have in grey
-    double transparency = 0.0;    // of glass: the share of the floor seen through a sphere
-    bool flat = false;            // coins: no shading, a bright edge
+    double floor_pattern = 0.0;             // of squares on the floor, grey levels; moves with it
+    double disc_variation = 0.0;            // relative, from disc to disc, as colours have in grey
+    std::optional<double> other_disc = {};  // grey level of every second disc
+    double shadow = 0.0;                    // of a shadow that moves over the table, grey levels
+    double transparency = 0.0;  // of glass: the share of the floor seen through a sphere
+    bool flat = false;          // coins: no shading, a bright edge
     // A dark hand covers a part of the container in the first and the last frames.
     std::int64_t hand_frames = 0, frames = 0;  // frames with a hand at either end; all frames
 };
@@ -124,6 +126,7 @@ class CameraView {
     void draw_disc(const Vec2& centre, const Vec2& step, double radius, const Rotation& orientation,
                    std::size_t i, std::vector<float>& light) const;
     void draw_hand();
+    void draw_shadow();
     double brightness();
     void blur(std::vector<float>& light) const;
 

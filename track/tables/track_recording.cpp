@@ -113,6 +113,8 @@ class TrackReader {
         h5md::require_known_format(file_, path);
         number_ = file_.column(path_of("position/step")).read<std::int64_t>();
         id_ = file_.column(path_of("id/value")).read<std::int64_t>();
+        if (file_.has(path_of("position/time")))
+            time_ = file_.column(path_of("position/time")).read<double>();
         position_ = file_.column(path_of("position/value")).read<double>();
         if (number_.empty() || id_.size() % number_.size() != 0 ||
             position_.size() != 3 * id_.size())
@@ -125,9 +127,11 @@ class TrackReader {
         const std::size_t row = id_.size() / number_.size();
         Tracks tracks;
         tracks.y_down = true;
+        const bool uneven = has_uneven_times();
         for (std::size_t k = 0; k < number_.size(); ++k) {
             TrackFrame f;
             f.number = number_[k];
+            if (uneven) f.time = time_[k];
             for (std::size_t at = k * row; at < (k + 1) * row; ++at) {
                 if (id_[at] == no_disc) continue;
                 if (!f.id.empty() && id_[at] <= f.id.back())
@@ -148,6 +152,18 @@ class TrackReader {
     }
 
   private:
+    /// Times of equal steps are those of the frame numbers, which readers use.
+    bool has_uneven_times() const {
+        constexpr double rounding = 1e-6;  // of a step
+        if (time_.size() != number_.size() || number_.size() < 3) return false;
+        const double step =
+            (time_.back() - time_.front()) / double(number_.back() - number_.front());
+        for (std::size_t k = 0; k < number_.size(); ++k)
+            if (std::abs(time_[k] - time_[0] - step * double(number_[k] - number_[0])) >
+                rounding * step)
+                return true;
+        return false;
+    }
     /// Values of an optional column; empty if the file does not have it.
     std::vector<double> column(const std::string& name) const {
         if (!file_.has(path_of(name + "/value"))) return {};
@@ -163,7 +179,7 @@ class TrackReader {
     const std::filesystem::path& path_;
     Hdf5File file_;
     std::vector<std::int64_t> number_, id_;
-    std::vector<double> position_;
+    std::vector<double> position_, time_;
 };
 
 }  // namespace

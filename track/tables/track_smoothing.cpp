@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "swirl/math/unit_circle.hpp"
+#include "track/tables/seen_container.hpp"
 #include "track/tables/track_repair.hpp"
 
 namespace swirl {
@@ -32,32 +33,9 @@ struct TrackSegment {
     std::size_t size() const { return position.size(); }
 };
 
-/// The container's centre in the image, and its velocity per unit of time.
-class ContainerMotion {
-  public:
-    ContainerMotion(const TrackScale& scale, bool y_down)
-        : scale_(scale), up_(y_down ? -1.0 : 1.0), rotation_(scale.clockwise ? -1.0 : 1.0) {}
-    Vec2 position(double time) const {
-        const Vec2 d = direction(time);
-        return scale_.swirl_centre + radius() * Vec2{d.x, up_ * d.y};
-    }
-    Vec2 velocity(double time) const {
-        const Vec2 d = perpendicular(direction(time));
-        return (rotation_ * radius() * 2.0 * pi / scale_.period) * Vec2{d.x, up_ * d.y};
-    }
-
-  private:
-    double radius() const { return scale_.amplitude * scale_.pixels_per_radius; }
-    Vec2 direction(double time) const {
-        return unit_circle(scale_.phase / (2.0 * pi) + rotation_ * time / scale_.period);
-    }
-    const TrackScale& scale_;
-    double up_, rotation_;  // signs: of y, and of the direction of rotation
-};
-
 std::vector<TrackSegment> segments_of(const Tracks& tracks, const TrackScale& scale) {
     const auto step = static_cast<double>(commonest_step(tracks));
-    const ContainerMotion container(scale, tracks.y_down);
+    const SeenContainer container(scale, tracks.y_down);
     std::map<std::int64_t, std::size_t> last;  // latest segment of each disc
     std::vector<TrackSegment> segments;
     for (std::size_t k = 0; k < tracks.frames.size(); ++k) {
@@ -243,7 +221,7 @@ void update_kicks(std::vector<TrackSegment>& segments, KickModel& kicks, double 
 }
 
 /// Stores a smoothed segment in the tracks; `rate` converts from per frame to per unit of time.
-void store(const TrackSegment& segment, const ContainerMotion& container, const TrackScale& scale,
+void store(const TrackSegment& segment, const SeenContainer& container, const TrackScale& scale,
            double rate, Tracks& tracks) {
     for (std::size_t k = 0; k < segment.size(); ++k) {
         TrackFrame& f = tracks.frames[segment.frame[k]];
@@ -282,7 +260,7 @@ TrackSmoothing smooth(Tracks& tracks, const TrackScale& scale) {
         f.velocity.resize(f.id.size());
         f.velocity_error.resize(f.id.size());
     }
-    const ContainerMotion container(scale, tracks.y_down);
+    const SeenContainer container(scale, tracks.y_down);
     double samples = 0.0, position_square = 0.0, velocity_square = 0.0;
     for (TrackSegment& segment : segments) {
         Smoother(segment, noise, kicks.kick).run(true);

@@ -19,8 +19,8 @@ class FrameTable {
     FrameTable(const Tracks& tracks, const TrackScale& scale) {
         for (const TrackFrame& frame : tracks.frames) {
             numbers.push_back(frame.number);
-            times_.push_back(static_cast<double>(frame.number) /
-                             (scale.frames_per_time * scale.period));
+            times_.push_back(frame.time.value_or(double(frame.number) / scale.frames_per_time) /
+                             scale.period);
             ids.push_back(frame.id);
         }
     }

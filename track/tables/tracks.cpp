@@ -67,7 +67,8 @@ class TrackSeries {
     /// A clockwise motion is mirrored, and its phase with it.
     double phase() const { return scale_.clockwise ? pi - scale_.phase : scale_.phase; }
     double time_of(std::uint64_t k) const {
-        return double(tracks_.frames[k].number) / scale_.frames_per_time * scale_.camera_time();
+        const TrackFrame& f = tracks_.frames[k];
+        return f.time.value_or(double(f.number) / scale_.frames_per_time) * scale_.camera_time();
     }
     bool adjacent(std::uint64_t k, std::uint64_t next) const {
         return tracks_.frames[next].number - tracks_.frames[k].number <= (longest_gap + 1) * step_;
@@ -119,15 +120,18 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         double radius, spin;
     };
     std::map<std::int64_t, std::map<std::int64_t, Entry>> tracks;  // keys: particle and frame
-    std::optional<std::size_t> radius, spin;
-    if (table.find({"seen"})) {  // a file of `swirl track`
+    std::optional<std::size_t> radius, spin, time;
+    std::map<std::int64_t, double> times;  // of each frame
+    if (table.find({"seen"})) {            // a file of `swirl track`
         radius = table.find({"radius"});
         spin = table.find({"spin"});
+        time = table.find({"time"});
     }
     while (table.next()) {
         const std::int64_t id = table.integer(*particle), number = table.integer(*frame);
         Entry entry{{table.number(*x), table.number(*y)}, 0.0, unknown};
         if (radius) entry.radius = table.number(*radius);
+        if (time) times[number] = table.number(*time);
         // The table counts spins counter-clockwise in the image; y points down, which flips the
         // sign.
         if (spin && !table.is_empty(*spin)) entry.spin = -table.number(*spin);
@@ -143,6 +147,7 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         for (const auto& [number, entry] : track) {
             TrackFrame& f = frames[number];
             f.number = number;
+            if (time) f.time = times[number];
             f.id.push_back(id);
             f.position.push_back(entry.position);
             if (radius) f.radius.push_back(entry.radius);

@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct TrackFrame {
     std::vector<Vec2> velocity;  // empty if not given, like the vectors below
     std::vector<double> radius, mass, spin;
     std::vector<double> velocity_error;  // standard error per coordinate, set by smooth()
+    /// In the camera's unit of time; given if frames are not equally spaced in time (equal_steps.hpp).
+    std::optional<double> time = {};
 };
 
 struct Tracks {
@@ -61,6 +64,7 @@ struct TrackScale {
                                     // counter-clockwise from +x
     double container_radius = 0.0;  // unit: disc radii
     bool clockwise = false;         // the container moves clockwise in the image: mirror x
+    bool calibrated = false;        // by `swirl track`, not by the user
 
     /// T, and the camera's unit of time, in units of the result.
     double our_period() const;

@@ -70,7 +70,12 @@ void fit_path(const RimCentres& rims, TrackedVideo& tracked) {
 void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
                           TrackedVideo& tracked) {
     RimCentres rims = rim_centres(all, tracked);
-    if (uneven_times) reject_time_gaps(settings, rims, tracked);
+    if (set_times_by_phase(settings, rims, tracked)) {
+        uneven_times = true;
+        rims = rim_centres(all, tracked);
+    } else if (uneven_times) {
+        reject_time_gaps(settings, rims, tracked);
+    }
     fit_path(rims, tracked);
     if (!uneven_times && check_frame_jumps(settings, rims, all, tracked)) {
         rims = rim_centres(all, tracked);

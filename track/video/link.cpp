@@ -90,6 +90,13 @@ class Linker {
     double turn_ = 0.0;  // of all discs about the container's centre in the first step
 };
 
+/// A time in steps of the track's latest one. That is almost zero while the container rests
+/// (phase_times.cpp), and then says nothing about the motion that follows.
+double steps_of(const Track& track, double time) {
+    constexpr double most = 8.0;  // longer than any gap that is filled
+    return std::min(most, time / (track.time - track.time_before));
+}
+
 /// Position at `time_to` of a disc at `position` that moves relative to the container like the
 /// discs nearby did in the last step.
 Vec2 Linker::flow_at(const Vec2& position, double time_from, double time_to) const {
@@ -100,11 +107,11 @@ Vec2 Linker::flow_at(const Vec2& position, double time_from, double time_to) con
         if (t.seen < 2 || t.missed > 0) continue;
         const Vec2 move = to_frame(1, t.position, t.time) - to_frame(1, t.before, t.time_before);
         const double w = std::exp(-square(t.position - position) / (2.0 * near * near)) + 1e-9;
-        sum = sum + (w / (t.time - t.time_before)) * move;
+        sum = sum + (w * steps_of(t, time_to - time_from)) * move;
         weights += w;
     }
     Vec2 at_container = to_frame(1, position, time_from);
-    if (weights > 0.0) at_container = at_container + ((time_to - time_from) / weights) * sum;
+    if (weights > 0.0) at_container = at_container + (1.0 / weights) * sum;
     return to_lab(1, at_container, time_to);
 }
 
@@ -114,7 +121,7 @@ Vec2 Linker::expect(Track& track, double time) const {
         track.expected.fill(there);
         return there;
     }
-    const double ahead = (time - track.time) / (track.time - track.time_before);
+    const double ahead = steps_of(track, time - track.time);
     Vec2 sum{0.0, 0.0};
     double weights = 0.0;
     for (int way = 0; way < predictions; ++way) {

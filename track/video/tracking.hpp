@@ -118,10 +118,11 @@ struct TrackedVideo {
     double overlap_error = 0.0;   // from distances that hard discs cannot have
     std::uint64_t filled = 0;     // interpolated positions
     std::uint64_t rejected = 0, crowded = 0;  // discs beyond the number, and frames with such discs
-    bool uneven_times = false;                // `times` are the video's own, with unequal steps
-    std::string damage;                       // ffmpeg's message about a damaged video
-    double jitter = 0.0;                      // of the video's times, in steps
-    std::vector<std::string> warnings;        // one line each, without "warning: "
+    bool uneven_times = false;  // `times` have unequal steps: the video's own, or by the phase
+    bool by_phase = false;  // the motion is uneven: a time is the phase of the container over Ω
+    std::string damage;     // ffmpeg's message about a damaged video
+    double jitter = 0.0;    // of the video's times, in steps
+    std::vector<std::string> warnings;  // one line each, without "warning: "
 
     /// Median time between two frames.
     double step() const;

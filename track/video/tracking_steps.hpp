@@ -92,6 +92,12 @@ void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
 bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims, Detections& all,
                        TrackedVideo& tracked);
 
+// phase_times.cpp
+
+/// If the container moves unevenly, as by hand, sets times by its phase, and warns. True if it did.
+bool set_times_by_phase(const TrackingSettings& settings, const RimCentres& rims,
+                        TrackedVideo& tracked);
+
 // container_motion.cpp
 
 RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked);

@@ -134,10 +134,13 @@ class Tracks(Recording):
         if not (math.isfinite(x0) and math.isfinite(y0)):
             raise ValueError(f"centre is {centre}, but it must be two finite numbers.")
         radius = np.asarray(table["radius"], float) if _is_of_swirl_track(table) else np.empty(0)
+        is_timed = isinstance(table, _ReadTracks) and "time" in table
+        time = np.asarray(table["time"], float) if is_timed else np.empty(0)
         order = np.lexsort((columns["particle"], columns["frame"]))
         self._frames = _engine.Recording.tracks(
             columns["frame"][order], columns["particle"][order], columns["x"][order],
             columns["y"][order], radius[order] if radius.size else radius,
+            time[order] if time.size else time,
             {"omega": float(omega), "container_radius": float(container_radius),
              "amplitude": float(amplitude), "camera_fps": float(camera_fps), "scale": float(scale),
              "phase": float(phase), "centre_x": x0, "centre_y": y0, "clockwise": bool(clockwise)},

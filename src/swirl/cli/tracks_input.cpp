@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "swirl/run/failure.hpp"
+#include "track/tables/equal_steps.hpp"
 #include "track/tables/track_fit.hpp"
 
 namespace swirl {
@@ -40,18 +41,11 @@ Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
 
 OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, double misfit) {
     const TrackScale scale = track_scale(camera, file);
-    const Tracks tracks = read_tracks(file, scale);
+    const Tracks tracks = at_equal_steps(read_tracks(file, scale), scale);
     if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
         throw Failure(
             fmt::format("'{}' holds a single frame, but velocities need at least two.", file));
     const auto uneven = camera_record(file).uneven_times;
-    if (uneven)
-        fmt::print(
-            stderr,
-            "warning: the frames of '{}' are not equally spaced in time: steps differ from their "
-            "mean by up to {:.2f} times the mean. Measurements assume equal steps, so velocities "
-            "and temperatures are wrong by a similar factor.\n",
-            file, *uneven);
     FittedSeries fitted = fitted_series(tracks, scale, misfit);
     Json found = camera_json(tracks, fitted);
     found["uneven_times"] = uneven ? Json(*uneven) : Json(nullptr);
