@@ -14,8 +14,9 @@ PROGRAMS = (".cpp", ".hpp", ".inc", ".py", ".ts", ".mjs", ".js", ".sh", ".css", 
 # Part: folders, folders in them that belong to another part, most lines.
 LINES = {
     # Goal 42,000. The rest are exports, movie plots, path shapes, size laws, linked cells and the journal: each is
-    # a loss for users. Tables of points for sweeps (360 lines) and initial states (170) came later.
-    "engine": (["src"], [], 46_870),
+    # a loss for users. Tables of points for sweeps (360 lines), initial states (170) and errors of short
+    # recordings (60) came later.
+    "engine": (["src"], [], 46_930),
     # Goal 8,000. The rest is the chapters on published work and the judge of 62 claims.
     "paper": (["paper"], [], 10_400),
     # Goal 9,000. It is reached when the parts that change no verdict are gone. The phase of a container that is moved
@@ -23,7 +24,7 @@ LINES = {
     "track": (["track"], ["track/tests"], 15_820),
     "page": (["web/src"], [], 6_500),
     # Goal 30,000.
-    "tests": (["tests", "track/tests"], [], 44_400),
+    "tests": (["tests", "track/tests"], [], 44_560),
 }
 
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -126,6 +127,38 @@ std::string percent(double share) { return fmt::format("{:.0f} %", 100.0 * share
 /// The last line of an error: the advice, if any, and how to accept the misfit.
 std::string misfit_hint(const std::string& advice, const char* accept) {
     return fmt::format("\nhint: {}{}{}", advice, advice.empty() ? "" : " ", accept);
+}
+
+/// The two discs that are closest relative to their radii: "discs 3 and 17 in frame 120".
+std::string closest_discs(const Tracks& tracks, const TrackScale& scale) {
+    std::string text;
+    double closest = std::numeric_limits<double>::infinity();
+    for (const TrackFrame& f : tracks.frames)
+        for (std::size_t i = 0; i < f.id.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const double radii =
+                    f.radius.empty() ? 2.0 * scale.pixels_per_radius : f.radius[i] + f.radius[j];
+                const Vec2 d = f.position[i] - f.position[j];
+                const double apart = std::sqrt(dot(d, d)) / radii;
+                if (apart >= closest) continue;
+                closest = apart;
+                text = fmt::format("discs {} and {} in frame {}", f.id[j], f.id[i], f.number);
+            }
+    return text;
+}
+
+/// Throws Failure if more than this share of the frames contradicts the calibration by `swirl track`.
+void reject_contradicted_calibration(const Tracks& tracks, const TrackFit& fit,
+                                     const TrackScale& scale, double share) {
+    if (fit.overlapping <= share && fit.outside <= share) return;
+    throw Failure(fmt::format(
+        "the tracks contradict themselves: discs overlap in {} of the frames, most of all {}, and "
+        "discs protrude from the container in {}.\nhint: swirl track --overlay shows which circles "
+        "are "
+        "no discs, and --discs sets their number. --max-invalid sets the share of frames that may "
+        "do "
+        "so.",
+        percent(fit.overlapping), closest_discs(tracks, scale), percent(fit.outside)));
 }
 
 /// Throws Failure if more than this share of the frames contradicts the given parameters.
@@ -273,7 +306,10 @@ SnapshotSeries smoothed_series(Tracks tracks, const TrackScale& scale, TrackSmoo
 FittedSeries fitted_series(const Tracks& tracks, const TrackScale& scale, double misfit) {
     FittedSeries fitted;
     fitted.fit = fit_of(series_of(tracks, scale), scale, tracks.y_down);
-    reject_misfit(fitted.fit, scale, misfit);
+    if (scale.calibrated)
+        reject_contradicted_calibration(tracks, fitted.fit, scale, misfit);
+    else
+        reject_misfit(fitted.fit, scale, misfit);
     fitted.series = smoothed_series(tracks, scale, fitted.smoothing);
     fitted.remarks =
         repaired_text(tracks) + smoothing_text(fitted.smoothing) + fit_text(fitted.fit);

@@ -248,6 +248,7 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
     scale.phase = parse_number(texts, "phase") * pi / 180.0;
     scale.container_radius = parse_number(texts, "container-radius");
     scale.clockwise = texts.clockwise;
+    scale.calibrated = given.scale.empty() && std::filesystem::is_regular_file(camera_file(file));
     if (texts.centre.empty()) return scale;
     const std::size_t comma = texts.centre.find(',');
     const auto x = read_number(texts.centre.substr(0, comma));
