@@ -398,9 +398,7 @@ static void validate_chain(const SweepPlan& plan) {
     if (plan.frames > 0)
         throw UsageError(
             "--chain and --frames cannot be combined: a recording does not store the state in "
-            "which its run starts.\nhint: use `swirl sweep` with --series, or `swirl run --ramp` "
-            "with "
-            "--trajectory.");
+            "which its run starts.\nhint: use `swirl sweep --series`, or `swirl run --ramp`.");
 }
 
 void validate_extras(const SweepPlan& plan) {
