@@ -1,20 +1,16 @@
-"""Videos as students make them: swirl track, and on request trackpy, against the ground truth.
+"""Videos as students and laboratories make them: swirl track, and on request a baseline, against the ground truth.
 
-    student_videos.py               the table of kinds in docs/results/tracking_accuracy.md (minutes)
-    student_videos.py --trackpy     with trackpy on the same videos; needs trackpy, pandas and scipy
+    student_videos.py               the tables of kinds in docs/results/tracking_accuracy.md (minutes)
+    student_videos.py --baseline    with the tracker of opencv_tracker.py on the same videos; needs opencv and scipy
     student_videos.py --kind NAME   this kind only; may be repeated
-    student_videos.py --periods N   length of the videos [4]
+    student_videos.py --periods N   length of the students' videos [4]
 
-SWIRL is the program. Each video has 28 discs and is made by `swirl synthetic-video --camera student` (30 frames
-per second, 2 periods per second, 640x480 pixels) with the options of its kind.
+SWIRL is the program. A student's video has 28 discs and is made by `swirl synthetic-video --camera student` (30
+frames per second, 2 periods per second, 640x480 pixels) with the options of its kind.
 
 In interlaced videos the odd rows are half a frame interval later than the even rows. The ground truth is that of
 the even rows. A video by hand starts and stops, and its speed varies by a fourth. A video that is rejected with a
 hint is tracked again with the options of the hint.
-
-trackpy gets more than swirl: the size and the number of the discs, whether they are bright, and the position of
-the container in each frame, outside which the image is blank. Its diameter is the best of three on a few frames.
-Its search range and its predictor are those of four combinations that give the fewest identity swaps.
 """
 
 import argparse
@@ -22,9 +18,11 @@ import json
 import math
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
+import time
 
 for folder in ("tests/cli", "track/tests"):
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", folder))
@@ -35,6 +33,7 @@ PERIOD = 15  # frames
 WIDTH, HEIGHT = 640, 480  # pixels
 REST, PAUSE = 4, 3.4  # periods: two seconds before the start, and a stop of 1.7 s
 COMMON = ["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23]
+ROUGH = ["--discs", 28, "--width", 640, "--height", 480, "--scale", 15, "--frames-per-period", 64]
 LARGE = ["--width", 1920, "--height", 1080, "--scale", 44]
 # Name, options of synthetic-video, what is done to the video afterwards.
 KINDS = [
@@ -55,6 +54,18 @@ KINDS = [
     ("dark and bright", ["--disc-level", 40, "--other-level", 215, "--floor-level", 125, "--gloss", 0], None),
     ("moving shadow", ["--shadow", 60], None),
     ("pixels of 4:3", [], "anamorphic"),
+    # Complete calls: other cameras and difficult set-ups.
+    ("laboratory", ["--camera", "laboratory", "--discs", 36, "--frames-per-period", 128, "--length", 1.5], "complete"),
+    ("phone", ["--camera", "phone", "--discs", 48, "--length", 1.5, "--quality", 26], "complete"),
+    ("bad", ["--camera", "bad", "--discs", 28, "--length", 4, "--quality", 26], "complete"),
+    ("two sizes of steel", ["--camera", "steel", "--discs", 32, "--mixture", "10:1.35", "--length", 1.5, "--quality", 24],
+     "complete"),
+    ("camera tilted by 8 degrees", [*ROUGH, "--length", 2, "--tilt", 8, "--tilt-towards", 250, "--quality", 14],
+     "complete"),
+    ("light from one side", [*ROUGH, "--length", 6, "--quality", 14, "--light-from", 135, "--light-elevation", 45,
+                             "--light-share", 0.8, "--gloss", 60], "complete"),
+    ("contrast 1.3:1", [*ROUGH, "--length", 2.5, "--floor-level", 100, "--contrast", 1.3, "--rim-level", 110, "--gloss",
+                        10, "--texture", 0.2, "--light-elevation", 45, "--noise", 3, "--quality", 29], "complete"),
 ]
 
 
@@ -68,6 +79,7 @@ class Video:
     def __init__(self, folder, kind, periods):
         self.name, options, after = kind
         made = os.path.join(folder, "made.mp4")
+        self.complete = after == "complete"
         if after == "by hand":  # the true ϖ is that of the same periods at an even speed
             self.make(made, [], periods)
             even = self.truth
@@ -75,7 +87,7 @@ class Video:
         self.make(made, options, periods)
         self.centres = [(float(row["x_ideal"]), float(row["y_ideal"]))
                         for row in track_test.rows(made[:-4] + ".container.csv")]
-        self.dark = self.name == "steel balls"
+        self.dark = "steel" in self.name
         self.path, regular = made, even if after == "by hand" else self.truth
         if after == "uneven":
             regular = self.drop_frames(folder, made)
@@ -96,8 +108,8 @@ class Video:
             self.turn_truth()
 
     def make(self, made, options, periods):
-        done = swirl("synthetic-video", *COMMON, "--length", periods, *options, "--out", made, "--quiet",
-                     "--overwrite", timeout=3000)
+        common = [] if self.complete else [*COMMON, "--length", periods]
+        done = swirl("synthetic-video", *common, *options, "--out", made, "--quiet", "--overwrite", timeout=3000)
         if done.returncode != 0:
             sys.exit(done.stderr)
         self.about = track_test.Truth(made).about
@@ -208,118 +220,63 @@ def track(folder, video):
     return result, camera["quality"]["position_error"], said
 
 
-def track_with_trackpy(folder, video):
-    """The result of trackpy at its best."""
-    import numpy
-    import trackpy
-    trackpy.quiet()
-    done = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
-                           "stream=width,height", "-of", "csv=p=0", video.path], capture_output=True, text=True,
-                          check=True)
-    width, height = map(int, done.stdout.strip().split(",")[:2])
-    if video.name == "rotated":
-        width, height = height, width
-    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", video.path, "-fps_mode", "passthrough", "-pix_fmt",
-                          "gray", "-f", "rawvideo", "-"], capture_output=True, check=True).stdout
-    frames = numpy.frombuffer(raw, dtype=numpy.uint8).reshape(-1, height, width).astype(float)
-    y, x = numpy.mgrid[:height, :width]
-    scale, number = video.about["scale"], video.about["discs"]
-    images = []
-    for frame, (cx, cy) in zip(frames, video.centres):
-        inside = (x - cx) ** 2 + (y - cy) ** 2 < video.about["container_radius"] ** 2
-        image = 255.0 - frame if video.dark else frame
-        images.append(numpy.where(inside, image, numpy.percentile(image[inside], 20)))
-
-    def locate(k, diameter):
-        return trackpy.locate(images[k], diameter, separation=1.6 * scale, topn=number, percentile=20)
-
-    def score(table_of):
-        found = {}
-        for k, table in table_of.items():
-            found[k] = {n: p for n, p in enumerate(zip(table["x"], table["y"]))}
-        return Result(Sample(video, table_of), found, None).rms
-
-    tried = {}
-    for factor in (1.0, 1.4, 1.8):
-        diameter = 2 * round(factor * scale / 2) + 1
-        try:
-            tried[diameter] = score({k: locate(k, diameter) for k in range(0, len(images), len(images) // 3)})
-        except ZeroDivisionError:
-            continue
-    diameter = min(tried, key=tried.get)
-    import pandas
-    tables = []
-    for k in range(len(images)):
-        table = locate(k, diameter)
-        table["frame"] = k
-        tables.append(table)
-    features = pandas.concat(tables)
-    best = None
-    for reach in (0.6, 0.95):
-        for predict in (False, True):
-            try:
-                linker = trackpy.predict.NearestVelocityPredict().link_df if predict else trackpy.link
-                linked = linker(features.copy(), reach * scale, memory=3)
-            except trackpy.SubnetOversizeException:
-                continue
-            found = {}
-            for row in linked.itertuples():
-                found.setdefault(int(row.frame), {})[int(row.particle)] = (row.x, row.y)
-            result = Result(video, found, None)
-            if best is None or result.swaps < best[0].swaps:
-                best = result, found
-    result, found = best
-    about = video.about
-    if video.name == "rotated":  # ϖ does not depend on the position of the dish
-        x, y = about["centre"]
-        about = dict(about, centre=[y, WIDTH - 1 - x] if video.turns_left else [HEIGHT - 1 - y, x])
-    result.varpi = rotation(folder, found, about)
-    return result
+def track_with_baseline(video):
+    """The result of opencv_tracker.py, which is given the radius, the number and the brightness of the discs."""
+    import cv2
+    import opencv_tracker
+    frames, film = [], cv2.VideoCapture(video.path)
+    while (read := film.read())[0]:
+        frames.append(cv2.cvtColor(read[1], cv2.COLOR_BGR2GRAY))
+    about, start = dict(video.about), time.process_time()
+    found, path, radius, container = opencv_tracker.track(frames, about["scale"], about["discs"], not video.dark)
+    seconds = 1000.0 * (time.process_time() - start) / len(frames)
+    result = Result(video, found, None)
+    result.score_radii({"species": [{"radius": radius}], "container": {"radius": container}}, about)
+    about.update(scale=radius, centre=path[:2].tolist(), amplitude=float(path[2]), omega=abs(float(path[3])),
+                 phase=math.degrees(path[4]), container_radius=container)
+    with tempfile.TemporaryDirectory(prefix="swirl-baseline-") as folder:
+        result.varpi = rotation(folder, found, about)
+    return result, seconds
 
 
-class Sample:
-    """Some frames of a video."""
+HEAD = ["found", "swaps per 1000", "rms, pixels", "error of r", "error of R/r", "ϖ/Ω", "s per 1000 frames"]
 
-    def __init__(self, video, frames):
-        self.truth = {k: video.truth[k] for k in frames}
-        self.about = video.about
+
+def cells(result, seconds):
+    if result is None:
+        return ["rejected"] + (len(HEAD) - 1) * [""]
+    varpi = f"{result.varpi[0]:.3f}" + (f" ± {result.varpi[1]:.3f}" if result.varpi[1] >= 0.0 else "")
+    return [f"{100 * result.found:.1f} %", f"{result.swaps_per_thousand:.0f}", f"{result.rms:.2f}",
+            f"{100 * result.radius:+.1f} %", f"{100 * result.container:+.1f} %", varpi, f"{seconds:.0f}"]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--trackpy", action="store_true")
+    parser.add_argument("--baseline", action="store_true")
     parser.add_argument("--kind", action="append")
     parser.add_argument("--periods", type=int, default=4)
     call = parser.parse_args()
-    if call.trackpy:
-        import trackpy
-        print(f"trackpy {trackpy.__version__}")
-    kinds = [kind for kind in KINDS if not call.kind or kind[0] in call.kind]
-    head = ["kind", "found", "swaps per 1000", "rms, pixels", "claimed/true", "error of r", "error of R/r",
-            "ϖ/Ω, true", "ϖ/Ω, tracks"]
-    if call.trackpy:
-        head += ["trackpy: found", "swaps per 1000", "rms, pixels", "ϖ/Ω"]
+    head = ["kind", "ϖ/Ω, true", "claimed/true", *HEAD, *(f"baseline: {name}" for name in HEAD if call.baseline)]
     print("| " + " | ".join(head) + " |\n|" + len(head) * "---|", flush=True)
     with tempfile.TemporaryDirectory(prefix="swirl-students-") as folder:
-        for kind in kinds:
+        for kind in KINDS:
+            if call.kind and kind[0] not in call.kind:
+                continue
             video = Video(folder, kind, call.periods)
+            used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
             result, claimed, message = track(folder, video)
-            cells = [video.name, *(["rejected", "", "", ""] if result is None else scores(result))]
-            accuracy = ["", "", ""] if result is None else [
-                f"{claimed / result.rms:.2f}", f"{100 * result.radius:+.1f} %", f"{100 * result.container:+.1f} %"]
-            cells[4:4] = [*accuracy, f"{video.varpi[0]:+.3f}"]
-            if call.trackpy:
-                cells += scores(track_with_trackpy(folder, video), with_error=False)
-            print("| " + " | ".join(cells) + " |", flush=True)
+            seconds = (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - used) * 1000.0 / len(video.truth)
+            row = [video.name, f"{video.varpi[0]:.3f}", "" if result is None else f"{claimed / result.rms:.2f}",
+                   *cells(result, seconds)]
+            if call.baseline:
+                try:
+                    row += cells(*track_with_baseline(video))
+                except (ValueError, IndexError, ZeroDivisionError, TypeError) as failure:  # no rim, or no discs
+                    row += cells(None, 0.0)
+                    message += f"baseline: {failure}\n"
+            print("| " + " | ".join(row) + " |", flush=True)
             for line in message.splitlines():
                 print(f"{video.name}: {line}", file=sys.stderr, flush=True)
-
-
-def scores(result, with_error=True):
-    """Cells of the table."""
-    varpi = f"{result.varpi[0]:+.3f}" + (
-        f" ± {result.varpi[1]:.3f}" if with_error and math.isfinite(result.varpi[1]) else "")
-    return [f"{100 * result.found:.1f} %", f"{result.swaps_per_thousand:.0f}", f"{result.rms:.2f}", varpi]
 
 
 if __name__ == "__main__":
