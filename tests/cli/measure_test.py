@@ -182,7 +182,7 @@ class MeasureTest(InFolder):
     def test_frames_at_the_vertices_alone_warn_that_rolling_is_invisible(self):
         for frames, remark in ((30, "no sphere rolls in any of the frames"), (31, "")):
             recording = self.path(f"{frames}.h5")
-            done = swirl("run", "--preset", "experiment", "--discs", 8, "--periods", 2, "--frames", frames,
+            done = swirl("run", "--preset", "experiment", "--discs", 8, "--periods", 4, "--frames", frames,
                          "--trajectory", recording, "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
             found = json.loads(swirl("measure", recording, "--measure", "rolling", "--json", "-").stdout)
