@@ -154,10 +154,8 @@ void reject_contradicted_calibration(const Tracks& tracks, const TrackFit& fit,
     throw Failure(fmt::format(
         "the tracks contradict themselves: discs overlap in {} of the frames, most of all {}, and "
         "discs protrude from the container in {}.\nhint: swirl track --overlay shows which circles "
-        "are "
-        "no discs, and --discs sets their number. --max-invalid sets the share of frames that may "
-        "do "
-        "so.",
+        "are no discs, and --discs sets their number. swirl measure --max-invalid sets the share "
+        "of frames that may do so.",
         percent(fit.overlapping), closest_discs(tracks, scale), percent(fit.outside)));
 }
 
