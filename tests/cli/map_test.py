@@ -6,6 +6,7 @@ import io
 import json
 import os
 import subprocess
+import time
 import unittest
 
 import private_slurm

@@ -115,7 +115,8 @@ VIDEOS = {"dish.mp4": 24, "N24.mp4": 24, "N36.mp4": 36, "N48.mp4": 48,
 
 
 # Files of the reader whose content a page shows, and their first line.
-SHOWN_FILES = {"shaker.csv": "t,x,y", "radii.csv": "radius,mass"}
+SHOWN_FILES = {"shaker.csv": "t,x,y", "radii.csv": "radius,mass", "start.csv": "x,y,vx,vy,spin",
+               "points.csv": "discs,mu,seeds"}
 
 
 def write_shown_files(folder, text):
