@@ -51,7 +51,7 @@ def _rows(points: Any) -> Optional[list[dict[str, Any]]]:
         if not points.columns.is_unique:
             twice = sorted({str(name) for name in points.columns[points.columns.duplicated()]})
             raise ValueError(f"points has two columns {', '.join(twice)}.")
-        rows = points.to_dict("records")
+        rows: list[dict[str, Any]] = points.to_dict("records")
     elif isinstance(points, Mapping):
         if any(isinstance(values, str) or not hasattr(values, "__len__") for values in points.values()):
             raise TypeError("points is a dictionary, but not each of its values is a column, a list of values.")
