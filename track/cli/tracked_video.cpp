@@ -204,8 +204,6 @@ std::vector<TrackColumn> extra_columns(const TrackedVideo& video, const VideoSpi
     add_spin("spin", [&](const DiscSpin& s) { return rate * s.turn[2]; });
     add_spin("spin_x", [&](const DiscSpin& s) { return rate * s.turn[0]; });
     add_spin("spin_y", [&](const DiscSpin& s) { return rate * s.turn[1]; });
-    add_spin("piv_spin", [&](const DiscSpin& s) { return rate * s.piv_turn; });
-    add_spin("piv_velocity", [&](const DiscSpin& s) { return rate * s.piv_velocity; });
     add_spin("texture_match", [&](const DiscSpin& s) { return s.match; });
     return columns;
 }

@@ -105,7 +105,7 @@ class SpinComparison:
             frame, disc = int(row["frame"]), int(row["particle"])
             turns[frame, disc] = float(row["spin_z"])
             here.setdefault(frame, []).append((float(row["x_ideal"]), float(row["y_ideal"]), disc))
-        self.pairs = []  # true, by registration, by PIV
+        self.pairs = []  # true and measured
         for row in rows(tracks):
             frame = int(row["frame"])
             if row["seen"] != "1" or not row["texture_match"] or float(row["texture_match"]) == 0.0:
@@ -117,15 +117,15 @@ class SpinComparison:
                     or frame < step:
                 continue
             true = sum(turns[k, disc] for k in steps) / (2 * step) / truth["omega"]
-            self.pairs.append((true, float(row["spin"]) / omega, float(row["piv_spin"]) / omega))
+            self.pairs.append((true, float(row["spin"]) / omega))
 
-    def slope(self, which, minimum=0.0, maximum=1e9):
-        """Slope of estimate against truth, through zero; which: 1 registration, 2 PIV."""
+    def slope(self, minimum=0.0, maximum=1e9):
+        """Slope of estimate against truth, through zero."""
         part = [pair for pair in self.pairs if minimum <= abs(pair[0]) < maximum]
-        return sum(p[0] * p[which] for p in part) / max(sum(p[0] ** 2 for p in part), 1e-300)
+        return sum(p[0] * p[1] for p in part) / max(sum(p[0] ** 2 for p in part), 1e-300)
 
-    def rms(self, which):
-        return math.sqrt(sum((p[which] - p[0]) ** 2 for p in self.pairs) / len(self.pairs))
+    def rms(self):
+        return math.sqrt(sum((p[1] - p[0]) ** 2 for p in self.pairs) / len(self.pairs))
 
 
 class TrackTest(InFolder):
@@ -296,10 +296,9 @@ class TrackTest(InFolder):
         tracks, _ = self.track(video, "--spin")
         spins = SpinComparison(video, tracks)
         self.assertGreater(len(spins.pairs), 800)
-        # With discs of 16 pixels, registration errs by less than 5 %, and PIV by up to a quarter.
-        self.assertLess(abs(spins.slope(1) - 1.0), 0.05)
-        self.assertLess(abs(spins.slope(2) - 1.0), 0.25)
-        self.assertLess(spins.rms(1), 0.1)
+        # With discs of 16 pixels, registration errs by less than 5 %.
+        self.assertLess(abs(spins.slope() - 1.0), 0.05)
+        self.assertLess(spins.rms(), 0.1)
         # `swirl measure` uses them: discs at the wall spin, but slower than 1.5 Ω.
         done = swirl("measure", tracks, "--measure", "frustration", "--json", "-")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -743,9 +742,8 @@ def print_table(folder):
 
 
 def print_spins(folder):
-    print("| noise, levels | compression | registration: slope, 0–0.3 Ω | 0.3–0.6 | above | rms, Ω "
-          "| PIV: slope, 0–0.3 Ω | 0.3–0.6 | above | rms, Ω |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("| noise, levels | compression | slope, 0–0.3 Ω | 0.3–0.6 | above | rms, Ω |")
+    print("|---|---|---|---|---|---|")
     video, tracks = os.path.join(folder, "video.mp4"), os.path.join(folder, "tracks.csv")
     for noise, quality in ((0, 0), (2, 0), (4, 0), (8, 0), (2, 10), (2, 18), (2, 26)):
         for call in (["synthetic-video", "--discs", 36, "--frames-per-period", 64, "--max-frames", 80,
@@ -757,9 +755,7 @@ def print_spins(folder):
                 return 1
         spins = SpinComparison(video, tracks)
         cells = [f"{noise}", f"{quality}"]
-        for which in (1, 2):
-            cells += [f"{spins.slope(which, *bounds):.3f}"
-                      for bounds in ((0, 0.3), (0.3, 0.6), (0.6,))] + [f"{spins.rms(which):.3f}"]
+        cells += [f"{spins.slope(*bounds):.3f}" for bounds in ((0, 0.3), (0.3, 0.6), (0.6,))] + [f"{spins.rms():.3f}"]
         print("| " + " | ".join(cells) + " |", flush=True)
     return 0
 

@@ -164,88 +164,6 @@ Registration register_turn(const cv::Mat& first, const cv::Mat& second, const cv
     return best;
 }
 
-/// The shift of a window's texture, and the gradient-weighted centre of its pixels; pixels.
-struct Shift {
-    double x = 0.0, y = 0.0;
-    bool found = false;
-    double column = 0.0, row = 0.0;
-};
-
-Shift window_shift(const cv::Mat& first, const cv::Mat& second, const cv::Mat& mask,
-                   const Gradient& slope, int column, int row, int half, int search) {
-    const cv::Rect window(column - half, row - half, 2 * half + 1, 2 * half + 1);
-    const int reach = half + search;
-    if (column - reach < 0 || row - reach < 0 || column + reach >= second.cols ||
-        row + reach >= second.rows)
-        return {};
-    const cv::Rect around(column - reach, row - reach, 2 * reach + 1, 2 * reach + 1);
-    cv::Mat correlation;
-    cv::matchTemplate(second(around), first(window), correlation, cv::TM_CCOEFF_NORMED);
-    double peak = 0.0;
-    cv::Point peak_position;
-    cv::minMaxLoc(correlation, nullptr, &peak, nullptr, &peak_position);
-    if (!(peak > min_match)) return {};
-    Shift s{double(peak_position.x - search), double(peak_position.y - search), true};
-    for (int round = 0; round < 8; ++round) {
-        double xx = 0, xy = 0, yy = 0, bx = 0, by = 0, across = 0, down = 0;
-        for (int v = -half; v <= half; ++v)
-            for (int u = -half; u <= half; ++u) {
-                const double x = column + u + s.x, y = row + v + s.y;
-                if (!is_unmasked(mask, column + u, row + v) || !is_unmasked(mask, x, y)) continue;
-                const double gx = double(at(slope.x, x, y)), gy = double(at(slope.y, x, y));
-                const double residual =
-                    double(first.ptr<float>(row + v)[column + u]) - double(at(second, x, y));
-                across += (gx * gx + gy * gy) * u, down += (gx * gx + gy * gy) * v;
-                xx += gx * gx, xy += gx * gy, yy += gy * gy, bx += gx * residual,
-                    by += gy * residual;
-            }
-        const double det = xx * yy - xy * xy;
-        if (!(det > 1e-3 * xx * yy)) return {};
-        const double dx = (yy * bx - xy * by) / det, dy = (xx * by - xy * bx) / det;
-        s.x += dx, s.y += dy;
-        s.column = column + across / (xx + yy), s.row = row + down / (xx + yy);
-        if (std::abs(s.x) > search + 1.0 || std::abs(s.y) > search + 1.0) return {};
-        if (std::abs(dx) + std::abs(dy) < 3e-3) break;
-    }
-    return s;
-}
-
-struct Piv {
-    double turn = 0.0, velocity = 0.0;
-    bool found = false;
-};
-
-Piv piv(const cv::Mat& first, const cv::Mat& second, const cv::Mat& mask, const Gradient& slope,
-        double radius) {
-    constexpr double spacing = 0.3, width = 0.25, max_shift = 0.25;  // radii
-    constexpr int min_windows = 8;                                   // of 16
-    const double middle = 0.5 * (first.cols - 1);
-    const int half = std::max(2, static_cast<int>(std::lround(width * radius)));
-    const int margin = static_cast<int>(middle - 1.5 * spacing * radius) - half - 1;
-    const int search = std::min(margin, std::max(2, static_cast<int>(max_shift * radius)));
-    if (search < 1) return {};
-    double along = 0.0, reach = 0.0, speed = 0.0;
-    int found = 0;
-    for (int j = 0; j < 4; ++j)
-        for (int i = 0; i < 4; ++i) {
-            const int column = static_cast<int>(std::lround(middle + (i - 1.5) * spacing * radius)),
-                      row = static_cast<int>(std::lround(middle + (j - 1.5) * spacing * radius));
-            const Shift s = window_shift(first, second, mask, slope, column, row, half, search);
-            if (!s.found) continue;
-            // The azimuthal direction, counter-clockwise with y down, is (y, −x)/ρ. The shift is a
-            // chord of the rotation, so x and y are taken at its middle.
-            const double x = s.column - middle + 0.5 * s.x, y = s.row - middle + 0.5 * s.y;
-            const double rho = std::hypot(x, y);
-            if (rho < 1e-9) continue;
-            along += (s.x * y - s.y * x) / rho;
-            reach += rho;
-            speed += std::hypot(s.x, s.y);
-            ++found;
-        }
-    if (found < min_windows) return {};
-    return {along / reach, speed / found, true};
-}
-
 /// A disc of one frame.
 struct DiscPatch {
     std::int64_t id;
@@ -376,21 +294,20 @@ std::vector<DiscPatch> disc_patches(const cv::Mat& image, const TrackedVideo& tr
     return patches;
 }
 
-/// Rotation between two frames, in radians and pixels.
+/// Rotation between two frames, in radians.
 DiscSpin step_between(const DiscPatch& from, const DiscPatch& to) {
+    constexpr double fast_turn = 0.25;  // rad: more than Gauss–Newton finds from 0
     const Gradient slope(to.texture);
     DiscSpin spin;
-    const Piv windows = piv(from.texture, to.texture, to.mask, slope, from.radius);
     const double error = std::hypot(min_error + from.error, min_error + to.error);
-    Registration found = register_turn(from.texture, to.texture, to.mask, slope, from.radius,
-                                       {0.0, 0.0, windows.turn}, error);
-    if (!found.found)
-        found = register_turn(from.texture, to.texture, to.mask, slope, from.radius, {}, error);
+    Registration found;
+    for (const double start : {0.0, fast_turn, -fast_turn})
+        if (!found.found)
+            found = register_turn(from.texture, to.texture, to.mask, slope, from.radius,
+                                  {0.0, 0.0, start}, error);
     spin.turn = found.turn;
     spin.match = found.match;
-    spin.piv_turn = windows.turn;
-    spin.piv_velocity = windows.velocity;
-    spin.known = found.found && windows.found;
+    spin.known = found.found;
     return spin;
 }
 
@@ -437,8 +354,6 @@ DiscSpin spin_at(const Steps& steps, std::size_t k, std::int64_t id, int step) {
         if (found == steps[begin].end() || !found->second.known) return;
         const DiscSpin& s = found->second;
         for (std::size_t i = 0; i < 3; ++i) spin.turn[i] += s.turn[i] / step;
-        spin.piv_turn += s.piv_turn / step;
-        spin.piv_velocity += s.piv_velocity / step;
         spin.match += s.match;
         number += 1.0;
     };
@@ -446,8 +361,6 @@ DiscSpin spin_at(const Steps& steps, std::size_t k, std::int64_t id, int step) {
     add(k);
     if (number == 0.0) return spin;
     for (double& w : spin.turn) w /= number;
-    spin.piv_turn /= number;
-    spin.piv_velocity /= number;
     spin.match /= number;
     spin.known = true;
     return spin;
@@ -456,8 +369,6 @@ DiscSpin spin_at(const Steps& steps, std::size_t k, std::int64_t id, int step) {
 DiscSpin between(const DiscSpin& a, const DiscSpin& b, double u) {
     DiscSpin spin;
     for (std::size_t i = 0; i < 3; ++i) spin.turn[i] = (1.0 - u) * a.turn[i] + u * b.turn[i];
-    spin.piv_turn = (1.0 - u) * a.piv_turn + u * b.piv_turn;
-    spin.piv_velocity = (1.0 - u) * a.piv_velocity + u * b.piv_velocity;
     return spin;
 }
 
@@ -478,7 +389,6 @@ void fill_gaps(const TrackedVideo& tracked, VideoSpins& spins) {
             for (std::size_t g = begin; g < j; ++g) {
                 if (last == where.size() && j == where.size()) {
                     spin(g).turn.fill(not_available);
-                    spin(g).piv_turn = spin(g).piv_velocity = not_available;
                     continue;
                 }
                 const DiscSpin& a = spin(last == where.size() ? j : last);

@@ -1,19 +1,8 @@
-// The rotation of each disc from its texture, by two estimators.
+// The rotation of each disc from its texture.
 //
-// PIV, as in the paper (SI, "DetectedParticle spin"): 16 interrogation windows on a 4 × 4 grid within the
-// disc. v_i is the velocity of the texture in window i relative to the disc's centre. It starts
-// from the peak of the normalised correlation, in whole pixels, and a least-squares shift refines
-// it (as in iterative PIV), so peaks are not locked to pixels. With ρ_i the position of window i
-// relative to the centre and e_i its azimuthal direction,
-//
-//     average velocity = mean |v_i|             includes rolling
-//     average spin     = mean v_i · e_i         about the vertical only
-//
-// (the paper writes sums), and the angular velocity about the vertical is Σ v_i·e_i / Σ ρ_i.
-//
-// Registration: the disc is modelled as a sphere seen from above. Gauss–Newton over all its pixels
-// finds the rotation about all three axes that maps the texture of one frame to that of another,
-// together with a shift of the centre within its error.
+// The disc is modelled as a sphere seen from above. Gauss–Newton over all its pixels finds the
+// rotation about all three axes that maps the texture of one frame to that of another, together
+// with a shift of the centre within its error.
 //
 // The texture is the deviation from the mean image of all discs. Shading and highlights do not turn
 // with a sphere and would bias the rotation towards zero. Rotations are measured over `step`
@@ -33,9 +22,7 @@
 namespace swirl::tracking {
 
 struct DiscSpin {
-    std::array<double, 3> turn{};  // registration: radians per frame
-    double piv_turn = 0.0;         // about the vertical, radians per frame
-    double piv_velocity = 0.0;     // mean |v_i|, pixels per frame
+    std::array<double, 3> turn{};  // radians per frame
     double match = 0.0;            // correlation of the two textures after registration
     bool known = false;            // false: interpolated, or NaN if the disc was never measured
 };

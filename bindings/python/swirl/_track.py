@@ -16,8 +16,7 @@ from ._recordings import Tracks, _ReadTracks, _camera
 from ._runs import PathName
 
 _UNITS = {"frame": "1", "particle": "1", "x": "pixels", "y": "pixels", "x_seen": "pixels",
-          "y_seen": "pixels", "radius": "pixels", "error": "pixels", "seen": "1", "piv_velocity": "pixels",
-          "texture_match": "1"}
+          "y_seen": "pixels", "radius": "pixels", "error": "pixels", "seen": "1", "texture_match": "1"}
 _NO_CAMERA = ("the program of this installation cannot read videos: it was built without OpenCV.\n"
               "hint: install OpenCV, and the package with pip install . -C "
               "cmake.define.SWIRL_CAMERA=ON (docs/tutorials/python.md).")
