@@ -60,7 +60,6 @@ def found_rows(found):
             (f"Ω, rad/{unit}", number(omega, omega_error)),
             (f"period, {unit}", number(2 * math.pi / omega, 2 * math.pi * omega_error / omega ** 2)),
             ("direction of rotation", "clockwise in the image" if path["clockwise"] else "counter-clockwise"),
-            ("path", path["shape"]),
             ("lens distortion", number(lens["distortion"], lens["distortion_error"])),
             ("camera", lens["camera"])]
     if found["millimetres_per_pixel"]:

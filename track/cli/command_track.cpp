@@ -175,7 +175,7 @@ std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
         "  video       {}x{} pixels\n"
         "  discs       {}, {} on {} floor\n"
         "  container   radius {:.2f} pixels, {:.3f} disc radii\n"
-        "  path        {}, {}\n"
+        "  path        {}\n"
         "  centre      {}, {} pixels\n"
         "  amplitude   {} pixels, {:.3f} disc radii\n"
         "  period      {} {}, {:.1f} frames; Ω = {} rad/{}\n"
@@ -187,7 +187,7 @@ std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
         "  error       from {}\n",
         video.width, video.height, species_text(video), video.bright ? "bright" : "dark",
         video.bright ? "a dark" : "a bright", video.container_radius,
-        video.container_radius / video.radius, path_shape_text(video),
+        video.container_radius / video.radius,
         video.path.clockwise ? "clockwise in the image" : "counter-clockwise",
         with_error(video.path.centre.x, video.path.centre_error),
         with_error(video.path.centre.y, video.path.centre_error),

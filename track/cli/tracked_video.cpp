@@ -128,11 +128,7 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
           {"phase_error", degrees(video.path.phase_error)},
           {"clockwise", video.path.clockwise},
           {"residual", video.path.residual},
-          {"agreeing_frames", video.path.used},
-          {"sides", video.polygon.sides > 0 ? Json(video.polygon.sides) : Json(nullptr)},
-          {"max_detectable_sides", video.polygon.max_sides},
-          {"vertex_distance",
-           video.polygon.sides > 0 ? Json(video.polygon.vertex_distance) : Json(nullptr)}}},
+          {"agreeing_frames", video.path.used}}},
         {"lens", lens_json(video)},
         {"light",
          {{"shift", vector_json(video.shading_shift)}, {"shift_error", video.shading_shift_error}}},
@@ -334,23 +330,12 @@ std::filesystem::path write_video_report(const TrackedVideo& video, const VideoS
     discs_table(video).write(folder / "discs.csv");
     Json about = found;
     about["command"] = command_line();
-    about["path"]["shape"] = path_shape_text(video);
     about["lens"]["camera"] = tilt_text(video);
     write_output(folder / "found.json", about.dump(2) + "\n");
     draw_found(video, source.video, std::filesystem::path(source.video).filename().string(),
                folder / "video.png");
     run_python_script("track.py", {folder.string()}, &stop_signal());
     return folder / "report.html";
-}
-
-std::string path_shape_text(const TrackedVideo& video) {
-    if (video.polygon.sides > 0)
-        return fmt::format("a polygon with {} sides, vertices at {:.2f} pixels",
-                           video.polygon.sides, video.polygon.vertex_distance);
-    if (video.polygon.max_sides >= 3)
-        return fmt::format("a circle, or a polygon with more than {} sides",
-                           video.polygon.max_sides);
-    return "n/a: too few frames or a rim too rough to distinguish a polygon from a circle";
 }
 
 std::string tilt_text(const TrackedVideo& video) {

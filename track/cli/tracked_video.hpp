@@ -49,8 +49,6 @@ std::filesystem::path write_video_report(const tracking::TrackedVideo& video,
                                          const nlohmann::ordered_json& found,
                                          const std::filesystem::path& folder);
 
-/// Shape of the path: circle or polygon, or "n/a: " and the reason.
-std::string path_shape_text(const tracking::TrackedVideo& video);
 
 /// Tilt of the camera with its error, or its upper bound.
 std::string tilt_text(const tracking::TrackedVideo& video);

@@ -89,7 +89,6 @@ void fit_container_motion(const TrackingSettings& settings, bool uneven_times, D
         tracked.shake = 0.0;
         rims = rim_centres(all, tracked);
     }
-    tracked.polygon = find_path_polygon(rims.centres, rims.times, tracked.path);
     std::vector<double> supports;
     for (std::size_t k = 0; k < all.size(); ++k) {
         tracked.rim_offsets.push_back(

@@ -19,7 +19,6 @@
 #include "track/tables/tracks.hpp"
 #include "track/video/camera_motion.hpp"
 #include "track/video/lens.hpp"
-#include "track/video/path_polygon.hpp"
 #include "track/video/recorded_motion.hpp"
 #include "track/video/tilt.hpp"
 #include "track/video/tracked_path.hpp"
@@ -84,7 +83,6 @@ struct TrackedVideo {
     Lens lens;
     Tilt tilt;
     TrackedPath path;  // per second, or per frame
-    PathPolygon polygon;
     RimCentres rims;                // without the camera's motion
     double rim_radius = 0.0;        // median over the frames
     double reach = 0.0;             // of the outermost disc, in most frames

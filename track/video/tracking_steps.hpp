@@ -101,7 +101,7 @@ bool set_times_by_phase(const TrackingSettings& settings, const RimCentres& rims
 // container_motion.cpp
 
 RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked);
-/// Sets all that the rim determines: path, polygon, shake. Throws Failure.
+/// Sets all that the rim determines: path, shake. Throws Failure.
 void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
                           TrackedVideo& tracked);
 

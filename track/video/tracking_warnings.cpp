@@ -110,7 +110,7 @@ void warn_about_fields(TrackedVideo& tracked) {
 
 void warn_about_wall(TrackedVideo& tracked) {
     constexpr double max_off = 0.06;     // disc radii between the rim and the discs' reach
-    constexpr double max_beyond = 0.05;  // disc radii from the vertices to the circle
+    constexpr double max_beyond = 0.05;  // disc radii from the centres to the circle
     const double inside = tracked.rim_radius - tracked.reach, limit = max_off * tracked.radius;
     if (inside > limit && !tracked.wall_reached)
         warn(tracked,
@@ -139,14 +139,15 @@ void warn_about_wall(TrackedVideo& tracked) {
              "the container looks elongated in another direction than a tilted camera explains: it "
              "is not round, or its rim is not flat; distances in different directions are not "
              "comparable to better than that");
-    const double beyond = tracked.polygon.vertex_distance - tracked.path.amplitude;
-    if (tracked.polygon.sides > 0 && beyond > max_beyond * tracked.radius)
+    // A shake that was taken from the rim is in the residual, but no longer in the positions.
+    if (tracked.path.residual > max_beyond * tracked.radius && !tracked.camera.from_rim)
         warn(
             tracked,
-            "the container moved along a polygon of {} sides, but the circle that fits it is used: "
-            "its vertices are {:.2f} pixels farther out; positions relative to the container, and "
-            "its radius, may be wrong by as much",
-            tracked.polygon.sides, beyond);
+            "the centre of the container is {:.2f} pixels off the circle that fits its path, as on "
+            "a polygon of few sides or with a rolling shutter; positions relative to the "
+            "container, and its radius, may be "
+            "wrong by as much",
+            tracked.path.residual);
 }
 
 void warn_about_discs(double outside, TrackedVideo& tracked) {

@@ -96,7 +96,6 @@ void move_path_to_wall(TrackedVideo& tracked) {
     tracked.path.centre = tracked.path.centre + tracked.rim_shift;
     tracked.path.centre_error = std::hypot(tracked.path.centre_error, std::max(error[1], error[2]));
     if (std::abs(fit[3]) < stands_out * error[3]) return;
-    tracked.polygon.vertex_distance *= 1.0 - fit[3] / tracked.path.amplitude;
     tracked.path.amplitude -= fit[3];
     tracked.path.amplitude_error = std::hypot(tracked.path.amplitude_error, error[3]);
 }
