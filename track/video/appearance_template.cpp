@@ -17,8 +17,7 @@ constexpr float nowhere = -1e30f;    // excess is not defined there
 constexpr double step = 0.5;         // of the template's grid, pixels
 constexpr double beyond = 3.5;       // width of the ring outside the edge that is used, pixels
 constexpr double near_others = 1.0;  // width of the blur of a neighbour's edge, pixels
-constexpr double gain_varies = 0.2, mode_varies = 0.15;  // standard deviations of the priors
-constexpr std::size_t modes = 4;
+constexpr double gain_varies = 0.2;  // standard deviation of its prior
 constexpr std::size_t min_particles = 150;  // of each species, in all examples
 /// Texture and compression correlate the residuals of about this many neighbouring pixels.
 constexpr double pixels_of_a_patch = 4.0;
@@ -349,96 +348,48 @@ double AppearanceTemplate::excess_at(const Excess& excess, const Vec2& position)
     return double(excess.level.at<float>(row, column));
 }
 
-namespace {
-
-/// Contribution of one row of pixels to the normal equations. With u the offset in radii: sums of
-/// T²uᵏ, T∂ₓT uᵏ, T∂ᵧT uᵏ and T e uᵏ for k = 0 … 3, of four other squares, and of e times T and its
-/// slopes.
-struct RowSums {
-    OnGrid tt{}, tx{}, ty{}, te{}, squares{}, slopes{};
-    int pixels = 0;
-
-    void add(const OnGrid& t, float u, float e) {
-        const float uu = u * u;
-        const OnGrid power{1.0f, u, uu, u * uu};
-        const OnGrid left{t[0] * uu, t[1], t[1], t[2]}, right{t[0] * uu, t[1], t[2], t[2]};
-        const OnGrid p = t[0] * power;
-        tt += t[0] * p;
-        tx += t[1] * p;
-        ty += t[2] * p;
-        te += e * p;
-        squares += left * right;
-        slopes += e * t;
-        ++pixels;
-    }
-};
-
-}  // namespace
-
-/// Normal equations A x = b for the changes of the gain, the modes and the position.
+/// Normal equations A x = b for the changes of the gain and of the position, and their weights.
 struct AppearanceTemplate::Normal {
-    static constexpr std::size_t n = 1 + modes + 2;
-    std::array<std::array<double, n>, n> a{};
-    std::array<double, n> b{};
+    std::array<std::array<double, 3>, 3> a{};
+    std::array<double, 3> b{};
     int pixels = 0;
-
-    /// Adds a row at height v (radii); `gain` scales the slopes.
-    void add(const RowSums& s, double v, double gain) {
-        // In each row, the modes T (1, u, v, u² − v², 2uv) are T (c₀ + c₁u + c₂u²).
-        const double c[1 + modes][3] = {{1.0, 0.0, 0.0},
-                                        {0.0, 1.0, 0.0},
-                                        {v, 0.0, 0.0},
-                                        {-v * v, 0.0, 1.0},
-                                        {0.0, 2.0 * v, 0.0}};
-        const double tt[5] = {double(s.tt[0]), double(s.tt[1]), double(s.tt[2]), double(s.tt[3]),
-                              double(s.squares[0])};
-        const auto with = [](const double(&f)[3], const OnGrid& sums) {
-            return f[0] * double(sums[0]) + f[1] * double(sums[1]) + f[2] * double(sums[2]);
-        };
-        for (std::size_t r = 0; r <= modes; ++r) {
-            for (std::size_t k = r; k <= modes; ++k)
-                for (std::size_t p = 0; p < 3; ++p)
-                    for (std::size_t q = 0; q < 3; ++q) a[r][k] += c[r][p] * c[k][q] * tt[p + q];
-            a[r][modes + 1] += gain * with(c[r], s.tx);
-            a[r][modes + 2] += gain * with(c[r], s.ty);
-            b[r] += with(c[r], s.te);
-        }
-        a[modes + 1][modes + 1] += gain * gain * double(s.squares[1]);
-        a[modes + 1][modes + 2] += gain * gain * double(s.squares[2]);
-        a[modes + 2][modes + 2] += gain * gain * double(s.squares[3]);
-        b[modes + 1] += gain * double(s.slopes[1]);
-        b[modes + 2] += gain * double(s.slopes[2]);
-        pixels += s.pixels;
-    }
-    /// Fills the lower triangle of A, and subtracts the current fit from b, which holds the image.
-    void complete(const std::array<double, 1 + modes>& fitted) {
-        for (std::size_t r = 0; r < n; ++r)
-            for (std::size_t k = 0; k < r; ++k) a[r][k] = a[k][r];
-        for (std::size_t r = 0; r < n; ++r)
-            for (std::size_t k = 0; k <= modes; ++k) b[r] -= a[r][k] * fitted[k];
-    }
 };
 
+/// `gain` is the present one.
 AppearanceTemplate::Normal AppearanceTemplate::normal(const Excess& excess, const Vec2& centre,
                                                       std::size_t species,
                                                       const std::vector<NearCircle>& others,
                                                       int stride, double gain) const {
-    const SpeciesTemplate& model = templates_[species];
     Normal sum;
     each_row(excess, centre, species, others, stride, [&](const Row& r) {
-        const double y = (r.row - centre.y) / r.scale;
-        const GridRow grid(model.grid, y);
+        const GridRow grid(templates_[species].grid, (r.row - centre.y) / r.scale);
         const auto shrink = static_cast<float>(1.0 / r.scale),
-                   begin = static_cast<float>(r.from - centre.x),
-                   radii = static_cast<float>(1.0 / model.radius);
-        RowSums row;
+                   begin = static_cast<float>(r.from - centre.x);
+        OnGrid level{}, across{}, seen{};  // sums of T, ∂ₓT and e times T, ∂ₓT and ∂ᵧT
+        float down = 0.0f;                 // of (∂ᵧT)²
         for (int column = 0; column <= r.to - r.from; column += stride) {
             if (r.hidden[column]) continue;
-            const float x = shrink * (begin + static_cast<float>(column));
-            row.add(grid.at(x), radii * x, r.level[r.from + column]);
+            const OnGrid t = grid.at(shrink * (begin + static_cast<float>(column)));
+            level += t[0] * t;
+            across += t[1] * t;
+            down += t[2] * t[2];
+            seen += r.level[r.from + column] * t;
+            ++sum.pixels;
         }
-        sum.add(row, y / model.radius, -gain / r.scale);
+        const double slope = -gain / r.scale;
+        sum.a[0][0] += double(level[0]);
+        sum.a[0][1] += slope * double(level[1]);
+        sum.a[0][2] += slope * double(level[2]);
+        sum.a[1][1] += slope * slope * double(across[1]);
+        sum.a[1][2] += slope * slope * double(across[2]);
+        sum.a[2][2] += slope * slope * double(down);
+        sum.b[0] += double(seen[0]);
+        sum.b[1] += slope * double(seen[1]);
+        sum.b[2] += slope * double(seen[2]);
     });
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t k = 0; k < r; ++k) sum.a[r][k] = sum.a[k][r];
+    for (std::size_t r = 0; r < 3; ++r) sum.b[r] -= gain * sum.a[r][0];
     return sum;
 }
 
@@ -453,25 +404,21 @@ AppearanceTemplate::Fit AppearanceTemplate::fit(const Excess& excess, const Vec2
     const SpeciesTemplate& model = templates_[species];
     Fit fit;
     fit.centre = centre;
-    std::array<double, 1 + modes> fitted{1.0};
+    double gain = 1.0;
     for (int round = 0; round < rounds; ++round) {
-        Normal system = normal(excess, fit.centre, species, others, stride, fitted[0]);
+        Normal system = normal(excess, fit.centre, species, others, stride, gain);
         if (double(system.pixels) * stride * stride <
             min_visible * pi * model.radius * model.radius)
             return fit;
-        system.complete(fitted);
-        for (std::size_t k = 0; k <= modes; ++k) {
-            const double varies = k == 0 ? gain_varies : mode_varies;
-            const double patch = std::max(1.0, pixels_of_a_patch / (stride * stride));
-            const double weight = variance_ * patch / (varies * varies);
-            system.a[k][k] += weight;
-            system.b[k] += weight * ((k == 0 ? 1.0 : 0.0) - fitted[k]);
-        }
+        const double patch = std::max(1.0, pixels_of_a_patch / (stride * stride)),
+                     weight = variance_ * patch / (gain_varies * gain_varies);
+        system.a[0][0] += weight;
+        system.b[0] += weight * (1.0 - gain);
         if (!solve_system(system.a, system.b)) return fit;
-        for (std::size_t k = 0; k <= modes; ++k) fitted[k] += system.b[k];
+        gain += system.b[0];
         const double maximum = max_step * model.radius;
-        const Vec2 move{std::clamp(system.b[modes + 1], -maximum, maximum),
-                        std::clamp(system.b[modes + 2], -maximum, maximum)};
+        const Vec2 move{std::clamp(system.b[1], -maximum, maximum),
+                        std::clamp(system.b[2], -maximum, maximum)};
         fit.centre = fit.centre + move;
         if (length(move) < small_move) break;
     }
