@@ -39,7 +39,6 @@ struct TrackCall {
     std::optional<std::int64_t> discs, frames;
     std::optional<std::int64_t> from, to;
     std::string skip, accept, tilt;
-    std::optional<double> view_angle;
     bool spin = false, quiet = false, verbose = false, overwrite = false;
 };
 
@@ -51,16 +50,10 @@ void track(const TrackCall&) { throw_no_camera_support(); }
 
 using namespace tracking;
 
-/// The camera's tilt and view angle as given. Throws UsageError.
+/// The camera's tilt as given. Throws UsageError.
 KnownCamera known_camera(const TrackCall& call) {
-    constexpr double radians = pi / 180.0, max_tilt = 45.0, max_view_angle = 150.0;  // degrees
+    constexpr double radians = pi / 180.0, max_tilt = 45.0;  // degrees
     KnownCamera camera;
-    if (call.view_angle) {
-        if (!(*call.view_angle >= 0.0 && *call.view_angle <= max_view_angle))
-            throw UsageError(fmt::format("--view-angle is {}, but it must be from 0 to {} degrees.",
-                                         *call.view_angle, max_view_angle));
-        camera.view_angle = radians * *call.view_angle;
-    }
     if (call.tilt.empty()) return camera;
     const std::size_t comma = call.tilt.find(',');
     const bool has_side = comma != call.tilt.npos;
@@ -387,8 +380,6 @@ void add_track_command(Subcommand& subcommand) {
     add("--discs", call->discs, "N", "Number of discs [counted]");
     add("--tilt", call->tilt, "DEG,SIDE",
         "Camera tilt, and its side counter-clockwise from +x [found]");
-    add("--view-angle", call->view_angle, "DEG",
-        "Vertical view angle of the camera [found if tilted]");
     add("--max-frames", call->frames, "N", "Number of frames to track [all]");
     add("--from", call->from, "K", "First frame to track, counted from 0 [0]");
     add("--to", call->to, "K", "Last frame to track [the last one]");

@@ -84,7 +84,6 @@ Json lens_json(const TrackedVideo& video) {
     json["tilt_towards_error"] =
         video.lens.tilted() ? Json(degrees(tilt.towards_error)) : Json(nullptr);
     json["rim_shift"] = vector_json(video.rim_shift);
-    json["view_angle"] = tilt.view_angle > 0.0 ? Json(degrees(tilt.view_angle)) : Json(nullptr);
     json["squeeze"] = vector_json(video.lens.squeeze);
     json["squeeze_error"] = tilt.squeeze_error;
     json["perspective"] = vector_json(video.lens.perspective);
@@ -353,9 +352,6 @@ std::string tilt_text(const TrackedVideo& video) {
             : fmt::format("tilt below {:.1f} degrees", degrees(tilt.below));
     text += " towards " +
             with_error(whole_turn(degrees(tilt.towards)), degrees(tilt.towards_error)) + " degrees";
-    if (tilt.view_angle > 0.0)
-        text +=
-            "; view angle " + with_error(degrees(tilt.view_angle), degrees(tilt.view_angle_error));
     return text + "; corrected";
 }
 

@@ -704,9 +704,7 @@ exec '{shutil.which("ffmpeg")}' "$@"
         for words, arguments in ((["--out"], []), ([".csv"], ["--out", self.path("x.txt")]),
                                  (["--fps"], ["--out", self.path("x.csv"), "--fps", -1]),
                                  (["--discs"], ["--out", self.path("x.csv"), "--discs", 0]),
-                                 (["--tilt"], ["--out", self.path("x.csv"), "--tilt", "5"]),
-                                 (["--view-angle"], ["--out", self.path("x.csv"), "--view-angle",
-                                                     200])):
+                                 (["--tilt"], ["--out", self.path("x.csv"), "--tilt", "5"])):
             call = swirl("track", "video.mp4", *arguments)
             self.assert_rejected(2, *words, call=call)
         self.assert_rejected(2, "one of laboratory", call=swirl("synthetic-video", "--camera", "x", "--out",

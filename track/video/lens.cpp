@@ -84,10 +84,9 @@ Lens::Circle Lens::image(const Circle& ideal) const {
 double Lens::seen_radius(const Vec2& seen, double radius) const {
     const Vec2 q = seen - image_centre;
     const double s = k * dot(q, q) / (half_height * half_height);
-    // Near balls look larger, and so do balls away from the axis.
+    // Near balls look larger.
     const double size = tilted() ? 1.0 / (1.0 + dot(perspective, ideal(seen) - image_centre)) : 1.0;
-    const double longer = 1.0 + 0.25 * inverse_focal_length * inverse_focal_length * dot(q, q);
-    return 0.5 * size * longer * radius * (1.0 / (1.0 + s) + 1.0 / (1.0 + 3.0 * s));
+    return 0.5 * size * radius * (1.0 / (1.0 + s) + 1.0 / (1.0 + 3.0 * s));
 }
 
 Lens::Circle Lens::ideal(const Circle& seen_circle) const {
@@ -111,26 +110,23 @@ void Lens::combine_distortions() {
     constexpr double contradicts = 3.0, supports = 1.5, stands_out = 4.0, both_stand_out = 3.0;
     constexpr double max_k_error = 0.01, min_k = 0.002,
                      max_k = 0.3;  // limits of a correction
-    const double hidden =
-        inverse_focal_length * half_height * inverse_focal_length * half_height / 8.0;
-    const double by_sizes = size_k + hidden;
-    double combined = by_sizes;
+    double combined = size_k;
     k_error = std::hypot(size_k_error, ball_radius > 0.0 ? size_bias / ball_radius : 0.0);
     bool detected = std::abs(combined) > stands_out * k_error;
     if (contact_k_error > 0.0) {
-        const double off = std::abs(by_sizes - contact_k);
+        const double off = std::abs(size_k - contact_k);
         const bool agree = off < contradicts * std::hypot(k_error, contact_k_error);
         const double size_weight = agree ? 1.0 / (k_error * k_error) : 0.0,
                      contact_weight = 1.0 / (contact_k_error * contact_k_error);
         combined =
-            (size_weight * by_sizes + contact_weight * contact_k) / (size_weight + contact_weight);
+            (size_weight * size_k + contact_weight * contact_k) / (size_weight + contact_weight);
         k_error = 1.0 / std::sqrt(size_weight + contact_weight);
         detected = std::abs(combined) > both_stand_out * k_error;
         // A weak distortion is taken from the sizes alone if contacts are closer to it than to no
         // distortion: balls that look alike all over the container determine it better.
-        if (!detected && std::abs(by_sizes) > stands_out * size_k_error &&
+        if (!detected && std::abs(size_k) > stands_out * size_k_error &&
             off < supports * contact_k_error && off < std::abs(contact_k)) {
-            combined = by_sizes;
+            combined = size_k;
             detected = true;
         }
     }

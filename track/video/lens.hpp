@@ -9,9 +9,8 @@
 // give k. The rim is one large circle whose centre moves little, and determines k much worse.
 //
 // Two effects bias these sizes. A ball seen at an angle ψ to the camera's axis looks longer by
-// 1/cos ψ away from the axis, larger by 1 + ψ²/4 on average. This hides a k of tan²(v/2)/8, with v
-// the view angle of the image's height; if v is unknown, k is too small by this amount. In
-// addition, balls that are lit from one side look smaller where the wall is dark.
+// 1/cos ψ away from the axis, larger by 1 + ψ²/4 on average. This makes k too small by tan²(v/2)/8,
+// with v the view angle of the image's height. In addition, balls that are lit from one side look smaller where the wall is dark.
 //
 // k from contacts: distances of discs in contact have neither bias (contact_distance.hpp). If
 // contacts determine k, the sizes get only the weight that the image resolution of the balls
@@ -47,9 +46,8 @@ struct Lens {
     double ball_radius = 0.0;  // of the balls that were measured, pixels
     // From discs in contact; an error of 0: not determined.
     double contact_k = 0.0, contact_k_error = 0.0;
-    double inverse_focal_length = 0.0;  // 1/F, per pixel; 0: unknown
-    Vec2 squeeze{0.0, 0.0};             // e (cos 2ε, sin 2ε), ε its direction, y down
-    Vec2 perspective{0.0, 0.0};         // p, per pixel
+    Vec2 squeeze{0.0, 0.0};      // e (cos 2ε, sin 2ε), ε its direction, y down
+    Vec2 perspective{0.0, 0.0};  // p, per pixel
 
     bool tilted() const { return dot(squeeze, squeeze) + dot(perspective, perspective) > 0.0; }
     /// Position in the image of an ideal camera that looks straight down.

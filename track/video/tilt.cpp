@@ -226,44 +226,19 @@ Tilt tilt_by_squeeze(const Lens& lens, const TiltFit::Errors& errors) {
     return tilt;
 }
 
-/// Sets `value` to the weighted mean with `other`.
-void combine(double other, double other_error, double& value, double& error) {
-    const double a = 1.0 / (error * error), b = 1.0 / (other_error * other_error);
-    value = (a * value + b * other) / (a + b);
-    error = 1.0 / std::sqrt(a + b);
-}
-
-/// Adds what the perspective determines: the direction, and the angle or the view angle.
-void add_perspective(const Lens& lens, bool focal_length_known, Tilt& tilt) {
+/// Sets the direction in which the camera stands: where things are nearer, within the line of the
+/// squeeze.
+void add_perspective(const Lens& lens, Tilt& tilt) {
     constexpr double min_oval = 0.3;  // rad between the two directions of a container not round
-    constexpr double max_sine = 0.7;  // keeps the arc sine of a failed fit finite
-    const double p = length(lens.perspective);
-    // The camera stands where things are nearer.
     const double nearer = std::atan2(lens.perspective.y, -lens.perspective.x);
-    const double nearer_error = tilt.perspective_error / p;
-    if (tilt.angle > 0.0) {
-        if (std::cos(nearer - tilt.towards) < 0.0) tilt.towards += pi;
-        const double apart = std::remainder(nearer - tilt.towards, 2.0 * pi);
-        tilt.oval = std::abs(apart) > min_oval &&
-                    std::abs(apart) > tilt_stands_out * (nearer_error + tilt.towards_error);
-        combine(tilt.towards + apart, nearer_error, tilt.towards, tilt.towards_error);
-    } else {
+    const double nearer_error = tilt.perspective_error / length(lens.perspective);
+    if (tilt.angle == 0.0) {
         tilt.towards = nearer, tilt.towards_error = nearer_error;
+        return;
     }
-    if (focal_length_known) {
-        const double other = std::asin(std::min(p / lens.inverse_focal_length, max_sine));
-        const double other_error =
-            tilt.perspective_error / lens.inverse_focal_length / std::cos(other);
-        if (tilt.angle > 0.0)
-            combine(other, other_error, tilt.angle, tilt.angle_error);
-        else
-            tilt.angle = other, tilt.angle_error = other_error;
-    } else if (tilt.angle > 0.0) {
-        const double tangent = lens.half_height * p / std::sin(tilt.angle);
-        tilt.view_angle = 2.0 * std::atan(tangent);
-        const double share = std::hypot(nearer_error, tilt.angle_error / std::tan(tilt.angle));
-        tilt.view_angle_error = 2.0 * tangent / (1.0 + tangent * tangent) * share;
-    }
+    if (std::cos(nearer - tilt.towards) < 0.0) tilt.towards += pi;
+    const double apart = std::abs(std::remainder(nearer - tilt.towards, 2.0 * pi));
+    tilt.oval = apart > min_oval && apart > tilt_stands_out * (nearer_error + tilt.towards_error);
 }
 
 std::vector<RimOutline> rim_outlines(const std::vector<PreparedFrame>& frames,
@@ -312,7 +287,7 @@ Tilt fit_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known
         tilt.angle = *known.tilt, tilt.angle_error = exact;
         tilt.towards = known.towards.value_or(0.0), tilt.towards_error = exact;
     }
-    if (perspective) add_perspective(found, known.view_angle.has_value(), tilt);
+    if (perspective) add_perspective(found, tilt);
     if (known.tilt) tilt.angle_error = tilt.towards_error = 0.0;
     found.squeeze = squeeze_of(tilt.angle, tilt.towards);
     lens = found;
@@ -324,10 +299,6 @@ Tilt fit_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known
 
 Tilt find_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known,
                ContainerRim& rim, Lens& lens) {
-    constexpr double max_view_error = 0.2;  // relative: enough to correct the sizes of balls
-    const bool given = known.view_angle && *known.view_angle > 0.0;
-    if (given) lens.inverse_focal_length = std::tan(0.5 * *known.view_angle) / lens.half_height;
-    lens.combine_distortions();
     if (known.tilt && *known.tilt == 0.0) return {};
     Lens start = lens;
     // The sizes of balls give the perspective to a few per cent. This start keeps the fit from
@@ -337,15 +308,7 @@ Tilt find_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& know
     if (known.tilt) start.squeeze = squeeze_of(*known.tilt, known.towards.value_or(0.0));
     const ContainerRim seen = rim;
     lens = start;
-    Tilt tilt = fit_tilt(frames, known, rim, lens);
-    if (!given && tilt.view_angle_error > 0.0 &&
-        tilt.view_angle_error < max_view_error * tilt.view_angle) {
-        start.inverse_focal_length = std::tan(0.5 * tilt.view_angle) / lens.half_height;
-        start.combine_distortions();
-        lens = start;
-        rim = seen;
-        tilt = fit_tilt(frames, known, rim, lens);
-    }
+    const Tilt tilt = fit_tilt(frames, known, rim, lens);
     if (lens.tilted())
         rim.lens = lens;
     else

@@ -11,8 +11,7 @@
 // of p goes round with C. Both are fitted together with the radius and the centre in every frame,
 // by Gauss–Newton with Tukey's weights. A known distortion k is corrected first.
 //
-// θ follows from e, and the focal length follows from p. If the focal length is known, θ follows
-// from p as well, with a smaller error.
+// θ follows from e, and the side on which the camera stands from p.
 //
 // Errors have two parts: the scatter between frames; and what no tilt explains, the harmonics 3 … 8
 // of the rim's mean outline. e may err by as much as these, and p by as much per amplitude of the
@@ -33,17 +32,16 @@ namespace swirl::tracking {
 
 /// Angles in radians; directions as phases, counter-clockwise from the right.
 struct Tilt {
-    double angle = 0.0, angle_error = 0.0;            // of the camera's axis; 0: not detected
-    double below = 0.0;                               // upper limit: two standard errors more
-    double towards = 0.0, towards_error = 0.0;        // direction where the camera stands
-    double view_angle = 0.0, view_angle_error = 0.0;  // of the image's height; 0: unknown
+    double angle = 0.0, angle_error = 0.0;      // that of the camera's axis; 0: not detected
+    double below = 0.0;                         // upper limit: two standard errors more
+    double towards = 0.0, towards_error = 0.0;  // direction where the camera stands
     double squeeze_error = 0.0, perspective_error = 0.0;
     bool oval = false;  // squeeze and perspective have different directions
 };
 
 /// What the user knows of the camera; radians.
 struct KnownCamera {
-    std::optional<double> tilt, towards, view_angle;
+    std::optional<double> tilt, towards;
 };
 
 /// Sets the squeeze and perspective of `lens`, if they exceed their errors by a factor of four, and
