@@ -376,7 +376,6 @@ void refine_position(DetectedParticle& particle, const std::vector<DetectedParti
     // independent, so a weighted mean is better than both; those of profiles are smaller.
     const double profile_weight = radius > small_discs ? 0.7 : 0.5;
     if (!fit.good || length(fit.centre - particle.centre) > std::max(1.5, 0.06 * radius)) return;
-    particle.disagreement = length(fit.centre - particle.centre);
     particle.centre = (1.0 - profile_weight) * particle.centre + profile_weight * fit.centre;
     particle.error = fit.error;
 }

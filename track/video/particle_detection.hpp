@@ -65,7 +65,6 @@ struct DetectedParticle {
     std::size_t species = 0;
     double support = 0.0, error = 0.0;
     bool sure = false;
-    double disagreement = 0.0;  // distance of the two fits to its edge, pixels; 0: there is one fit
 };
 
 /// Circles are found, but the frames contradict that they are discs.

@@ -135,21 +135,6 @@ void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
     }
 }
 
-/// Error of a coordinate from the two fits to the edge of each disc. Their errors are about equal
-/// and nearly independent, so that of the mean is half of their difference. It contains what the
-/// texture does to all rays of a fit, for as long as a patch is at the edge.
-double error_from_fits(const Detections& all) {
-    double square = 0.0;
-    std::size_t count = 0;
-    for (const FrameDetections& frame : all)
-        for (const DetectedParticle& p : frame.particles)
-            if (p.sure && p.disagreement > 0.0) {
-                square += 0.5 * p.disagreement * p.disagreement;
-                ++count;
-            }
-    return count ? 0.5 * std::sqrt(square / double(count)) : 0.0;
-}
-
 }  // namespace
 
 void measure_quality(const Detections& all, TrackedVideo& tracked) {
@@ -188,10 +173,8 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
     // The rays of a soft edge scatter by more than the circle errs, so a fit to all distances
     // replaces larger ones, too.
     if (!(tracked.position_error > 0.0)) return;
-    double error =
-        tracked.contact_fitted
-            ? tracked.overlap_error
-            : std::max({tracked.overlap_error, tracked.position_error, error_from_fits(all)});
+    double error = tracked.contact_fitted ? tracked.overlap_error
+                                          : std::max(tracked.overlap_error, tracked.position_error);
     // All discs share the error of a shift that was removed, so overlaps do not contain it.
     error = std::hypot(error, tracked.shading_shift_error);
     if (error == tracked.position_error) return;
