@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "swirl/math/unit_circle.hpp"
-
 namespace swirl::tracking {
 
 namespace {
@@ -77,42 +75,6 @@ Spread most_likely(const Histogram& seen, Spread spread) {
             for (double& step : steps) step *= 0.6;
     }
     return spread;
-}
-
-/// The mean of a normal number of mean x and variance 1, given that it is positive, minus x:
-/// φ(x)/Φ(x).
-double excess_if_positive(double x) {
-    constexpr double far = -6.0;  // below, both vanish; the limit is −x − 1/x
-    if (x < far) return -x - 1.0 / x;
-    return std::exp(-0.5 * x * x) / std::sqrt(2.0 * pi) / (0.5 * std::erfc(-x / std::sqrt(2.0)));
-}
-
-/// A minimum distance of two discs, or of a disc and the wall (then `other` equals `one`).
-struct Constraint {
-    std::size_t one, other;
-    Vec2 apart;  // unit vector from `other` to `one`, along which both are moved
-    double minimum, force = 0.0;
-};
-
-std::vector<Constraint> constraints_of(const std::vector<HardDisc>& discs, double closest,
-                                       const Vec2& container) {
-    constexpr double neighbours = 1.08;  // of the contact distance: at least five errors
-    constexpr double near_wall = 0.1;    // radii
-    std::vector<Constraint> all;
-    for (std::size_t a = 0; a < discs.size(); ++a) {
-        for (std::size_t b = a + 1; b < discs.size(); ++b) {
-            const Vec2 d = discs[a].centre - discs[b].centre;
-            const double far = std::sqrt(dot(d, d));
-            const double minimum = closest * (discs[a].radius + discs[b].radius);
-            if (far > 0.0 && far < neighbours * minimum)
-                all.push_back({a, b, (1.0 / far) * d, minimum});
-        }
-        const Vec2 d = discs[a].centre - container;
-        const double far = std::sqrt(dot(d, d));
-        if (far > 0.0 && far > discs[a].reach - near_wall * discs[a].radius)
-            all.push_back({a, a, (-1.0 / far) * d, -discs[a].reach});
-    }
-    return all;
 }
 
 }  // namespace
@@ -205,38 +167,6 @@ std::optional<Distortion> distortion_of(const std::vector<DiscPair>& pairs, cons
     const double by_chance = fine / std::sqrt(-bend * double(pairs.size()) / correlated_pairs);
     return Distortion{best + fine * shift,
                       std::hypot(by_chance, 0.5 * contact_bias / std::max(farther, 1e-6))};
-}
-
-void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& container) {
-    constexpr int linearized = 3, rounds = 60;
-    constexpr double converged = 2e-3;  // pixels
-    constexpr double follow = 0.7;      // damping prevents oscillations
-    const std::vector<HardDisc> seen = discs;
-    for (int pass = 0; pass < linearized; ++pass) {
-        std::vector<Constraint> all = constraints_of(discs, closest, container);
-        std::vector<Vec2> positions;
-        for (const HardDisc& disc : seen) positions.push_back(disc.centre);
-        for (int round = 0; round < rounds; ++round) {
-            double maximum = 0.0;
-            for (Constraint& c : all) {
-                const bool wall = c.one == c.other;
-                const Vec2 from = positions[c.one] - (wall ? container : positions[c.other]);
-                const double share = seen[c.one].variance + (wall ? 0.0 : seen[c.other].variance);
-                const double deviation = std::sqrt(share);
-                const double free = dot(from, c.apart) - c.minimum - c.force * share;
-                const double more =
-                    follow * (excess_if_positive(free / deviation) / deviation - c.force);
-                c.force += more;
-                positions[c.one] = positions[c.one] + more * seen[c.one].variance * c.apart;
-                if (!wall)
-                    positions[c.other] =
-                        positions[c.other] - more * seen[c.other].variance * c.apart;
-                maximum = std::max(maximum, std::abs(more) * share);
-            }
-            if (maximum < converged) break;
-        }
-        for (std::size_t i = 0; i < discs.size(); ++i) discs[i].centre = positions[i];
-    }
 }
 
 }  // namespace swirl::tracking

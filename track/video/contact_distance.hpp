@@ -7,14 +7,7 @@
 //
 // where EMG is the distribution of the sum of a normal and an exponential deviate. Maximum
 // likelihood of a histogram gives the contact distance more accurately than single positions, and
-// the error σ of a distance. The wall stops discs in the same way: use negative distances from the
-// container's centre.
-//
-// The positions of hard discs are then replaced by their expectations. A single pair with measured
-// gap g and error s has the expected gap g + s h(g/s) with h(x) = φ(x)/Φ(x). That changes nothing
-// if the discs are far apart, and moves overlapping discs slightly out of contact. In a crowd, each
-// gap is corrected iteratively given all others; the wall acts as a disc that does not move. Small
-// errors give small corrections.
+// the error σ of a distance.
 #pragma once
 
 #include <optional>
@@ -52,16 +45,5 @@ struct Distortion {
 };
 std::optional<Distortion> distortion_of(const std::vector<DiscPair>& pairs, const Vec2& middle,
                                         double half);
-
-/// A disc with the error of its position.
-struct HardDisc {
-    Vec2 centre{0.0, 0.0};
-    double variance = 1.0;  // per coordinate
-    double radius = 1.0;
-    double reach = 1e300;  // largest distance from the container's centre, at the wall
-};
-/// Moves discs to their expected positions. `closest`: contact distance relative to the sum of
-/// radii.
-void move_apart(std::vector<HardDisc>& discs, double closest, const Vec2& container);
 
 }  // namespace swirl::tracking

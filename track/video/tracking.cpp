@@ -155,7 +155,7 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
 
     const Links links = link_detections(settings, survey, all, tracked);
     remove_shading_shift(links, survey.brighter, all, tracked);
-    separate_overlaps(links, all, tracked);
+    find_contacts(links, all, tracked);
     assemble_tracks(all, links, settings.first_frame, tracked);
     if (tracked.number == 0) throw Failure("no disc could be followed through the video");
 

@@ -126,12 +126,11 @@ void for_each_linked(const Links& links, Use&& use) {
 void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& all,
                           TrackedVideo& tracked);
 
-// overlap_separation.cpp, track_assembly.cpp, wall_fit.cpp, track_quality.cpp,
+// disc_contacts.cpp, track_assembly.cpp, wall_fit.cpp, track_quality.cpp,
 // tracking_warnings.cpp
 
-/// Moves discs that seem to overlap or to stick in the wall apart, since they are hard. Sets the
-/// error that overlaps imply.
-void separate_overlaps(const Links& links, Detections& all, TrackedVideo& tracked);
+/// Sets the contact distance of discs, and the error of positions that the distances imply.
+void find_contacts(const Links& links, const Detections& all, TrackedVideo& tracked);
 /// Writes the tracks, with short gaps filled.
 void assemble_tracks(const Detections& all, const Links& links, std::int64_t first_frame,
                      TrackedVideo& tracked);
