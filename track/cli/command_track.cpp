@@ -299,7 +299,7 @@ void warn_of_missing_spins(const VideoSpins& spins, TrackedVideo& video) {
 }
 
 void warn_of_contradictory_diameters(const VideoSource& source, TrackedVideo& video) {
-    constexpr double tolerance = 0.03;  // of the ratio; radii are found to about 1 %
+    constexpr double tolerance = 0.03;  // share of the ratio; radii are found to about 1 %
     if (!source.container_diameter || !source.disc_diameter) return;
     const double given = *source.container_diameter / *source.disc_diameter;
     const double found = video.container_radius / video.radius;

@@ -92,8 +92,8 @@ std::string motion_text(const TrackedVideo& video, const RecordedMotion& motion,
 }
 
 std::vector<std::string> motion_warnings(const RecordedMotion& motion) {
-    constexpr double max_scatter = 0.05;  // of the amplitude
-    constexpr double min_used = 0.9;      // of the frames
+    constexpr double max_scatter = 0.05;  // share of the amplitude
+    constexpr double min_used = 0.9;      // share of the frames
     std::vector<std::string> warnings;
     if (motion.scatter > max_scatter * motion.amplitude())
         warnings.push_back(fmt::format(

@@ -49,7 +49,6 @@ std::filesystem::path write_video_report(const tracking::TrackedVideo& video,
                                          const nlohmann::ordered_json& found,
                                          const std::filesystem::path& folder);
 
-
 /// Tilt of the camera with its error, or its upper bound.
 std::string tilt_text(const tracking::TrackedVideo& video);
 

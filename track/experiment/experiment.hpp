@@ -15,10 +15,10 @@
 namespace swirl {
 
 struct ContainerVideo {
-    std::string name;  // of its files and in the report
+    std::string name;  // name of its files and in the report
     bool smooth = false;
     std::string video;                 // path
-    Json result;                       // as of a run, or {"failed": reason}
+    Json result;                       // result as of a run, or {"failed": reason}
     Json found;                        // what tracking found: path, species, quality
     std::vector<std::string> remarks;  // sentences
     std::vector<fs::path> images;      // images of the video with the detected discs

@@ -22,7 +22,7 @@ struct TrackFit {
     // other.
     bool never_at_wall = false, never_touching = false;
     double wall_gap = 0.0;                    // radii, median over frames
-    double closest_pair = 1.0;                // in sums of radii, median over frames
+    double closest_pair = 1.0;                // distance in sums of radii, median over frames
     double disc_radius = 1.0;                 // median over frames, if the tracks give radii
     double phase = 0.0, fitting_phase = 0.0;  // given and best, in the image, degrees
     bool phase_fits = true;                   // the given phase fits about as well as the best one

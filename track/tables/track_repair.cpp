@@ -11,7 +11,7 @@
 namespace swirl {
 namespace {
 
-using Track = std::map<std::int64_t, Vec2>;  // by frame
+using Track = std::map<std::int64_t, Vec2>;  // positions by frame
 
 struct Piece {
     std::int64_t id = 0;
@@ -64,7 +64,7 @@ std::vector<Piece> cut_at_jumps(const std::map<std::int64_t, Track>& tracks, std
 /// Joins ends of pieces to beginnings of others; returns the number of joins that change an ID.
 std::uint64_t join(std::vector<Piece>& pieces, std::int64_t step, double radius) {
     struct Joint {
-        bool is_far;  // beyond one radius: only joined because both pieces have the same ID
+        bool is_far;  // true beyond one radius: only joined because both pieces have the same ID
         std::int64_t frames;
         double distance;
         std::size_t end, beginning;

@@ -14,11 +14,11 @@ namespace swirl::tracking {
 namespace {
 
 constexpr float nowhere = -1e30f;    // excess is not defined there
-constexpr double step = 0.5;         // of the template's grid, pixels
+constexpr double step = 0.5;         // step of the template's grid, pixels
 constexpr double beyond = 3.5;       // width of the ring outside the edge that is used, pixels
 constexpr double near_others = 1.0;  // width of the blur of a neighbour's edge, pixels
 constexpr double gain_varies = 0.2;  // standard deviation of its prior
-constexpr std::size_t min_particles = 150;  // of each species, in all examples
+constexpr std::size_t min_particles = 150;  // particles of each species, in all examples
 /// Texture and compression correlate the residuals of about this many neighbouring pixels.
 constexpr double pixels_of_a_patch = 4.0;
 
@@ -98,7 +98,7 @@ double overlap(const std::vector<AppearanceTemplate::Example>& examples,
                const std::vector<std::vector<Vec2>>& edges,
                const std::vector<std::vector<Vec2>>& by_template, double weight,
                const ParticleAppearance& appearance) {
-    constexpr double near_contact = 0.125;  // of the sum of radii
+    constexpr double near_contact = 0.125;  // share of the sum of radii
     constexpr std::size_t min_pairs = 100;
     double square = 0.0;
     std::size_t pairs = 0;
@@ -366,7 +366,7 @@ AppearanceTemplate::Normal AppearanceTemplate::normal(const Excess& excess, cons
         const auto shrink = static_cast<float>(1.0 / r.scale),
                    begin = static_cast<float>(r.from - centre.x);
         OnGrid level{}, across{}, seen{};  // sums of T, ∂ₓT and e times T, ∂ₓT and ∂ᵧT
-        float down = 0.0f;                 // of (∂ᵧT)²
+        float down = 0.0f;                 // sum of (∂ᵧT)²
         for (int column = 0; column <= r.to - r.from; column += stride) {
             if (r.hidden[column]) continue;
             const OnGrid t = grid.at(shrink * (begin + static_cast<float>(column)));
@@ -465,7 +465,7 @@ void AppearanceTemplate::learn_template(const std::vector<Example>& examples,
     cv::Mat sum = cv::Mat::zeros(side, side, CV_32F), weight = cv::Mat::zeros(side, side, CV_32F);
     for (const Sums& s : sums) sum += s.level, weight += s.weight;
     constexpr double blur = 0.7;        // grid points; fills gaps
-    constexpr float min_weight = 0.5f;  // of a grid point
+    constexpr float min_weight = 0.5f;  // weight of a grid point
     cv::GaussianBlur(sum, sum, {}, blur);
     cv::GaussianBlur(weight, weight, {}, blur);
     cv::Mat level = cv::Mat::zeros(side, side, CV_32F), along_x, along_y;
@@ -534,7 +534,7 @@ bool AppearanceTemplate::set_reach(const std::vector<Example>& examples) {
 bool AppearanceTemplate::learn_contrast(const std::vector<Example>& examples) {
     constexpr double inner = 0.5;                  // radii: half side of the square that is sampled
     constexpr double min_contrast = 3.0;           // grey levels
-    constexpr double soft_share = 0.38;            // of the contrast
+    constexpr double soft_share = 0.38;            // share of the contrast
     constexpr double soft_share_of_shading = 1.0;  // its excess has both signs, and no saturation
     std::vector<double> contrasts;
     for (const Example& e : examples) {
@@ -603,8 +603,8 @@ std::optional<AppearanceTemplate> AppearanceTemplate::learned(const std::vector<
                                                               unsigned threads) {
     constexpr int rounds = 4;
     constexpr double good_edges = 0.05;        // pixels: rms overlap of edges that need no help
-    constexpr double initial_variance = 0.01;  // of the squared softness
-    constexpr double required_gain = 0.7;      // of the mean square overlap; edges are faster
+    constexpr double initial_variance = 0.01;  // share of the squared softness
+    constexpr double required_gain = 0.7;      // share of the mean square overlap; edges are faster
     AppearanceTemplate result;
     result.appearance_ = appearance;
     if (!result.set_reach(examples)) return std::nullopt;

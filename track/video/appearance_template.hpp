@@ -78,7 +78,7 @@ class AppearanceTemplate {
 
   private:
     AppearanceTemplate() = default;
-    using Positions = std::vector<std::vector<Vec2>>;  // of each particle of each example
+    using Positions = std::vector<std::vector<Vec2>>;  // Positions of each particle of each example
 
     bool set_reach(const std::vector<Example>& examples);
     bool learn_contrast(const std::vector<Example>& examples);

@@ -191,7 +191,7 @@ Similarity similarity_of(const std::vector<Match>& matches) {
 
 std::optional<CameraPose> StaticBackground::pose(const cv::Mat& grey) const {
     constexpr double tolerance = 1.0;  // pixels
-    constexpr double min_share = 0.4;  // of the patches
+    constexpr double min_share = 0.4;  // share of the patches
     const Vec2 about{0.5 * (size_.width - 1), 0.5 * (size_.height - 1)};
     const Vec2 half{0.5 * (patch_side - 1), 0.5 * (patch_side - 1)};
     const cv::Mat fine = patch_image(grey), coarse = reduced(grey, reduction_);

@@ -20,7 +20,7 @@ namespace swirl::tracking {
 /// Maps positions of the reference frame (`fixed`) to those of another frame (`seen`).
 struct CameraPose {
     Vec2 about{0.0, 0.0};     // the image centre, in pixels
-    Vec2 shift{0.0, 0.0};     // of the image centre
+    Vec2 shift{0.0, 0.0};     // shift of the image centre
     double a = 1.0, b = 0.0;  // zoom times cosine and sine of the turn
 
     Vec2 seen(const Vec2& fixed) const;
@@ -44,7 +44,7 @@ class StaticBackground {
   private:
     static constexpr std::size_t min_patches = 6, max_patches = 24;
     struct Patch {
-        cv::Point corner;  // in the reference frame
+        cv::Point corner;  // corner in the reference frame
         cv::Mat coarse, fine;
         cv::Point coarse_corner;
     };
@@ -61,9 +61,9 @@ class StaticBackground {
 
 /// How the camera moved during a video.
 struct CameraMotion {
-    std::vector<CameraPose> poses;  // for each frame; empty: the camera was at rest
+    std::vector<CameraPose> poses;  // poses for each frame; empty: the camera was at rest
     bool from_rim = false;          // not from the background
-    double shake = 0.0;             // from frame to frame, rms of a coordinate, pixels
+    double shake = 0.0;             // shake from frame to frame, rms of a coordinate, pixels
     double drift = 0.0;             // greatest distance from the reference, smoothed, pixels
     double zoom = 0.0;              // largest relative change of the scale
 };

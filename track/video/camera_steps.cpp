@@ -33,7 +33,8 @@ struct Bend {
 };
 
 std::optional<Bend> bend_at(const Detections& all, std::size_t k) {
-    constexpr double max_distance = 0.4;  // of the distance to the nearest other disc of the frame
+    constexpr double max_distance =
+        0.4;  // share of the distance to the nearest other disc of the frame
     const FrameDetections &before = all[k - 1], &now = all[k], &after = all[k + 1];
     if (!before.rim.good || !now.rim.good || !after.rim.good) return std::nullopt;
     const auto nearest = [](const FrameDetections& found, const Vec2& to, double closest) {

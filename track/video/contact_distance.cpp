@@ -104,7 +104,7 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
 }
 
 std::optional<Contact> contact_of_discs(const std::vector<double>& ratios) {
-    constexpr double range = 0.1, soft_range = 0.2;  // from 1
+    constexpr double range = 0.1, soft_range = 0.2;  // range from 1
     constexpr double max_soft_off = 0.15;            // more is no contact of soft edges
     if (const auto found = contact_of(ratios, 1.0 - range, 1.0 + range);
         found && std::abs(found->at - 1.0) < max_contact_off)

@@ -11,7 +11,7 @@
 namespace swirl::tracking {
 
 PathCircle circle_through(const std::vector<Vec2>& points) {
-    constexpr int passes = 8;          // of reweighting
+    constexpr int passes = 8;          // passes of reweighting
     constexpr double far_ratio = 4.0;  // median distances from the middle: no point of the circle
     constexpr double cutoff = 4.5, min_cutoff = 0.2;  // standard deviations; pixels
     std::vector<double> weights, distances;
@@ -56,7 +56,7 @@ constexpr std::size_t min_path_centres = 8;  // five parameters, and three to ju
 /// The circle, and a straight line through the angles of the centres about it.
 std::optional<TrackedPath> initial_path(const std::vector<Vec2>& centres,
                                         const std::vector<double>& times) {
-    constexpr double max_scatter = 0.2;                   // of the radius
+    constexpr double max_scatter = 0.2;                   // share of the radius
     constexpr double outlier = 6.0, outlier_share = 0.3;  // scatters; of the radius
     const PathCircle circle = circle_through(centres);
     if (!(circle.radius > min_path_amplitude) || circle.scatter > max_scatter * circle.radius)
@@ -138,8 +138,8 @@ class PathRefinement {
     static constexpr int max_passes = 25, min_passes = 5;
     static constexpr double settled = 1e-7;    // pixels, centre and amplitude together
     static constexpr double min_weight = 5.0;  // the sum of weights: one for each parameter
-    static constexpr double min_used = 0.5;    // of the frames: fewer may be another motion
-    static constexpr double max_error = 0.05;  // of the amplitude
+    static constexpr double min_used = 0.5;    // share of the frames: fewer may be another motion
+    static constexpr double max_error = 0.05;  // share of the amplitude
     using Matrix = cv::Matx<double, 5, 5>;
     using Vector = cv::Vec<double, 5>;
 

@@ -13,7 +13,7 @@ namespace swirl::tracking {
 
 namespace {
 
-constexpr double min_rim_support = 0.2;   // of the circumference
+constexpr double min_rim_support = 0.2;   // share of the circumference
 constexpr double rim_noise_factor = 3.0;  // least slope of the rim, in standard deviations of noise
 
 double rim_window(const PreparedFrame& frame, double small_pixels) {
@@ -22,12 +22,12 @@ double rim_window(const PreparedFrame& frame, double small_pixels) {
 }
 
 struct RimCandidate {
-    double radius;  // in the small frames
+    double radius;  // radius in the small frames
     Polarity polarity;
     double support;             // the sum over a sample of the frames
-    std::vector<Vec2> centres;  // in all frames where it was fitted
-    std::vector<double> radii;  // of these fits; votes are as coarse as the small frame
-    PathCircle path;            // through the centres
+    std::vector<Vec2> centres;  // centres in all frames where it was fitted
+    std::vector<double> radii;  // radii of these fits; votes are as coarse as the small frame
+    PathCircle path;            // path through the centres
 
     /// Largest distance of a centre from the first one.
     double reach() const {
@@ -68,7 +68,7 @@ class RimSurvey {
     /// The best circle whose centre moves in most frames. Circles of noise move, too, but have less
     /// support.
     std::optional<ContainerRim> run_on_any_path() {
-        constexpr double min_share = 0.5;  // of the frames
+        constexpr double min_share = 0.5;  // share of the frames
         const std::vector<RimCandidate> candidates = fitted_candidates();
         const RimCandidate* moving = nullptr;
         for (const RimCandidate& c : candidates)
@@ -131,7 +131,8 @@ class RimSurvey {
 
     /// All radii and polarities, best first.
     std::vector<RimCandidate> candidates_by_votes() const {
-        constexpr double min_radius = 0.1, max_radius = 0.56;  // of the shorter side of the frame
+        constexpr double min_radius = 0.1,
+                         max_radius = 0.56;  // share of the shorter side of the frame
         constexpr double step = 1.0;         // pixels of the small frame, the resolution of votes
         constexpr double min_support = 0.1;  // less is noise
         const double side = std::min(size_.width, size_.height);
@@ -159,7 +160,7 @@ class RimSurvey {
 
     /// The best candidates that differ from each other.
     static std::vector<RimCandidate> distinct(const std::vector<RimCandidate>& all) {
-        constexpr double min_share = 0.45;   // of the best candidate's support
+        constexpr double min_share = 0.45;   // share of the best candidate's support
         constexpr double same_radius = 3.5;  // pixels: the width of a maximum of the votes
         std::vector<RimCandidate> result;
         for (const RimCandidate& c : all) {
@@ -174,7 +175,7 @@ class RimSurvey {
     }
 
     void fit_in_all_frames(RimCandidate& candidate) const {
-        constexpr double min_support = 0.12;  // of votes: a rim may be partly hidden
+        constexpr double min_support = 0.12;  // share of votes: a rim may be partly hidden
         constexpr int rays = 180;             // one each two degrees is enough for a survey
         constexpr double window = 1.8;        // pixels of the small frame: the error of a vote
         for (const PreparedFrame& frame : frames_) {
@@ -198,9 +199,9 @@ class RimSurvey {
     /// True if the centres go round a circle. They must cover a part of it, since a short arc fits
     /// many circles.
     bool moves(const RimCandidate& c, double max_scatter) const {
-        constexpr double min_reach = 0.7;        // of the path's radius: an arc of 40 degrees
+        constexpr double min_reach = 0.7;        // share of the path's radius: an arc of 40 degrees
         constexpr double scatter_allowed = 1.0;  // pixels
-        constexpr double max_amplitude = 1.5;    // of the container's radius
+        constexpr double max_amplitude = 1.5;    // multiple of the container's radius
         return c.path.radius > min_path_amplitude && c.reach() > min_reach * c.path.radius &&
                c.path.scatter < std::max(scatter_allowed, max_scatter * c.path.radius) &&
                c.path.radius < max_amplitude * c.radius / shrink_;
@@ -210,7 +211,7 @@ class RimSurvey {
     bool second_container(const ContainerRim& rim) const {
         constexpr std::size_t max_circles = 6;
         constexpr double min_distance = 1.7;  // radii: two containers do not overlap
-        constexpr double min_share = 0.6;     // of the first one's support; of the frames
+        constexpr double min_share = 0.6;     // share of the first one's support; of the frames
         const double radius = rim.radius * shrink_;
         std::size_t pairs = 0;
         for (std::size_t k = 0; k < frames_.size(); k += stride_) {
@@ -273,11 +274,12 @@ ContainerRim find_rim_on_any_path(const std::vector<PreparedFrame>& frames) {
 }
 
 CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim) {
-    constexpr double min_votes = 0.08;  // of the circumference: most of a rim may be hidden
+    constexpr double min_votes = 0.08;  // share of the circumference: most of a rim may be hidden
     constexpr std::size_t max_circles = 6;
     // How far from the path a rim may be: pixels of the small frame, and a share of the amplitude.
     constexpr double off_path = 6.0, off_path_share = 0.35;
-    constexpr double min_found = 0.5;  // as a fraction of the support that the survey requires
+    constexpr double min_found =
+        0.5;  // share as a fraction of the support that the survey requires
     double radius = rim.radius;
     if (rim.lens) radius = rim.lens->image({rim.lens->ideal(rim.path_centre), rim.radius}).radius;
     CircleFit best{rim.path_centre, radius};

@@ -28,7 +28,7 @@ struct ContainerRim {
     Polarity polarity = 1;
     double support = 0.0;
     Vec2 path_centre{0.0, 0.0};
-    double amplitude = 0.0;         // of the path, approximately; 0: it is not a circle
+    double amplitude = 0.0;         // amplitude of the path, approximately; 0: it is not a circle
     bool rough = false;             // its centres are far from a circle, as if the camera shook
     bool second_container = false;  // another circle of this size moves as well
     std::optional<Lens> lens;       // set if the camera is tilted

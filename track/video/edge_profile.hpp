@@ -19,7 +19,7 @@ namespace swirl::tracking {
 
 class EdgeProfile {
   public:
-    static constexpr double step = 0.5;  // between samples, pixels
+    static constexpr double step = 0.5;  // step between samples, pixels
 
     /// For profiles of `inside` + 1 + `outside` samples around an initial estimate, and edges up to
     /// `reach` pixels from it. `blur` is σ in pixels. `bent` includes the term t, which needs a
@@ -42,7 +42,7 @@ class EdgeProfile {
 
   private:
     static constexpr std::size_t columns = 4;
-    static constexpr double spacing = 0.25;  // between candidate edges, pixels
+    static constexpr double spacing = 0.25;  // spacing between candidate edges, pixels
     using Columns = std::array<std::vector<double>, columns>;
 
     /// Values of the four terms at every sample for the edge `e`, before orthonormalisation.

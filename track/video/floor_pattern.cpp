@@ -14,7 +14,7 @@ namespace swirl::tracking {
 
 namespace {
 
-constexpr double inside = 0.9;      // of the rim's radius: certainly the floor
+constexpr double inside = 0.9;      // share of the rim's radius: certainly the floor
 constexpr double tolerance = 10.0;  // grey levels: noise and compression
 constexpr double edge_error = 0.7;  // pixels: an edge of the pattern may be displaced by as much
 constexpr double rim_blur = 1.0;    // pixels, as in the survey of the rim
@@ -130,7 +130,7 @@ std::vector<double> FloorPattern::inner_levels() const {
 /// wall begins where it appears on two of eight arcs.
 void FloorPattern::leave_out_wall() {
     constexpr std::size_t arcs = 8;
-    constexpr double less = 0.5;  // of the variation on the floor
+    constexpr double less = 0.5;  // share of the variation on the floor
     const double half = 0.5 * (level_.cols - 1);
     struct Arc {
         double number = 0.0, sum = 0.0, square = 0.0;
@@ -148,7 +148,7 @@ void FloorPattern::leave_out_wall() {
                         [static_cast<std::size_t>(arcs * turns)];
         arc.number += 1.0, arc.sum += level, arc.square += level * level;
     });
-    std::vector<double> variation;  // of each ring: the second smallest of its arcs
+    std::vector<double> variation;  // variation of each ring: the second smallest of its arcs
     for (const auto& ring : rings) {
         std::array<double, arcs> deviations{};
         std::transform(ring.begin(), ring.end(), deviations.begin(),
@@ -168,7 +168,7 @@ void FloorPattern::leave_out_wall() {
 }
 
 bool FloorPattern::patterned() const {
-    constexpr double min_known = 0.3;      // of the area
+    constexpr double min_known = 0.3;      // share of the area
     constexpr double min_contrast = 20.0;  // grey levels
     const std::vector<double> levels = inner_levels();
     const double area = pi * std::pow(inside * rim_.radius, 2);

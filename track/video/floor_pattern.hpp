@@ -52,7 +52,7 @@ class FloorPattern {
     ContainerRim rim_;
     double reduction_ = 1.0;
     cv::Mat level_;  // 32-bit floats, in the container's frame of reference, centred
-    cv::Mat slope_x_, slope_y_, slope_;  // of the level, per pixel, and their magnitude
+    cv::Mat slope_x_, slope_y_, slope_;  // slope of the level, per pixel, and their magnitude
     cv::Mat known_;                      // 8 bits: 255 where the floor is known
     double plain_level_ = 0.0;
 };

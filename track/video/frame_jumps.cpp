@@ -33,7 +33,8 @@ struct AngleSteps {
 
 AngleSteps angle_steps(const std::vector<Vec2>& centres, const std::vector<std::size_t>& frames,
                        const TrackedPath& path) {
-    constexpr double max_off = 0.2;  // of the amplitude: farther from the path, the rim is wrong
+    constexpr double max_off =
+        0.2;  // share of the amplitude: farther from the path, the rim is wrong
     AngleSteps steps;
     for (std::size_t k = 0; k + 1 < centres.size(); ++k) {
         const Vec2 a = centres[k] - path.centre, b = centres[k + 1] - path.centre;
@@ -51,7 +52,7 @@ AngleSteps angle_steps(const std::vector<Vec2>& centres, const std::vector<std::
 /// For each frame, whether its pixels are nearly those of the frame before. Even compression leaves
 /// a fraction of the usual change.
 std::vector<bool> same_pixels(const std::vector<double>& changes) {
-    constexpr double max_share = 0.15;     // of the usual change; 0.04 for strong compression
+    constexpr double max_share = 0.15;     // share of the usual change; 0.04 for strong compression
     constexpr double usual_change = 0.85;  // quantile: most frames of a window may be duplicates
     constexpr std::size_t around = 16;     // frames to each side
     std::vector<bool> same;
@@ -70,7 +71,7 @@ std::vector<bool> same_pixels(const std::vector<double>& changes) {
 std::vector<bool> duplicate_steps(const AngleSteps& steps, const std::vector<Vec2>& centres,
                                   const std::vector<std::size_t>& frames,
                                   const std::vector<double>& changes) {
-    constexpr double standstill = 0.35;  // of a usual step
+    constexpr double standstill = 0.35;  // share of a usual step
     constexpr double usual_step = 0.85;  // quantile
     constexpr double min_usual = 0.4;    // pixels: several errors of the rim
     const std::vector<bool> same = same_pixels(changes);
@@ -95,8 +96,8 @@ std::vector<FrameJump> find_frame_jumps(const std::vector<Vec2>& centres,
     constexpr std::size_t around = 5, min_steps = 12;  // two windows of neighbours, and more
     constexpr double stands_out = 6.0;                 // standard deviations of a step
     constexpr double min_jump = 0.6;                   // steps: a dropped frame is one step
-    constexpr double outlier_share = 0.5;              // of a jump that an opposite one cancels
-    constexpr double replaced = 1.5;  // steps after a duplicate that replaces another frame
+    constexpr double outlier_share = 0.5;  // share of a jump that an opposite one cancels
+    constexpr double replaced = 1.5;       // steps after a duplicate that replaces another frame
     const AngleSteps all = angle_steps(centres, frames, path);
     const std::vector<double>& steps = all.angles;
     if (steps.size() < min_steps) return {};

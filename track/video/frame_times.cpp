@@ -14,7 +14,7 @@ namespace swirl::tracking {
 bool set_frame_times(const TrackingSettings& settings, const VideoTimes& times, Detections& all,
                      TrackedVideo& tracked) {
     constexpr double max_jitter = 0.2;   // steps: the rounding of coarse clocks stays below
-    constexpr double max_untimed = 0.1;  // of the frames
+    constexpr double max_untimed = 0.1;  // share of the frames
     tracked.fps = settings.fps.value_or(times.fps);
     tracked.jitter = times.jitter;
     const std::size_t frames = all.size();
@@ -154,7 +154,8 @@ void correct_times(const std::vector<FrameJump>& jumps, TrackedVideo& tracked) {
 
 bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims, Detections& all,
                        TrackedVideo& tracked) {
-    constexpr double max_share = 0.003;  // of the video: the error of Ω that a warning may leave
+    constexpr double max_share =
+        0.003;  // share of the video: the error of Ω that a warning may leave
     std::vector<double> changes;
     for (const FrameDetections& found : all) changes.push_back(found.change);
     const std::vector<FrameJump> jumps =

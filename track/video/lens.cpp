@@ -37,8 +37,8 @@ Vec2 Lens::ideal(const Vec2& seen) const {
 }
 
 Vec2 Lens::seen(const Vec2& ideal) const {
-    constexpr int max_steps = 8;        // of Newton's method, which doubles the digits
-    constexpr double min_slope = 0.2;   // at 0 the distortion folds the image over
+    constexpr int max_steps = 8;        // steps of Newton's method, which doubles the digits
+    constexpr double min_slope = 0.2;   // slope at 0 the distortion folds the image over
     constexpr double precision = 1e-9;  // relative
     if (k == 0.0 && !tilted()) return ideal;
     Vec2 p = ideal - image_centre;
@@ -91,7 +91,7 @@ double Lens::seen_radius(const Vec2& seen, double radius) const {
 
 Lens::Circle Lens::ideal(const Circle& seen_circle) const {
     if (k == 0.0 && !tilted()) return seen_circle;
-    constexpr int passes = 6;  // of a fixed-point iteration; the correction is small
+    constexpr int passes = 6;  // passes of a fixed-point iteration; the correction is small
     Circle c{ideal(seen_circle.centre), seen_circle.radius};
     for (int n = 0; n < passes; ++n) {
         const Circle seen_now = image(c);
@@ -137,9 +137,10 @@ void Lens::combine_distortions() {
 Lens fit_lens(const std::vector<ApparentSize>& sizes, const Vec2& image_centre,
               double half_height) {
     constexpr std::size_t min_sizes = 60;  // fewer do not cover the container
-    constexpr int passes = 12;             // of reweighting
-    constexpr double cutoff = 4.7 * 1.48;  // of Tukey's weights, in median absolute deviations
-    constexpr double min_scale = 1e-6;     // of exact sizes, relative
+    constexpr int passes = 12;             // passes of reweighting
+    constexpr double cutoff =
+        4.7 * 1.48;                     // cutoff of Tukey's weights, in median absolute deviations
+    constexpr double min_scale = 1e-6;  // scale of exact sizes, relative
     Lens lens{image_centre, half_height};
     if (sizes.size() < min_sizes) return lens;
     // size = α + β q² + γ·q, reweighted. Then k = −β/2α, and γ is that of a tilt.

@@ -37,13 +37,13 @@ namespace swirl::tracking {
 
 struct Lens {
     Vec2 image_centre{0.0, 0.0};
-    double half_height = 1.0;  // of the image, pixels
+    double half_height = 1.0;  // height of the image, pixels
     double k = 0.0, k_error = 0.0;
     // From sizes, even if the values are not significantly different from zero.
     double size_k = 0.0, size_k_error = 0.0;
     Vec2 size_perspective{0.0, 0.0};
     double size_perspective_error = 0.0;
-    double ball_radius = 0.0;  // of the balls that were measured, pixels
+    double ball_radius = 0.0;  // radius of the balls that were measured, pixels
     // From discs in contact; an error of 0: not determined.
     double contact_k = 0.0, contact_k_error = 0.0;
     Vec2 squeeze{0.0, 0.0};      // e (cos 2ε, sin 2ε), ε its direction, y down

@@ -20,7 +20,7 @@ Vec2 rotated(const Vec2& v, double angle) {
 }
 
 constexpr int predictions = 6;           // uniform in three frames, at rest in two, with neighbours
-constexpr double unsure_penalty = 0.25;  // of the squared gate
+constexpr double unsure_penalty = 0.25;  // share of the squared gate
 constexpr double forgetting = 0.25;      // weight of the latest error of a prediction
 
 /// True if a pair of this cost may be assigned. The bound keeps sums of costs finite.
@@ -87,7 +87,7 @@ class Linker {
     const LinkSettings& settings_;
     double last_time_ = 0.0;
     int steps_ = 0;
-    double turn_ = 0.0;  // of all discs about the container's centre in the first step
+    double turn_ = 0.0;  // turn of all discs about the container's centre in the first step
 };
 
 /// A time in steps of the track's latest one. That is almost zero while the container rests

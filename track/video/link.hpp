@@ -33,16 +33,16 @@ struct DetectedDisc {
 };
 
 struct LinkSettings {
-    std::vector<double> radii;                 // of the species
-    std::vector<std::size_t> numbers;          // of discs of each species; empty if unknown
-    double gate = 1.4;                         // in radii
+    std::vector<double> radii;                 // radii of the species
+    std::vector<std::size_t> numbers;          // numbers of discs of each species; empty if unknown
+    double gate = 1.4;                         // gate in radii
     std::function<void()> throw_if_stopped{};  // called once per frame and row
 };
 
 struct Links {
     /// The track of each detected disc of each frame, or −1.
     std::vector<std::vector<int>> track;
-    std::vector<std::size_t> species;  // of each track
+    std::vector<std::size_t> species;  // species of each track
     std::uint64_t rejected = 0;        // sure detections beyond the number of discs
     std::uint64_t crowded = 0;         // frames with at least one of these
 };

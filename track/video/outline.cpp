@@ -26,7 +26,7 @@ float level_at(const cv::Mat& image, const Vec2& p) {
 /// The steepest point on the line through `at` along `u`; `profile` is memory for the samples.
 std::optional<Vec2> steepest_point(const cv::Mat& image, const Vec2& at, const Vec2& u,
                                    const OutlineSettings& settings, std::vector<float>& profile) {
-    constexpr double spacing = 0.5;  // between samples, pixels
+    constexpr double spacing = 0.5;  // spacing between samples, pixels
     const int reach = static_cast<int>(std::ceil(settings.window / spacing)) + 2;
     const auto inside = [&](const Vec2& p) {
         return p.x >= 0.0 && p.y >= 0.0 && p.x < image.cols - 1 && p.y < image.rows - 1;

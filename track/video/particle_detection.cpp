@@ -162,7 +162,7 @@ double find_blur(const std::vector<PreparedFrame>& frames, const std::vector<Fou
     const auto best =
         static_cast<std::size_t>(std::min_element(score.begin(), score.end()) - score.begin());
     if (best == 0 || best + 1 == trials.size() || score[best] == 1e300) return trials[best];
-    constexpr double trial_ratio = 1.26;  // of neighbouring trials, on average
+    constexpr double trial_ratio = 1.26;  // ratio of neighbouring trials, on average
     const double bend = score[best - 1] - 2.0 * score[best] + score[best + 1];
     const double shift = 0.5 * (score[best - 1] - score[best + 1]) / bend;
     return trials[best] * std::pow(trial_ratio, std::clamp(shift, -0.5, 0.5));
@@ -323,7 +323,7 @@ std::size_t count_opposite_discs(const std::vector<PreparedFrame>& frames,
                                  const std::vector<CircleFit>& rims,
                                  const ParticleAppearance& appearance) {
     constexpr double clear_support = 0.6;  // a gap between six discs has less
-    constexpr double max_off = 0.25;       // of the radius
+    constexpr double max_off = 0.25;       // share of the radius
     ParticleSurvey survey{frames, rims};
     const double radius = appearance.radius();
     CommonCircle same{1.0, radius * frames.front().shrink, appearance.polarity, appearance.spacing};
@@ -570,7 +570,7 @@ std::optional<DetectedParticle> find_particle_near(const PreparedFrame& frame, c
                                                    const std::vector<DetectedParticle>& others) {
     if (appearance.appearance_template)
         return find_near_with_template(frame, rim, appearance, expected, species, others);
-    constexpr double min_gap = 0.88;  // of the sum of radii
+    constexpr double min_gap = 0.88;  // share of the sum of radii
     const double radius = appearance.species[species].radius;
     const RaySettings rays = rays_for(frame, appearance.steepest * radius);
     DetectedParticle best;

@@ -28,21 +28,21 @@ class AppearanceTemplate;
 struct ParticleSpecies {
     double radius = 0.0;     // pixels
     double scatter = 0.0;    // standard deviation of the radii of single fits
-    std::size_t number = 0;  // of discs of this species
+    std::size_t number = 0;  // number of discs of this species
 };
 
 /// Finds balls by their shading (shading_detection.hpp).
 struct ShadingFilter {
     Vec2 towards{1.0, 0.0};   // direction in which the brightness of a ball grows
     double radius = 0.0;      // pixels
-    double min_height = 0.0;  // of the response to a ball
+    double min_height = 0.0;  // height of the response to a ball
 };
 
 /// What discs of a video look like.
 struct ParticleAppearance {
     Polarity polarity = 1;
     std::vector<ParticleSpecies> species;  // one or two, the smaller first
-    std::size_t number = 0;                // of all discs
+    std::size_t number = 0;                // number of all discs
     std::size_t opposite = 0;              // discs of the other brightness, which are not tracked
     double blur = 0.6;                     // applied to frames against noise, pixels
     double sure = 0.45;                    // support that makes a circle a sure particle
@@ -51,7 +51,8 @@ struct ParticleAppearance {
     Lens lens;
     double steepest = 1.0;  // radius of the steepest brightness slope relative to the disc's: below
                             // 1 for a shaded edge
-    std::vector<EdgeProfile> edge_profiles;  // of each species, with the blur of this video
+    std::vector<EdgeProfile>
+        edge_profiles;  // profiles of each species, with the blur of this video
 
     std::optional<ShadingFilter> shading;  // set if edges do not show the discs
     /// Set if edges alone are too poor (appearance_template.hpp).

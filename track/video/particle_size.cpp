@@ -48,9 +48,9 @@ std::vector<CircleCandidate> circles_in(const ParticleSurvey& survey, std::size_
 
 /// Circles of one radius in the frames of the survey.
 struct SizeCheck {
-    double mean = 0.0, spread = 0.0;  // of the number per frame
+    double mean = 0.0, spread = 0.0;  // mean of the number per frame
     double fill = 0.0;                // share of the container's area
-    std::vector<double> distances;    // of neighbours, in diameters
+    std::vector<double> distances;    // distances of neighbours, in diameters
 };
 
 SizeCheck check_size(const ParticleSurvey& survey, const CommonCircle& size) {
@@ -84,7 +84,7 @@ double spacing_of(const std::vector<double>& distances) {
     // Below, fits with free radius find the discs themselves, which is more accurate.
     constexpr double far_off = 1.3;
     constexpr double farthest = 2.2, max_error = 0.16;
-    constexpr double max_share = 0.2;  // of the number of distances just above the larger one
+    constexpr double max_share = 0.2;  // share of the number of distances just above the larger one
     const auto found = contact_of(distances, 1.0, farthest);
     if (!found || found->at < far_off || found->error > max_error) return 1.0;
     const auto between = [&](double from, double to) {
@@ -98,8 +98,8 @@ double spacing_of(const std::vector<double>& distances) {
 
 /// Why the frames contradict this size; empty if they do not.
 std::string contradiction(const SizeCheck& check) {
-    constexpr double min_fill = 0.03;     // of the area
-    constexpr double max_flicker = 0.35;  // of the mean number
+    constexpr double min_fill = 0.03;     // share of the area
+    constexpr double max_flicker = 0.35;  // share of the mean number
     if (check.mean > many_discs && check.fill < min_fill)
         return fmt::format("they fill only {:.1f} % of the container", 100.0 * check.fill);
     if (check.mean > many_discs && check.spread > max_flicker * check.mean)
@@ -113,13 +113,14 @@ std::string contradiction(const SizeCheck& check) {
 /// All radii and polarities, and whether the score of each is a maximum over the radius.
 struct Scores {
     std::vector<CommonCircle> sizes;
-    std::vector<double> numbers;  // of circles per frame
+    std::vector<double> numbers;  // numbers of circles per frame
     std::vector<char> maximum, end;
 };
 
 Scores score_sizes(const ParticleSurvey& survey, const KnownDiscs& known) {
-    constexpr double growth = 0.04;      // from one radius to the next
-    constexpr double known_error = 0.2;  // of a given radius: the rim may be the wall's outer edge
+    constexpr double growth = 0.04;  // growth from one radius to the next
+    constexpr double known_error =
+        0.2;  // share of a given radius: the rim may be the wall's outer edge
     const std::size_t stride = std::max<std::size_t>(1, survey.frames.size() / frames_used);
     const double container = container_radius(survey);
     double first = std::max(3.0, container / 25.0), last = container / 2.5;
@@ -156,8 +157,8 @@ Scores score_sizes(const ParticleSurvey& survey, const KnownDiscs& known) {
 }  // namespace
 
 CommonCircle find_common_circle(const ParticleSurvey& survey, const KnownDiscs& known) {
-    constexpr double min_share = 0.35;        // of the highest score
-    constexpr double max_number_error = 0.4;  // of a given number
+    constexpr double min_share = 0.35;        // share of the highest score
+    constexpr double max_number_error = 0.4;  // share of a given number
     const Scores scores = score_sizes(survey, known);
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < scores.sizes.size(); ++k)

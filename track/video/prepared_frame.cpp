@@ -8,11 +8,13 @@ namespace swirl::tracking {
 
 namespace {
 
-constexpr double kernel_reach = 2.5;    // standard deviations; OpenCV's default for floats is 4
-constexpr double full_size = 0.999;     // from this reduction on, `small` has the size of the frame
-constexpr int min_side = 8;             // of `small`, pixels: less has no edges to vote
-constexpr double reduced_blur = 1.0;    // of `small`, pixels: averaging has smoothed it already
-constexpr double unreduced_blur = 1.4;  // of `small` at full size, pixels: nothing was averaged
+constexpr double kernel_reach = 2.5;  // standard deviations; OpenCV's default for floats is 4
+constexpr double full_size =
+    0.999;                   // sizes from this reduction on, `small` has the size of the frame
+constexpr int min_side = 8;  // side of `small`, pixels: less has no edges to vote
+constexpr double reduced_blur = 1.0;  // blur of `small`, pixels: averaging has smoothed it already
+constexpr double unreduced_blur =
+    1.4;  // blur of `small` at full size, pixels: nothing was averaged
 
 void smooth(const cv::Mat& from, cv::Mat& to, double deviation) {
     const int side = 2 * static_cast<int>(std::ceil(kernel_reach * deviation)) + 1;

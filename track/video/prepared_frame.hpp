@@ -15,7 +15,7 @@ struct PreparedFrame {
 
     cv::Mat sharp, small;          // 32-bit floats
     double shrink;                 // length in `small` / length in `sharp`
-    std::vector<EdgePixel> edges;  // of `small`
+    std::vector<EdgePixel> edges;  // edges of `small`
     double noise;                  // standard deviation of a derivative of `sharp`
 
     Vec2 to_sharp(const Vec2& p) const;

@@ -166,12 +166,12 @@ class MotionFit {
 /// higher harmonics, so the smallest residual does not decide.
 std::optional<double> repetition_rate(MotionFit& fit, const std::vector<double>& times) {
     constexpr int harmonics = 4;
-    constexpr std::size_t scanned = 1500;        // frames: the scan takes their square
-    constexpr double min_periods = 0.5;          // in the frames: fewer than two are reported
-    constexpr double frames_per_period = 6.0;    // at least
-    constexpr double steps_per_peak = 8.0;       // a peak is 1/span wide
-    constexpr double promising = 0.5;            // residual at a minimum of the scan, of the extent
-    constexpr double repeats = 0.25;             // the same after refinement
+    constexpr std::size_t scanned = 1500;      // frames: the scan takes their square
+    constexpr double min_periods = 0.5;        // periods in the frames: fewer than two are reported
+    constexpr double frames_per_period = 6.0;  // number at least
+    constexpr double steps_per_peak = 8.0;     // a peak is 1/span wide
+    constexpr double promising = 0.5;          // residual at a minimum of the scan, of the extent
+    constexpr double repeats = 0.25;           // the same after refinement
     constexpr double as_good = 1.3, add = 0.02;  // factor of the best residual; of the extent
     const std::size_t end = std::min(times.size(), scanned);
     const double span = times[end - 1] - times.front();
@@ -236,7 +236,7 @@ double scatter_of_periods(MotionFit& fit, const std::vector<double>& times, int 
 
 void require_every_phase(const std::vector<double>& times, const std::vector<double>& weights,
                          const RecordedMotion& motion) {
-    constexpr double max_gap = 0.125;  // of the period
+    constexpr double max_gap = 0.125;  // share of the period
     std::vector<double> phases;
     for (std::size_t k = 0; k < times.size(); ++k) {
         const double periods = (times[k] - motion.start) / motion.period();
@@ -296,7 +296,7 @@ int significant_harmonics(const RecordedMotion& motion, std::size_t frames) {
 RecordedMotion average_motion(const std::vector<Vec2>& centres, const std::vector<double>& times,
                               std::size_t frames) {
     constexpr std::size_t min_frames = 24;
-    constexpr double min_share = 0.5;     // of the frames
+    constexpr double min_share = 0.5;     // share of the frames
     constexpr double min_periods = 1.95;  // two, with the rounding of a frame
     constexpr int max_harmonics = 12, passes = 8, frames_per_harmonic = 4;
     if (centres.size() < min_frames || double(centres.size()) < min_share * double(frames))
@@ -348,7 +348,7 @@ RecordedMotion average_motion(const std::vector<Vec2>& centres, const std::vecto
     require_every_phase(times, fit.weights(), motion);
     const double noise = motion.residual * std::sqrt(double(2 * harmonics + 1) /
                                                      (motion.used * double(centres.size())));
-    motion.omega_error = rate_error(motion, times, fit);  // of the residuals of all frames
+    motion.omega_error = rate_error(motion, times, fit);  // error of the residuals of all frames
     std::size_t whole = 0;
     motion.scatter = scatter_of_periods(fit, times, harmonics, motion, whole);
     motion.point_error =

@@ -25,9 +25,9 @@ struct RecordedMotion {
     double start = 0.0;              // time of the first frame, where the period begins
     double omega = 0.0, omega_error = 0.0;
     double periods = 0.0;      // that the frames cover
-    double residual = 0.0;     // of a coordinate of the centres, standard deviation
-    double scatter = 0.0;      // of a coordinate between periods, rms
-    double point_error = 0.0;  // of a coordinate of the path, standard error
+    double residual = 0.0;     // residual of a coordinate of the centres, standard deviation
+    double scatter = 0.0;      // scatter of a coordinate between periods, rms
+    double point_error = 0.0;  // error of a coordinate of the path, standard error
     double used = 0.0;         // share of the frames that agree with the path
 
     double period() const;

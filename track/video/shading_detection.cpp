@@ -14,14 +14,14 @@ namespace swirl::tracking {
 namespace {
 
 constexpr double wall_width = 2.0;    // pixels inside the rim that its blurred edge covers
-constexpr double min_share = 0.45;    // of the typical height of the highest maxima
+constexpr double min_share = 0.45;    // share of the typical height of the highest maxima
 constexpr double min_apart = 1.5;     // radii between two maxima
-constexpr double full_radius = 16.0;  // of a ball, pixels: a larger frame is reduced
+constexpr double full_radius = 16.0;  // radius of a ball, pixels: a larger frame is reduced
 
 /// Derivatives of the blurred frame inside the dish, times the radius.
 struct Slopes {
     cv::Mat x, y;
-    Vec2 corner{0.0, 0.0};  // of the part, pixels of the frame
+    Vec2 corner{0.0, 0.0};  // corner of the part, pixels of the frame
     double shrink = 1.0;
 
     Vec2 to_frame(double column, double row) const {
@@ -30,7 +30,7 @@ struct Slopes {
 };
 
 Slopes slopes_of(const cv::Mat& sharp, const CircleFit& rim, double radius) {
-    constexpr double width = 0.45;         // of the Gaussian, radii
+    constexpr double width = 0.45;         // width of the Gaussian, radii
     constexpr double scharr = 1.0 / 32.0;  // makes the kernel a derivative per pixel
     const int left = std::max(0, int(rim.centre.x - rim.radius)),
               top = std::max(0, int(rim.centre.y - rim.radius)),
@@ -67,7 +67,7 @@ Slopes slopes_of(const cv::Mat& sharp, const CircleFit& rim, double radius) {
 
 struct Direction {
     Vec2 towards{1.0, 0.0};
-    double skewness = 0.0;  // of the response
+    double skewness = 0.0;  // skewness of the response
 };
 
 /// The direction with the largest third moment of the response.
@@ -81,7 +81,7 @@ Direction direction_of(const std::vector<Slopes>& all) {
             for (int column = 0; column < slopes.x.cols; ++column) {
                 const auto u = double(x[column]), v = double(y[column]);
                 xx += u * u, xy += u * v, yy += v * v;
-                if (u != 0.0 || v != 0.0) count += 1.0;  // inside the dish
+                if (u != 0.0 || v != 0.0) count += 1.0;  // if inside the dish
                 moments[0] += u * u * u;
                 moments[1] += 3.0 * u * u * v;
                 moments[2] += 3.0 * u * v * v;
@@ -147,8 +147,8 @@ std::vector<Maximum> high_ones(std::vector<Maximum> maxima) {
 /// The result of the detection with one radius in all frames.
 struct Trial {
     double radius = 0.0, score = 0.0, mean = 0.0, spread = 0.0;
-    std::size_t number = 0;  // of balls, at most: the template rejects other maxima
-    double height = 0.0;     // of a maximum, typical
+    std::size_t number = 0;  // number of balls, at most: the template rejects other maxima
+    double height = 0.0;     // height of a maximum, typical
     Direction direction;
 };
 
@@ -186,13 +186,14 @@ Trial try_radius(const std::vector<PreparedFrame>& frames, const std::vector<Cir
 std::optional<ParticleAppearance> survey_shading(const std::vector<PreparedFrame>& frames,
                                                  const std::vector<CircleFit>& rims,
                                                  const KnownDiscs& known, unsigned threads) {
-    constexpr double growth = 1.1, smallest = 1.0 / 25.0, largest = 1.0 / 3.0;  // of the rim
+    constexpr double growth = 1.1, smallest = 1.0 / 25.0, largest = 1.0 / 3.0;  // share of the rim
     constexpr double min_radius = 5.0;                                          // pixels
-    constexpr double known_error = 0.2;  // of a given radius: the rim may be the wall's outer edge
-    constexpr double max_spread = 0.06;  // of the number, plus half a ball
+    constexpr double known_error =
+        0.2;  // share of a given radius: the rim may be the wall's outer edge
+    constexpr double max_spread = 0.06;  // share of the number, plus half a ball
     constexpr double max_number_error = 0.15;
-    constexpr double min_skewness = 0.3;  // of noise: 0; of low contrast in the tests: 0.5
-    constexpr double min_fill = 0.03, max_fill = 0.92;  // of the dish
+    constexpr double min_skewness = 0.3;  // skewness of noise: 0; of low contrast in the tests: 0.5
+    constexpr double min_fill = 0.03, max_fill = 0.92;  // share of the dish
     double first = std::max(min_radius, smallest * rims.front().radius),
            last = largest * rims.front().radius;
     if (known.radius_share) {

@@ -23,7 +23,7 @@ constexpr double patch_reach = 0.9;     // radii: half width of a patch
 constexpr double usable_radius = 0.75;  // radii: foreshortening limits the texture beyond
 constexpr double min_match = 0.5;       // correlation
 constexpr double min_error =
-    0.2;  // of a centre, pixels; added to the error of the fit, a lower bound
+    0.2;  // value of a centre, pixels; added to the error of the fit, a lower bound
 
 using Vector = std::array<double, 3>;
 
@@ -132,9 +132,9 @@ Registration register_turn(const cv::Mat& first, const cv::Mat& second, const cv
                 const double gx = double(at(slope.x, x, y)), gy = double(at(slope.y, x, y));
                 // d(x, y) for a further rotation about x, y, z (ω × p), y down.
                 const double rows[unknowns] = {
-                    gy * radius * p[2],                        // about x: p moves by (0, −z)
-                    gx * radius * p[2],                        // about y: p moves by (z, 0)
-                    -gx * radius * p[1] - gy * radius * p[0],  // about z: p moves by (−y, x)
+                    gy * radius * p[2],                        // p about x: p moves by (0, −z)
+                    gx * radius * p[2],                        // p about y: p moves by (z, 0)
+                    -gx * radius * p[1] - gy * radius * p[0],  // p about z: p moves by (−y, x)
                     gx, gy};
                 const double residual = one - other;
                 for (int i = 0; i < unknowns; ++i) {
@@ -173,7 +173,7 @@ struct DiscPatch {
 
 /// Masks pixels whose brightness varies less than usual between discs.
 void mask_uniform_pixels(double radius, MeanDisc& all) {
-    constexpr double minimum = 0.7;  // of the median variation relative to the brightness
+    constexpr double minimum = 0.7;  // share of the median variation relative to the brightness
     all.mean /= all.number;
     all.square /= all.number;
     const int middle = all.mean.rows / 2;
@@ -248,7 +248,7 @@ void mask_highlights(double radius, const cv::Mat& original, MeanDisc& all) {
 }
 
 MeanDiscs mean_discs(const TrackedVideo& tracked, const TrackingSettings& settings) {
-    constexpr std::int64_t frames = 40;  // in the mean
+    constexpr std::int64_t frames = 40;  // frames in the mean
     const std::int64_t every = std::max<std::int64_t>(1, tracked.frame_count / frames);
     Video video(settings.video, every, settings.first_frame, tracked.fields);
     MeanDiscs means;
@@ -311,8 +311,8 @@ DiscSpin step_between(const DiscPatch& from, const DiscPatch& to) {
     return spin;
 }
 
-using Steps =
-    std::vector<std::map<std::int64_t, DiscSpin>>;  // for frame k, by disc ID: k to k + step
+using Steps = std::vector<
+    std::map<std::int64_t, DiscSpin>>;  // rotations for frame k, by disc ID: k to k + step
 
 Steps measure_steps(const TrackedVideo& tracked, const TrackingSettings& settings, int step) {
     const MeanDiscs means = mean_discs(tracked, settings);

@@ -19,8 +19,8 @@ constexpr double tilt_stands_out = 4.0;  // standard errors
 /// The rim in one frame.
 struct RimOutline {
     const PreparedFrame* frame;
-    Vec2 centre;             // without lens and tilt
-    std::vector<Vec2> edge;  // as seen
+    Vec2 centre;             // centre without lens and tilt
+    std::vector<Vec2> edge;  // edge as seen
 };
 
 /// Squeeze and perspective that fit all outlines best, with the radius and the centre of each.
@@ -67,7 +67,7 @@ class TiltFit {
         double squeeze, perspective;
     };
     Errors errors() {
-        improve();  // for the final normal equations
+        improve();  // call for the final normal equations
         Global meat = Global::zeros();
         for (const GlobalVector& s : scores_) meat += s * s.t();
         const Global covariance = inverse_ * meat * inverse_;
@@ -82,7 +82,7 @@ class TiltFit {
   private:
     static constexpr double known_window = 3.0;  // pixels about an outline that is known
     static constexpr double min_scale = 0.05;    // pixels: exact edges would give 0
-    static constexpr double cutoff = 4.7;        // of Tukey's weights, standard deviations
+    static constexpr double cutoff = 4.7;        // cutoff of Tukey's weights, standard deviations
 
     /// Squeeze (2), perspective (2, times `unit_`), radius, and a squeeze that goes round with the
     /// container (2): discs at the wall cause it, and so does an error of the distortion.
@@ -202,7 +202,7 @@ class TiltFit {
     bool squeeze_known_;
     double scale_ = 1.0;
     Global inverse_ = Global::zeros();
-    std::vector<GlobalVector> scores_;  // of each frame
+    std::vector<GlobalVector> scores_;  // scores of each frame
 };
 
 Vec2 squeeze_of(double angle, double towards) {
@@ -260,7 +260,7 @@ std::vector<RimOutline> rim_outlines(const std::vector<PreparedFrame>& frames,
 Tilt fit_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known, ContainerRim& rim,
               Lens& lens) {
     constexpr std::size_t min_frames = 8;  // fewer do not go round
-    constexpr double good_support = 0.9;   // of the edge points: no other start is better
+    constexpr double good_support = 0.9;   // share of the edge points: no other start is better
     constexpr double exact = 1e-6;         // error of a given angle, rad: outweighs a fitted one
     double radius = 0.0;
     const auto outlines = rim_outlines(frames, rim, lens, radius);

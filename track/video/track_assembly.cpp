@@ -8,7 +8,7 @@ namespace swirl::tracking {
 void assemble_tracks(const Detections& all, const Links& links, std::int64_t first_frame,
                      TrackedVideo& tracked) {
     constexpr std::size_t min_frames = 4;   // a shorter track is no disc
-    constexpr double max_gap_share = 12.0;  // of a period: gaps of 30 degrees are filled
+    constexpr double max_gap_share = 12.0;  // share of a period: gaps of 30 degrees are filled
     constexpr double min_gap = 2.0;         // frames, filled whatever the frame rate
     constexpr double filled_error = 0.1;    // radii
     struct Point {

@@ -28,7 +28,7 @@ void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
 }
 
 constexpr double same_reach = 0.005;    // relative: touches of one wall
-constexpr double touches_needed = 3.0;  // per period
+constexpr double touches_needed = 3.0;  // touches per period
 
 /// Positions of one disc that was seen in successive frames.
 struct SeenDisc {
@@ -58,7 +58,7 @@ std::vector<SeenDisc> seen_discs(const TrackedVideo& tracked) {
 /// meet at the wall: returns their distance from the container's centre there.
 std::optional<double> bounce(const SeenDisc& disc, std::size_t j, const TrackedVideo& tracked) {
     constexpr std::size_t rising = 2;  // frames before and after, in which the distance changes
-    constexpr int steps = 40;          // of the time between the two frames
+    constexpr int steps = 40;          // steps of the time between the two frames
     if (j < rising || j + 1 + rising >= disc.frames.size() ||
         disc.frames[j + 1 + rising] - disc.frames[j - rising] != 2 * rising + 1)
         return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<double> bounce(const SeenDisc& disc, std::size_t j, const TrackedV
 
 struct BouncedWall {
     double reach = 0.0;    // distance of the wall from the container's centre
-    double scatter = 0.0;  // of single bounces: about the error of a coordinate
+    double scatter = 0.0;  // scatter of single bounces: about the error of a coordinate
 };
 
 /// The wall from discs that bounce off it: the distance at which most bounces agree. None if these

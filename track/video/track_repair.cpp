@@ -65,7 +65,7 @@ struct MissingDisc {
 /// interpolated in the frame of reference of the container.
 std::vector<std::vector<MissingDisc>> missing_discs(const Detections& all, const Links& links,
                                                     const TrackedVideo& tracked) {
-    constexpr double max_turn = 0.5 * pi;  // of the path: gaps of up to a quarter period
+    constexpr double max_turn = 0.5 * pi;  // share of the path: gaps of up to a quarter period
     constexpr double short_gap = 2.0;      // frames more, for low frame rates
     struct Last {
         std::size_t frame;
@@ -133,7 +133,7 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
         for (std::size_t t = 0; t < last.size(); ++t)
             if (k > last_frame[t] && last[t])
                 here.push_back({t, links.species[t], container + *last[t]});
-        std::vector<DetectedParticle> others;  // as seen
+        std::vector<DetectedParticle> others;  // others as seen
         for (std::size_t d = 0; d < particles.size(); ++d) {
             if (tracks[d] < 0) continue;
             last[static_cast<std::size_t>(tracks[d])] = particles[d].centre - container;

@@ -11,11 +11,11 @@ namespace swirl::tracking {
 struct TrackedPath {
     Vec2 centre{0.0, 0.0};
     double amplitude = 0.0;
-    double omega = 0.0;  // per unit of time, positive
-    double phase = 0.0;  // at time 0, rad
+    double omega = 0.0;  // angle per unit of time, positive
+    double phase = 0.0;  // phase at time 0, rad
     bool clockwise = false;
     double centre_error = 0.0, amplitude_error = 0.0, omega_error = 0.0, phase_error = 0.0;
-    double residual = 0.0;  // of a coordinate of the centres, standard deviation
+    double residual = 0.0;  // residual of a coordinate of the centres, standard deviation
     double used = 0.0;      // share of the frames that agree with the path
 
     double angle(double time) const { return phase + (clockwise ? -omega : omega) * time; }

@@ -125,7 +125,7 @@ void set_species(const TrackingSettings& settings, const ParticleAppearance& app
 /// All steps after the detection. Throws Failure, and UncertainDiscs.
 void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey,
                      const VideoTimes& times, Detections& all, TrackedVideo& tracked) {
-    constexpr std::size_t min_frames = 8;  // to fit a path
+    constexpr std::size_t min_frames = 8;  // frames to fit a path
     tracked.width = survey.size.width;
     tracked.height = survey.size.height;
     tracked.bright = survey.appearance.polarity > 0;

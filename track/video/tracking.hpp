@@ -82,7 +82,7 @@ struct TrackedVideo {
 
     Lens lens;
     Tilt tilt;
-    TrackedPath path;  // per second, or per frame
+    TrackedPath path;               // per second, or per frame
     RimCentres rims;                // without the camera's motion
     double rim_radius = 0.0;        // median over the frames
     double reach = 0.0;             // of the outermost disc, in most frames

@@ -18,12 +18,12 @@ constexpr double complete_rim = 0.005;  // share of the rim outside the frame th
 /// Successive frames in each of which many discs are missing.
 struct Occlusion {
     std::size_t begin = 0, end = 0;
-    double share = 0.0;  // of the discs, mean
+    double share = 0.0;  // share of the discs, mean
     std::size_t size() const { return end - begin; }
 };
 
 Occlusion longest_occlusion(const TrackedVideo& tracked) {
-    constexpr double min_share = 0.2;   // of the discs
+    constexpr double min_share = 0.2;   // share of the discs
     constexpr std::size_t minimum = 3;  // discs: of very few, one is a large share
     Occlusion longest, here;
     for (std::size_t k = 0; k <= tracked.seen.size(); ++k) {
@@ -57,7 +57,7 @@ std::string omission_text(const Occlusion& occlusion, const TrackedVideo& tracke
 
 /// Share of the rim, averaged over a period, that lies outside the frame.
 double share_outside(const TrackedVideo& tracked) {
-    constexpr int steps = 36;  // of the period and of the rim: 10 degrees
+    constexpr int steps = 36;  // steps of the period and of the rim: 10 degrees
     int out = 0;
     for (int a = 0; a < steps; ++a)
         for (int b = 0; b < steps; ++b) {
@@ -152,7 +152,7 @@ void warn_about_wall(TrackedVideo& tracked) {
 
 void warn_about_discs(double outside, TrackedVideo& tracked) {
     constexpr std::size_t min_occlusion = 4;                  // frames
-    constexpr double min_complete = 0.9, max_crowded = 0.05;  // of the frames
+    constexpr double min_complete = 0.9, max_crowded = 0.05;  // share of the frames
     const Occlusion occlusion = longest_occlusion(tracked);
     const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
     const bool hidden = occlusion.size() >= min_occlusion && outside <= complete_rim;
@@ -197,8 +197,8 @@ std::size_t detected_at_once(const TrackedVideo& tracked) {
 
 /// Throws UncertainDiscs if the video contradicts the number that the user gave.
 void reject_contradicted_number(const TrackedVideo& tracked) {
-    constexpr double most = 0.5;         // of the frames
-    constexpr double max_excess = 0.05;  // of the discs: phantoms are rejected
+    constexpr double most = 0.5;         // share of the frames
+    constexpr double max_excess = 0.05;  // share of the discs: phantoms are rejected
     const std::size_t found = detected_at_once(tracked), given = *tracked.number_given;
     if (found < given)
         throw UncertainDiscs(fmt::format(
@@ -220,8 +220,8 @@ void reject_contradicted_number(const TrackedVideo& tracked) {
 
 void reject_contradicted_discs(const TrackedVideo& tracked) {
     if (tracked.number_given) return reject_contradicted_number(tracked);
-    constexpr double most = 0.5;        // of the frames
-    constexpr double max_excess = 0.1;  // of the discs
+    constexpr double most = 0.5;        // share of the frames
+    constexpr double max_excess = 0.1;  // share of the discs
     constexpr double max_incomplete = 0.8;
     const double crowded = double(tracked.crowded), frames = double(tracked.frame_count);
     if (crowded < most * frames || 1.0 - tracked.complete_share < max_incomplete) return;
@@ -240,7 +240,7 @@ void reject_contradicted_discs(const TrackedVideo& tracked) {
 void add_warnings(TrackedVideo& tracked) {
     constexpr double min_percent = 1.0;                    // printed without decimals
     constexpr double min_shake = 0.5, shake_factor = 3.0;  // pixels; position errors
-    constexpr double max_contact_off = 0.03;               // of the contact ratio
+    constexpr double max_contact_off = 0.03;               // share of the contact ratio
     warn_about_fields(tracked);
     warn_about_motion(tracked);
     warn_about_wall(tracked);

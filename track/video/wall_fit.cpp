@@ -31,15 +31,15 @@ struct WallRows {
 };
 
 struct WallFit {
-    cv::Vec4d value{}, error{};  // of reach, shift and excess
+    cv::Vec4d value{}, error{};  // value of reach, shift and excess
 };
 
 /// None if discs are too seldom at the wall.
 std::optional<WallFit> fit_wall(const WallRows& wall, double radius, std::size_t discs) {
     constexpr double first_range = 0.5, range = 0.15;  // radii: a disc this close is at the wall
-    constexpr double narrowing = 0.8;                  // of the range, from pass to pass
+    constexpr double narrowing = 0.8;                  // share of the range, from pass to pass
     constexpr int passes = 20;                         // more than the narrowing takes
-    constexpr std::size_t min_positions = 400;         // at the wall, for four unknowns
+    constexpr std::size_t min_positions = 400;         // positions at the wall, for four unknowns
     const double number = double(std::max<std::size_t>(discs, 1));
     WallFit fit;
     // Initial estimate: the outermost disc of every frame is at the wall. With a better estimate of
@@ -103,7 +103,7 @@ void move_path_to_wall(TrackedVideo& tracked) {
 void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& all,
                           TrackedVideo& tracked) {
     constexpr double unknown_shift = 0.1;  // radii: rms of a coordinate in four videos
-    constexpr double min_share = 0.5;      // of the shift along the gradient of the brightness
+    constexpr double min_share = 0.5;  // share of the shift along the gradient of the brightness
     if (tracked.lens.tilted()) return;
     WallRows wall;
     for_each_linked(links, [&](std::size_t k, std::size_t, std::size_t d) {
