@@ -19,9 +19,9 @@ LINES = {
     "engine": (["src"], [], 46_930),
     # Goal 8,000. The rest is the chapters on published work and the judge of 62 claims.
     "paper": (["paper"], [], 10_400),
-    # Goal 9,000. It is reached when the parts that change no verdict are gone. The phase of a container that is moved
-    # by hand takes 500.
-    "track": (["track"], ["track/tests"], 15_820),
+    # Goal 9,000. No other part can go without a changed verdict or a claimed error that fails (bench/NOTES_tracking.md):
+    # the rest is detection, links, cameras and lenses, errors, paths moved by hand, comparisons and synthetic videos.
+    "track": (["track"], ["track/tests"], 15_250),
     "page": (["web/src"], [], 6_500),
     # Goal 30,000.
     "tests": (["tests", "track/tests"], [], 44_560),
