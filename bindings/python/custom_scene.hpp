@@ -16,8 +16,8 @@ struct GivenDiscs {
     std::optional<Numbers> velocity, angle, spin, radius, mass, inertia;
 };
 
-/// Throws UsageError for arrays of wrong shapes. Values that are not given are those of `config`; discs without velocities move with the container, and given radii
-/// without masses are those of one material.
+/// Throws UsageError for arrays of wrong shapes. Values that are not given are those of `config`.
+/// Discs without velocities move with the container; radii without masses are of one material.
 std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
                            const Segment& first_segment);
 

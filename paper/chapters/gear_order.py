@@ -49,12 +49,14 @@ def timing(discs, order, slip):
     rows = []
     for left in LEFT:
         row = {"left": left, "order": means[top], "order_error": error, "order_discs": discs[top]}
-        for name, statistic in (("loss", lambda k: loss(discs, order[k].mean(axis=0), left) if ordered else math.nan),
-                                ("rise", lambda k: rise(discs, slip[k].mean(axis=0), left))):
-            row[name], row[f"{name}_error"] = (statistic(seeds), jackknife(len(seeds), statistic)[1])
-        row["lag"] = row["loss"] - row["rise"]
-        row["lag_error"] = jackknife(len(seeds), lambda k: loss(discs, order[k].mean(axis=0), left) -
-                                     rise(discs, slip[k].mean(axis=0), left))[1] if ordered else math.nan
+
+        def lost(k):
+            return loss(discs, order[k].mean(axis=0), left) if ordered else math.nan
+
+        def risen(k):
+            return rise(discs, slip[k].mean(axis=0), left)
+        for name, statistic in (("loss", lost), ("rise", risen), ("lag", lambda k: lost(k) - risen(k))):
+            row[name], row[f"{name}_error"] = statistic(seeds), jackknife(len(seeds), statistic)[1]
         rows.append(row)
     return rows
 

@@ -32,15 +32,16 @@ def layer_run(fraction, amplitude):
             "amplitude": amplitude, "period": resolved(SPHERES_OF_CHAPTERS)["period"]}
 
 
+def layer_point(settings, name, fraction, amplitude, work):
+    run = layer_run(fraction, amplitude) | lengths(settings, (20, 2), (24, 8))
+    return Point(settings, f"{name}_N{run['discs']}_A{text(amplitude)}_{length_of(run)}", settings.chapter_seeds, run,
+                 work=work, cells={"packing_fraction": fraction, "discs": run["discs"], "amplitude": amplitude})
+
+
 def points(settings):
-    made = []
-    for fraction in layers(settings):
-        for amplitude in (0.25, 1.0, 2.0) if settings.quick else AMPLITUDES if fraction in LAYERS else AMPLITUDES[-3:]:
-            run = layer_run(fraction, amplitude) | lengths(settings, (20, 2), (24, 8))
-            made.append(Point(settings, f"instability_N{run['discs']}_A{text(amplitude)}_{length_of(run)}",
-                              settings.chapter_seeds, run, work=swirled_run,
-                              cells={"packing_fraction": fraction, "discs": run["discs"], "amplitude": amplitude}))
-    return made
+    return [layer_point(settings, "instability", fraction, amplitude, swirled_run) for fraction in layers(settings)
+            for amplitude in ((0.25, 1.0, 2.0) if settings.quick else AMPLITUDES if fraction in LAYERS else
+                              AMPLITUDES[-3:])]
 
 
 def distance_of_random_points(discs):

@@ -7,13 +7,11 @@ import math
 
 import numpy as np
 import style
-from chapters.instability import RADIUS, layer_run
+from chapters.instability import RADIUS, layer_point
 from combine import over_seeds
 from curves import CERTAIN, with_error
 from engine import swirl
 from figure import Figure
-from runs import length_of, lengths, text
-from study import Point
 
 REACH = 4  # r
 LAYERS = (0.3, 0.45, 0.65)  # φ
@@ -47,14 +45,8 @@ def local_run(parameters):
 
 
 def points(settings):
-    made = []
-    for fraction in LAYERS:
-        for amplitude in AMPLITUDES[-1:] if settings.quick else AMPLITUDES:
-            run = layer_run(fraction, amplitude) | lengths(settings, (20, 2), (24, 8))
-            made.append(Point(settings, f"local-speed_N{run['discs']}_A{text(amplitude)}_{length_of(run)}",
-                              settings.chapter_seeds, run, work=local_run,
-                              cells={"packing_fraction": fraction, "discs": run["discs"], "amplitude": amplitude}))
-    return made
+    return [layer_point(settings, "local-speed", fraction, amplitude, local_run) for fraction in LAYERS
+            for amplitude in (AMPLITUDES[-1:] if settings.quick else AMPLITUDES)]
 
 
 def slope_of(sums):

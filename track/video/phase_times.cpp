@@ -194,8 +194,7 @@ bool set_times_by_phase(const TrackingSettings& settings, const RimCentres& rims
     const auto period = [&](double of_rate) { return 2.0 * pi / of_rate * step / unit; };
     std::string text = fmt::format(
         "the container moves unevenly: its period changes from {:.2f} to {:.2f} {}; the phase of "
-        "its "
-        "rim in each frame is used instead of the time",
+        "its rim in each frame is used instead of the time",
         period(motion->fastest), period(motion->slowest), tracked.fps > 0.0 ? "s" : "frames");
     if (const std::string rest = resting_frames(motion->moving, settings.first_frame);
         !rest.empty())

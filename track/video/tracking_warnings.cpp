@@ -145,8 +145,7 @@ void warn_about_wall(TrackedVideo& tracked) {
             tracked,
             "the centre of the container is {:.2f} pixels off the circle that fits its path, as on "
             "a polygon of few sides or with a rolling shutter; positions relative to the "
-            "container, and its radius, may be "
-            "wrong by as much",
+            "container, and its radius, may be wrong by as much",
             tracked.path.residual);
 }
 

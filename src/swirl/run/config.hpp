@@ -24,9 +24,9 @@ const char* body_word(const RunConfig& config);
 /// configuration's.
 InitialState without_discs(const RunConfig& config, const ContainerPath& path);
 
-/// The initial state: that of --initial, or discs placed without overlap, with small random velocities relative to the
-/// container, all determined by the seed. Throws UsageError if the discs do not fit, Interrupted if
-/// `stop` is set meanwhile (the placement may take seconds).
+/// The initial state: that of --initial, or discs without overlap and with small random velocities
+/// in the container, which the seed determines. Throws UsageError if the discs do not fit, and
+/// Interrupted if `stop` is set meanwhile (the placement may take seconds).
 InitialState make_initial_state(const RunConfig& config, const std::atomic<bool>* stop = nullptr);
 
 /// Settings of a simulation that ends early when `stop` is set (simulation.hpp).

@@ -22,7 +22,7 @@ struct MeasuredSeries {
     std::size_t discs = 0;     // maximum over the frames
     double periods = 0.0;
     double frames_per_period = 0.0;
-    /// Values that are missing because of the frame rate or of the length. A warning without "warning:"; "" if none.
+    /// Values missing for the frame rate or the length: a warning without "warning:"; "" if none.
     std::string remark;
 };
 
