@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 import unittest
 
-from program import ONE_ERROR, SWIRL, InFolder, swirl
+from program import ONE_ERROR, SWIRL, InFolder, ProgramTest, read_json, read_text, swirl, write_text
 
 # Options, exit code, words that the error must contain.
 CALLS = [
@@ -111,7 +111,7 @@ CALLS = [
 ]
 
 
-class BadCalls(unittest.TestCase):
+class BadCalls(ProgramTest):
     def test_a_file_name_that_is_not_utf8_is_rejected_before_the_run(self):
         with tempfile.TemporaryDirectory() as folder:
             for option in (b"--json", b"--trajectory", b"--checkpoint"):
@@ -142,13 +142,8 @@ class BadCalls(unittest.TestCase):
         done = swirl()
         self.assertEqual(done.returncode, 2)
         self.assertIn("Usage", done.stderr)
-        done = swirl("rnu")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("did you mean run", done.stderr)
-        done = swirl("paper", "--figure", "9z")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("--figure is '9z'", done.stderr)
-        self.assertIn("5b", done.stderr)
+        self.assert_fails(2, "rnu", says="did you mean run")
+        self.assert_fails(2, "paper", "--figure", "9z", says=["--figure is '9z'", "5b"])
 
     def test_help_to_a_full_device(self):
         for call in (["--help"], ["run", "--help"], ["--version"]):
@@ -165,11 +160,8 @@ class BadCalls(unittest.TestCase):
                                 "1.15e+18 runs"),
                                ('{"format": 2, "axes"', "is not the plan of a sweep"),
                                ('{"format": 2, "axes": 7, "replicates": 1}', "is not the plan of a sweep")):
-                with open(os.path.join(folder, "plan.json"), "w") as plan:
-                    plan.write(text)
-                done = swirl("sweep", "--out", folder, "--status")
-                self.assertEqual(done.returncode, 1)
-                self.assertIn(word, done.stderr)
+                write_text(os.path.join(folder, "plan.json"), text)
+                done = self.assert_fails(1, "sweep", "--out", folder, "--status", says=word)
                 self.assertNotIn("json.exception", done.stderr)
 
     def test_damaged_results(self):
@@ -181,11 +173,8 @@ class BadCalls(unittest.TestCase):
                          '{"config": {}, "state_hash": 7, "complete": "yes"}',
                          '{"config": {"mu": [1]}, "state_hash": "7", "complete": true}',
                          json.dumps(config)):
-                with open(file, "w") as result:
-                    result.write(text)
-                done = swirl("verify", file)
-                self.assertEqual(done.returncode, 1)
-                self.assertIn("a.json", done.stderr)
+                write_text(file, text)
+                done = self.assert_fails(1, "verify", file, says="a.json")
                 self.assertNotIn("json.exception", done.stderr)
 
     def test_arguments_that_are_not_utf8(self):
@@ -194,86 +183,70 @@ class BadCalls(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
 
     def test_an_option_is_not_the_value_of_the_one_before_it(self):
-        done = swirl("run", "--discs", 5, "--ramp", ";", "--quiet")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("--ramp is ';'", done.stderr)
+        self.assert_fails(2, "run", "--discs", 5, "--ramp", ";", "--quiet", says="--ramp is ';'")
         done = swirl("run", "--discs", 5, "--ramp", "mu=0.1:1@1..3", "--ramp", "restitution=1:0.9@1..3", "--dry-run")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("mu=0.1:1@1..3;restitution=1:0.9@1..3", done.stdout)
 
     def test_very_long_values(self):
         self.assertEqual(swirl("run", "--discs", "9" * 100000).returncode, 2)
-        self.assertEqual(swirl("run", "--mu", "0." + "3" * 100000, "--events", 10).returncode, 0)
+        self.assert_works("run", "--mu", "0." + "3" * 100000, "--events", 10)
 
 
 class UsageErrors(InFolder):
     """Usage errors of commands other than run."""
 
-    def assert_usage_error(self, *call, says):
-        done = swirl(*call)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertRegex(done.stderr, ONE_ERROR)
-        self.assertIn(says, done.stderr)
-
     def test_invalid_slurm_options_create_no_folder(self):
         call = ["sweep", "--discs", 5, "--slurm", "--out"]
-        self.assert_usage_error(*call, self.path("s"), "--time", "2 hours", says="--time is '2 hours'")
-        self.assert_usage_error(*call, self.path('a"b'), says="must not contain quotation marks")
+        self.assert_fails(2, *call, self.path("s"), "--time", "2 hours", says="--time is '2 hours'")
+        self.assert_fails(2, *call, self.path('a"b'), says="must not contain quotation marks")
         self.assertEqual(self.left_behind(), [])
 
     def test_a_folder_instead_of_a_file(self):
-        self.assert_usage_error("measure", self.folder, says="is a folder, but FILE must be a recording.\nhint: give a trajectory")
+        self.assert_fails(2, "measure", self.folder,
+                          says="is a folder, but FILE must be a recording.\nhint: give a trajectory")
         for call in (["verify"], ["export", "--format", "xyz"], ["movie"], ["run"]):
-            done = swirl(call[0], self.folder, *call[1:])
-            self.assertEqual(done.returncode, 1)
+            done = self.assert_fails(1, call[0], self.folder, *call[1:])
             self.assertEqual(done.stderr, f"error: '{self.folder}' is a folder, but a file is needed.\n")
 
     def test_a_file_instead_of_a_folder(self):
         with open(self.path("file"), "w"):
             pass
         for call in (["sweep", "--discs", "2:3"], ["map", "--x", "mu=0:1"], ["paper", "--figure", "1c"]):
-            done = swirl(*call, "--out", self.path("file"))
-            self.assertEqual(done.returncode, 1, done.stderr)
+            done = self.assert_fails(1, *call, "--out", self.path("file"))
             self.assertEqual(done.stderr, f"error: '{self.path('file')}' is a file, but it must be a folder.\n")
 
     def test_a_missing_recording(self):
         for call in (["measure"], ["export", "--format", "xyz"], ["movie", "--out", "x.mp4"]):
-            done = swirl(call[0], self.path("missing.h5"), *call[1:])
-            self.assertEqual(done.returncode, 1, done.stderr)
+            done = self.assert_fails(1, call[0], self.path("missing.h5"), *call[1:])
             self.assertEqual(done.stderr, f"error: '{self.path('missing.h5')}' does not exist.\n")
 
     def test_another_kind_of_file_is_not_asked_for_its_calibration(self):
-        with open(self.path("notes.txt"), "w") as opened:
-            opened.write("hello\n")
+        write_text(self.path("notes.txt"), "hello\n")
         for call in (["measure"], ["movie", "--out", "x.mp4"]):
-            done = swirl(call[0], self.path("notes.txt"), *call[1:])
-            self.assertEqual(done.returncode, 1, done.stderr)
-            self.assertIn("the header must name the columns frame, particle, x and y", done.stderr)
+            self.assert_fails(1, call[0], self.path("notes.txt"), *call[1:],
+                              says="the header must name the columns frame, particle, x and y")
 
     def test_options_of_tracks_are_rejected_for_a_trajectory(self):
         recording = self.path("t.h5")
-        self.assertEqual(swirl("run", "--events", 500, "--trajectory", recording, "--quiet").returncode, 0)
+        self.assert_works("run", "--events", 500, "--trajectory", recording, "--quiet")
         for name, value in (("scale", 3), ("container-radius", 3), ("centre", "1,2"), ("max-invalid", 0.1)):
-            self.assert_usage_error("measure", recording, f"--{name}", value,
-                                    says=f"--{name} applies to a camera's tracks, but '{recording}' is a trajectory")
+            self.assert_fails(2, "measure", recording, f"--{name}", value,
+                              says=f"--{name} applies to a camera's tracks, but '{recording}' is a trajectory")
 
     def test_a_configuration_that_does_not_exist(self):
         for command, example in (("paper", "--figure 5b"), ("crossing", "--mu 0.5"), ("sweep", "--discs 48")):
-            done = swirl(command, "5b", *(["--out", self.path("s")] if command == "sweep" else []))
-            self.assertEqual(done.returncode, 2)
+            done = self.assert_fails(2, command, "5b", *(["--out", self.path("s")] if command == "sweep" else []))
             self.assertEqual(done.stderr, "error: the configuration file '5b' does not exist.\n"
                                           f"hint: options begin with --, as in {example}.\n")
 
     def test_maps_and_sweeps_do_not_mix(self):
-        self.assertEqual(swirl("sweep", "--discs", "2:3", "--events", 100, "--out", self.path("s"),
-                               "--quiet").returncode, 0)
-        done = swirl("map", "--x", "mu=0:1", "--out", self.path("s"))
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("holds a sweep (see its plan.json).\nhint: choose another folder.\n", done.stderr)
+        self.assert_works("sweep", "--discs", "2:3", "--events", 100, "--out", self.path("s"), "--quiet")
+        self.assert_fails(1, "map", "--x", "mu=0:1", "--out", self.path("s"),
+                          says="holds a sweep (see its plan.json).\nhint: choose another folder.\n")
 
     def test_every_error_ends_with_a_full_stop(self):
-        done = swirl("track", self.path("nowhere.mp4"), "--out", self.path("t.csv"))
-        self.assertEqual(done.returncode, 1, done.stderr)
+        done = self.assert_fails(1, "track", self.path("nowhere.mp4"), "--out", self.path("t.csv"))
         self.assertRegex(done.stderr, r"\Aerror: there is no video '[^\n]*'\.\n\Z")
 
     def test_tracks_truncated_within_a_number(self):
@@ -281,20 +254,16 @@ class UsageErrors(InFolder):
                             ("a.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\n"
                                        "ITEM: ATOMS id x y\n0 1 2.75\n")):
             for cut in (1, 2):
-                with open(self.path(name), "w") as opened:
-                    opened.write(whole[:-cut])
-                done = swirl("measure", self.path(name), "--omega", 1, "--container-radius", 10)
-                self.assertEqual(done.returncode, 1, done.stderr)
-                self.assertIn("the file may be truncated here", done.stderr)
+                write_text(self.path(name), whole[:-cut])
+                self.assert_fails(1, "measure", self.path(name), "--omega", 1, "--container-radius", 10,
+                                  says="the file may be truncated here")
 
     def test_a_seed_too_large_for_a_toml_integer(self):
         seed = "18446744073709551615"
         plan = swirl("run", "--events", 100, "--seed", seed, "--dry-run")
         self.assertIn(f'seed = "{seed}"', plan.stdout)
-        with open(self.path("a.toml"), "w") as opened:
-            opened.write(plan.stdout)
-        done = swirl("run", self.path("a.toml"), "--json", "-", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        write_text(self.path("a.toml"), plan.stdout)
+        done = self.assert_works("run", self.path("a.toml"), "--json", "-", "--quiet")
         self.assertEqual(json.loads(done.stdout)["config"]["seed"], int(seed))
 
     def test_dry_run_prints_file_names_that_read_back(self):
@@ -306,33 +275,28 @@ class UsageErrors(InFolder):
                 self.assertEqual(plan.returncode, 0, plan.stderr)
                 found = tomllib.loads(plan.stdout)
                 self.assertEqual((str(found["json"]), found["trajectory"]), (name, f"t-{name}.h5"))
-                with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
-                    opened.write(plan.stdout)
+                write_text(self.path("a.toml"), plan.stdout)
                 self.assertEqual(swirl("run", "a.toml", "--dry-run", cwd=self.folder).stdout, plan.stdout)
 
     def test_runs_of_different_versions_are_reported(self):
-        self.assertEqual(swirl("sweep", "--discs", "2,3", "--events", 2000, "--out", self.path("s"),
-                               "--quiet").returncode, 0)
+        self.assert_works("sweep", "--discs", "2,3", "--events", 2000, "--out", self.path("s"), "--quiet")
         self.assertNotIn("versions", swirl("collect", self.path("s")).stderr)
         result = self.path("s/results/000000.json")
-        with open(result) as opened:
-            changed = json.load(opened)
+        changed = read_json(result)
         changed["version"] = "0.0.1"
-        with open(result, "w") as opened:
-            json.dump(changed, opened)
+        write_text(result, json.dumps(changed))
         self.assertIn("made by different versions of swirl (0.0.1, ", swirl("collect", self.path("s")).stderr)
 
     def test_export_of_missing_frames(self):
         recording = self.path("t.h5")
-        done = swirl("run", "--events", 500, "--trajectory", recording, "--frame-events", 50, "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("run", "--events", 500, "--trajectory", recording, "--frame-events", 50, "--quiet")
         call = ["export", recording, "--format", "xyz"]
         for text in ("10:", "12:15", "3:10", ":99"):
-            self.assert_usage_error(*call, "--range", text,
-                         says=f"--range is '{text}', but the last frame of '{recording}' is 9")
+            self.assert_fails(2, *call, "--range", text,
+                              says=f"--range is '{text}', but the last frame of '{recording}' is 9")
         for text in ("3", "x:5", "1:-2", "1.5:"):
-            self.assert_usage_error(*call, "--range", text, says=f"--range is '{text}', but it must be FIRST:LAST")
-        self.assert_usage_error(*call, "--stride", "0", says="--stride is '0', but it must be a whole number")
+            self.assert_fails(2, *call, "--range", text, says=f"--range is '{text}', but it must be FIRST:LAST")
+        self.assert_fails(2, *call, "--stride", "0", says="--stride is '0', but it must be a whole number")
         self.assertEqual(self.left_behind(), ["t.h5"])
         for text, frames in (("3:9", 7), ("9:", 1), (":", 10)):
             self.assertIn(f"{frames} frame{'' if frames == 1 else 's'} of", swirl(*call, "--range", text).stdout)
@@ -345,9 +309,7 @@ class UnwritableOutput(InFolder):
         else:
             os.chmod(self.folder, 0o500)
             folder = self.folder
-        done = swirl("run", "--events", 10, "--json", folder + "/x.json")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("x.json", done.stderr)
+        self.assert_fails(1, "run", "--events", 10, "--json", folder + "/x.json", says="x.json")
 
     def test_full_disk_for_stdout(self):
         with open("/dev/full", "w") as full:
@@ -368,14 +330,10 @@ class UnwritableOutput(InFolder):
         def tiny_files():
             resource.setrlimit(resource.RLIMIT_FSIZE, (200, 200))
 
-        with open(self.path("x.json"), "w") as old:
-            old.write("what was there before")
-        done = swirl("run", "--events", 10, "--json", self.path("x.json"), preexec_fn=tiny_files)
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("x.json", done.stderr)
+        write_text(self.path("x.json"), "what was there before")
+        self.assert_fails(1, "run", "--events", 10, "--json", self.path("x.json"), preexec_fn=tiny_files, says="x.json")
         self.assertEqual(self.left_behind(), ["x.json"])
-        with open(self.path("x.json")) as old:
-            self.assertEqual(old.read(), "what was there before")
+        self.assertEqual(read_text(self.path("x.json")), "what was there before")
 
     def test_a_full_disk(self):
         script = ('mount -t tmpfs -o size=4k swirl "$1" && cd "$1" && '

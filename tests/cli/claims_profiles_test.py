@@ -1,10 +1,10 @@
 """Claims on the M-frame profiles and on the pinned region, judged by tables written by hand."""
 
-import csv
 import os
 import unittest
 
 from claim_tables import HandMadeTables
+from program import read_rows
 
 import paper_parameters
 from claims import profiles, residence
@@ -158,8 +158,7 @@ class Profiles(HandMadeTables):
 
     def test_layers_are_denser_than_the_gap_between_them_at_both_n(self):
         self.profile(((-1, 4000, 1), (-1, 3000, 2)), ((-1, 4000, 1), (-1, 3000, 2)))
-        with open(os.path.join(self.folder, "figure_3a.csv")) as file:
-            rows = list(csv.DictReader(file))
+        rows = read_rows(os.path.join(self.folder, "figure_3a.csv"))
         self.table("3a", rows + [row | {"discs": 28} for row in rows if row["discs"] == "24"])
 
         def judged(few, many=(0.8, 0.05, 0.5)):

@@ -2,12 +2,12 @@
 
 import csv
 import io
-import json
 import os
 import re
 import unittest
 
 from claim_tables import HandMadeTables, SOURCE
+from program import read_json, read_rows, read_text
 
 import claims
 import claims_page
@@ -54,13 +54,11 @@ class Catalogue(HandMadeTables):
             rows = re.findall(r"^\| ([a-z ]+) \| (\d+) \| ([\d, ]+) \|$", file.read(), re.M)
         page = {int(number): verdict for verdict, _, numbers in rows for number in numbers.split(", ")}
         self.assertEqual([int(count) for _, count, _ in rows], [len(numbers.split(", ")) for _, _, numbers in rows])
-        with open(os.path.join(SOURCE, "docs", "data", "claims.csv"), encoding="utf-8", newline="") as file:
-            stored = list(csv.DictReader(file))
+        stored = read_rows(os.path.join(SOURCE, "docs", "data", "claims.csv"))
         self.assertEqual({int(row["claim"]): row["verdict"] for row in stored}, page)
 
     def test_page_gets_its_tables_from_the_verdicts(self):
-        with open(os.path.join(SOURCE, "docs", "results", "paper.md"), encoding="utf-8") as file:
-            page = file.read()
+        page = read_text(os.path.join(SOURCE, "docs", "results", "paper.md"))
         self.rotation("5b", "no-wall", [(n, -0.2) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)])
         judged = claims.all_judged(self.folder)
         found = claims_page.written(page, judged)
@@ -115,8 +113,7 @@ class Catalogue(HandMadeTables):
         self.rotation("5b", "no-wall", [(n, 0.022 if n == 40 else 0.9)
                                         for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)])
         claims.write_verdicts(self.folder)
-        with open(os.path.join(self.folder, "verdicts.json"), encoding="utf-8") as file:
-            found = json.load(file)
+        found = read_json(os.path.join(self.folder, "verdicts.json"))
         self.assertEqual(found["points_to_decide"], ["no-wall_N40"])
         self.assertEqual(len(found["verdicts"]), len(claims.CLAIMS))
         never = found["verdicts"][claims.CLAIMS.index(claim_that("Without wall friction there is never"))]

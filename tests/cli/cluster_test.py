@@ -6,7 +6,7 @@ import time
 
 import private_slurm
 import program
-from program import SOURCE, InFolder, slow, swirl
+from program import SOURCE, InFolder, read_text, slow, swirl
 
 PLAN = ["sweep", "--discs", "20:34", "--mu", "0.5,1", "--seeds", "2", "--events", "200000"]
 POINTS = 60
@@ -16,16 +16,14 @@ class Cluster(InFolder):
     def test_a_failed_node_does_not_change_the_table(self):
         slurm, environment = private_slurm.started_for(self, nodes=3)
         out = self.path("a cluster, 100 % ours")  # the script must quote this name
-        submitted = swirl(*PLAN, "--out", out, "--slurm", "--nodes", 3, environment=environment)
-        self.assertEqual(submitted.returncode, 0, submitted.stderr)
+        submitted = self.assert_works(*PLAN, "--out", out, "--slurm", "--nodes", 3, environment=environment)
         self.assertIn("Submitted as job", submitted.stdout)
 
         # The log folder exists under the unquoted name.
         self.assertTrue(os.path.isdir(out + "/log"))
 
         def status():
-            done = swirl("sweep", "--out", out, "--status", environment=environment)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.assert_works("sweep", "--out", out, "--status", environment=environment)
             return done.stdout
 
         def results():
@@ -45,14 +43,13 @@ class Cluster(InFolder):
             time.sleep(0.1)
         logs = ""
         for name in sorted(os.listdir(out + "/log")):
-            with open(f"{out}/log/{name}") as log:
-                logs += log.read()
+            logs += read_text(f"{out}/log/{name}")
         self.assertIn(f"{POINTS} of {POINTS} runs done", status(), logs)
         self.assertEqual(len(os.listdir(out + "/log")), 3)
         self.assertTrue(killed)
         self.assertTrue(running_seen)
 
-        self.assertEqual(swirl(*PLAN, "--out", self.path("one"), "--quiet").returncode, 0)
+        self.assert_works(*PLAN, "--out", self.path("one"), "--quiet")
         tables = [swirl("collect", folder, "--csv", "-").stdout for folder in (out, self.path("one"))]
         self.assertEqual(len(tables[0].splitlines()), 1 + POINTS // 2)
         self.assertEqual(tables[0], tables[1])
@@ -68,9 +65,8 @@ class Workflow(InFolder):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len(os.listdir(self.path("parts"))), 3)
         options = [word for name, value in plan.items() for word in (f"--{name}", value)]
-        self.assertEqual(swirl("sweep", *options, "--out", self.path("one"), "--quiet").returncode, 0)
-        with open(self.path("table.csv"), encoding="utf-8") as file:
-            self.assertEqual(file.read(), swirl("collect", self.path("one"), "--csv", "-").stdout)
+        self.assert_works("sweep", *options, "--out", self.path("one"), "--quiet")
+        self.assertEqual(read_text(self.path("table.csv")), swirl("collect", self.path("one"), "--csv", "-").stdout)
 
 
 if __name__ == "__main__":

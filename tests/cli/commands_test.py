@@ -9,7 +9,7 @@ import re
 import subprocess
 import unittest
 
-from program import SOURCE, swirl
+from program import SOURCE, read_text, swirl, write_text
 
 PAGE = os.path.join(SOURCE, "docs", "reference", "commands.md")
 HELP = os.path.join(SOURCE, "cmake", "help.txt")
@@ -38,8 +38,7 @@ def all_helps(**more):
 
 
 def text_of(file):
-    with open(file, encoding="utf-8") as opened:
-        return opened.read()
+    return read_text(file)
 
 
 class Commands(unittest.TestCase):
@@ -48,8 +47,7 @@ class Commands(unittest.TestCase):
         made = "".join(f"## {title}\n{help_text}" for title, help_text in all_helps())
         made += stored[stored.index(f"## {HANDWRITTEN}\n"):]
         if os.environ.get("SWIRL_WRITE_DOCS"):
-            with open(HELP, "w", encoding="utf-8") as file:
-                file.write(made)
+            write_text(HELP, made)
             return
         self.assertEqual(stored, made, "rewrite the help with the command at the top of this file")
 

@@ -5,71 +5,59 @@ import json
 import os
 import unittest
 
-from program import InFolder, result_of, swirl
+from program import InFolder, read_bytes, result_of, write_text
 
 
 class ConfigFiles(InFolder):
     def config(self, *lines):
-        with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
-            opened.write("\n".join(lines) + "\n")
+        write_text(self.path("a.toml"), "\n".join(lines) + "\n")
         return self.path("a.toml")
 
-    def good(self, *arguments):
-        done = swirl(*arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done
-
     def error_of(self, *arguments):
-        done = swirl(*arguments)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertRegex(done.stderr, r"\A[^\n]+\n(hint: [^\n]+\n)?\Z")
-        return done.stderr
+        return self.assert_fails(2, *arguments).stderr
 
     def bytes_of(self, name):
-        with open(self.path(name), "rb") as opened:
-            return opened.read()
+        return read_bytes(self.path(name))
 
     def test_an_image(self):
         options = ["--discs", 12, "--mu-wall", 0.25, "--frame", "m", "--angles", "--size", "320x240",
                    "--trail-length", 0.5, "--start", 2]
-        self.good("image", *options, "--out", self.path("hand.png"))
+        self.assert_works("image", *options, "--out", self.path("hand.png"))
         file = self.config("discs = 12", "mu_wall = 0.25", 'frame = "m"', "angles = true",
                            'size = "320x240"', "trail_length = 0.5", "start = 2", "strobe = 1",
                            f'out = "{self.path("file.png")}"')
-        said = self.good("image", file).stdout
+        said = self.assert_works("image", file).stdout
         self.assertIn("320x240", said)
         self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
         # An option on the command line overrides the file, also if the file has an equivalent
         # option of another name.
-        self.good("image", file, "--discs", 5, "--mu", 1, "--start", 3, "--out", self.path("x.png"))
-        self.good("image", *options[4:-2], "--start", 3, "--discs", 5, "--mu", 1, "--out",
-                  self.path("y.png"))
+        self.assert_works("image", file, "--discs", 5, "--mu", 1, "--start", 3, "--out", self.path("x.png"))
+        self.assert_works("image", *options[4:-2], "--start", 3, "--discs", 5, "--mu", 1, "--out", self.path("y.png"))
         self.assertEqual(self.bytes_of("x.png"), self.bytes_of("y.png"))
 
     def test_an_image_of_a_recording_that_the_file_names(self):
-        self.good("run", "--discs", 5, "--events", 2000, "--frames", 20, "--trajectory",
-                  self.path("t.h5"), "--quiet")
+        self.assert_works("run", "--discs", 5, "--events", 2000, "--frames", 20, "--trajectory", self.path("t.h5"),
+                          "--quiet")
         file = self.config(f'file = "{self.path("t.h5")}"', 'size = "200x200"')
-        self.good("image", file, "--start", 1, "--out", self.path("file.png"))
-        self.good("image", self.path("t.h5"), "--size", "200x200", "--start", 1, "--out",
-                  self.path("hand.png"))
+        self.assert_works("image", file, "--start", 1, "--out", self.path("file.png"))
+        self.assert_works("image", self.path("t.h5"), "--size", "200x200", "--start", 1, "--out", self.path("hand.png"))
         self.assertEqual(self.bytes_of("hand.png"), self.bytes_of("file.png"))
 
     def test_a_movie(self):
         file = self.config("discs = 8", 'size = "160x120"', "fps = 10", "seconds = 2", "start = 1",
                            "pace = 1", "plot = true")
-        self.good("movie", file, "--frame-files", self.path("a"))
+        self.assert_works("movie", file, "--frame-files", self.path("a"))
         self.assertEqual(len(os.listdir(self.path("a"))), 20)
         # --periods replaces the file's seconds.
-        self.good("movie", file, "--periods", 0.5, "--frame-files", self.path("b"))
+        self.assert_works("movie", file, "--periods", 0.5, "--frame-files", self.path("b"))
         self.assertEqual(len(os.listdir(self.path("b"))), 5)
 
     def test_a_crossing(self):
         file = self.config("mu = 1", "events = 20000", "from = 5", "to = 8", "tolerance = 3",
                            "seed = 7", f'json = "{self.path("file.json")}"')
-        self.good("crossing", file, "--quiet")
-        self.good("crossing", "--mu", 1, "--events", 20000, "--from", 5, "--to", 8, "--tolerance", 3,
-                  "--seed", 7, "--json", self.path("hand.json"), "--quiet")
+        self.assert_works("crossing", file, "--quiet")
+        self.assert_works("crossing", "--mu", 1, "--events", 20000, "--from", 5, "--to", 8, "--tolerance", 3, "--seed",
+                          7, "--json", self.path("hand.json"), "--quiet")
         found = []
         for name in ("file.json", "hand.json"):
             result = json.loads(self.bytes_of(name))
@@ -81,7 +69,7 @@ class ConfigFiles(InFolder):
     def test_the_paper(self):
         file = self.config('figure = ["1c"]', "quick = true", "events = 3000", "seed = 3",
                            f'out = "{self.path("out")}"')
-        self.good("paper", file, "--quiet")
+        self.assert_works("paper", file, "--quiet")
         self.assertTrue(any(name.startswith("figure_1c") for name in os.listdir(self.path("out"))))
 
     def test_what_to_measure_may_be_a_list(self):
@@ -90,7 +78,7 @@ class ConfigFiles(InFolder):
         text = self.config("discs = 5", "events = 2000", 'measure = "slip,radial"')
         self.assertEqual(list(found["measured"]), ["slip", "radial"])
         self.assertEqual(result_of(text)["measured"], found["measured"])
-        self.good("sweep", lists, "--out", self.path("s"), "--quiet")
+        self.assert_works("sweep", lists, "--out", self.path("s"), "--quiet")
         self.assertIn("discs is a list", self.error_of("run", self.config("discs = [5, 6]")))
 
     def test_invalid_entries_are_rejected_with_the_line(self):

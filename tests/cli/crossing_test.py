@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import SWIRL, InFolder, swirl
+from program import SWIRL, InFolder, read_json, read_rows, swirl, write_text
 
 SHORT = ["--events", "2e4", "--tolerance", 5, "--quiet"]
 FEW = ["--from", 5, "--to", 7]
@@ -18,19 +18,16 @@ AROUND = ["--from", 37, "--to", 39]  # where it crosses, so that there is a numb
 
 class Crossing(InFolder):
     def good(self, *arguments):
-        done = swirl("crossing", *arguments, *SHORT)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.assert_works("crossing", *arguments, *SHORT)
         return done.stdout
 
     def test_each_value_of_a_list_has_a_search(self):
         said = self.good(*AROUND, "--mu", "0.9,1", "--seed", 4, "--csv", self.path("N_c.csv"), "--json",
                          self.path("all.json"))
         self.assertIn("mu 0.9: ", said)
-        with open(self.path("N_c.csv"), encoding="utf-8") as opened:
-            rows = list(csv.DictReader(opened))
+        rows = read_rows(self.path("N_c.csv"))
         self.assertEqual([row["mu"] for row in rows], ["0.9", "1"])
-        with open(self.path("all.json"), encoding="utf-8") as opened:
-            together = json.load(opened)
+        together = read_json(self.path("all.json"))
         for row, found, mu in zip(rows, together, ("0.9", "1"), strict=True):
             alone = json.loads(self.good(*AROUND, "--mu", mu, "--seed", 4, "--json", "-"))
             self.assertEqual(row["verdict"], alone["verdict"])
@@ -41,8 +38,7 @@ class Crossing(InFolder):
             self.assertEqual(int(row["events_in_all"]), alone["events"])
 
     def test_lists_combine_and_may_be_in_a_file(self):
-        with open(self.path("a.toml"), "w", encoding="utf-8") as opened:
-            opened.write("mu_disc = [0.9, 1]\nmu_wall = \"0:1:1\"\n")
+        write_text(self.path("a.toml"), "mu_disc = [0.9, 1]\nmu_wall = \"0:1:1\"\n")
         table = list(csv.DictReader(io.StringIO(self.good(self.path("a.toml"), *FEW, "--csv", "-"))))
         self.assertEqual([(row["mu_disc"], row["mu_wall"]) for row in table],
                          [("0.9", "0"), ("0.9", "1"), ("1", "0"), ("1", "1")])
@@ -58,9 +54,8 @@ class Crossing(InFolder):
 
     def test_a_search_whose_runs_all_fail_does_not_stop_the_others(self):
         # Nearly inelastic discs collapse at once without a contact duration.
-        done = swirl("crossing", "--restitution", "0.1,1", "--contact-duration", 0, *FEW, "--csv", "-", *SHORT)
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("every run failed in 1 of 2 searches", done.stderr)
+        done = self.assert_fails(1, "crossing", "--restitution", "0.1,1", "--contact-duration", 0, *FEW, "--csv", "-",
+                                 *SHORT, says="every run failed in 1 of 2 searches")
         rows = list(csv.DictReader(io.StringIO(done.stdout)))
         self.assertEqual([row["verdict"] for row in rows], ["undecided", "always rotates"])
         self.assertEqual(rows[0]["runs"], "0")
@@ -68,17 +63,15 @@ class Crossing(InFolder):
         self.assertEqual(rows[1]["runs_failed"], "0")
 
     def test_an_invalid_later_search_is_rejected_before_the_first(self):
-        done = swirl("crossing", "--container-radius", "8.6,4", *AROUND, "--json", self.path("x.json"), *SHORT)
-        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assert_fails(2, "crossing", "--container-radius", "8.6,4", *AROUND, "--json", self.path("x.json"), *SHORT)
         self.assertEqual(self.left_behind(), [])
 
     def test_only_the_searched_numbers_must_fit(self):
         # 48 discs, the default of a run, do not fit into this container.
         found = json.loads(self.good("--container-radius", 6.3, "--from", 8, "--to", 10, "--json", "-"))
         self.assertEqual(found["verdict"], "always rotates")
-        done = swirl("crossing", "--container-radius", 6.3, "--from", 8, "--to", 46, *SHORT)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("46 discs do not fit", done.stderr)
+        done = self.assert_fails(2, "crossing", "--container-radius", 6.3, "--from", 8, "--to", 46, *SHORT,
+                                 says="46 discs do not fit")
         self.assertNotIn("--discs", done.stderr)
 
     def test_every_rotation_rate_has_a_crossing(self):
@@ -96,8 +89,7 @@ class Crossing(InFolder):
 
     def test_every_number_of_discs_is_validated(self):
         # 45 of 5 discs cannot be small; with equal discs instead, the answer would be wrong.
-        done = swirl("crossing", "--mixture", "45:0.8", *SHORT)
-        self.assertEqual(done.returncode, 2, done.stdout)
+        done = self.assert_fails(2, "crossing", "--mixture", "45:0.8", *SHORT)
         self.assertEqual(done.stderr, swirl("run", "--discs", 5, "--mixture", "45:0.8").stderr)
         self.assertIn("a share, such as --mixture 50%:0.8", done.stderr)
 
@@ -114,12 +106,10 @@ class Crossing(InFolder):
         self.assertIn("4 of 7 discs have radius 0.8: 50 %, rounded to whole discs", said.stdout)
 
     def test_listed_sizes_have_no_crossing(self):
-        with open(self.path("radii.csv"), "w", encoding="utf-8") as opened:
-            opened.write("radius\n1\n0.8\n1\n")
+        write_text(self.path("radii.csv"), "radius\n1\n0.8\n1\n")
         for call in (["crossing"], ["map", "--x", "mu=0:1", "--quantity", "N_c", "--out", self.path("map")]):
-            done = swirl(*call, "--sizes", "file:" + self.path("radii.csv"))
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn("a search for N_c varies their number", done.stderr)
+            done = self.assert_fails(2, *call, "--sizes", "file:" + self.path("radii.csv"),
+                                     says="a search for N_c varies their number")
             self.assertNotIn("--discs", done.stderr)
 
     def test_a_clockwise_path_has_the_crossing_of_its_mirror_image(self):
@@ -133,17 +123,14 @@ class Crossing(InFolder):
 
     def test_distributed_sizes_get_more_seeds(self):
         # Each seed draws other sizes, so longer runs would not end the search.
-        done = swirl("crossing", "--sizes", "normal:1:0.2", "--from", 30, "--to", 45, "--tolerance", 2, "--quiet",
-                     "--json", self.path("a.json"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.path("a.json"), encoding="utf-8") as opened:
-            self.assertTrue(json.load(opened)["within_tolerance"])
+        self.assert_works("crossing", "--sizes", "normal:1:0.2", "--from", 30, "--to", 45, "--tolerance", 2, "--quiet",
+                          "--json", self.path("a.json"))
+        self.assertTrue(read_json(self.path("a.json"))["within_tolerance"])
 
     def test_a_stopped_search_prints_its_points_and_continues(self):
         call = ["crossing", "--mu", "1", "--from", 30, "--to", 44, "--tolerance", 0.8]
         folder = ["--out", self.path("N_c")]
-        whole = swirl(*call, "--json", "-", "--quiet")
-        self.assertEqual(whole.returncode, 0, whole.stderr)
+        whole = self.assert_works(*call, "--json", "-", "--quiet")
         process = subprocess.Popen([SWIRL, *map(str, call + folder)], text=True, stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE)
         results = self.path("N_c/results")
@@ -154,22 +141,17 @@ class Crossing(InFolder):
         self.assertEqual(process.returncode, 130, errors)
         self.assertRegex(said, r"N = \d+ +ϖ/Ω = ")
         self.assertIn("repeat the call to continue", errors)
-        done = swirl(*call, *folder, "--json", "-", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.assert_works(*call, *folder, "--json", "-", "--quiet")
         ours, others = json.loads(done.stdout), json.loads(whole.stdout)
         for key in ("N_c", "N_c_error", "points", "runs", "events", "sign_changes"):
             self.assertEqual(ours[key], others[key])
         # The folder is that of a sweep; each run is repeated by its command.
-        self.assertEqual(swirl("collect", self.path("N_c"), "--csv", "-").returncode, 0)
-        with open(os.path.join(results, sorted(os.listdir(results))[0]), encoding="utf-8") as opened:
-            run = json.load(opened)
+        self.assert_works("collect", self.path("N_c"), "--csv", "-")
+        run = read_json(os.path.join(results, sorted(os.listdir(results))[0]))
         alone = swirl(*run["command"].split()[1:], "--json", "-", "--quiet")
         self.assertEqual(json.loads(alone.stdout)["state_hash"], run["state_hash"])
-        other = swirl(*call, *folder, "--mu", "0.9", "--quiet")
-        self.assertEqual(other.returncode, 2, other.stderr)  # --mu twice
-        other = swirl("crossing", "--mu", "0.9", *folder, "--quiet")
-        self.assertEqual(other.returncode, 1, other.stderr)
-        self.assertIn("holds another search for N_c", other.stderr)
+        self.assert_fails(2, *call, *folder, "--mu", "0.9", "--quiet")  # --mu twice
+        self.assert_fails(1, "crossing", "--mu", "0.9", *folder, "--quiet", says="holds another search for N_c")
         self.assertEqual(swirl("sweep", "--out", self.path("N_c")).returncode, 2)
 
     def test_invalid_options_are_rejected(self):
@@ -177,9 +159,7 @@ class Crossing(InFolder):
                             (["--step", -1], "1 or more"), (["--rate", "rigid"], "rigid_by_time"),
                             (["--threads", -1], "whole number"), (["--to", 10**9], "--to"),
                             (["--mu", "0.1,2", "--csv", "-", "--json", "-"], "standard output")):
-            done = swirl("crossing", *wrong, *SHORT)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(says, done.stderr)
+            self.assert_fails(2, "crossing", *wrong, *SHORT, says=says)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import subprocess
 import termios
 import unittest
 
-from program import SOURCE, SWIRL, result_of, swirl
+from program import SOURCE, SWIRL, ProgramTest, read_text, result_of, swirl
 
 
 def subcommands():
@@ -66,13 +66,12 @@ def examples(text):
     return re.findall(r"^  (swirl .*)$", text[text.index("Examples:"):], re.MULTILINE)
 
 
-class Help(unittest.TestCase):
+class Help(ProgramTest):
     def test_every_help_has_examples_of_itself(self):
         self.assertTrue(examples(swirl("--help").stdout))
         for name in subcommands():
             with self.subTest(name):
-                done = swirl(name, "--help")
-                self.assertEqual(done.returncode, 0)
+                done = self.assert_works(name, "--help")
                 self.assertEqual(done.stderr, "")
                 self.assertTrue(examples(done.stdout), "no examples")
                 # Examples of the next step may follow.
@@ -138,8 +137,7 @@ class Help(unittest.TestCase):
                             (["synthetic-video", "--camera", "fone", "--out", "x.mp4"], "phone"),
                             (["paper", "--figure", "fricton"], "friction")):
             with self.subTest(call):
-                done = swirl(*call)
-                self.assertEqual(done.returncode, 2, done.stderr)
+                done = self.assert_fails(2, *call)
                 self.assertRegex(done.stderr, rf"\nhint: did you mean '{meant}'\?\n\Z")
 
     def test_an_unknown_name_gets_a_suggestion_only_if_it_is_likely(self):
@@ -152,8 +150,7 @@ class Help(unittest.TestCase):
                            (["run", "--frobnicate"], "see `swirl run --help`."),
                            (["frobnicate"], "see `swirl --help`.")):
             with self.subTest(call):
-                done = swirl(*call)
-                self.assertEqual(done.returncode, 2, done.stderr)
+                done = self.assert_fails(2, *call)
                 self.assertRegex(done.stderr, rf"\Aerror: there is no [^\n]+\.\nhint: {re.escape(hint)}\n\Z")
 
     def test_messages_name_only_options_that_exist(self):
@@ -165,8 +162,7 @@ class Help(unittest.TestCase):
             for file in files:
                 if file == "slurm.cpp":  # has options of sbatch
                     continue
-                with open(os.path.join(folder, file), encoding="utf-8") as opened:
-                    text = re.sub(r"//[^\n]*", "", opened.read())
+                text = re.sub(r"//[^\n]*", "", read_text(os.path.join(folder, file)))
                 # Adjacent literals form one text.
                 for literal in re.findall(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', text):
                     sentence = re.sub(r'"\s*"', "", literal)
@@ -188,8 +184,7 @@ class Help(unittest.TestCase):
     def test_adjacent_literals_of_a_message_are_separated(self):
         for folder, _, files in source_folders():
             for file in files:
-                with open(os.path.join(folder, file), encoding="utf-8") as opened:
-                    text = opened.read()
+                text = read_text(os.path.join(folder, file))
                 for glued in re.finditer(r'\w"\s*\n\s*"[A-Za-z]', text):
                     before = text[text.rindex("\n", 0, glued.start()):glued.start() + 1]
                     # A literal that ends with a line break needs no space.
@@ -213,8 +208,7 @@ class Help(unittest.TestCase):
                 self.assertIn(key.replace("_", "-"), options)
 
     def test_version_is_one_line(self):
-        done = swirl("--version")
-        self.assertEqual(done.returncode, 0)
+        done = self.assert_works("--version")
         self.assertRegex(done.stdout, r"^\d+\.\d+\.\d+ \(.+\)\n$")
 
 

@@ -12,7 +12,7 @@ import subprocess
 import time
 import unittest
 
-from program import SWIRL, InFolder, swirl
+from program import SWIRL, InFolder, read_bytes, read_json, swirl, write_text
 
 DISCS = ["run", "--discs", "4", "--periods", "3", "--frames", "5", "--warmup", "1", "--quiet"]
 # HDF5 1.14 itself rejects what 1.10 opens.
@@ -25,26 +25,14 @@ class HostileFiles(InFolder):
 
     def recorded(self, *run):
         """A trajectory, an event log and a result."""
-        done = swirl(*run, "--trajectory", self.path("t.h5"), "--log-events", self.path("e.h5"),
-                     "--json", self.path("r.json"))
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works(*run, "--trajectory", self.path("t.h5"), "--log-events", self.path("e.h5"), "--json",
+                          self.path("r.json"))
 
     def edited(self, name, code):
         """A copy of a recording, changed by Python code in which `f` is the open file."""
         copy = self.path("edited.h5")
         shutil.copyfile(self.path(name), copy)
-        done = subprocess.run(["/usr/bin/python3", "-c", f"""
-import h5py, math, sys
-import numpy as np
-nan, inf = math.nan, math.inf
-f = h5py.File(sys.argv[1], 'r+')
-particles = f['particles/trajectory'] if 'particles' in f else None
-{code}
-f.close()
-""", copy], capture_output=True, text=True)
-        if "No module named 'h5py'" in done.stderr:
-            self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.edit_hdf5(copy, code)
         return copy
 
     def expect_error(self, saying, *call):
@@ -77,7 +65,7 @@ f.close()
             # All commands share one check, so each edit is tried with one command.
             verb, *more = commands[number % 3]
             self.expect_error(saying, verb, file, *(more if number % 9 != 2 else [*more, "--start", "1.4"]))
-        self.assertEqual(swirl("measure", self.path("t.h5"), "--quiet").returncode, 0)
+        self.assert_works("measure", self.path("t.h5"), "--quiet")
 
     def test_impossible_values_in_a_dump_are_rejected(self):
         for column, value in (("radius", "0"), ("mass", "-1"), ("x", "1e300")):
@@ -98,8 +86,7 @@ f.close()
 
     def forged(self, name, before, after):
         """A copy in which the first occurrence of `before` is replaced by `after`."""
-        with open(self.path(name), "rb") as opened:
-            content = opened.read()
+        content = read_bytes(self.path(name))
         self.assertIn(before, content)
         with open(self.path("forged.h5"), "wb") as opened:
             opened.write(content.replace(before, after, 1))
@@ -128,8 +115,7 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
     @unittest.skipUnless(shutil.which("cc"), "no C compiler")
     def test_a_crash_inside_the_library_becomes_an_error(self):
         self.recorded(*DISCS)
-        with open(self.path("crash.c"), "w") as source:
-            source.write("#include <signal.h>\nint H5Dread(void) { raise(SIGSEGV); return -1; }\n")
+        write_text(self.path("crash.c"), "#include <signal.h>\nint H5Dread(void) { raise(SIGSEGV); return -1; }\n")
         shim = self.path("crash.so")
         subprocess.run(["cc", "-shared", "-fPIC", "-o", shim, self.path("crash.c")], check=True)
         for call in (["export", self.path("t.h5"), "--format", "csv", "--out", self.path("o.csv")],
@@ -156,15 +142,12 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
             self.assertEqual(started.returncode, 130)
             self.assertIn("waiting for a reader", errors)
         started = subprocess.Popen(call, stderr=subprocess.PIPE, text=True)
-        with open(self.path("pipe")) as pipe:
-            self.assertEqual(json.load(pipe)["events"]["total"], 2000)
+        self.assertEqual(read_json(self.path("pipe"))["events"]["total"], 2000)
         started.communicate(timeout=150)
         self.assertEqual(started.returncode, 0)
 
     def test_an_endless_configuration_is_rejected(self):
-        done = swirl("run", "/dev/zero", timeout=150)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("longer than 1048576 bytes", done.stderr)
+        self.assert_fails(2, "run", "/dev/zero", timeout=150, says="longer than 1048576 bytes")
 
     # --- verify ---------------------------------------------------------------------------------
 
@@ -187,7 +170,10 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
         self.expect_error("/floor", "verify", self.edited(
             "e.h5", "f['floor/velocity'] = np.zeros((30, 2)); f['floor'].attrs['deceleration'] = 1.0"))
         self.recorded(*SPHERES, "--overwrite")
-        self.assertEqual(swirl("verify", self.path("e.h5")).returncode, 0)
+        for attribute, value in (("floor", 0), ("lie_flat", 1)):
+            self.expect_error("differs from frame 0", "verify",
+                              self.edited("t.h5", f"f['parameters'].attrs['{attribute}'] = {value}"))
+        self.assert_works("verify", self.path("e.h5"))
         for edit in ("del f['floor']", "del f['floor/velocity']",
                      "v = f['floor/velocity'][()]; v[29, 1] = -v[29, 1]; f['floor/velocity'][()] = v",
                      "v = f['floor/velocity'][()]; del f['floor/velocity']; "
@@ -195,6 +181,38 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
                      "v = f['floor/velocity'][()]; del f['floor/velocity']; "
                      "f['floor/velocity'] = v.reshape(-1)"):
             self.expect_error("floor", "verify", self.edited("e.h5", edit))
+
+    def test_verify_detects_every_change_of_a_recording(self):
+        self.recorded(*DISCS)
+        of_trajectory = [
+            ("radius of disc 3 is nan", "particles['radius'][3] = nan"),
+            ("container radius is 0", "f['parameters'].attrs['container_radius'] = 0.0"),
+            ("period is 0", "f['parameters'].attrs['period'] = 0.0"),
+            ("differ in length", "particles['velocity/value'].resize(5, axis=0)"),
+            *(("must have one value per frame", "rows = len(particles['position/step']); del particles['position/step']; "
+               f"particles['position/step'] = np.zeros((rows, {columns}), 'i8')") for columns in (0, 2)),
+            *(("differs from", change) for change in (
+                "particles['mass'][3] *= 2", "f['observables/events/value'][7] += 1",
+                "f['observables/container_x/value'][7] += 1e-9", "cut(particles, 0); cut(f['observables'], 0)",
+                *(f"particles['{name}'][2] += 1" for name in ("id", "particle", "species", "xyz")),
+                "particles['position/value'][7, 3, 2] = 1.0", "particles['velocity/value'][7, 3, 2] = 1.0",
+                "particles['position/step'][7] += 1", "particles['position/time'][7] += 1"))]
+        of_log = [("radius of disc 0 is nan", "f['initial/radius'][0] = nan"),
+                  ("differ in length", "f['events/normal_impulse'].resize(5, axis=0)"),
+                  ("event 7 is damaged", "f['events/sticks'][7] = 2"),
+                  *of_trajectory[1:3],
+                  *(("differs from", f"cut(f['events'], {part})") for part in (0, 0.25))]
+        cut = """
+def cut(group, part):
+    def shorten(name, x):
+        if isinstance(x, h5py.Dataset) and x.maxshape and x.maxshape[0] is None:
+            x.resize(int(x.shape[0] * part), axis=0)
+    group.visititems(shorten)
+"""
+        for name, changes in (("t.h5", of_trajectory), ("e.h5", of_log)):
+            for says, change in changes:
+                with self.subTest(change):
+                    self.expect_error(says, "verify", self.edited(name, cut + change))
 
     def test_verify_rejects_surplus_rows(self):
         self.recorded(*DISCS)
@@ -213,13 +231,10 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
         self.recorded(*DISCS, "--measure", "slip,profile")
         done = swirl("verify", self.path("r.json"))
         self.assertIn("measured slip, profile", done.stdout)
-        with open(self.path("r.json")) as opened:
-            result = json.load(opened)
+        result = read_json(self.path("r.json"))
         del result["measured"]
-        with open(self.path("r.json"), "w") as opened:
-            json.dump(result, opened)
-        done = swirl("verify", self.path("r.json"))
-        self.assertEqual(done.returncode, 0, done.stderr)
+        write_text(self.path("r.json"), json.dumps(result))
+        done = self.assert_works("verify", self.path("r.json"))
         self.assertIn("no measurements in the file", done.stdout)
 
 

@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from program import SWIRL, InFolder
+from program import SWIRL, InFolder, read_bytes, write_text
 
 
 def swirl(*arguments):
@@ -16,8 +16,7 @@ def swirl(*arguments):
 
 
 def contents(path):
-    with open(path, "rb") as file:
-        return file.read()
+    return read_bytes(path)
 
 
 class ImageTest(InFolder):
@@ -62,8 +61,7 @@ class ImageTest(InFolder):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_image_is_written_atomically_and_not_through_a_link(self):
-        with open(self.path("mine"), "w", encoding="utf-8") as file:
-            file.write("of another user")
+        write_text(self.path("mine"), "of another user")
         for ending in ("png", "svg", "pdf"):
             out = self.path("x." + ending)
             os.symlink(self.path("mine"), out + ".partial")
@@ -83,8 +81,7 @@ class ImageTest(InFolder):
         self.assertEqual(sorted(os.listdir(self.folder)), ["mine", "x.pdf", "x.png", "x.svg"])
 
     def test_invalid_recording_is_an_error(self):
-        with open(self.path("x.h5"), "w", encoding="utf-8") as file:
-            file.write("hello")
+        write_text(self.path("x.h5"), "hello")
         result = swirl("image", self.path("x.h5"), "--out", self.path("x.png"))
         self.assertEqual(result.returncode, 1)
         self.assertIn("x.h5", result.stderr)

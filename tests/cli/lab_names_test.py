@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import unittest
 
-from program import SOURCE, InFolder
+from program import SOURCE, InFolder, read_text, write_text
 
 # Programs in the PATH. npm runs in the folder web; its build is counted.
 PROGRAMS = {
@@ -25,8 +25,7 @@ class LabNames(InFolder):
             shutil.copy(os.path.join(SOURCE, name), self.path("clone/" + name))
         open(self.path("clone/packages"), "w").close()
         for name, script in PROGRAMS.items():
-            with open(self.path("clone/bin/" + name), "w", encoding="utf-8") as opened:
-                opened.write(f"#!/bin/sh\n{script}\n")
+            write_text(self.path("clone/bin/" + name), f"#!/bin/sh\n{script}\n")
             os.chmod(self.path("clone/bin/" + name), 0o755)
 
     def test_a_relative_path_is_that_of_the_caller_and_the_page_is_built_once(self):
@@ -40,10 +39,8 @@ class LabNames(InFolder):
                                       capture_output=True, text=True, timeout=60,
                                       env={**os.environ, "PATH": self.path("clone/bin") + ":" + os.environ["PATH"]})
                 self.assertEqual(done.returncode, 0, done.stderr)
-                with open(self.path("elsewhere/" + written), encoding="utf-8") as opened:
-                    self.assertEqual(opened.read(), "page\n")
-                with open(self.path("clone/builds"), encoding="utf-8") as opened:
-                    self.assertEqual(opened.read(), "x\n")
+                self.assertEqual(read_text(self.path("elsewhere/" + written)), "page\n")
+                self.assertEqual(read_text(self.path("clone/builds")), "x\n")
         self.assertEqual(sorted(os.listdir(self.path("clone/web"))), sorted([*before, "generated"]))
 
 

@@ -16,10 +16,9 @@ import statistics
 import struct
 import subprocess
 import tempfile
-import unittest
 import zlib
 
-from program import ALL, SOURCE, made_of_the_web, main, slow, swirl
+from program import ALL, SOURCE, ProgramTest, made_of_the_web, main, read_bytes, read_json, read_rows, read_text, slow, swirl, write_text
 
 LAB = os.path.join(SOURCE, "web", "lab.sh")
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -103,8 +102,7 @@ def options(scene):
 def pixels_of(path):
     """The rows of a PNG of eight bits a channel that is not interlaced, each a list of pixels.
     Raises an error if the file or a checksum is not valid."""
-    with open(path, "rb") as opened:
-        data = opened.read()
+    data = read_bytes(path)
     chunks, at = {}, 8
     while at < len(data):
         size, name = struct.unpack(">I4s", data[at:at + 8])
@@ -131,7 +129,7 @@ def pixels_of(path):
     return rows
 
 
-class Laboratory(unittest.TestCase):
+class Laboratory(ProgramTest):
     @classmethod
     def setUpClass(cls):
         cls.page = made_of_the_web(cls, LAB, "laboratory.html")
@@ -265,8 +263,7 @@ class Laboratory(unittest.TestCase):
         swirl("run", *options(given), "--periods", "2", "--warmup", "0", "--frames", "7",
               "--trajectory", recorded, "--quiet")
         swirl("export", recorded, "--format", "table", "--out", recorded + ".csv", "--quiet")
-        with open(recorded + ".csv", encoding="utf-8") as opened:
-            rows = list(csv.DictReader(opened))
+        rows = read_rows(recorded + ".csv")
         frames = [rows[k:k + 12] for k in range(0, len(rows), 12)]
         largest = 0.0
         for frame in frames[1:10:4]:
@@ -444,8 +441,7 @@ class Laboratory(unittest.TestCase):
         for wrong in ({"discs": "100"}, {"mu": "nan"}, {"disks": "5"}, {"path": "square"}):
             with self.subTest(wrong):
                 there = self.engine([{"given": wrong, "events": 1}])["said"][0]
-                here = swirl("run", *options(wrong), check=False)
-                self.assertEqual(here.returncode, 2)
+                here = self.assert_fails(2, "run", *options(wrong), check=False)
                 if "disks" in wrong:  # the command line calls it an option
                     self.assertEqual(there["rejected"],
                                      "there is no parameter 'disks'.\nhint: did you mean 'discs'?")
@@ -465,8 +461,7 @@ class Laboratory(unittest.TestCase):
                                CHROMIUM, run["state_hash"], picture, folder, *COMPLETE],
                               capture_output=True, text=True, timeout=700)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        with open(os.path.join(folder, "result.json"), encoding="utf-8") as opened:
-            self.assertEqual(json.load(opened)["config"]["discs"], 28)
+        self.assertEqual(read_json(os.path.join(folder, "result.json"))["config"]["discs"], 28)
         self.assert_shows_discs(os.path.join(folder, "swirl.png"), 28)
         if shutil.which("ffprobe"):
             asked = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
@@ -528,10 +523,8 @@ class Laboratory(unittest.TestCase):
         at = lambda name: os.path.join(folder, name)  # noqa: E731
         swirl("run", "--discs", "12", "--mu", "0.3", "--periods", "8", "--warmup", "2", "--json", at("run.json"),
               "--checkpoint", at("run.checkpoint"), "--keep-checkpoint", "--quiet")
-        with open(at("parameters.json"), "w", encoding="utf-8") as opened:
-            json.dump(self.engine([])["parameters"], opened)
-        with open(at("messages.json"), "w", encoding="utf-8") as opened:
-            json.dump(self.messages(), opened)
+        write_text(at("parameters.json"), json.dumps(self.engine([])["parameters"]))
+        write_text(at("messages.json"), json.dumps(self.messages()))
         return folder
 
     def messages(self):
@@ -659,8 +652,7 @@ class Laboratory(unittest.TestCase):
             self.assertEqual(done.stderr, here.stderr)
 
     def test_it_is_small(self):
-        with open(self.page, "rb") as opened:
-            packed = gzip.compress(opened.read(), 9)
+        packed = gzip.compress(read_bytes(self.page), 9)
         self.assertLessEqual(len(packed), 330_000)
 
     @slow("it watches the page for ten seconds; test_the_page_in_a_browser requires motion too")
@@ -673,8 +665,7 @@ class Laboratory(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_it_makes_no_requests(self):
-        with open(self.page, encoding="utf-8") as opened:
-            text = opened.read()
+        text = read_text(self.page)
         self.assertNotRegex(text, r"""(src|href)=["']?(https?:)?//""")
 
     def test_it_serves_the_page_and_reports_a_port_in_use(self):

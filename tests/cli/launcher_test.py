@@ -4,11 +4,10 @@ program, starts no other program if the build is up to date, and becomes the pro
 import os
 import shutil
 import signal
-import stat
 import subprocess
 import unittest
 
-from program import SOURCE, InFolder
+from program import SOURCE, InFolder, read_text, write_text
 
 CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
@@ -54,8 +53,7 @@ class Launcher(InFolder):
 
     def write(self, name, text):
         os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
-        with open(self.path(name), "w") as file:
-            file.write(text)
+        write_text(self.path(name), text)
 
     def write_program(self, word):
         self.write("src/main.cpp", PROGRAM.replace("WORD", word))
@@ -99,8 +97,7 @@ class Launcher(InFolder):
                                       timeout=100, env=leaks, cwd="/")
                 self.assertEqual(done.stdout.split()[:1], [word], done.stderr)
                 self.assertNotIn("LEAKED", done.stderr)
-                with open(self.path("build/release/CMakeCache.txt"), encoding="utf-8") as cache:
-                    self.assertFalse("LEAKED" in cache.read())
+                self.assertFalse("LEAKED" in read_text(self.path("build/release/CMakeCache.txt")))
 
     def test_an_empty_entry_of_pythonpath_is_not_the_current_folder(self):
         self.copy("bindings/python/python.sh")
@@ -168,8 +165,7 @@ class Launcher(InFolder):
         for name in ("src", "cmake", "build", "swirl", "packages", "CMakeLists.txt",
                      "CMakePresets.json"):
             shutil.move(self.path(name), new)
-        with open(os.path.join(new, "src", "main.cpp"), "w") as file:
-            file.write(PROGRAM.replace("WORD", "elsewhere"))
+        write_text(os.path.join(new, "src", "main.cpp"), PROGRAM.replace("WORD", "elsewhere"))
         done = subprocess.run([os.path.join(new, "swirl")], capture_output=True, text=True,
                               timeout=100)
         self.assertEqual(done.stdout.split()[:1], ["elsewhere"], done.stderr)
@@ -268,8 +264,7 @@ exit 100
         done = self.call_with_stand_ins()
         self.assertEqual(done.returncode, 1)
         self.assertTrue(done.stderr.endswith("\n    dpkg --configure -a\n"), done.stderr)
-        with open(self.path("asked")) as file:
-            self.assertNotIn("update", file.read())
+        self.assertNotIn("update", read_text(self.path("asked")))
 
     def test_a_usage_error_installs_nothing(self):
         self.write("packages", "[build]\ng++\n[movies]\nno-movies\n[camera]\nno-camera\n")
@@ -319,8 +314,7 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
         self.assertFalse(os.path.exists(self.path("started")))
 
     def test_only_changes_of_the_packages_of_the_build_make_it_stale(self):
-        with open(self.path("cmake/launcher.sh"), encoding="utf-8") as file:
-            launcher = file.read()
+        launcher = read_text(self.path("cmake/launcher.sh"))
         self.write("cmake/launcher.sh", launcher.replace("/var/lib/dpkg", self.path("dpkg")))
         packages = [self.path("dpkg/info/" + name) for name in ("g++.list", "cmake:amd64.list", "other.list")]
         for name in [self.path("dpkg/status"), *packages]:
@@ -411,8 +405,7 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
                 self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
                 asked = []
                 if os.path.exists(self.path("asked")):
-                    with open(self.path("asked")) as file:
-                        asked = file.read().splitlines()
+                    asked = read_text(self.path("asked")).splitlines()
                     os.remove(self.path("asked"))
                 self.assertEqual([line.split("--no-install-recommends ")[1] for line in asked],
                                  [wanted] if wanted else [])

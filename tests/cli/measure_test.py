@@ -1,11 +1,10 @@
 """Tracks with a known result: a simulated container, sampled as by a camera, and measured."""
 
-import csv
 import json
 import math
 import unittest
 
-from program import ONE_ERROR, InFolder, swirl
+from program import ONE_ERROR, InFolder, read_json, read_rows, read_text, swirl
 
 DISCS, SWIRLS, FRAMES, SKIP = 24, 40, 511, 10
 SCALE, CENTRE = 20.0, (300.0, 280.0)   # pixels
@@ -24,22 +23,17 @@ class MeasureTest(InFolder):
         done = swirl("measure", "--measure", "help")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(done.stdout, swirl("run", "--measure", "help").stdout)
-        done = swirl("measure", "--measure", "slip")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("missing required argument FILE", done.stderr)
+        self.assert_fails(2, "measure", "--measure", "slip", says="missing required argument FILE")
 
     def answer(self):
         """Results from the engine's own frames, and the positions in disc radii: {frame: {disc: (x, y)}}."""
         if MeasureTest.table is None:
             recording = self.path("t.h5")
-            done = swirl("run", "--discs", DISCS, "--periods", SWIRLS, "--frames", FRAMES,
-                         "--trajectory", recording, "--quiet")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            exact = swirl("measure", recording, "--measure", LIST, "--warmup", SKIP, "--json", "-",
-                          "--quiet", "--tables", self.path("exact"))
-            self.assertEqual(exact.returncode, 0, exact.stderr)
-            with open(self.path("exact/flow.csv"), encoding="utf-8") as opened:
-                flow = opened.read()
+            self.assert_works("run", "--discs", DISCS, "--periods", SWIRLS, "--frames", FRAMES, "--trajectory",
+                              recording, "--quiet")
+            exact = self.assert_works("measure", recording, "--measure", LIST, "--warmup", SKIP, "--json", "-",
+                                      "--quiet", "--tables", self.path("exact"))
+            flow = read_text(self.path("exact/flow.csv"))
             said = swirl("export", recording, "--format", "csv", "--scale", 1, "--out",
                          self.path("t.csv")).stdout
             middle = float(said.split("pixel ")[1].split(",")[0])
@@ -98,8 +92,7 @@ class MeasureTest(InFolder):
         found = self.assert_like_the_exact(self.measured("--tables", self.path("tables")))
         self.assertEqual(found["camera"]["breaks"], 0)
         self.assertTrue(abs(math.remainder(found["camera"]["fitting_phase"], 360.0)) < 3.0)
-        with open(self.path("tables/flow.csv"), encoding="utf-8") as opened:
-            seen = opened.read().splitlines()
+        seen = read_text(self.path("tables/flow.csv")).splitlines()
         squares = differences = 0.0
         for line, exact in zip(seen[1:], flow.splitlines()[1:], strict=True):
             if float(exact.split(",")[2]) > 1000:
@@ -182,9 +175,8 @@ class MeasureTest(InFolder):
     def test_frames_at_the_vertices_alone_warn_that_rolling_is_invisible(self):
         for frames, remark in ((30, "no sphere rolls in any of the frames"), (31, "")):
             recording = self.path(f"{frames}.h5")
-            done = swirl("run", "--preset", "experiment", "--discs", 8, "--periods", 4, "--frames", frames,
-                         "--trajectory", recording, "--quiet")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assert_works("run", "--preset", "experiment", "--discs", 8, "--periods", 4, "--frames", frames,
+                              "--trajectory", recording, "--quiet")
             found = json.loads(swirl("measure", recording, "--measure", "rolling", "--json", "-").stdout)
             self.assertEqual(found["remark"][:len(remark) or None], remark)
             share = found["measured"]["rolling"]["rolling_share"]["mean"]
@@ -199,9 +191,8 @@ class MeasureTest(InFolder):
                                       "resident discs in slip, order (120)")),
                                 (128, ("pinned discs in pinned, slip, order (400)",)), (511, ())):
             recording = self.path(f"{frames}.h5")
-            done = swirl("run", "--discs", 20, "--periods", 4, "--warmup", 0, "--frames", frames,
-                         "--trajectory", recording, "--quiet", "--overwrite")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assert_works("run", "--discs", 20, "--periods", 4, "--warmup", 0, "--frames", frames, "--trajectory",
+                              recording, "--quiet", "--overwrite")
             done = swirl("measure", recording, "--measure", names, "--json", "-")
             found = json.loads(done.stdout)
             for reason in missing:
@@ -226,14 +217,11 @@ class MeasureTest(InFolder):
                 self.assertEqual(done.returncode, 0 if known else 2, done.stderr)
                 if not known:
                     done = swirl("export", recording, "--format", form, "--out", out, "--quiet")
-            with open(table, newline="", encoding="utf-8") as opened:
-                rows = list(csv.DictReader(opened))
+            rows = read_rows(table)
             self.assertEqual("pinned" in rows[0], known)
-            with open(dump, encoding="utf-8") as opened:
-                text = opened.read()
+            text = read_text(dump)
             self.assertEqual(text.count("mass omegaz pinned resident\n") > 0, known)
-            with open(xyz, encoding="utf-8") as opened:
-                self.assertEqual(":pinned:I:1:resident:I:1 Time" in opened.read(), known)
+            self.assertEqual(":pinned:I:1:resident:I:1 Time" in read_text(xyz), known)
             if not known:
                 continue
             # It takes seven earlier and seven later frames.
@@ -260,18 +248,15 @@ class MeasureTest(InFolder):
     def test_missing_averages_of_a_short_recording_are_one_line(self):
         recording = self.path("short.h5")
         swirl("run", "--discs", 8, "--periods", 2, "--warmup", 0, "--trajectory", recording, "--quiet")
-        done = swirl("measure", recording, "--measure", "all", "--warmup", 1.96)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.assert_works("measure", recording, "--measure", "all", "--warmup", 1.96)
         self.assertEqual(done.stdout.count("n/a"), 1, done.stdout)
         self.assertRegex(done.stdout, r"(?m)^  n/a +\d+ of \d+ averages$")
         self.assertIn("\n  average     1 frame\n", done.stdout)
 
     def test_fields_errors_and_balances_are_in_one_file(self):
-        done = swirl("run", "--discs", 20, "--periods", 14, "--warmup", 2, "--measure", "fields", "--json",
-                     self.path("fields.json"), "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.path("fields.json"), encoding="utf-8") as opened:
-            fields = json.load(opened)["measured"]["fields"]
+        self.assert_works("run", "--discs", 20, "--periods", 14, "--warmup", 2, "--measure", "fields", "--json",
+                          self.path("fields.json"), "--quiet")
+        fields = read_json(self.path("fields.json"))["measured"]["fields"]
         for name in ("m_frame_2", "m_frame_4", "lab_2"):
             columns = fields[name]
             self.assertEqual({len(column) for column in columns.values()}, {400}, name)

@@ -5,10 +5,9 @@ import os
 import re
 import unittest
 
-from program import SOURCE, InFolder, result_of, swirl
+from program import SOURCE, InFolder, read_text, result_of
 
-with open(os.path.join(SOURCE, "docs", "reference", "output.md"), encoding="utf-8") as file:
-    PAGE = file.read()
+PAGE = read_text(os.path.join(SOURCE, "docs", "reference", "output.md"))
 # Keys with a page of their own: parameters and measurements.
 ELSEWHERE = {"config", "measured"}
 
@@ -38,8 +37,7 @@ class OutputKeys(InFolder):
                 self.assertTrue(known, f"{key} is not in {titles}")
 
     def call(self, *arguments):
-        done = swirl(*arguments, "--quiet", cwd=self.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.assert_works(*arguments, "--quiet", cwd=self.folder)
         return done.stdout
 
     def test_run(self):
@@ -65,8 +63,7 @@ class OutputKeys(InFolder):
 
     def test_track(self):
         # Tracking a video takes too long here, so the keys come from the source.
-        with open(os.path.join(SOURCE, "track", "cli", "tracked_video.cpp"), encoding="utf-8") as opened:
-            text = opened.read()
+        text = read_text(os.path.join(SOURCE, "track", "cli", "tracked_video.cpp"))
         found = re.findall(r'\{"([a-z_-]+)",', text) + re.findall(r'json\["(\w+)"\]', text)
         # Without the texts of the HDF5 file and the columns of the tables.
         found = [key for key in found if key not in ("command", "film", "frame", "particle")]

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, swirl
+from program import SOURCE, SWIRL, InFolder, read_text, swirl, write_text
 
 CALL = re.compile(r"(?:^|[\s;&|])(?:\./|build/release/)?swirl ([^&|\n]+)", re.M)
 
@@ -73,8 +73,7 @@ def pages():
 
 
 def text_of(page):
-    with open(os.path.join(SOURCE, page), encoding="utf-8") as file:
-        return file.read()
+    return read_text(os.path.join(SOURCE, page))
 
 
 def blocks(text):
@@ -123,8 +122,7 @@ def write_shown_files(folder, text):
     for name, first_line in SHOWN_FILES.items():
         shown = re.search(rf"^```\n({first_line}\n.*?)^```$", text, re.M | re.S)
         if shown and name in text:
-            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
-                file.write(shown.group(1))
+            write_text(os.path.join(folder, name), shown.group(1))
 
 
 # Files that an earlier call of the page writes, and a shown file with the same columns.
@@ -214,15 +212,13 @@ class Pages(InFolder):
                 if kind == "toml":
                     for shown, shorter in SHORTENED:
                         content = content.replace(shown, shorter)
-                    with open(os.path.join(folder, "plan.toml"), "w", encoding="utf-8") as file:
-                        file.write(content)
+                    write_text(os.path.join(folder, "plan.toml"), content)
                     continue
                 for words in map(shortened, calls(content)):
                     if words is None or missing_input(words, folder):
                         continue
                     with self.subTest(page=page, call=shlex.join(words)):
-                        done = swirl(*words, cwd=folder)
-                        self.assertEqual(done.returncode, 0, done.stderr)
+                        self.assert_works(*words, cwd=folder)
                         ran += 1
         self.assertGreater(ran, 40)
 
@@ -243,12 +239,10 @@ class PagesAsShown(InFolder):
         write_shown_files(folder, text)
         for name, discs in VIDEOS.items():
             if re.search(rf"(?<!out ){name.replace('a.mp4', '')}", text):
-                done = swirl("synthetic-video", "--discs", discs, "--camera", "phone", "--length", 2,
-                             "--out", name, cwd=folder, timeout=900)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assert_works("synthetic-video", "--discs", discs, "--camera", "phone", "--length", 2, "--out",
+                                  name, cwd=folder, timeout=900)
         if "swirl movie run.h5" in text:
-            done = swirl("run", "--periods", 45, "--frames", 60, "--trajectory", "run.h5", cwd=folder)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assert_works("run", "--periods", 45, "--frames", 60, "--trajectory", "run.h5", cwd=folder)
 
     def test_blocks_work(self):
         for page in pages():
@@ -256,8 +250,7 @@ class PagesAsShown(InFolder):
             self.prepare(folder, text_of(page))
             for kind, content in blocks(text_of(page)):
                 if kind == "toml":
-                    with open(os.path.join(folder, "plan.toml"), "w", encoding="utf-8") as file:
-                        file.write(content)
+                    write_text(os.path.join(folder, "plan.toml"), content)
                 elif can_run(content):
                     with self.subTest(page=page, block=content):
                         done = subprocess.run(

@@ -1,7 +1,6 @@
 """Every parameter of a run in every place that accepts it, and which place takes precedence. The list of
 parameters is the table in docs/reference/parameters.md."""
 
-import json
 import os
 import re
 import shutil
@@ -10,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, result_of, swirl
+from program import SOURCE, SWIRL, InFolder, read_json, read_text, result_of, swirl, write_text
 
 ROW = re.compile(r"^\| `(\w+)` \|", re.MULTILINE)
 
@@ -33,8 +32,7 @@ WITH["rolling_resistance"] = ["--body", "sphere", "--floor", "sliding"]
 
 
 def rows():
-    with open(os.path.join(SOURCE, "docs", "reference", "parameters.md"), encoding="utf-8") as page:
-        return ROW.findall(page.read())
+    return ROW.findall(read_text(os.path.join(SOURCE, "docs", "reference", "parameters.md")))
 
 
 def settings_in(toml):
@@ -66,17 +64,14 @@ class Everywhere(InFolder):
     def test_option_file_and_dry_run(self):
         for name, option in GIVEN.items():
             with self.subTest(name):
-                by_option = swirl("run", option, another(name), *WITH.get(name, []), "--dry-run")
-                self.assertEqual(by_option.returncode, 0, by_option.stderr)
+                by_option = self.assert_works("run", option, another(name), *WITH.get(name, []), "--dry-run")
                 self.assertNotEqual(settings_in(by_option.stdout), PAPER)
                 for spelling in (name, name.replace("_", "-")):
-                    with open(self.path("a.toml"), "w") as file:
-                        file.write(f'{spelling} = "{another(name)}"\n')
+                    write_text(self.path("a.toml"), f'{spelling} = "{another(name)}"\n')
                     by_file = swirl("run", self.path("a.toml"), *WITH.get(name, []), "--dry-run")
                     self.assertEqual(by_file.stdout, by_option.stdout, by_file.stderr)
                 # The printed configuration gives the same run.
-                with open(self.path("a.toml"), "w") as file:
-                    file.write(by_option.stdout)
+                write_text(self.path("a.toml"), by_option.stdout)
                 again = swirl("run", self.path("a.toml"), "--dry-run")
                 self.assertEqual(again.stdout, by_option.stdout, again.stderr)
         self.assertEqual(swirl("run", "--mu_disc", "0.5", "--dry-run").stdout,
@@ -95,10 +90,8 @@ class Everywhere(InFolder):
                 length = name in ("events", "periods")
                 value, says = ((1000 if name == "events" else 1), "to another length") if length \
                     else (another(name), "belongs to another run")
-                done = swirl("run", *([] if length else ["--events", "1e14"]), option, value,
-                             *WITH.get(name, []), "--checkpoint", self.path("copy"), "--resume")
-                self.assertEqual(done.returncode, 2, done.stderr)
-                self.assertIn(says, done.stderr)
+                self.assert_fails(2, "run", *([] if length else ["--events", "1e14"]), option, value,
+                                  *WITH.get(name, []), "--checkpoint", self.path("copy"), "--resume", says=says)
 
 
 class Precedence(InFolder):
@@ -106,10 +99,8 @@ class Precedence(InFolder):
 
     def on_top_of(self, file, *by_hand):
         """The settings from these options and a file with all parameters."""
-        with open(self.path("a.toml"), "w") as opened:
-            opened.write(swirl("run", *file, "--dry-run").stdout)
-        done = swirl("run", self.path("a.toml"), *by_hand, "--dry-run")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        write_text(self.path("a.toml"), swirl("run", *file, "--dry-run").stdout)
+        done = self.assert_works("run", self.path("a.toml"), *by_hand, "--dry-run")
         return settings_in(done.stdout)
 
     def test_an_option_overrides_the_frame_times_of_the_file(self):
@@ -119,29 +110,23 @@ class Precedence(InFolder):
         self.assertNotIn("frames", settings)
 
     def test_a_list_overrides_the_value_of_the_file(self):
-        with open(self.path("a.toml"), "w") as opened:
-            opened.write(swirl("run", "--discs", 8, "--events", 2000, "--dry-run").stdout)
-        done = swirl("sweep", self.path("a.toml"), "--mu", "0.1,0.5", "--out", self.path("s"),
-                     "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        write_text(self.path("a.toml"), swirl("run", "--discs", 8, "--events", 2000, "--dry-run").stdout)
+        self.assert_works("sweep", self.path("a.toml"), "--mu", "0.1,0.5", "--out", self.path("s"), "--quiet")
         table = swirl("collect", self.path("s"), "--csv", "-").stdout.splitlines()
         self.assertEqual(len(table), 3)
         self.assertNotEqual(table[1].split(",")[-1], table[2].split(",")[-1])
 
     def test_an_axis_without_effect_is_rejected(self):
-        done = swirl("sweep", "--mu", "0.1,0.5", "--mu-disc", "1", "--mu-wall", "1", "--out",
-                     self.path("s"))
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("--mu 0.1 and --mu 0.5 are the same run", done.stderr)
+        self.assert_fails(2, "sweep", "--mu", "0.1,0.5", "--mu-disc", "1", "--mu-wall", "1", "--out", self.path("s"),
+                          says="--mu 0.1 and --mu 0.5 are the same run")
         self.assertEqual(self.left_behind(), [])
 
     def test_sweep_tables_and_json_have_the_same_names(self):
-        self.assertEqual(swirl("sweep", "--mu-disc", "0.5", "--discs", 5, "--events", 100,
-                               "--out", self.path("s"), "--quiet").returncode, 0)
+        self.assert_works("sweep", "--mu-disc", "0.5", "--discs", 5, "--events", 100, "--out", self.path("s"),
+                          "--quiet")
         heads = swirl("collect", self.path("s"), "--csv", "-").stdout.splitlines()[0].split(",")
         self.assertIn("mu_disc", heads)
-        with open(self.path("s/results/000000.json")) as result:
-            self.assertIn("mu_disc", json.load(result)["config"])
+        self.assertIn("mu_disc", read_json(self.path("s/results/000000.json"))["config"])
 
 
 if __name__ == "__main__":

@@ -12,6 +12,8 @@ import socket
 import subprocess
 import time
 
+from program import read_text, write_text
+
 PROGRAMS = ("slurmctld", "slurmd", "sbatch", "squeue", "scancel", "sinfo", "munged")
 
 
@@ -31,8 +33,7 @@ def why_not():
 
 def alive(pid):
     try:
-        with open(f"/proc/{pid}/stat") as stat:
-            return stat.read().rpartition(")")[2].split()[0] != "Z"
+        return read_text(f"/proc/{pid}/stat").rpartition(")")[2].split()[0] != "Z"
     except OSError:
         return False
 
@@ -102,8 +103,7 @@ SlurmdParameters=config_overrides
                            f"Port={port + 101 + k} CPUs={cpus} RealMemory=500 State=UNKNOWN\n")
             # From Slurm 23.11 on, a node needs control groups unless this plugin is disabled.
             if self.version() >= (23, 11):
-                with open(f"{folder}/cgroup.conf", "w") as cgroup:
-                    cgroup.write("CgroupPlugin=disabled\n")
+                write_text(f"{folder}/cgroup.conf", "CgroupPlugin=disabled\n")
             conf.write(f"PartitionName=main Nodes={','.join(self.nodes)} Default=YES "
                        "MaxTime=INFINITE State=UP OverSubscribe=NO\n")
 
@@ -144,8 +144,7 @@ SlurmdParameters=config_overrides
 
     def pid_of(self, name):
         try:
-            with open(f"{self.folder}/{name}") as file:
-                return int(file.read())
+            return int(read_text(f"{self.folder}/{name}"))
         except (OSError, ValueError):
             return None
 

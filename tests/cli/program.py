@@ -1,7 +1,9 @@
-"""Helpers that call the program under test."""
+"""Helpers that call the program under test, and read and write files."""
 
+import csv
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -42,6 +44,31 @@ def swirl(*arguments, timeout=150, **more):
                           timeout=timeout, env=environment, stdin=subprocess.DEVNULL, **more)
 
 
+def read_text(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def read_bytes(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def read_json(path):
+    return json.loads(read_text(path))
+
+
+def read_rows(path):
+    """The rows of a table with a header, as dictionaries."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def write_text(path, text):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
 def result_of(*arguments):
     """The JSON of a run. Fails if the run fails."""
     done = swirl("run", *arguments, "--json", "-", "--quiet")
@@ -51,25 +78,28 @@ def result_of(*arguments):
 
 def without_time(file):
     """The result of a run without the keys that differ between equal runs."""
-    with open(file) as opened:
-        result = json.load(opened)
+    result = read_json(file)
     for key in ("seconds", "events_per_second", "command"):
         del result[key]
     return result
 
 
-def made_of_the_web(test_class, script, name, **more):
-    """Runs a script of web/ for all tests of a class and returns the folder of its output, which is removed
-    after the tests. Skips the tests if clang or Node.js is missing."""
+def made_of_the_web(test_class, script, name, before=(), **more):
+    """Runs a script of web/ for all tests of a class and returns its output, a file or a folder that contained
+    the empty files `before`; self.warnings is its standard error. Skips the tests if clang or Node.js is missing."""
     if not all(shutil.which(tool) for tool in ("clang++-19", "node", "npm")):
         print("skipped: this test needs clang-19 with wasi-libc, Node.js and npm")
         sys.exit(77)
     folder = tempfile.TemporaryDirectory()
     test_class.addClassCleanup(folder.cleanup)
     output = os.path.join(folder.name, name)
+    for file in before:
+        os.makedirs(output, exist_ok=True)
+        open(os.path.join(output, file), "w", encoding="utf-8").close()
     done = subprocess.run([script, "--out", output], capture_output=True, text=True, **more)
     if done.returncode:
         raise RuntimeError(done.stderr[-4000:])
+    test_class.warnings = done.stderr
     return output
 
 
@@ -78,7 +108,24 @@ def folder_in_memory():
     return "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
 
 
-class InFolder(unittest.TestCase):
+class ProgramTest(unittest.TestCase):
+    def assert_works(self, *call, **more):
+        done = swirl(*call, **more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def assert_fails(self, code, *call, says=(), **more):
+        """The call ends with this exit code and one error message, perhaps after warnings; standard error contains
+        `says`, a text or several."""
+        done = swirl(*call, **more)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertRegex(re.sub(r"\A(warning: [^\n]+\n(hint: [^\n]+\n)?)+", "", done.stderr), ONE_ERROR)
+        for text in [says] if isinstance(says, str) else says:
+            self.assertIn(text, done.stderr)
+        return done
+
+
+class InFolder(ProgramTest):
     """A test with an empty temporary folder, self.folder. With in_memory it is in /dev/shm if possible: the
     files after a kill are the same, and no call waits for the disk."""
 
@@ -89,6 +136,29 @@ class InFolder(unittest.TestCase):
             prefix="swirl-test-", dir=folder_in_memory() if self.in_memory else None)
         self.folder = self._folder.name
         self.addCleanup(self._folder.cleanup)
+
+    def shared(self, name, make):
+        """The path of a copy of `name`, a file or folder that make(path) writes once for all tests of the class."""
+        test = type(self)
+        if "store" not in test.__dict__:
+            test.store = tempfile.TemporaryDirectory(prefix="swirl-test-", dir=folder_in_memory() if self.in_memory else None)
+            test.addClassCleanup(test.store.cleanup)
+        made = os.path.join(test.store.name, name)
+        if not os.path.exists(made):
+            make(made)
+        (shutil.copytree if os.path.isdir(made) else shutil.copy)(made, self.path(name))
+        return self.path(name)
+
+    def edit_hdf5(self, file, code):
+        """Changes an HDF5 file by Python code in which `f` is the open file. Skips the test if there is no h5py."""
+        try:
+            import h5py
+            import numpy
+        except ImportError:
+            self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
+        with h5py.File(self.path(file), "r+") as f:
+            exec(code, {"f": f, "particles": f.get("particles/trajectory"), "h5py": h5py, "np": numpy,
+                        "nan": numpy.nan, "inf": numpy.inf})
 
     def path(self, name):
         return os.path.join(self.folder, name)

@@ -7,10 +7,9 @@ import re
 import shlex
 import unittest
 
-from program import SOURCE, swirl
+from program import SOURCE, read_text, swirl
 
-with open(os.path.join(SOURCE, "README.md"), encoding="utf-8") as file:
-    README = file.read()
+README = read_text(os.path.join(SOURCE, "README.md"))
 
 # Lines that differ between machines and calls.
 TIMING = re.compile(r"^  time |^\d+ runs|^wrote ")
@@ -67,8 +66,7 @@ class Readme(unittest.TestCase):
         commands = re.findall(r"^  (\w[\w-]*)  ", swirl("--help").stdout.partition("Subcommands:")[2], re.M)
         helps, options = {}, 0
         for name in ["README.md", *pages()]:
-            with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
-                text = file.read().replace("\\\n", " ")
+            text = read_text(os.path.join(SOURCE, name)).replace("\\\n", " ")
             for start, call in re.findall(r"(^|^\./|`|`\./|&& \./)swirl ([a-z][^`\n]*)", text, re.M):
                 if start == "" and call.split()[0] not in commands:  # a sentence
                     continue
@@ -87,15 +85,13 @@ class Readme(unittest.TestCase):
         self.assertGreater(options, 100)
 
     def test_index_links_to_every_page(self):
-        with open(os.path.join(SOURCE, "docs/index.md"), encoding="utf-8") as file:
-            linked = re.findall(r"\]\(([^)#]+\.md)", file.read())
+        linked = re.findall(r"\]\(([^)#]+\.md)", read_text(os.path.join(SOURCE, "docs/index.md")))
         self.assertEqual(set(pages()) - {os.path.normpath(os.path.join("docs", link)) for link in linked},
                          {"docs/index.md"})
 
     def test_links_have_targets(self):
         for name in ["README.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md", *pages()]:
-            with open(os.path.join(SOURCE, name), encoding="utf-8") as file:
-                text = file.read()
+            text = read_text(os.path.join(SOURCE, name))
             for link in re.findall(r"\]\(([^)#]+)[^)]*\)", text):
                 if link.startswith("http"):
                     continue

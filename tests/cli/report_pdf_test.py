@@ -7,6 +7,8 @@ import sys
 import tempfile
 import unittest
 
+from program import read_bytes
+
 SOURCE = os.environ.get("SWIRL_SOURCE", ".")
 PYTHON = "/usr/bin/python3"
 
@@ -33,8 +35,7 @@ class ReportPdf(unittest.TestCase):
             file = os.path.join(folder, "r.pdf")
             subprocess.run([PYTHON, "-B", "-c", MAKE, os.path.join(SOURCE, "paper"), file], check=True,
                            timeout=120)
-            with open(file, "rb") as opened:
-                cls.pdf = opened.read()
+            cls.pdf = read_bytes(file)
 
     def objects(self):
         """The last version of each object, by the tables of both parts of the file."""

@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from program import SWIRL, InFolder, result_of, swirl
+from program import SWIRL, InFolder, ProgramTest, read_json, result_of, swirl, write_text
 
 
 class Json(InFolder):
@@ -32,11 +32,9 @@ class Json(InFolder):
 
     def test_file_and_stdout_hold_the_same_json(self):
         file = self.path("result.json")
-        done = swirl("run", "--discs", 8, "--events", 5000, "--json", file)
-        self.assertEqual(done.returncode, 0)
+        done = self.assert_works("run", "--discs", 8, "--events", 5000, "--json", file)
         self.assertIn("8 discs", done.stdout)
-        with open(file) as opened:
-            from_file = json.load(opened)
+        from_file = read_json(file)
         from_stdout = result_of("--discs", 8, "--events", 5000)
         for changing_key in ("seconds", "events_per_second", "command"):
             del from_file[changing_key], from_stdout[changing_key]
@@ -48,8 +46,7 @@ class Json(InFolder):
         open(self.path("real.json"), "w").close()
         swirl("run", "--events", 10, "--json", self.path("link.json"))
         self.assertTrue(os.path.islink(self.path("link.json")))
-        with open(self.path("real.json")) as opened:
-            json.load(opened)
+        read_json(self.path("real.json"))
         done = swirl("run", "--events", 10, "--quiet", "--json", "/dev/stdout")
         self.assertEqual(json.loads(done.stdout)["events"]["total"], 10)
 
@@ -80,25 +77,21 @@ class InitialState(InFolder):
 
     def test_a_run_from_a_file_is_verified_without_it(self):
         start = self.path("start.csv")
-        with open(start, "w") as file:
-            file.write("x,y,vx,vy,spin\n2,0,0,1,0\n2,3,0,0,-1\n")
+        write_text(start, "x,y,vx,vy,spin\n2,0,0,1,0\n2,3,0,0,-1\n")
         for output in (["--json", self.path("r.json"), "--trajectory", self.path("t.h5")],
                        ["--checkpoint", self.path("c"), "--keep-checkpoint"]):
-            done = swirl("run", "--initial", start, "--periods", 20, "--warmup", 2, "--quiet", *output)
-            self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.path("a.toml"), "w") as file:
-            file.write(f'initial = "{start}"\nperiods = 20\nwarmup = 2\n')
+            self.assert_works("run", "--initial", start, "--periods", 20, "--warmup", 2, "--quiet", *output)
+        write_text(self.path("a.toml"), f'initial = "{start}"\nperiods = 20\nwarmup = 2\n')
         by_file = result_of(self.path("a.toml"))
         os.unlink(start)
         for name in ("r.json", "t.h5"):
             self.assertIn("bitwise identical", swirl("verify", self.path(name)).stdout)
-        with open(self.path("r.json")) as file:
-            self.assertEqual(json.load(file)["state_hash"], by_file["state_hash"])
+        self.assertEqual(read_json(self.path("r.json"))["state_hash"], by_file["state_hash"])
         longer = swirl("run", "--checkpoint", self.path("c"), "--resume", "--periods", 30, "--json", "-", "--quiet")
         self.assertEqual(json.loads(longer.stdout)["config"]["discs"], 2, longer.stderr)
 
 
-class Report(unittest.TestCase):
+class Report(ProgramTest):
     def test_headline_gives_the_direction_of_rotation(self):
         self.assertIn("28 discs rotate with the swirl: ϖ/Ω = 0.0", swirl("run", "--discs", 28, "--events", 1e5)
                       .stdout)
@@ -106,8 +99,7 @@ class Report(unittest.TestCase):
                       swirl("run", "--discs", 48, "--events", 1e5).stdout)
 
     def test_one_disc_has_no_rotation(self):
-        done = swirl("run", "--discs", 1, "--events", 1000)
-        self.assertEqual(done.returncode, 0)
+        done = self.assert_works("run", "--discs", 1, "--events", 1000)
         self.assertIn("no rotation about its own centre", done.stdout)
 
     def test_without_a_whole_period_there_are_no_averages(self):
@@ -185,8 +177,7 @@ class Stopping(InFolder):
             self.assertEqual(process.returncode, 130)
             self.assertIn("warning: incomplete", errors)
             self.assertIn("error: stopped before the end", errors)
-            with open(self.path(how.name)) as opened:
-                result = json.load(opened)
+            result = read_json(self.path(how.name))
             self.assertFalse(result["complete"])
             self.assertGreater(result["events"]["total"], 0)
             self.assertLessEqual({how.name, how.name + ".checkpoint"}, set(self.left_behind()))

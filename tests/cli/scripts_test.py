@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, swirl
+from program import SOURCE, SWIRL, InFolder, swirl, write_text
 
 FIGURE = ["paper", "--figure", "5b", "--quick", "--events", "2000"]
 
@@ -15,8 +15,7 @@ class Scripts(InFolder):
         """Python files that create the file `ran` if they are executed."""
         for name in names:
             os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
-            with open(self.path(name), "w", encoding="utf-8") as file:
-                file.write(f"open({self.path('ran')!r}, 'w')\nraise SystemExit(0)\n")
+            write_text(self.path(name), f"open({self.path('ran')!r}, 'w')\nraise SystemExit(0)\n")
 
     def has_run(self):
         return os.path.exists(self.path("ran"))

@@ -8,20 +8,18 @@ import subprocess
 import time
 import unittest
 
-from program import InFolder, ONE_ERROR, SWIRL, swirl
+from program import ONE_ERROR, SWIRL, InFolder, read_json, read_rows, read_text, swirl, write_text
 
 RAMP = ("--discs", 24, "--ramp", "mu=0.2:1:0.2@3..23", "--ramp", "amplitude=1:2@5..20")
 
 
 def rows(file):
-    with open(file, newline="") as opened:
-        return list(csv.DictReader(opened))
+    return read_rows(file)
 
 
 class Series(InFolder):
     def run_swirl(self, *arguments):
-        done = swirl(*arguments, cwd=self.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.assert_works(*arguments, cwd=self.folder)
         return done
 
     def test_each_period_is_a_row_with_the_value_of_its_ramp(self):
@@ -30,8 +28,7 @@ class Series(InFolder):
         self.assertEqual([row["period"] for row in table], [str(k) for k in range(24)])
         self.assertEqual([float(table[k]["ramp.mu"]) for k in (0, 3, 13, 23)], [0.2, 0.2, 1, 0.2])
         self.assertTrue(all(row["slip.cluster"] for row in table))
-        with open(self.path("r.json")) as opened:
-            result = json.load(opened)
+        result = read_json(self.path("r.json"))
         self.assertEqual(sum(int(row["events"]) for row in table), result["events"]["total"])
         self.assertEqual(result["series"]["periods"], 24)
         average = result["series"]["averages"]["slip.cluster"]
@@ -44,8 +41,7 @@ class Series(InFolder):
                               "s.csv", "--measure", "fluctuations", "--json", "r.json")
         values = [float(row["rigid_by_time"]) for row in rows(self.path("s.csv"))
                   if row["counted"] == "1"]
-        with open(self.path("r.json")) as opened:
-            result = json.load(opened)
+        result = read_json(self.path("r.json"))
         found = result["series"]["averages"]["rigid_by_time"]["fluctuations"]
         n = len(values)
         self.assertEqual(n, 100)
@@ -64,8 +60,7 @@ class Series(InFolder):
 
     def test_a_ramp_has_no_fluctuations(self):
         self.run_swirl("run", *RAMP, "--series", "s.csv", "--json", "r.json")
-        with open(self.path("r.json")) as opened:
-            averages = json.load(opened)["series"]["averages"]
+        averages = read_json(self.path("r.json"))["series"]["averages"]
         self.assertFalse([name for name, value in averages.items() if "fluctuations" in value])
 
     def test_a_killed_and_resumed_run_has_the_same_series(self):
@@ -117,8 +112,7 @@ class Series(InFolder):
         self.assertGreaterEqual(len(table), max(lengths))
 
     def test_existing_files_and_other_endings_are_rejected(self):
-        with open(self.path("s.csv"), "w") as opened:
-            opened.write("mine\n")
+        write_text(self.path("s.csv"), "mine\n")
         for arguments, part in ((("--series", "s.csv"), "already exists"),
                                 (("--series", "s.h5"), "must end in .csv"),
                                 (("--ramp", "period=12:9@2..9", "--log-events", "e.h5"),
@@ -130,24 +124,19 @@ class Series(InFolder):
             self.assertIn(part, done.stderr)
             self.assertRegex(done.stderr, ONE_ERROR)
             self.assertNotEqual(done.returncode, 0)
-        with open(self.path("s.csv")) as opened:
-            self.assertEqual(opened.read(), "mine\n")
+        self.assertEqual(read_text(self.path("s.csv")), "mine\n")
 
     def test_a_configuration_file_holds_ramps_and_options_replace_its_values(self):
-        with open(self.path("plan.toml"), "w") as opened:
-            opened.write('discs = 12\nramp = "mu=0.1:1@2..9; amplitude=1:2@2..9"\nseries = "a.csv"\n')
+        write_text(self.path("plan.toml"), 'discs = 12\nramp = "mu=0.1:1@2..9; amplitude=1:2@2..9"\nseries = "a.csv"\n')
         self.run_swirl("run", "plan.toml", "--quiet")
         self.assertEqual(len(rows(self.path("a.csv"))), 10)
-        with open(self.path("mu.toml"), "w") as opened:
-            opened.write("discs = 12\nmu = 0.5\n")
+        write_text(self.path("mu.toml"), "discs = 12\nmu = 0.5\n")
         done = self.run_swirl("run", "mu.toml", "--ramp", "mu=0.1:1@2..9", "--dry-run")
         self.assertIn('ramp = "mu=0.1:1@2..9"', done.stdout)
 
     def test_other_commands_have_no_ramp(self):
         for command in (("crossing",), ("movie", "--out", "m.mp4")):
-            done = swirl(*command, "--ramp", "mu=0.1:1@2..9", cwd=self.folder)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn("there is no option --ramp", done.stderr)
+            self.assert_fails(2, *command, "--ramp", "mu=0.1:1@2..9", cwd=self.folder, says="there is no option --ramp")
 
 
 class Chain(InFolder):
@@ -158,13 +147,11 @@ class Chain(InFolder):
         folder = os.path.join(self.folder, name, "results")
         found = {}
         for file in sorted(os.listdir(folder)):
-            with open(os.path.join(folder, file)) as opened:
-                found[file] = json.load(opened)
+            found[file] = read_json(os.path.join(folder, file))
         return found
 
     def sweep(self, name, *more):
-        done = swirl(*self.SWEEP, "--out", name, *more, cwd=self.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works(*self.SWEEP, "--out", name, *more, cwd=self.folder)
 
     def test_each_run_starts_from_its_neighbour_in_both_directions(self):
         self.sweep("loop", "--series")
@@ -195,8 +182,7 @@ class Chain(InFolder):
         self.sweep("loop", "--plot")
         for file in ("table.csv", "table.png", "table.pdf", "loops.csv"):
             self.assertGreater(os.path.getsize(os.path.join(self.folder, "loop", file)), 100)
-        with open(os.path.join(self.folder, "loop", "loops.csv"), encoding="utf-8") as opened:
-            rows = list(csv.DictReader(opened))
+        rows = read_rows(os.path.join(self.folder, "loop", "loops.csv"))
         self.assertEqual([(row["amplitude"], row["replicates"]) for row in rows], [("1.5", "2"), ("2", "2")])
         areas = {}  # (amplitude, replica): of every loop, from its runs
         for result in self.results("loop").values():
@@ -223,9 +209,7 @@ class Chain(InFolder):
                             (("sweep", "--out", "plain", "--plot", "--slurm"), "--plot")):
             if not os.path.exists(os.path.join(self.folder, "plain")):
                 swirl("sweep", "--discs", "5,6", "--events", 500, "--out", "plain", "--quiet", cwd=self.folder)
-            done = swirl(*wrong, cwd=self.folder)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(says, done.stderr)
+            self.assert_fails(2, *wrong, cwd=self.folder, says=says)
 
     def test_a_continued_chain_is_bitwise_identical(self):
         self.sweep("whole")
@@ -246,9 +230,7 @@ class Chain(InFolder):
                 (("--mu", "1", "--periods", 5, "--chain", "mu"), "fewer than two values"),
                 (("--inertia", "1,2", "--periods", 5, "--chain", "inertia"), "must be one of: mu"),
                 (("--mu", "0.1,1", "--periods", 5, "--chain", "mu", "--frames", 8), "--frames")):
-            done = swirl("sweep", *arguments, "--out", "bad", cwd=self.folder)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(part, done.stderr)
+            self.assert_fails(2, "sweep", *arguments, "--out", "bad", cwd=self.folder, says=part)
             self.assertFalse(os.path.exists(os.path.join(self.folder, "bad")))
         self.sweep("loop")
         grown = swirl("sweep", "--out", "loop", "--grow", "--mu", "0.4", cwd=self.folder)
@@ -256,8 +238,7 @@ class Chain(InFolder):
 
     def test_the_table_is_drawn(self):
         self.sweep("loop")
-        done = swirl("collect", "loop", "--plot", cwd=self.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("collect", "loop", "--plot", cwd=self.folder)
         for kind in ("png", "pdf"):
             self.assertGreater(os.path.getsize(os.path.join(self.folder, "loop", f"table.{kind}")), 1000)
         done = swirl("collect", "loop", "--plot", "--quantity", "nonsense", cwd=self.folder)

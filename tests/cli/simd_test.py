@@ -19,8 +19,7 @@ def widths():
 @unittest.skipUnless(os.uname().machine == "x86_64", "these are widths of x86-64")
 class Simd(InFolder):
     def result(self, width, *arguments):
-        done = swirl("run", *arguments, "--json", "-", "--quiet", environment={"SWIRL_SIMD": width})
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.assert_works("run", *arguments, "--json", "-", "--quiet", environment={"SWIRL_SIMD": width})
         result = json.loads(done.stdout)
         for key in ("seconds", "events_per_second", "command"):
             del result[key]
@@ -67,14 +66,11 @@ class Simd(InFolder):
     def test_unknown_and_unsupported_widths_are_rejected_by_every_command(self):
         for command in (("run", "--discs", 5, "--events", 1000), ("sweep", "--out", self.path("s")),
                         ("verify", self.path("none.json"))):
-            done = swirl(*command, environment={"SWIRL_SIMD": "mmx"})
-            self.assertEqual(done.returncode, 2)
-            self.assertIn("SWIRL_SIMD is 'mmx'", done.stderr)
+            self.assert_fails(2, *command, environment={"SWIRL_SIMD": "mmx"}, says="SWIRL_SIMD is 'mmx'")
         self.assertEqual(self.left_behind(), [])
         for lacking in set(FLAGS) - set(widths()):
-            done = swirl("run", "--discs", 5, environment={"SWIRL_SIMD": lacking})
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(f"SWIRL_SIMD is '{lacking}', but this processor supports only", done.stderr)
+            self.assert_fails(2, "run", "--discs", 5, environment={"SWIRL_SIMD": lacking},
+                              says=f"SWIRL_SIMD is '{lacking}', but this processor supports only")
 
 
 if __name__ == "__main__":

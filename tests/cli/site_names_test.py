@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import unittest
 
-from program import SOURCE, InFolder
+from program import SOURCE, InFolder, read_text, write_text
 
 # Programs in the PATH. The last argument of sphinx-build is the output folder.
 PROGRAMS = {
@@ -33,8 +33,7 @@ class SiteNames(InFolder):
         for empty in ("packages", "web/gallery.txt", "web/site.py", "web/notebooks.py"):
             open(self.path(empty), "w").close()
         for name, script in PROGRAMS.items():
-            with open(self.path(name), "w", encoding="utf-8") as opened:
-                opened.write(f"#!/bin/sh\n{script}\n")
+            write_text(self.path(name), f"#!/bin/sh\n{script}\n")
             os.chmod(self.path(name), 0o755)
         os.mkdir(self.path("out"))
         self.site = self.path("out/site")
@@ -50,8 +49,7 @@ class SiteNames(InFolder):
                                                "PATH": self.path("bin") + ":" + os.environ["PATH"]})
 
     def page(self):
-        with open(os.path.join(self.site, "index.html"), encoding="utf-8") as opened:
-            return opened.read().strip()
+        return read_text(os.path.join(self.site, "index.html")).strip()
 
     def test_a_stop_at_a_rename_leaves_the_old_or_the_new_site(self):
         everywhere = [("TERM", at, when) for at in ("1", "2") for when in ("before", "after")]
@@ -78,8 +76,7 @@ class SiteNames(InFolder):
 
     def test_an_address_makes_the_site_known_to_search_engines_and_link_previews(self):
         os.makedirs(self.path("docs/images"))
-        with open(self.path("docs/images/lab_preview.png"), "w", encoding="utf-8") as opened:
-            opened.write("picture")
+        write_text(self.path("docs/images/lab_preview.png"), "picture")
         self.assertEqual(self.make("page", "--address", "https://example.org/swirl").returncode, 0)
         read = lambda name: open(os.path.join(self.site, name), encoding="utf-8").read()  # noqa: E731
         at = "https://example.org/swirl/"

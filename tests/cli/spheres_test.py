@@ -8,7 +8,7 @@ import os
 import subprocess
 import sys
 
-from program import InFolder, main, swirl
+from program import InFolder, main
 
 try:
     import h5py
@@ -165,10 +165,8 @@ class Spheres(InFolder):
         log = self.path("events.h5")
         if resistance:
             more += ("--rolling-resistance", resistance)
-        done = swirl("run", "--preset", "experiment-half", "--events", events, "--warmup", 0, "--mu", friction,
-                     "--floor-friction", floor_friction, *more, "--log-events", log, "--quiet",
-                     "--overwrite")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("run", "--preset", "experiment-half", "--events", events, "--warmup", 0, "--mu", friction,
+                          "--floor-friction", floor_friction, *more, "--log-events", log, "--quiet", "--overwrite")
         collisions = 0
         with h5py.File(log) as file:
             simulation = Simulation(file["initial"], friction, floor_friction, coins, resistance)
@@ -205,9 +203,8 @@ class Spheres(InFolder):
 
     def test_vertical_impulses_of_a_log(self):
         log = self.path("events.h5")
-        done = swirl("run", "--preset", "experiment-half", "--discs", 20, "--events", 20000, "--warmup", 0, "--log-events",
-                     log, "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("run", "--preset", "experiment-half", "--discs", 20, "--events", 20000, "--warmup", 0,
+                          "--log-events", log, "--quiet")
         output = subprocess.run([sys.executable, EXAMPLE, log], capture_output=True, text=True, check=True).stdout
         shares = {line[:56].strip(): float(line[56:]) for line in output.splitlines()}
         with h5py.File(log) as file:

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from program import SOURCE, InFolder, SWIRL, main, some, swirl
+from program import SOURCE, SWIRL, InFolder, main, read_text, some, swirl
 
 HANG = 300  # seconds: a program that ignores the signal fails the test instead of blocking it
 PER_SECOND = os.sysconf("SC_CLK_TCK")
@@ -18,8 +18,7 @@ PER_SECOND = os.sysconf("SC_CLK_TCK")
 def processor_seconds(pid):
     """Processor time of all threads of a process; None if it has ended."""
     try:
-        with open(f"/proc/{pid}/stat") as stat:
-            fields = stat.read().rsplit(")", 1)[1].split()
+        fields = read_text(f"/proc/{pid}/stat").rsplit(")", 1)[1].split()
     except FileNotFoundError:
         return None
     if fields[0] == "Z":
@@ -95,7 +94,7 @@ class Stop(InFolder):
                 240, "--frames-per-period", 40, "--length", 1.2, "--quiet", "--out"]
         self.assertGreaterEqual(self.count_clean_stops([0.05], *video, self.path("stopped.mp4")), 1)
         self.assertEqual(self.left_behind(), [])
-        self.assertEqual(swirl(*video, self.path("video.mp4")).returncode, 0)
+        self.assert_works(*video, self.path("video.mp4"))
         made = self.left_behind()
         track = ["track", self.path("video.mp4"), "--quiet", "--out", self.path("tracks.csv")]
         if "no camera support" in swirl(*track, "--max-frames", 1).stderr:

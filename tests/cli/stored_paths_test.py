@@ -3,7 +3,7 @@
 import os
 import subprocess
 
-from program import InFolder, main, swirl
+from program import InFolder, main, read_bytes, swirl, write_text
 
 FOLDER = "ada-lovelace"  # stands for a user name
 
@@ -13,25 +13,19 @@ class StoredPaths(InFolder):
         """The bytes of all files of a run whose files and configuration are in FOLDER."""
         folder = self.path(FOLDER)
         os.makedirs(folder, exist_ok=True)
-        with open(os.path.join(folder, "a.toml"), "w", encoding="utf-8") as file:
-            file.write(f"# by {FOLDER}\ndiscs = 3\n")
-        with open(os.path.join(folder, "path.csv"), "w", encoding="utf-8") as file:
-            file.write("t,x,y\n0,0,0\n1,1,0\n2,1,1\n3,0,0\n")
-        with open(os.path.join(folder, "sizes.csv"), "w", encoding="utf-8") as file:
-            file.write("radius\n1\n1\n0.9\n")
+        write_text(os.path.join(folder, "a.toml"), f"# by {FOLDER}\ndiscs = 3\n")
+        write_text(os.path.join(folder, "path.csv"), "t,x,y\n0,0,0\n1,1,0\n2,1,1\n3,0,0\n")
+        write_text(os.path.join(folder, "sizes.csv"), "radius\n1\n1\n0.9\n")
         names = {option: os.path.join(folder, name) for option, name in (
             ("--trajectory", "t.h5"), ("--log-events", "e.h5"), ("--series", "s.csv"), ("--json", "r.json"))}
-        done = swirl("run", os.path.join(folder, "a.toml"), "--path=" + os.path.join(folder, "path.csv"),
-                     "--periods", 4, "--warmup", 1, "--quiet", "--overwrite",
-                     *(word for pair in names.items() for word in pair), *more)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("run", os.path.join(folder, "a.toml"), "--path=" + os.path.join(folder, "path.csv"),
+                          "--periods", 4, "--warmup", 1, "--quiet", "--overwrite",
+                          *(word for pair in names.items() for word in pair), *more)
         found = b""
         for name in names.values():
-            with open(name, "rb") as file:
-                found += file.read()
+            found += read_bytes(name)
             if not name.endswith(".csv"):
-                done = swirl("verify", name)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assert_works("verify", name)
         return found
 
     def test_results_and_recordings_have_no_folders(self):
@@ -50,7 +44,7 @@ class StoredPaths(InFolder):
         os.mkdir(self.path(FOLDER))
         video = self.path(f"{FOLDER}/lab.mp4")
         done = swirl("synthetic-video", "--discs", 20, "--container-radius", 6.5, "--scale", 12, "--width", 240,
-                     "--height", 240, "--length", 3.2, "--fps", 60, "--seed", 3, "--out", video, "--quiet")
+                     "--height", 240, "--length", 1.15, "--frames-per-period", 64, "--seed", 3, "--out", video, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         out = self.path("tracks.h5")
         done = swirl("track", video, "--out", out, "--quiet", "--omit-paths")
@@ -60,8 +54,7 @@ class StoredPaths(InFolder):
         for file in (out, self.path("tracks.camera.json")):
             found = subprocess.run(["grep", "-c", FOLDER, file], capture_output=True, text=True)
             self.assertEqual(found.stdout, "0\n", file)
-            with open(file, "rb") as opened:
-                self.assertIn(b"lab.mp4", opened.read())
+            self.assertIn(b"lab.mp4", read_bytes(file))
 
 
 if __name__ == "__main__":

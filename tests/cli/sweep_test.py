@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import time
 
-from program import ALL, SWIRL, InFolder, main, swirl
+from program import ALL, SWIRL, InFolder, main, read_bytes, read_json, swirl, write_text
 
 PLAN = ["sweep", "--discs", "5:12", "--mu", "0.5,1", "--seeds", "3", "--events", "20000", "--quiet"]
 POINTS = 48
@@ -19,13 +19,11 @@ class Sweep(InFolder):
     in_memory = True
 
     def table(self, folder):
-        done = swirl("collect", folder, "--csv", "-")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.assert_works("collect", folder, "--csv", "-")
         return done.stdout
 
     def whole(self):
-        done = swirl(*PLAN, "--out", self.path("whole"))
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.shared("whole", lambda out: self.assert_works(*PLAN, "--out", out))
         table = self.table(self.path("whole"))
         self.assertEqual(len(table.splitlines()), 17)
         self.assertEqual(len(os.listdir(self.path("whole/results"))), POINTS)
@@ -33,24 +31,22 @@ class Sweep(InFolder):
 
     def test_the_table_does_not_depend_on_threads_parts_and_order(self):
         table = self.whole()
-        self.assertEqual(swirl(*PLAN, "--out", self.path("a"), "--threads", 1).returncode, 0)
+        self.assert_works(*PLAN, "--out", self.path("a"), "--threads", 1)
         self.assertEqual(self.table(self.path("a")), table)
         for part in (3, 1, 2):
-            done = swirl(*PLAN, "--out", self.path("b"), "--part", f"{part}/3")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assert_works(*PLAN, "--out", self.path("b"), "--part", f"{part}/3")
         self.assertEqual(self.table(self.path("b")), table)
 
     def test_a_plan_file_equals_the_options(self):
         table = self.whole()
-        with open(self.path("plan.toml"), "w") as plan:
-            plan.write('discs = "5:12"\nmu = [0.5, 1]\nseeds = 3\nevents = 20000\n')
-        self.assertEqual(swirl("sweep", self.path("plan.toml"), "--out", self.path("a"),
-                               "--quiet").returncode, 0)
+        write_text(self.path("plan.toml"), 'discs = "5:12"\nmu = [0.5, 1]\nseeds = 3\nevents = 20000\n')
+        self.assert_works("sweep", self.path("plan.toml"), "--out", self.path("a"), "--quiet")
         self.assertEqual(self.table(self.path("a")), table)
 
     def test_repeated_calls_complete_a_sweep_that_is_killed_many_times(self):
-        begin = time.monotonic()
         table = self.whole()
+        begin = time.monotonic()
+        self.assert_works(*PLAN, "--out", self.path("timed"))
         # The kills are spread from the start to nearly the end, on a machine of any speed.
         longest = 0.5 * (time.monotonic() - begin)
         choose = random.Random(5)
@@ -74,8 +70,7 @@ class Sweep(InFolder):
                 if os.path.isdir(folder + "/results"):
                     for name in os.listdir(folder + "/results"):
                         if name.endswith(".json"):
-                            with open(f"{folder}/results/{name}") as result:
-                                json.load(result)
+                            read_json(f"{folder}/results/{name}")
             self.assertEqual(process.returncode, 0, errors)
             self.assertEqual(len(os.listdir(folder + "/results")), POINTS)  # no leftovers
             self.assertEqual([n for n in os.listdir(folder) if n.endswith(".partial")], [])
@@ -85,21 +80,18 @@ class Sweep(InFolder):
         folder = self.path("killed")
         os.mkdir(folder)
         left = folder + "/plan.json.0123456789abcdef.partial"
-        with open(left, "w") as opened:
-            opened.write("{")
-        self.assertEqual(swirl(*PLAN, "--out", folder).returncode, 0)
+        write_text(left, "{")
+        self.assert_works(*PLAN, "--out", folder)
         self.assertFalse(os.path.exists(left))
 
     def test_results_have_measurements_and_recordings(self):
         plan = ["sweep", "--discs", "8,20", "--seeds", "2", "--events", "20000", "--measure",
                 "slip,radial", "--frames", "4", "--quiet", "--out", self.path("a")]
-        self.assertEqual(swirl(*plan).returncode, 0)
-        with open(self.path("a/results/000003.json")) as opened:
-            result = json.load(opened)
+        self.assert_works(*plan)
+        result = read_json(self.path("a/results/000003.json"))
         self.assertEqual(result["generator"], "SplitMix64")
         # The command in a result makes this result.
-        alone = swirl(*result["command"].split()[1:], "--json", "-", "--quiet")
-        self.assertEqual(alone.returncode, 0, alone.stderr)
+        alone = self.assert_works(*result["command"].split()[1:], "--json", "-", "--quiet")
         alone = json.loads(alone.stdout)
         for part in ("state_hash", "rotation", "measured", "config"):
             self.assertEqual(alone[part], result[part])
@@ -108,8 +100,7 @@ class Sweep(InFolder):
         self.assertEqual(rows[0][column + 1], "slip.cluster_error")
         slips = []
         for point in (2, 3):
-            with open(self.path(f"a/results/{point:06}.json")) as opened:
-                slips.append(json.load(opened)["measured"]["slip"]["cluster"])
+            slips.append(read_json(self.path(f"a/results/{point:06}.json"))["measured"]["slip"]["cluster"])
         means, errors = ([slip[name] for slip in slips] for name in ("mean", "error"))
         self.assertAlmostEqual(float(rows[2][column]), sum(means) / 2, delta=1e-12)
         # The error is at least the one within the runs and the one between them. Student's factor for
@@ -122,24 +113,20 @@ class Sweep(InFolder):
         float(rows[2][rows[0].index("scatter")])
         self.assertEqual(sorted(os.listdir(self.path("a/trajectories"))),
                          [f"{point:06}.h5" for point in range(4)])
-        done = swirl("verify", self.path("a/trajectories/000003.h5"))
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("verify", self.path("a/trajectories/000003.h5"))
         # The plan in the folder includes measurements and frames.
         os.remove(self.path("a/results/000003.json"))
-        self.assertEqual(swirl("sweep", "--out", self.path("a"), "--quiet").returncode, 0)
+        self.assert_works("sweep", "--out", self.path("a"), "--quiet")
         self.assertEqual([line.split(",") for line in self.table(self.path("a")).splitlines()], rows)
-        done = swirl(*[word.replace("slip,radial", "slip") for word in plan])
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("holds another sweep", done.stderr)
+        self.assert_fails(1, *[word.replace("slip,radial", "slip") for word in plan], says="holds another sweep")
 
     def test_a_table_of_points_makes_the_runs_of_a_product(self):
         table = [line.split(",") for line in self.whole().splitlines()]
         points = self.path("points.csv")
-        with open(points, "w") as opened:
-            opened.write("# chosen points\nmu,discs,seeds\n1,12,3\n0.5,5,3\n")
+        write_text(points, "# chosen points\nmu,discs,seeds\n1,12,3\n0.5,5,3\n")
         call = ["sweep", "--points", points, "--events", 20000, "--out", self.path("a"), "--quiet"]
         for part in ("2/2", "1/2", "1/1"):
-            self.assertEqual(swirl(*call, "--part", part).returncode, 0)
+            self.assert_works(*call, "--part", part)
         self.assertEqual(len(os.listdir(self.path("a/results"))), 6)
         rows = [line.split(",") for line in self.table(self.path("a")).splitlines()]
         self.assertEqual(rows, [table[0], table[16], table[1]])
@@ -155,8 +142,7 @@ class Sweep(InFolder):
         points = self.path("points.csv")
 
         def sweep(text, *more):
-            with open(points, "w") as opened:
-                opened.write(text)
+            write_text(points, text)
             return swirl("sweep", "--points", points, "--events", 3000, "--out", self.path("a"), *more)
 
         self.assertEqual(sweep("discs\n5\n6\n").returncode, 0)
@@ -169,19 +155,15 @@ class Sweep(InFolder):
         self.assertEqual([row.split(",")[:3] for row in self.table(self.path("a")).splitlines()],
                          [["discs", "events", "replicates"], ["5", "3000", "1"], ["6", "3000", "3"], ["7", "3000", "1"]])
         for wrong, says in ((["--discs", 9], "table of points"), (["--chain", "mu"], "--chain")):
-            done = swirl("sweep", "--out", self.path("a"), "--grow", *wrong)
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(says, done.stderr)
+            self.assert_fails(2, "sweep", "--out", self.path("a"), "--grow", *wrong, says=says)
         done = swirl("sweep", "--out", self.path("a"), "--grow", "--seeds", 2, "--dry-run")
         self.assertIn("7 runs:\n  table of 3 points\n  discs: 5 6 7\n  events: 3000 3000 3000\n  replicates: 2 3 2\n",
                       done.stdout)
 
     def test_a_failed_run_of_a_table_does_not_stop_the_others(self):
-        with open(self.path("points.csv"), "w") as opened:
-            opened.write("discs,radius\n5,0.5\n250,0.5\n6,0.5\n")
-        done = swirl("sweep", "--points", self.path("points.csv"), "--events", 1000, "--out", self.path("a"))
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("point 1: 250 discs", done.stderr)
+        write_text(self.path("points.csv"), "discs,radius\n5,0.5\n250,0.5\n6,0.5\n")
+        self.assert_fails(1, "sweep", "--points", self.path("points.csv"), "--events", 1000, "--out", self.path("a"),
+                          says="point 1: 250 discs")
         self.assertEqual(len(self.table(self.path("a")).splitlines()), 3)
 
     def test_two_processes_share_one_folder(self):
@@ -221,17 +203,15 @@ class Sweep(InFolder):
         self.assertEqual(status(), "0 of 4 runs done, 0 running, 0 failed, 4 to do\n")
 
     def test_a_failed_run_does_not_stop_the_others(self):
-        done = swirl("sweep", "--discs", "5,250,6", "--radius", 0.5, "--events", 1000, "--out", self.path("a"))
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("point 1: 250 discs", done.stderr)
+        self.assert_fails(1, "sweep", "--discs", "5,250,6", "--radius", 0.5, "--events", 1000, "--out", self.path("a"),
+                          says="point 1: 250 discs")
         self.assertIn("2 of 3 runs done, 0 running, 1 failed",
                       swirl("sweep", "--out", self.path("a"), "--status").stdout)
         self.assertEqual(len(self.table(self.path("a")).splitlines()), 3)
 
     def test_a_run_without_a_whole_period_has_empty_averages(self):
-        done = swirl("sweep", "--discs", "5,48", "--events", 2000, "--measure", "slip", "--out",
-                     self.path("a"), "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("sweep", "--discs", "5,48", "--events", 2000, "--measure", "slip", "--out", self.path("a"),
+                          "--quiet")
         collected = swirl("collect", self.path("a"), "--csv", "-")
         self.assertIn("1 of the runs completed no whole period", collected.stderr)
         header, five, many = [line.split(",") for line in collected.stdout.splitlines()]
@@ -243,8 +223,8 @@ class Sweep(InFolder):
     def test_column_names_are_unique(self):
         for length, others in ((("--events", 2000), ["mu", "events"]), (("--periods", 3), ["mu", "periods"])):
             folder = self.path(length[0][2:])
-            self.assertEqual(swirl("sweep", "--discs", "5,6", "--mu", 1, *length, "--measure", "slip", "--out",
-                                   folder, "--quiet").returncode, 0)
+            self.assert_works("sweep", "--discs", "5,6", "--mu", 1, *length, "--measure", "slip", "--out", folder,
+                              "--quiet")
             header, *rows = [line.split(",") for line in self.table(folder).splitlines()]
             self.assertEqual(len(set(header)), len(header), header)
             self.assertEqual(header[1:3], others)
@@ -256,10 +236,8 @@ class Sweep(InFolder):
         table = self.whole()
         small = ["sweep", "--discs", "5,7:9", "--mu", "1", "--seeds", "1", "--events", "20000",
                  "--quiet", "--out", self.path("a")]
-        self.assertEqual(swirl(*small).returncode, 0)
-        refused = swirl("sweep", "--discs", "5:12", "--out", self.path("a"))
-        self.assertEqual(refused.returncode, 1)
-        self.assertIn("--grow", refused.stderr)
+        self.assert_works(*small)
+        self.assert_fails(1, "sweep", "--discs", "5:12", "--out", self.path("a"), says="--grow")
 
         def results():
             folder = self.path("a/results")
@@ -268,8 +246,7 @@ class Sweep(InFolder):
 
         def grow(*more):
             before = results()
-            done = swirl("sweep", "--out", self.path("a"), "--grow", *more, "--quiet")
-            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assert_works("sweep", "--out", self.path("a"), "--grow", *more, "--quiet")
             after = results()
             # Existing results are unchanged.
             self.assertEqual({name: after[name] for name in before}, before)
@@ -283,23 +260,19 @@ class Sweep(InFolder):
         self.assertEqual(self.table(self.path("a")), table)
         # A call with only the folder continues the grown sweep.
         os.remove(self.path("a/results/000040.json"))
-        self.assertEqual(swirl("sweep", "--out", self.path("a"), "--quiet").returncode, 0)
+        self.assert_works("sweep", "--out", self.path("a"), "--quiet")
         self.assertEqual(self.table(self.path("a")), table)
         for wrong, says in ((["--restitution", "0.9"], "not a parameter of this sweep"),
                             (["--seeds", 1], "can only grow"), (["--frames", 3], "--frames"),
                             (["--discs", "5.0"], "the same run"), (["--sieze", "3"], "--sieze")):
-            done = swirl("sweep", "--out", self.path("a"), "--grow", *wrong)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(says, done.stderr)
+            self.assert_fails(2, "sweep", "--out", self.path("a"), "--grow", *wrong, says=says)
         self.assertEqual(self.table(self.path("a")), table)
 
     def test_further_measurements_repeat_the_same_runs(self):
         plan = ["sweep", "--discs", "8,20", "--events", "20000", "--quiet", "--out", self.path("a")]
-        self.assertEqual(swirl(*plan, "--measure", "slip").returncode, 0)
+        self.assert_works(*plan, "--measure", "slip")
         before = [line.split(",") for line in self.table(self.path("a")).splitlines()]
-        done = swirl("sweep", "--out", self.path("a"), "--grow", "--measure", "radial,temperature",
-                     "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("sweep", "--out", self.path("a"), "--grow", "--measure", "radial,temperature", "--quiet")
         after = [line.split(",") for line in self.table(self.path("a")).splitlines()]
         self.assertIn("temperature.granular", after[0])
         for old, new in zip(before, after, strict=True):
@@ -307,33 +280,24 @@ class Sweep(InFolder):
                 self.assertEqual(new[after[0].index(name)], value)
         self.assertEqual(sorted(os.listdir(self.path("a/results"))), ["000000.json", "000001.json"])
         # New points have all measurements.
-        self.assertEqual(swirl("sweep", "--out", self.path("a"), "--grow", "--discs", 12,
-                               "--quiet").returncode, 0)
+        self.assert_works("sweep", "--out", self.path("a"), "--grow", "--discs", 12, "--quiet")
         grown = self.table(self.path("a")).splitlines()
         self.assertEqual([grown[1], grown[3]], [",".join(row) for row in after[1:]])
 
     def test_a_plan_smaller_than_before_is_rejected(self):
-        self.assertEqual(swirl("sweep", "--discs", "5", "--events", 3000, "--out", self.path("a"),
-                               "--quiet").returncode, 0)
-        self.assertEqual(swirl("sweep", "--out", self.path("a"), "--grow", "--discs", 6,
-                               "--quiet").returncode, 0)
-        with open(self.path("a/plan.json")) as opened:
-            plan = json.load(opened)
+        self.assert_works("sweep", "--discs", "5", "--events", 3000, "--out", self.path("a"), "--quiet")
+        self.assert_works("sweep", "--out", self.path("a"), "--grow", "--discs", 6, "--quiet")
+        plan = read_json(self.path("a/plan.json"))
         for before in ([{"values": [3, 1], "replicates": 1}], [{"values": [1, 1], "replicates": 2}],
                        [{"values": [1], "replicates": 1}], [{"values": [0, 1], "replicates": 1}]):
-            with open(self.path("a/plan.json"), "w") as opened:
-                json.dump({**plan, "before": before}, opened)
-            done = swirl("collect", self.path("a"))
-            self.assertEqual(done.returncode, 1)
-            self.assertIn("the plan before it grew", done.stderr)
+            write_text(self.path("a/plan.json"), json.dumps({**plan, "before": before}))
+            self.assert_fails(1, "collect", self.path("a"), says="the plan before it grew")
 
     def test_crossings_of_a_collected_sweep(self):
         # Long runs cross between 37 and 39 at mu = 1, and never without friction at the wall.
-        done = swirl("sweep", "--discs", "30:2:46", "--mu-wall", "0,1", "--mu-disc", 1, "--events",
-                     "1e5", "--seeds", 2, "--out", self.path("a"), "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        done = swirl("collect", self.path("a"), "--crossings", self.path("N_c.csv"))
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("sweep", "--discs", "30:2:46", "--mu-wall", "0,1", "--mu-disc", 1, "--events", "1e5",
+                          "--seeds", 2, "--out", self.path("a"), "--quiet")
+        self.assert_works("collect", self.path("a"), "--crossings", self.path("N_c.csv"))
         with open(self.path("N_c.csv")) as opened:
             header, smooth, rough = [line.rstrip("\n").split(",") for line in opened]
         self.assertEqual(header[:3], ["mu_disc", "mu_wall", "events"])
@@ -346,8 +310,7 @@ class Sweep(InFolder):
         lower, upper = (float(rough[header.index(name)]) for name in ("N_c_lower", "N_c_upper"))
         self.assertEqual((lower % 2, upper % 2), (0, 0))
         self.assertTrue(34 <= lower < upper <= 42, (lower, upper))
-        done = swirl("sweep", "--out", self.path("a"), "--grow", "--discs", "35:2:41", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("sweep", "--out", self.path("a"), "--grow", "--discs", "35:2:41", "--quiet")
         done = swirl("collect", self.path("a"), "--crossings", self.path("N_c.csv"))
         with open(self.path("N_c.csv")) as opened:
             header, _, rough = [line.rstrip("\n").split(",") for line in opened]
@@ -358,8 +321,7 @@ class Sweep(InFolder):
         for name, value in numbers.items():
             # The rigid body crosses about one disc earlier.
             self.assertAlmostEqual(value, 37.0 if "rigid" in name else 38.0, delta=2.0, msg=name)
-        self.assertEqual(swirl("sweep", "--mu", "0.5,1", "--events", 3000, "--discs", 5, "--out",
-                               self.path("b"), "--quiet").returncode, 0)
+        self.assert_works("sweep", "--mu", "0.5,1", "--events", 3000, "--discs", 5, "--out", self.path("b"), "--quiet")
         os.remove(self.path("N_c.csv"))
         self.assertEqual(swirl("collect", self.path("b"), "--crossings", "-", "--csv", "-").returncode,
                          2)
@@ -386,65 +348,56 @@ class Sweep(InFolder):
             self.assertIn(f"\n{accepted},", self.table(folder))
 
     def test_simultaneous_growth_succeeds_or_is_reported(self):
-        self.assertEqual(swirl("sweep", "--discs", "5,6", "--events", "1000", "--out", self.path("first"),
-                               "--quiet").returncode, 0)
+        self.assert_works("sweep", "--discs", "5,6", "--events", "1000", "--out", self.path("first"), "--quiet")
         for k in range(8):
             folder = shutil.copytree(self.path("first"), self.path(str(k)))
             calls = [["sweep", "--out", folder, "--grow", "--discs", discs, "--quiet"] for discs in ("7", "8")]
             for call, code, error in zip(calls, *self.at_once(calls), strict=True):
                 if code:
                     self.assertIn("has extended the sweep", error)
-                    self.assertEqual(swirl(*call).returncode, 0)
+                    self.assert_works(*call)
             self.assertEqual([row.split(",")[0] for row in self.table(folder).splitlines()[1:]],
                              ["5", "6", "7", "8"])
 
     def test_results_of_other_formats_and_damaged_ones_are_reported(self):
         self.whole()
         file = self.path("whole/results/000007.json")
-        with open(file) as opened:
-            result = json.load(opened)
+        result = read_json(file)
         result["format"] = 0
-        with open(file, "w") as opened:
-            json.dump(result, opened)
-        done = swirl("collect", self.path("whole"))
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("000007.json' is in format 0", done.stderr)
+        write_text(file, json.dumps(result))
+        self.assert_fails(1, "collect", self.path("whole"), says="000007.json' is in format 0")
 
     def test_results_that_are_not_whole_are_made_again(self):
         whole = self.whole()
         file = self.path("whole/results/000007.json")
-        with open(file, "rb") as opened:
-            bytes_of_result = opened.read()
+        bytes_of_result = read_bytes(file)
         runs = len(os.listdir(self.path("whole/results")))
         for damaged in (b"", b'{"format": 1, "rot', bytes_of_result[:-3], bytes(len(bytes_of_result)), b"null\n"):
             with open(file, "wb") as opened:
                 opened.write(damaged)
             for call in (["sweep", "--out", self.path("whole"), "--status"], ["collect", self.path("whole")]):
-                done = swirl(*call)
-                self.assertEqual(done.returncode, 0, done.stderr)
+                done = self.assert_works(*call)
                 self.assertIn(f"{runs - 1} of {runs} runs", done.stdout)
                 self.assertIn("1 result file is not whole", done.stderr)
                 self.assertIn("000007.json'", done.stderr)
-            done = swirl("sweep", "--out", self.path("whole"))
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.assert_works("sweep", "--out", self.path("whole"))
             self.assertIn("(1 by this call)", done.stdout)
             self.assertEqual(self.table(self.path("whole")), whole)
 
     def test_a_damaged_state_of_a_chain_says_what_to_remove(self):
         call = ["sweep", "--discs", 5, "--mu", "0.1,0.5,1", "--periods", 3, "--warmup", 1, "--chain", "mu", "--out",
                 self.path("chain"), "--quiet"]
-        self.assertEqual(swirl(*call).returncode, 0)
+        self.assert_works(*call)
         whole = self.table(self.path("chain"))
         with open(self.path("chain/states/000000.state"), "r+b") as opened:
             opened.truncate(100)
         for point in ("000002", "000004"):  # rising and falling, after point 0
             os.remove(self.path(f"chain/results/{point}.json"))
-        done = swirl(*call)
-        self.assertEqual(done.returncode, 1, done.stderr)
+        done = self.assert_fails(1, *call)
         remove = re.search(r"hint: remove '(.*?)' and run `swirl (.*?)` again", done.stderr)
         self.assertTrue(remove, done.stderr)
         os.remove(remove[1])
-        self.assertEqual(swirl(*remove[2].split(), "--quiet").returncode, 0)
+        self.assert_works(*remove[2].split(), "--quiet")
         self.assertEqual(self.table(self.path("chain")), whole)
 
     def test_results_of_other_points_and_wrong_types_are_reported(self):
@@ -452,30 +405,23 @@ class Sweep(InFolder):
         results = self.path("whole/results/")
 
         def assert_rejected(says):
-            done = swirl("collect", self.path("whole"))
-            self.assertEqual(done.returncode, 1)
-            self.assertIn(says, done.stderr)
+            self.assert_fails(1, "collect", self.path("whole"), says=says)
 
-        with open(results + "000007.json") as opened:
-            result = json.load(opened)
+        result = read_json(results + "000007.json")
         shutil.copy(results + "000006.json", results + "000007.json")
         assert_rejected("000007.json' is not the result of point 7")
         for change, says in (({"point": 7, "config": dict(result["config"], seed=1)}, "is not the result of point"),
                              ({"energy": "0.5"}, "has a text instead of a number"),
                              ({"rotation": dict(result["rotation"], mean_by_time="fast")}, "a text instead")):
-            with open(results + "000007.json", "w") as opened:
-                json.dump({**result, **change}, opened)
+            write_text(results + "000007.json", json.dumps({**result, **change}))
             assert_rejected(says)
 
     def test_twenty_thousand_runs_need_few_open_files(self):
         # More results wait for the disk than a process may have files open.
-        done = swirl("sweep", "--discs", 2, "--events", 5, "--seeds", 20000, "--out", self.path("a"),
-                     "--quiet", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE,
-                                                                      (256, 256)))
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_works("sweep", "--discs", 2, "--events", 5, "--seeds", 20000, "--out", self.path("a"), "--quiet",
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (256, 256)))
         for call in (["sweep", "--out", self.path("a"), "--status"], ["collect", self.path("a")]):
-            done = swirl(*call)
-            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.assert_works(*call)
             self.assertIn("20000 of 20000 runs", done.stdout)
 
 

@@ -3,7 +3,7 @@
 import copy
 import json
 
-from program import ALL, ONE_ERROR, InFolder, main, some, swirl
+from program import ALL, ONE_ERROR, InFolder, main, read_json, some, swirl, write_text
 
 # Entries that only the file knows. A repeated run gives all others.
 OF_EVERY_RESULT = {"command", "seconds"}
@@ -45,8 +45,7 @@ class Verify(InFolder):
     in_memory = True
 
     def verify(self, text):
-        with open(self.path("changed.json"), "w", encoding="utf-8") as file:
-            file.write(text)
+        write_text(self.path("changed.json"), text)
         return swirl("verify", self.path("changed.json"))
 
     def listed(self, done):
@@ -85,13 +84,10 @@ class Verify(InFolder):
         return rejected
 
     def test_every_change_of_a_result_is_noticed(self):
-        with open(self.path("a.toml"), "w", encoding="utf-8") as file:
-            file.write("discs = 6\nseed = 2\n")
-        done = swirl("run", self.path("a.toml"), "--periods", 4, "--warmup", 1, "--measure", "slip",
-                     "--series", self.path("s.csv"), "--json", self.path("r.json"), "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.path("r.json"), encoding="utf-8") as file:
-            result = json.load(file)
+        write_text(self.path("a.toml"), "discs = 6\nseed = 2\n")
+        self.assert_works("run", self.path("a.toml"), "--periods", 4, "--warmup", 1, "--measure", "slip", "--series",
+                          self.path("s.csv"), "--json", self.path("r.json"), "--quiet")
+        result = read_json(self.path("r.json"))
         self.assertTrue(result["warnings"])
         rejected = self.assert_every_change_is_noticed(
             result, OF_EVERY_RESULT | {"config_text", "series.file"}, removable={"series.file"})
@@ -108,11 +104,9 @@ class Verify(InFolder):
         self.assertIn("holds 'warnings' twice", done.stderr)
 
     def test_every_change_of_a_result_of_a_sweep_is_noticed(self):
-        done = swirl("sweep", "--discs", "6", "--mu", "0,1", "--periods", 4, "--warmup", 1, "--out",
-                     self.path("study"), "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.path("study/results/000001.json"), encoding="utf-8") as file:
-            result = json.load(file)
+        self.assert_works("sweep", "--discs", "6", "--mu", "0,1", "--periods", 4, "--warmup", 1, "--out",
+                          self.path("study"), "--quiet")
+        result = read_json(self.path("study/results/000001.json"))
         self.assert_every_change_is_noticed(result, OF_EVERY_RESULT | {"point", "replicate"}, removable=set())
 
     def test_deeply_nested_results_are_rejected(self):
