@@ -38,11 +38,14 @@ def test_runs_are_reused_and_a_damaged_result_is_made_again(tmp_path):
     assert (first["reused"], first["failed"]) == (0, 0)
     table, parts = rows(tmp_path, "restitution"), sorted(Path(tmp_path, "parts").iterdir())
     assert len(parts) == first["tasks"]
-    parts[0].write_text(parts[0].read_text()[:-20])
-    parts[1].write_text(parts[1].read_text().replace('"mean": 0.', '"mean": 1.', 1))
-    parts[2].write_text("[]")
+    whole = parts[0].read_text()
+    edited = next(part for part in reversed(parts) if '"mean": 0.' in part.read_text())
+    edited.write_text(edited.read_text().replace('"mean": 0.', '"mean": 1.', 1))
+    damages = "", "{", "[]", '{"key": 3}', '{"result": {}}', whole[:-20], whole[:len(whole) // 2]
+    for part, text in zip(parts, damages):
+        part.write_text(text)
     again = made(tmp_path, "restitution")
-    assert again["reused"] == first["tasks"] - 3
+    assert again["reused"] == first["tasks"] - len(damages) - 1
     assert rows(tmp_path, "restitution") == table
 
 
