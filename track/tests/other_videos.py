@@ -32,14 +32,15 @@ USUAL = {
     "shake": 0.0,              # of the camera, rms of a coordinate, pixels
     # The file.
     "fps": "30", "codec": ("libx264", "-crf", "18"), "pixels": "yuv420p", "filter": None,
-    "after": (),               # options for a second pass
     "drop": (), "double": (),
 }
 
 
 MOTION = ("balls", "radius", "small", "small_radius", "dish", "amplitude", "frames_per_period", "frames",
           "still_for", "clockwise", "seed")
+FILE = ("fps", "codec", "pixels", "filter", "grey", "drop", "double")
 motions = {}  # cache: videos that differ only in appearance share their motion
+paintings = {}  # cache: videos that differ only in their file share their frames
 
 
 class Video:
@@ -288,48 +289,56 @@ class Painter:
         return numpy.clip(image + 0.5, 0.0, 255.0).astype(numpy.uint8)
 
 
-def make(path, **faults):
-    unknown = set(faults) - set(USUAL)
-    assert not unknown, unknown
-    s = {**USUAL, **faults}
+def painted(s, radii):
+    """The bytes of each frame, and the positions in it."""
     rng = numpy.random.default_rng((s["seed"], 1))
-    radii = numpy.full(s["balls"], float(s["radius"]))
-    radii[:s["small"]] *= s["small_radius"]
     motion = tuple(s[name] for name in MOTION)
     if motion not in motions:
         motions[motion] = moved(s, radii, numpy.random.default_rng(s["seed"]))
     positions, rotations = motions[motion]
     painter = Painter(s, radii, rng)
-    width, height = s["size"]
-    middle = numpy.array([0.5 * (width - 1) + s["middle"][0], 0.5 * (height - 1) + s["middle"][1]])
-    command = ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
-               f"{width}x{height}", "-r", s["fps"], "-i", "-"]
-    if s["filter"]:
-        command += ["-vf", s["filter"]]
-    if s["grey"]:
-        command += ["-pix_fmt", "gray"]
-    else:
-        command += ["-pix_fmt", s["pixels"]]
-    command += ["-c:v", *s["codec"], str(path)]
-    video = Video()
-    video.settings, video.radii, video.positions = s, radii, []
-    writer = subprocess.Popen(command, stdin=subprocess.PIPE)
+    frames = []
     for k in range(s["frames"]):
         shake = s["shake"] * rng.normal(size=2)
         between = [(course(s, k + o) - course(s, k), o) for o in
                    (numpy.array([-0.33, 0.0, 0.33]) * s["exposure"] if s["exposure"] > 0 else [0.0])]
-        sum_of = 0.0
+        middle, sum_of = path_centre(s) + shake, 0.0
         for shift, o in between:
             v = positions[min(k + 1, s["frames"] - 1)] - positions[max(k - 1, 0)]
-            sum_of = sum_of + painter.paint(middle + shake + course(s, k) + shift,
-                                            positions[k] + 0.5 * o * v + middle + shake, rotations[k],
-                                            shake)
-        image = painter.finished(sum_of / len(between), k)
+            sum_of = sum_of + painter.paint(middle + course(s, k) + shift, positions[k] + 0.5 * o * v + middle,
+                                            rotations[k], shake)
+        frames.append((painter.finished(sum_of / len(between), k).tobytes(), positions[k] + middle))
+    return frames
+
+
+def path_centre(s):
+    return numpy.array([0.5 * (size - 1) + shift for size, shift in zip(s["size"], s["middle"])])
+
+
+def make(path, **faults):
+    unknown = set(faults) - set(USUAL)
+    assert not unknown, unknown
+    s = {**USUAL, **faults}
+    radii = numpy.full(s["balls"], float(s["radius"]))
+    radii[:s["small"]] *= s["small_radius"]
+    look = tuple(value for name, value in s.items() if name not in FILE)
+    if look not in paintings:
+        paintings[look] = painted(s, radii)
+    width, height = s["size"]
+    command = ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
+               f"{width}x{height}", "-r", s["fps"], "-i", "-"]
+    if s["filter"]:
+        command += ["-vf", s["filter"]]
+    command += ["-pix_fmt", "gray" if s["grey"] else s["pixels"], "-c:v", *s["codec"], str(path)]
+    video = Video()
+    video.settings, video.radii, video.positions = s, radii, []
+    writer = subprocess.Popen(command, stdin=subprocess.PIPE)
+    for k, (image, positions) in enumerate(paintings[look]):
         for _ in range(0 if k in s["drop"] else 2 if k in s["double"] else 1):
-            writer.stdin.write(image.tobytes())
-            video.positions.append(positions[k] + middle + shake)
+            writer.stdin.write(image)
+            video.positions.append(positions)
     writer.stdin.close()
     assert writer.wait() == 0, "ffmpeg failed"
-    video.centre, video.amplitude, video.container = middle, s["amplitude"], s["dish"]
+    video.centre, video.amplitude, video.container = path_centre(s), s["amplitude"], s["dish"]
     video.frames_per_period, video.clockwise = s["frames_per_period"], s["clockwise"]
     return video
