@@ -64,6 +64,15 @@ LineAverage brute_average(const LineCase& c) {
     return sum;
 }
 
+TEST(StretchInside, OfALineThatLeavesAtRightAnglesIsHalfAChord) {
+    // |q − s ℓ|² = 1 + 4 s² is below w² = 4 up to s = √3/2, in both directions of the line.
+    for (const double side : {1.0, -1.0}) {
+        const Stretch inside = stretch_inside({2.0}, {0.0, 1.0}, {2.0 * side, 0.0});
+        EXPECT_EQ(inside.begin, 0.0);
+        EXPECT_NEAR(inside.end, std::sqrt(0.75), 1e-15);
+    }
+}
+
 TEST(LineAverage, EqualsTheMeanAlongTheLine) {
     Noise noise(1);
     int inside = 0;

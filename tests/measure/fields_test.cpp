@@ -58,10 +58,14 @@ TEST(Fields, OfAShearFlowAreItsRates) {
     constexpr double rate = 0.6;
     const FieldGrid grid = lattice(
         [&](const Vec2& p) {
-            return Vec2{1.0 + rate * p.y, 0.0};
+            return Vec2{1.0 + rate * p.y, -0.5};
         },
         -0.2);
     EXPECT_NEAR(field(grid, 0, "u_x"), 1.0, 1e-12);
+    EXPECT_NEAR(field(grid, 0, "u_y"), -0.5, 1e-12);
+    const double density = field(grid, 0, "density");
+    EXPECT_NEAR(field(grid, 0, "momentum_x"), density, 1e-9);
+    EXPECT_NEAR(field(grid, 0, "momentum_y"), -0.5 * density, 1e-9);
     EXPECT_NEAR(field(grid, 0, "vorticity"), -rate, lattice_error);
     EXPECT_NEAR(field(grid, 0, "strain_xy"), 0.5 * rate, lattice_error);
     EXPECT_NEAR(field(grid, 0, "strain_xx"), 0.0, 1e-12);
@@ -71,9 +75,14 @@ TEST(Fields, OfAShearFlowAreItsRates) {
     EXPECT_NEAR(field(grid, 0, "kinetic_xx"), -number_density * square,
                 lattice_error * number_density);
     EXPECT_NEAR(field(grid, 0, "kinetic_xy"), 0.0, 1e-9);
+    EXPECT_NEAR(field(grid, 0, "kinetic_yy"), 0.0, 1e-9);
     EXPECT_NEAR(field(grid, 0, "spin_density"), -0.2 * 0.4 * number_density,
                 lattice_error * number_density);
+    // All discs have the same spin, so none is carried relative to the flow.
+    EXPECT_NEAR(field(grid, 0, "kinetic_couple_x"), 0.0, 1e-9);
+    EXPECT_NEAR(field(grid, 0, "kinetic_couple_y"), 0.0, 1e-9);
     EXPECT_TRUE(std::isnan(field(grid, 0, "pressure")));  // no collisions are known
+    EXPECT_TRUE(grid.is_consistent());
 }
 
 // ∫B dA = 1 and ∫B₁ dA = ½: the sum over a fine grid gives what a collision transfers.

@@ -167,6 +167,12 @@ TEST(HexaticOrder, SixNeighboursAreCountedAwayFromTheWallAlone) {
         return std::pair{order.six().mean, order.six_pinned().mean};
     };
     EXPECT_EQ(share(lattice(2)).first, 1.0);
+    // A disc whose centre is within two radii of the wall is at the wall, however large it is.
+    Snapshot wide = lattice(2);
+    for (double& radius : wide.radius) radius = 1.5;
+    EXPECT_EQ(share(wide).first, 1.0);
+    for (double& radius : wide.radius) radius = 2.6;
+    EXPECT_TRUE(std::isnan(share(wide).first));
     EXPECT_TRUE(std::isnan(share(lattice(2)).second));  // pinned flags are missing
     // In a ring of five, one disc has five neighbours and five have three.
     Snapshot five = empty_container(0.15);
@@ -196,13 +202,15 @@ TEST(LocalPacking, IsPiOverRootTwelveForTheTriangularLattice) {
 }
 
 TEST(LocalStructure, ResidentValuesAreThoseAtTheTimeOfTheSample) {
-    // The outer ring of a lattice touches the wall; it stays there, and only the first sample has
-    // cells.
+    // The outer ring of a lattice is at the wall, and only the first sample has cells. Disc 0 begins
+    // outside its place, so that its values differ, and leaves before its residence is a long one.
     HexaticOrder order;
     LocalPacking packing;
     LongResidences residences;
     const auto seen = [](double time) {
         Snapshot s = lattice(1);
+        s.container_radius = 3.1;
+        s.x[0] += time < 0.5 * long_residence ? -0.05 : 2.0;
         s.clock = time * s.period;
         s.held_at.assign(s.size(), s.clock);
         return s;
@@ -221,9 +229,9 @@ TEST(LocalStructure, ResidentValuesAreThoseAtTheTimeOfTheSample) {
     packing.close_block();
     double psi6 = 0.0, phi = 0.0;
     for (std::size_t i = 0; i < first.size(); ++i) {
-        if (i == centre_of(first)) continue;
-        psi6 += hexatic_order(first, cells, i) / 6.0;
-        phi += pi / cells.area(i) / 6.0;
+        if (i == 0 || i == centre_of(first)) continue;
+        psi6 += hexatic_order(first, cells, i) / 5.0;
+        phi += pi / cells.area(i) / 5.0;
     }
     EXPECT_NEAR(order.resident().mean, psi6, 1e-14);
     EXPECT_NEAR(packing.resident().mean, phi, 1e-14);

@@ -4,6 +4,7 @@ A mutation changes one piece of text in a source file. The mutated file goes to 
 compiler searches first; the source tree is not changed. For every test file that includes the mutated
 file, this script compiles one program and runs it, until one fails: then the mutation is killed. The tests
 of the file's own layer come first. Each program must pass without the mutation before it may kill one.
+At last, a warning of the compiler kills it, as it stops the build of the tests.
 
     mutate.py                       the chosen mutations of mutations.py
     mutate.py measure/slip          those of files whose path contains this text
@@ -45,8 +46,10 @@ LIBRARIES = ["-lrapidcheck", "-lgmock_main", "-lgmock", "-lgtest", "-lfmt", "-lh
 LAYERS = ("math", "physics", "engine", "statistics", "measure", "io", "run", "study")
 # Of these folders a test links the files whose headers it includes, of the others all files.
 BY_HEADER = ("src/swirl/statistics", "src/swirl/measure")
-# Test programs of these layers need a few seconds. A mutated one may run without end.
-CPU_SECONDS = 60
+# The build of the tests treats warnings as errors (cmake/options.cmake); some of them need the optimiser.
+WARNINGS = ["-O3", "-Wall", "-Wextra", "-Werror"]
+# The longest of these test programs needs a minute, compiled as above. A mutated one may run without end.
+CPU_SECONDS = 150
 
 
 def text_of(path):
@@ -182,6 +185,13 @@ class Builder:
                     print(f"warning: {test} fails without a mutation: {self.baselines[test]}", flush=True)
         return self.baselines[test][0] == "passed"
 
+    def is_rejected(self, file, overlay):
+        """Whether the build of the tests stops at a warning about the mutated file."""
+        result = subprocess.run([COMPILER, *(flag for flag in self.flags if flag not in ("-w", "-O1")), *WARNINGS,
+                                 f"-I{overlay}", f"-I{SOURCE}/src", "-c", os.path.join(overlay, file.removeprefix("src/")),
+                                 "-o", os.devnull], capture_output=True, text=True)
+        return result.returncode != 0
+
     def judge(self, name, file, text, layers=LAYERS):
         """Returns "killed", "survived" or "not compiled", and the test or the file concerned."""
         overlay = os.path.join(self.scratch, f"mutation_{name}")
@@ -195,6 +205,8 @@ class Builder:
                 return outcome, what
             if outcome != "passed" and self.passes_unchanged(test):
                 return "killed", what if outcome == "failed" else f"{what} (out of time)"
+        if file.endswith(".cpp") and self.is_rejected(file, overlay):
+            return "killed", "a warning of the compiler"
         return "survived", ""
 
 

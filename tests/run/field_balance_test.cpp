@@ -35,6 +35,22 @@ struct BalanceSums {
     int intervals = 0;
 };
 
+// A disc that disappears from the point without a flight is the whole scale of mass, so the relative
+// residual is 1, whatever the mass and the width.
+TEST(FieldBalance, RelativeResidualIsOneForADiscThatDisappears) {
+    for (const double width : {0.5, 3.0}) {
+        Snapshot s = empty_container();
+        add_disc(s, {0.0, 0.0}, {0.0, 0.0}, 0.0, 1.0, 7.0);
+        add_disc(s, {9.0, 0.0}, {0.0, 0.0});
+        FieldBalance balance({0.0, 0.0}, {width});
+        balance.begin(s);
+        s.x[0] = 6.0;
+        balance.add({0, s.clock, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {}, 0.0}, s);
+        balance.finish();
+        EXPECT_NEAR(balance.relative_residuals()[0], 1.0, 1e-15);
+    }
+}
+
 BalanceSums expect_balances(const InitialState& scene, std::uint64_t seed) {
     Simulation simulation(scene);
     Snapshot stored = simulation.snapshot();

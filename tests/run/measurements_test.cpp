@@ -208,6 +208,18 @@ void expect_missing_numbers_are_empty(const MeasurementReports& reports, const s
     }
 }
 
+TEST(MeasuredText, CountsMissingAveragesOnceTheyAreMostOfThem) {
+    for (const std::size_t missing : {2u, 3u}) {
+        MeasurementReport report{"speeds", {}};
+        for (std::size_t k = 0; k < 5; ++k)
+            report.report.rows.push_back(
+                {"mean", "v", "", {k < missing ? std::nan("") : 1.0, 0.1}});
+        const std::string text = measured_text({report});
+        EXPECT_EQ(text.find("3 of 5 averages") != std::string::npos, missing == 3) << text;
+        EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), missing == 3 ? 3 : 5) << text;
+    }
+}
+
 // No sample, no period, one disc, a disc that is never pinned, no collision: every number that does
 // not exist is missing in the same way.
 TEST(Measurements, NumbersThatDoNotExistAreMissingInEveryFile) {

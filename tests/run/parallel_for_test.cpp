@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace swirl {
@@ -16,6 +18,19 @@ TEST(ParallelFor, RunsEveryTaskOnce) {
             done.size(), [&](std::size_t k) { ++done[k]; }, threads);
         for (const auto& times : done) EXPECT_EQ(times, 1);
     }
+}
+
+TEST(ParallelFor, UsesSeveralThreadsByDefault) {
+    if (available_cores() < 2) GTEST_SKIP() << "this machine has one core";
+    // Each of two tasks waits until the other has begun. One thread alone gives up in the end.
+    std::atomic<int> begun = 0, met = 0;
+    parallel_for(2, [&](std::size_t) {
+        ++begun;
+        const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (begun < 2 && std::chrono::steady_clock::now() < give_up) std::this_thread::yield();
+        met += begun == 2;
+    });
+    EXPECT_EQ(met, 2);
 }
 
 TEST(ParallelFor, AcceptsZeroTasks) {

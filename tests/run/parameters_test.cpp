@@ -169,6 +169,8 @@ TEST(RunParameters, ValuesOutsideTheRangeAreRejected) {
                     testing::HasSubstr("to "))
             << p.name;
     }
+    EXPECT_EQ(error_of({{"mu", "1e6"}}), "");
+    EXPECT_NE(error_of({{"mu", "1.1e6"}}), "");
 }
 
 TEST(RunParameters, SpheresAreSolidUnlessTheirInertiaIsGiven) {

@@ -100,6 +100,31 @@ TEST(Headline, GivesTheAverageOfASinglePeriod) {
     EXPECT_THAT(headline(run(config)), testing::HasSubstr("ϖ/Ω = "));
 }
 
+TEST(Headline, NeedsFiveBlocksForADirectionAndFiftyForNone) {
+    RunResult result;
+    result.periods = 100.0;
+    const auto words = [&](double mean, std::size_t blocks) {
+        result.rotation.mean_by_time = {mean, 0.01, 10.0, blocks};
+        result.rotation.mean_by_event.blocks = blocks;
+        return headline(result);
+    };
+    EXPECT_THAT(words(0.1, 4), testing::HasSubstr("4 periods are too few to determine"));
+    EXPECT_THAT(words(0.1, 5), testing::HasSubstr("48 discs rotate with the swirl: "));
+    EXPECT_THAT(words(0.0, 49), testing::HasSubstr("49 periods are too few to determine"));
+    EXPECT_THAT(words(0.0, 50), testing::HasSubstr("48 discs stall, "));
+}
+
+TEST(Report, SaysThatOmegaIsOnlyAUnitWhereThePathHasNoMFrame) {
+    for (const bool turns : {true, false}) {
+        RunConfig config;
+        config.path = turns ? PathShape::polygon : PathShape::line;
+        config.discs = 5;
+        config.periods = 2;
+        config.warmup = 0;
+        EXPECT_EQ(report(run(config), false).find("only a unit") == std::string::npos, turns);
+    }
+}
+
 TEST(Warnings, AreEmptyOnlyForASteadyCompleteRun) {
     RunResult result;
     result.complete = true;

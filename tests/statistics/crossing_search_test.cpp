@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 
 namespace swirl {
 namespace {
@@ -57,6 +58,42 @@ TEST(CrossingSearch, GoesBeyondTheNumbersAtWhichItStarts) {
     EXPECT_EQ(made.rbegin()->first, 40);
     complete(far, falling);
     EXPECT_NEAR(far.crossing().discs, 38.4, 1e-9);
+}
+
+TEST(CrossingSearch, BeginsWithEveryNumberOfItsStep) {
+    for (const std::int64_t step : {1, 4}) {
+        CrossingSearch search({.from = 20, .to = 30, .seeds = 1, .step = step});
+        std::set<std::int64_t> numbers, expected{30};
+        for (const ProposedRun& run : search.next()) numbers.insert(run.discs);
+        for (std::int64_t n = 20; n < 30; n += step) expected.insert(n);
+        EXPECT_EQ(numbers, expected) << step;
+    }
+}
+
+TEST(CrossingSearch, NarrowsFromTheMiddleOfABracket) {
+    CrossingSearch search({.from = 10, .to = 40, .seeds = 1, .step = 30});
+    const auto take_all = [&](const std::vector<ProposedRun>& runs) {
+        for (const ProposedRun& run : runs) {
+            const SearchedRun result = run_of(falling, run);
+            search.take(run, &result);
+        }
+    };
+    take_all(search.next());
+    const auto runs = search.next();
+    ASSERT_EQ(runs.size(), 1u);
+    EXPECT_EQ(runs[0].discs, 25);
+}
+
+TEST(CrossingSearch, NarrowsTheLastOfTwoChangesOrBoth) {
+    // Zeros at 12.3 and 38.4.
+    const auto twice = [](double n) { return 0.001 * (38.4 - n) * (n - 12.3); };
+    for (const bool every_change : {true, false}) {
+        CrossingSearch search(
+            {.from = 5, .to = 45, .seeds = 1, .step = 10, .every_change = every_change});
+        const auto made = complete(search, twice);
+        EXPECT_EQ(made.contains(12) && made.contains(13), every_change);
+        EXPECT_TRUE(made.contains(38) && made.contains(39));
+    }
 }
 
 TEST(CrossingSearch, ALargerRangeContinuesTheSearch) {
