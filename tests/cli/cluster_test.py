@@ -6,17 +6,22 @@ import time
 
 import private_slurm
 import program
-from program import SOURCE, InFolder, read_text, slow, swirl
+from program import SOURCE, InFolder, read_text, slow, swirl, write_text
 
-PLAN = ["sweep", "--discs", "20:34", "--mu", "0.5,1", "--seeds", "2", "--events", "200000"]
+AXES = ["--discs", "20:34", "--mu", "0.5,1"]
+RUNS = ["--seeds", "2", "--events", "200000"]
+TABLE = "discs,mu\n" + "".join(f"{discs},{mu}\n" for discs in range(20, 35) for mu in (0.5, 1))
 POINTS = 60
 
 
 class Cluster(InFolder):
     def test_a_failed_node_does_not_change_the_table(self):
+        """On the cluster the points are a table, on this machine a product of axes."""
         slurm, environment = private_slurm.started_for(self, nodes=3)
         out = self.path("a cluster, 100 % ours")  # the script must quote this name
-        submitted = self.assert_works(*PLAN, "--out", out, "--slurm", "--nodes", 3, environment=environment)
+        write_text(self.path("points.csv"), TABLE)
+        submitted = self.assert_works("sweep", "--points", self.path("points.csv"), *RUNS, "--out", out, "--slurm",
+                                      "--nodes", 3, environment=environment)
         self.assertIn("Submitted as job", submitted.stdout)
 
         # The log folder exists under the unquoted name.
@@ -49,7 +54,7 @@ class Cluster(InFolder):
         self.assertTrue(killed)
         self.assertTrue(running_seen)
 
-        self.assert_works(*PLAN, "--out", self.path("one"), "--quiet")
+        self.assert_works("sweep", *AXES, *RUNS, "--out", self.path("one"), "--quiet")
         tables = [swirl("collect", folder, "--csv", "-").stdout for folder in (out, self.path("one"))]
         self.assertEqual(len(tables[0].splitlines()), 1 + POINTS // 2)
         self.assertEqual(tables[0], tables[1])
