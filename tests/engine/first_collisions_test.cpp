@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "engine/grid_reference.hpp"
@@ -77,18 +76,12 @@ TEST(FirstCollisions, OfTheReferencesAreTheStoredOnes) {
     expect_stored(first_collisions(GridReference(lattice())));
 }
 
-class FirstCollisionsOf : public ::testing::TestWithParam<std::tuple<SearchMethod, Width>> {};
-
-TEST_P(FirstCollisionsOf, EverySearchAndWidthAreTheStoredOnes) {
-    const auto [search, width] = GetParam();
-    if (!has_width(width)) GTEST_SKIP() << "this processor does not support this width";
-    expect_stored(first_collisions(Simulation(lattice(), {}, {0, width, search})));
+TEST(FirstCollisions, OfEverySearchAndWidthAreTheStoredOnes) {
+    for (const Width width : every_width())
+        for (const SearchMethod search :
+             {SearchMethod::all_pairs, SearchMethod::lists, SearchMethod::cells})
+            expect_stored(first_collisions(Simulation(lattice(), {}, {0, width, search})));
 }
-INSTANTIATE_TEST_SUITE_P(, FirstCollisionsOf,
-                         ::testing::Combine(::testing::Values(SearchMethod::all_pairs,
-                                                              SearchMethod::lists,
-                                                              SearchMethod::cells),
-                                            every_width()));
 
 }  // namespace
 }  // namespace swirl

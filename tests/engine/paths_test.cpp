@@ -45,28 +45,26 @@ std::vector<ContainerPath> paths() {
             mirrored(circular_path(paper_amplitude, paper_period))};
 }
 
-class EngineEqualsReferenceOnPaths : public OfEveryWidth {};
-
-TEST_P(EngineEqualsReferenceOnPaths, ForDiscs) {
+TEST(EngineEqualsReferenceOnPaths, ForDiscs) {
     for (const ContainerPath& path : paths())
         for (const std::size_t n : {3u, 45u}) {
             const InitialState scene = on_path(paper_container(n), path);
-            expect_same_trajectory(scene, 2000, {0, GetParam()});
-            expect_same_trajectory(scene, 2000, {3, GetParam()});
-            expect_same_trajectory(scene, 1000, {0, GetParam(), SearchMethod::cells});
+            expect_same_for_every_width(scene, 2000, tuning());
+            expect_same_for_every_width(scene, 2000, tuning(3));
+            expect_same_for_every_width(scene, 1000, tuning(SearchMethod::cells));
         }
 }
-TEST_P(EngineEqualsReferenceOnPaths, ForSpheresAndCoins) {
+TEST(EngineEqualsReferenceOnPaths, ForSpheresAndCoins) {
     for (const ContainerPath& path : paths()) {
         if (path.segments.front().turn_rate != 0.0) continue;  // no floor on arcs
-        expect_same_trajectory(on_path(sphere_container(28), path), 1000, {0, GetParam()});
-        expect_same_trajectory(on_path(coin_container(28), path), 1000, {0, GetParam()});
-        expect_same_trajectory(on_path(sphere_container(28), path), 1000,
-                               {0, GetParam(), SearchMethod::cells});
+        expect_same_for_every_width(on_path(sphere_container(28), path), 1000, tuning());
+        expect_same_for_every_width(on_path(coin_container(28), path), 1000, tuning());
+        expect_same_for_every_width(on_path(sphere_container(28), path), 1000,
+                                    tuning(SearchMethod::cells));
     }
 }
 /// Every disc is a species of its own.
-TEST_P(EngineEqualsReferenceOnPaths, ForManyRadii) {
+TEST(EngineEqualsReferenceOnPaths, ForManyRadii) {
     std::vector<Disc> discs;
     Random random(5);
     for (int k = 0; k < 40; ++k) {
@@ -76,11 +74,10 @@ TEST_P(EngineEqualsReferenceOnPaths, ForManyRadii) {
     const InitialState scene =
         state_of(discs, discs.size(), 10.0,
                  polygon_path(paper_amplitude, paper_period, paper_sides), 0.7, 0.4);
-    expect_same_trajectory(scene, 5000, {0, GetParam()});
-    expect_same_trajectory(scene, 5000, {3, GetParam()});
-    expect_same_trajectory(scene, 5000, {0, GetParam(), SearchMethod::cells});
+    expect_same_for_every_width(scene, 5000, tuning());
+    expect_same_for_every_width(scene, 5000, tuning(3));
+    expect_same_for_every_width(scene, 5000, tuning(SearchMethod::cells));
 }
-INSTANTIATE_TEST_SUITE_P(Widths, EngineEqualsReferenceOnPaths, every_width(), width_name);
 
 // The container moves at the speed 1 along x and turns at ±1. A smooth elastic disc at rest in the
 // middle of it meets the left wall when that has moved by the gap, and leaves at twice its speed.

@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <deque>
 #include <string>
+#include <vector>
 
+#include "engine/scenes.hpp"
 #include "swirl/engine/reference.hpp"
 #include "swirl/engine/simulation.hpp"
 #include "swirl/math/cpu_width.hpp"
@@ -34,49 +38,63 @@ inline void expect_same_sphere(const Disc& a, const Disc& b) {
     ASSERT_TRUE(same_bits(a.last_collision, b.last_collision));
 }
 
-/// Runs both and compares every event's time, partners and impulse, and all discs at the end.
+/// Compares every event's time, partners and impulse of a reference with those of other simulations,
+/// and all discs at the end. Under the sanitizers it compares an eighth of the events: the plain
+/// build compares all of them, and Overlap.SlowSearch runs millions of events under the sanitizers.
+template <class Slow, class Engines>
+void expect_same_events(const InitialState& scene, Slow&& reference, Engines&& engines,
+                        int events) {
+    const bool spheres = scene.shape != Shape::disc;
+    if (sanitized) events = std::max(std::min(events, 1000), events / 8);
+    for (int k = 0; k < events; ++k) {
+        const Event expected = reference.step();
+        int of = 0;
+        for (auto& engine : engines) {
+            const std::string where = "event " + std::to_string(k) + " of " + std::to_string(of++);
+            const Event found = engine.step();
+            ASSERT_TRUE(same_bits(expected.clock, found.clock)) << where;
+            ASSERT_EQ(expected.periods, found.periods) << where;
+            ASSERT_EQ(expected.kind, found.kind) << where;
+            ASSERT_EQ(expected.i, found.i) << where;
+            ASSERT_EQ(expected.j, found.j) << where;
+            ASSERT_TRUE(same_bits(expected.impulse.normal, found.impulse.normal)) << where;
+            ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential)) << where;
+            if (!spheres) continue;
+            ASSERT_TRUE(same_bits(expected.impulse.vertical, found.impulse.vertical)) << where;
+            ASSERT_LT(found.overlap, 1e-12) << where;
+        }
+    }
+    for (auto& engine : engines)
+        for (std::size_t i = 0; i < scene.discs.size(); ++i) {
+            expect_same_state(reference.disc(i), engine.disc(i));
+            if (spheres) expect_same_sphere(reference.disc(i), engine.disc(i));
+        }
+}
 template <class Slow = Reference>
 void expect_same_trajectory(const InitialState& scene, int events, const Tuning& tuning) {
-    const bool spheres = scene.shape != Shape::disc;
-    Slow reference(scene);
-    Simulation engine(scene, {}, tuning);
-    for (int k = 0; k < events; ++k) {
-        const Event expected = reference.step(), found = engine.step();
-        ASSERT_TRUE(same_bits(expected.clock, found.clock)) << "event " << k;
-        ASSERT_EQ(expected.periods, found.periods);
-        ASSERT_EQ(expected.kind, found.kind) << "event " << k;
-        ASSERT_EQ(expected.i, found.i) << "event " << k;
-        ASSERT_EQ(expected.j, found.j) << "event " << k;
-        ASSERT_TRUE(same_bits(expected.impulse.normal, found.impulse.normal));
-        ASSERT_TRUE(same_bits(expected.impulse.tangential, found.impulse.tangential));
-        if (!spheres) continue;
-        ASSERT_TRUE(same_bits(expected.impulse.vertical, found.impulse.vertical));
-        ASSERT_LT(found.overlap, 1e-12) << "event " << k;
-    }
-    for (std::size_t i = 0; i < scene.discs.size(); ++i) {
-        expect_same_state(reference.disc(i), engine.disc(i));
-        if (spheres) expect_same_sphere(reference.disc(i), engine.disc(i));
-    }
+    std::deque<Simulation> engine;
+    engine.emplace_back(scene, Progress{}, tuning);
+    expect_same_events(scene, Slow(scene), engine, events);
 }
 
-/// A test for each vector width that this processor supports.
-class OfEveryWidth : public ::testing::TestWithParam<Width> {
-  protected:
-    void SetUp() override {
-        if (!has_width(GetParam())) GTEST_SKIP() << "this processor does not support this width";
-    }
-};
+/// The vector widths that this processor supports.
+inline std::vector<Width> every_width() {
+    std::vector<Width> widths = {Width::baseline, Width::avx2, Width::avx512};
+    std::erase_if(widths, [](Width width) { return !has_width(width); });
+    return widths;
+}
+inline Tuning tuning(int cells = 0) { return {cells}; }
+inline Tuning tuning(SearchMethod search) { return {0, Width::best, search}; }
 
-inline auto every_width() { return ::testing::Values(Width::baseline, Width::avx2, Width::avx512); }
-inline std::string width_name(const ::testing::TestParamInfo<Width>& width) {
-    switch (width.param) {
-        case Width::avx512:
-            return "avx512";
-        case Width::avx2:
-            return "avx2";
-        default:
-            return "baseline";
+/// One run of the reference for all widths, because it is much slower than they are.
+template <class Slow = Reference>
+void expect_same_for_every_width(const InitialState& scene, int events, Tuning tuning) {
+    std::deque<Simulation> engines;
+    for (const Width width : every_width()) {
+        tuning.width = width;
+        engines.emplace_back(scene, Progress{}, tuning);
     }
+    expect_same_events(scene, Slow(scene), engines, events);
 }
 
 /// A run that is saved after some events and resumed must end like one without interruption.

@@ -21,52 +21,49 @@ InitialState many_spheres(std::size_t n, double packing, double deceleration) {
     scene.floor.deceleration = deceleration;
     return scene;
 }
-class SpheresEqualReference : public OfEveryWidth {};
-TEST_P(SpheresEqualReference, InThePaperContainer) {
+TEST(SpheresEqualReference, InThePaperContainer) {
     for (const std::size_t n : {1u, 2u, 5u, 16u, 17u, 28u, 33u, 48u, 55u})
-        expect_same_trajectory(sphere_container(n), 4000, {0, GetParam()});
+        expect_same_for_every_width(sphere_container(n), 4000, tuning());
 }
-TEST_P(SpheresEqualReference, ForAMixture) {
-    expect_same_trajectory(sphere_mixture(), 10000, {0, GetParam()});
+TEST(SpheresEqualReference, ForAMixture) {
+    expect_same_for_every_width(sphere_mixture(), 10000, tuning());
 }
-TEST_P(SpheresEqualReference, WithWeakAndStrongFrictionAgainstTheFloor) {
+TEST(SpheresEqualReference, WithWeakAndStrongFrictionAgainstTheFloor) {
     for (const double deceleration : {0.0, 1e-3, 0.1, 50.0})
-        expect_same_trajectory(sphere_container(28, deceleration), 4000, {0, GetParam()});
+        expect_same_for_every_width(sphere_container(28, deceleration), 4000, tuning());
 }
-TEST_P(SpheresEqualReference, WithCells) {
+TEST(SpheresEqualReference, WithCells) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 55u})
-        expect_same_trajectory(sphere_container(n), 3000, {0, GetParam(), SearchMethod::cells});
-    expect_same_trajectory(sphere_mixture(), 5000, {0, GetParam(), SearchMethod::cells});
-    expect_same_trajectory(sphere_container(28, 0.0), 3000, {0, GetParam(), SearchMethod::cells});
+        expect_same_for_every_width(sphere_container(n), 3000, tuning(SearchMethod::cells));
+    expect_same_for_every_width(sphere_mixture(), 5000, tuning(SearchMethod::cells));
+    expect_same_for_every_width(sphere_container(28, 0.0), 3000, tuning(SearchMethod::cells));
     for (const double packing : {0.6, 0.1})
         for (const double deceleration : {0.0, 0.5})
-            expect_same_trajectory(many_spheres(90, packing, deceleration), 2000, {0, GetParam()});
+            expect_same_for_every_width(many_spheres(90, packing, deceleration), 2000, tuning());
 }
-TEST_P(SpheresEqualReference, ForCoins) {
+TEST(SpheresEqualReference, ForCoins) {
     for (const SearchMethod search : {SearchMethod::best, SearchMethod::cells})
         for (const double deceleration : {0.1, 1.92})
             for (const std::size_t n : {1u, 5u, 48u})
-                expect_same_trajectory(coin_container(n, deceleration), 3000,
-                                       {0, GetParam(), search});
+                expect_same_for_every_width(coin_container(n, deceleration), 3000, tuning(search));
 }
-TEST_P(SpheresEqualReference, WithRollingResistance) {
+TEST(SpheresEqualReference, WithRollingResistance) {
     for (const SearchMethod search : {SearchMethod::best, SearchMethod::cells})
         for (const double resistance : {0.01, 1.5})
             for (const std::size_t n : {1u, 5u, 28u, 48u})
-                expect_same_trajectory(resisting_container(n, resistance), 3000,
-                                       {0, GetParam(), search});
+                expect_same_for_every_width(resisting_container(n, resistance), 3000,
+                                            tuning(search));
     InitialState mixture = sphere_mixture();
     mixture.floor.rolling_resistance = 0.1;
-    expect_same_trajectory(mixture, 5000, {0, GetParam()});
+    expect_same_for_every_width(mixture, 5000, tuning());
 }
-TEST_P(SpheresEqualReference, SlowOverAHundredThousandEvents) {
+TEST(SpheresEqualReference, SlowOverAHundredThousandEvents) {
     for (const SearchMethod search : {SearchMethod::all_pairs, SearchMethod::cells}) {
         for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
-            expect_same_trajectory(sphere_container(n), 100000, {0, GetParam(), search});
-        expect_same_trajectory(sphere_mixture(), 100000, {0, GetParam(), search});
+            expect_same_for_every_width(sphere_container(n), 100000, tuning(search));
+        expect_same_for_every_width(sphere_mixture(), 100000, tuning(search));
     }
 }
-INSTANTIATE_TEST_SUITE_P(, SpheresEqualReference, every_width(), width_name);
 
 /// Spheres and discs of the same masses and moments of inertia must have bitwise identical
 /// positions, velocities and vertical spins.
