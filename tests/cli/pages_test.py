@@ -34,7 +34,7 @@ SHORTER = {
     "run": ["--events", "3000"],
     "crossing": ["--events", "3000", "--from", "34", "--to", "42", "--tolerance", "5"],
     "sweep": ["--threads", "2"],
-    "map": ["--steps", "3", "--periods", "3", "--seeds", "2", "--from", "34", "--to", "36", "--no-figure"],
+    "map": ["--steps", "3", "--periods", "3", "--seeds", "2", "--from", "34", "--to", "36"],
     "movie": ["--seconds", "0.1", "--fps", "10", "--size", "320x180"],
     "image": [], "collect": [], "export": [], "measure": [], "verify": [],
 }
@@ -44,6 +44,8 @@ SHORTENED = (
     ("--periods 400", "--periods 8 --warmup 1"), ("--periods 500", "--periods 8 --warmup 1"),
     ("--warmup 8 --periods 28", "--warmup 1 --periods 2"),
     ("'$seed'", "1"), ("'seed_$seed'", "seed_1"),
+    ("--tolerance 0.2", "--tolerance 5"), ("--grow --to 55", "--grow --to 40"),
+    ("--path circle,ellipse:0.8,ellipse:0.5,line", "--path circle,ellipse:0.8,ellipse:0.5,line --events 3000"),
     ("--periods 200", "--periods 4 --warmup 1"), ("--periods 150", "--periods 2"),
     ("--periods 100", "--periods 8"), ("periods = 300", "periods = 1"), ("seeds = 8", "seeds = 1"),
     ('discs = "5:48"', 'discs = "46:48"'), ("mu = [0.1, 0.5, 1]", "mu = [0.5, 1]"),
@@ -100,7 +102,7 @@ def shortened(words):
         return None
     for shown, shorter in SHORTENED:
         call = call.replace(shown, shorter)
-    words = shlex.split(call)
+    words = shlex.split(call) + ["--no-figure"] * (words[0] == "map")
     more = SHORTER.get(words[0], [])
     if "--periods" in words or "--grow" in words or "--help" in words or words[0] == "run" and "--events" in words:
         more = []
