@@ -4,46 +4,13 @@
 
 #include <cmath>
 
-#include "measure/snapshots.hpp"
-#include "swirl/physics/collision_law.hpp"
+#include "measure/random_collision.hpp"
 
 namespace swirl {
 namespace {
 
-/// Two random discs of random mass, or one and the wall, collide by the collision law. Returns the
-/// change of K between the snapshots.
-struct Case {
-    Snapshot after;
-    Event event;
-    double change;
-};
-
-Case collide_at_random(std::uint64_t seed, bool wall, const Surface& surface) {
-    Noise noise(seed);
-    Snapshot s = empty_container(0.5 + 0.5 * noise());
-    const Vec2 n = unit_circle(noise());
-    const double r0 = 1.0 + 0.5 * noise(), r1 = 1.0 + 0.5 * noise();
-    const Vec2 at = s.container_centre + (wall ? (s.container_radius - r0) * n : Vec2{0, 0});
-    add_disc(s, at, {noise(), noise()}, noise(), r0, 2.0 + noise());
-    add_disc(s, at + (r0 + r1) * n, {noise(), noise()}, noise(), r1, 2.0 + noise());
-    const double before = kinetic_energy(s);
-
-    const auto body = [&](std::size_t i) {
-        return Body{s.velocity(i), s.spin[i], s.radius[i], 1.0 / s.mass[i], 1.0 / s.inertia[i]};
-    };
-    Body a = body(0), b = wall ? wall_body(s.container_velocity) : body(1);
-    const Impulse J = collide(a, b, n, surface);
-    s.vx[0] = a.velocity.x;
-    s.vy[0] = a.velocity.y;
-    s.spin[0] = a.spin;
-    if (!wall) {
-        s.vx[1] = b.velocity.x;
-        s.vy[1] = b.velocity.y;
-        s.spin[1] = b.spin;
-    }
-    const EventKind kind = wall ? EventKind::disc_wall : EventKind::disc_disc;
-    const Event event{0, s.clock, kind, 0, wall ? 0u : 1u, n, J, 0.0};
-    return {s, event, kinetic_energy(s) - before};
+double energy_gained(const RandomCollision& c) {
+    return kinetic_energy(c.after) - kinetic_energy(c.before);
 }
 
 TEST(EnergyBudget, ClosesForEveryCollision) {
@@ -51,10 +18,10 @@ TEST(EnergyBudget, ClosesForEveryCollision) {
          {Surface{1.0, 1.0, 0.0}, Surface{0.1, 0.9, 0.0}, Surface{0.5, 0.0, 0.5}, Surface{0, 1, 0}})
         for (std::uint64_t seed = 1; seed <= 200; ++seed)
             for (const bool wall : {false, true}) {
-                const Case c = collide_at_random(seed, wall, surface);
+                const RandomCollision c = collide_at_random(seed, wall, surface);
                 const EnergyChange e = energy_change(c.event, c.after);
                 // Energies of order 10: a few ulp.
-                EXPECT_NEAR(e.work - e.friction_loss - e.inelastic_loss, c.change, 3e-14);
+                EXPECT_NEAR(e.work - e.friction_loss - e.inelastic_loss, energy_gained(c), 3e-14);
                 EXPECT_GE(e.friction_loss, -1e-15);
                 EXPECT_GE(e.inelastic_loss, -3e-14);
                 if (!wall) {
@@ -89,10 +56,10 @@ TEST(EnergyBudget, PowersArePerTimeAndTotalsAccumulate) {
     EnergyBudget budget;
     double work = 0.0, change = 0.0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        const Case c = collide_at_random(seed, true, Surface{1.0, 0.9, 0.0});
+        const RandomCollision c = collide_at_random(seed, true, Surface{1.0, 0.9, 0.0});
         budget.sample_event(c.event, c.after);
         work += energy_change(c.event, c.after).work;
-        change += c.change;
+        change += energy_gained(c);
         budget.close_event_block(2.0);
     }
     EXPECT_NEAR(row_of(budget, "wall_power").mean, work / 20.0, 1e-15);

@@ -4,61 +4,28 @@
 
 #include <cmath>
 
-#include "measure/snapshots.hpp"
-#include "swirl/physics/collision_law.hpp"
+#include "measure/random_collision.hpp"
 
 namespace swirl {
 namespace {
-
-struct Case {
-    Snapshot after;
-    Event event;
-    AngularMomentum before;
-};
-
-/// Applies the collision law to two of three random discs, or to one of them and the wall.
-Case collide_at_random(std::uint64_t seed, bool wall, const Surface& surface) {
-    Noise noise(seed);
-    Snapshot s = empty_container(0.5 + 0.5 * noise());
-    const Vec2 n = unit_circle(noise());
-    const double r0 = 1.0 + 0.5 * noise(), r1 = 1.0 + 0.5 * noise();
-    const Vec2 at = s.container_centre + (wall ? (s.container_radius - r0) * n : Vec2{1, 2});
-    add_disc(s, at, {noise(), noise()}, noise(), r0, 2.0 + noise());
-    add_disc(s, wall ? Vec2{0, 0} : at + (r0 + r1) * n, {noise(), noise()}, noise(), r1,
-             2.0 + noise());
-    add_disc(s, {-2.0, -3.0}, {noise(), noise()}, noise(), 1.0, 3.0);
-    const AngularMomentum before = angular_momentum(s);
-
-    const auto body = [&](std::size_t i) {
-        return Body{s.velocity(i), s.spin[i], s.radius[i], 1.0 / s.mass[i], 1.0 / s.inertia[i]};
-    };
-    Body bodies[] = {body(0), wall ? wall_body(s.container_velocity) : body(1)};
-    const Impulse J = collide(bodies[0], bodies[1], n, surface);
-    for (std::size_t i = 0; i < (wall ? 1u : 2u); ++i) {
-        s.vx[i] = bodies[i].velocity.x;
-        s.vy[i] = bodies[i].velocity.y;
-        s.spin[i] = bodies[i].spin;
-    }
-    const EventKind kind = wall ? EventKind::disc_wall : EventKind::disc_disc;
-    return {s, {0, s.clock, kind, 0, wall ? 0u : 1u, n, J, 0.0}, before};
-}
 
 TEST(TorqueBudget, ClosesForEveryCollision) {
     for (const Surface& surface : {Surface{1.0, 1.0, 0.0}, Surface{0.1, 0.9, 0.3}})
         for (std::uint64_t seed = 1; seed <= 200; ++seed)
             for (const bool wall : {false, true}) {
-                const Case c = collide_at_random(seed, wall, surface);
+                const RandomCollision c = collide_at_random(seed, wall, surface);
                 const AngularImpulse t = angular_impulse(c.event, c.after);
-                const AngularMomentum after = angular_momentum(c.after);
+                const AngularMomentum before = angular_momentum(c.before),
+                                      after = angular_momentum(c.after);
                 // Angular momenta of order 100: a few ulp.
                 constexpr double rounding = 2e-13;
                 EXPECT_NEAR(t.wall_normal + t.wall_tangential + t.transfer,
-                            after.orbital - c.before.orbital, rounding);
-                EXPECT_NEAR(t.wall_on_spins + t.discs_on_spins, after.spins - c.before.spins,
+                            after.orbital - before.orbital, rounding);
+                EXPECT_NEAR(t.wall_on_spins + t.discs_on_spins, after.spins - before.spins,
                             rounding);
                 // In the frame of the container, whose velocity is the same before and after.
                 EXPECT_NEAR(t.wall_about_centre + t.transfer,
-                            after.about_centre - c.before.about_centre, rounding);
+                            after.about_centre - before.about_centre, rounding);
                 // Friction between discs only moves angular momentum.
                 EXPECT_NEAR(t.transfer + t.discs_on_spins, 0.0, rounding);
                 const bool approached = c.event.impulse.normal > 0.0;
@@ -98,7 +65,7 @@ TEST(TorqueBudget, RowsArePerTimeAndTheProfileSumsToThem) {
     TorqueBudget budget, twice;
     AngularImpulse sum;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const Case c = collide_at_random(seed, seed % 2 == 0, Surface{1.0, 0.9, 0.0});
+        const RandomCollision c = collide_at_random(seed, seed % 2 == 0, Surface{1.0, 0.9, 0.0});
         const AngularImpulse t = angular_impulse(c.event, c.after);
         sum.wall_normal += t.wall_normal;
         sum.wall_tangential += t.wall_tangential;
