@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "run/rejected_parameters.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -141,28 +142,20 @@ TEST(ParticleSizes, AMixtureOfMoreDiscsThanThereAreDoesNotRun) {
 }
 
 TEST(ParticleSizes, ListsAreValidated) {
-    const auto expect = [](const ParameterTexts& texts, const char* says) {
-        try {
-            resolve(texts);
-            ADD_FAILURE() << "accepted, but should say " << says;
-        } catch (const UsageError& error) {
-            EXPECT_THAT(error.what(), testing::HasSubstr(says));
-        }
-    };
     for (const char* share : {"0%:0.8", "-1%:0.8", "101%:0.8"})
-        expect({{"mixture", share}}, "the share in --mixture is");
-    expect({{"mixture", "1%:0.8"}, {"discs", "20"}}, "rounds to none of 20 discs");
+        expect_rejected({{"mixture", share}}, "the share in --mixture is");
+    expect_rejected({{"mixture", "1%:0.8"}, {"discs", "20"}}, "rounds to none of 20 discs");
     for (const char* text : {"%:0.8", "x%:0.8", "50%", "50%:", "5 %:0.8", "50%%:0.8"})
-        expect({{"mixture", text}}, "COUNT:RADIUS");
-    expect({{"sizes", "list 1 x"}}, "entry 2");
-    expect({{"sizes", "list 1 1:2:3"}}, "entry 2");
-    expect({{"sizes", "list 1 nan"}}, "entry 2");
-    expect({{"sizes", "list 1 0"}}, "a radius in --sizes is 0");
-    expect({{"sizes", "list 1 -1"}}, "a radius in --sizes is -1");
-    expect({{"sizes", "list 1 1:0"}}, "a mass in --sizes is 0");
-    expect({{"sizes", "list 1 9"}}, "does not fit");
-    expect({{"sizes", "list 1 1"}, {"discs", "3"}}, "lists 2 particles, but --discs is 3");
-    expect({{"sizes", "list "}}, "lists no particles");
+        expect_rejected({{"mixture", text}}, "COUNT:RADIUS");
+    expect_rejected({{"sizes", "list 1 x"}}, "entry 2");
+    expect_rejected({{"sizes", "list 1 1:2:3"}}, "entry 2");
+    expect_rejected({{"sizes", "list 1 nan"}}, "entry 2");
+    expect_rejected({{"sizes", "list 1 0"}}, "a radius in --sizes is 0");
+    expect_rejected({{"sizes", "list 1 -1"}}, "a radius in --sizes is -1");
+    expect_rejected({{"sizes", "list 1 1:0"}}, "a mass in --sizes is 0");
+    expect_rejected({{"sizes", "list 1 9"}}, "does not fit");
+    expect_rejected({{"sizes", "list 1 1"}, {"discs", "3"}}, "lists 2 particles, but --discs is 3");
+    expect_rejected({{"sizes", "list "}}, "lists no particles");
 }
 
 }  // namespace

@@ -125,8 +125,7 @@ TEST(PathParameter, APhaseStartsTheSamePathElsewhere) {
 
 TEST(PathParameter, RejectsWhatIsNoClosedPath) {
     const auto expect = [](const std::string& points, const char* says) {
-        EXPECT_THAT(error_of({{"path", points}, {"discs", "5"}}), testing::HasSubstr(says))
-            << points;
+        expect_rejected({{"path", points}, {"discs", "5"}}, says);
     };
     expect("points", "at least three");
     expect("points 0:1:1", "1 point");
@@ -143,10 +142,9 @@ TEST(PathParameter, RejectsWhatIsNoClosedPath) {
     std::string many = "points";
     for (std::size_t k = 0; k <= max_path_points; ++k) many += fmt::format(" {}:{}:0", k, k % 2);
     expect(many, "at most 20000");
-    EXPECT_THAT(error_of({{"path", "points 0:0:0 1:0:0 2:0:0"}, {"amplitude", "1"}}),
-                testing::HasSubstr("all at the origin"));
-    EXPECT_THAT(error_of({{"path", "points 0:1:1 1:0:0 2:1:1"}, {"sides", "5"}}),
-                testing::HasSubstr("--sides is 5"));
+    expect_rejected({{"path", "points 0:0:0 1:0:0 2:0:0"}, {"amplitude", "1"}},
+                    "all at the origin");
+    expect_rejected({{"path", "points 0:1:1 1:0:0 2:1:1"}, {"sides", "5"}}, "--sides is 5");
 }
 
 TEST(MFrame, ExistsOnNearlyCircularPathsOnly) {

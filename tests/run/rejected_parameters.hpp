@@ -1,6 +1,8 @@
 // The message for parameters that are rejected.
 #pragma once
 
+#include <gmock/gmock.h>
+
 #include <string>
 
 #include "swirl/run/config.hpp"
@@ -16,6 +18,10 @@ inline std::string error_of(const ParameterTexts& given) {
         return error.what();
     }
     return "";
+}
+
+inline void expect_rejected(const ParameterTexts& texts, const std::string& says) {
+    EXPECT_THAT(error_of(texts), testing::HasSubstr(says));
 }
 
 }  // namespace swirl
