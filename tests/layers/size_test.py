@@ -23,8 +23,11 @@ LINES = {
     # the rest is detection, links, cameras and lenses, errors, paths moved by hand, comparisons and synthetic videos.
     "track": (["track"], ["track/tests"], 15_250),
     "page": (["web/src"], [], 6_500),
-    # Goal 30,000.
-    "tests": (["tests", "track/tests"], [], 44_560),
+    # Goal 30,000. The number that can be defended is 43,500: copied setup and repeated mechanisms are gone (60 equal
+    # blocks of four lines remain). 22,000 lines of C++ test the layers, with one or two assertions for each formula,
+    # law and invariant, which the mutations need; 8,300 the command line; 1,900 the judge of the claims; 3,200 the
+    # Python module; 4,600 tracking. 3,900 are fuzzing, faults, mutations and platforms.
+    "tests": (["tests", "track/tests"], [], 44_300),
 }
 
 
