@@ -18,6 +18,8 @@ A point is (N, mean, error), and a curve a list of points.
 import dataclasses
 import math
 
+import scipy.optimize
+
 from combine import at, number
 from curves import with_error
 from engine import swirl
@@ -50,12 +52,7 @@ def zero_of_parabola(a, b, c):
     """The zero between a and b, of opposite signs, of the parabola through a, b and c."""
     slope = (b[1] - a[1]) / (b[0] - a[0])
     curvature = ((c[1] - b[1]) / (c[0] - b[0]) - slope) / (c[0] - a[0])
-    left, right = a[0], b[0]
-    for _ in range(60):
-        middle = 0.5 * (left + right)
-        value = a[1] + (middle - a[0]) * (slope + (middle - b[0]) * curvature)
-        left, right = (middle, right) if (value < 0) == (a[1] < 0) else (left, middle)
-    return 0.5 * (left + right)
+    return scipy.optimize.brentq(lambda x: a[1] + (x - a[0]) * (slope + (x - b[0]) * curvature), a[0], b[0], xtol=1e-14)
 
 
 def zero_of_curve(curve, k):

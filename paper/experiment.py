@@ -4,19 +4,15 @@
     /usr/bin/python3 paper/experiment.py marbles
 """
 
-import math
 import os
 
+import numpy as np
 import style
 from atomic_file import write_or_exit
-from claims.wording import number
+from claims.wording import known, number
 from html_page import described_folder, rendered
 
 LOOK = {"rough": (style.RED, "o"), "smooth": (style.SKY, "D")}
-
-
-def known(rows, *names):
-    return [row for row in rows if not any(math.isnan(row[name]) for name in names)]
 
 
 def sides(axes, rows, quantity, surfaces=("rough", "smooth"), label="", second=False):
@@ -99,14 +95,10 @@ def profile(folder, name, rows, quantity, level, label):
 
 def coarser(rows, by):
     """Means over squares of by × by cells: a short video has few visits per cell."""
-    side = round(len(rows) ** 0.5)
-    result = []
-    for top in range(0, side, by):
-        for left in range(0, side, by):
-            here = [rows[(top + j) * side + left + i] for j in range(by) for i in range(by)]
-            result.append({name: sum(row[name] for row in here) / len(here)
-                           for name in ("x", "y", "density")})
-    return result
+    side = round(len(rows) ** 0.5) // by
+    means = {name: np.reshape(style.column(rows, name), (side, by, side, by)).mean(axis=(1, 3)).ravel()
+             for name in ("x", "y", "density")}
+    return [dict(zip(means, cell)) for cell in zip(*means.values())]
 
 
 def maps(folder, video, amplitude):

@@ -26,7 +26,6 @@ from tables import column, distinct, select  # noqa: E402, F401
 COLUMN = 3.375
 PAGE = 7.0
 SMALLEST = 7  # font size in points, where a figure is as wide as its column
-LEAST_VISITS = 200  # a slice of θ with fewer visits is not drawn
 
 BLACK = "#000000"
 ORANGE = "#e69f00"
@@ -49,35 +48,15 @@ LOOKS = {
 }
 
 SETTINGS = {
-    "font.family": "sans-serif",
-    "font.sans-serif": ["DejaVu Sans"],
-    "font.size": 8,
-    "axes.labelsize": 8.5,
-    "axes.linewidth": 0.6,
-    "axes.prop_cycle": matplotlib.cycler(color=CYCLE),
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.titlesize": 8.5,
-    "xtick.labelsize": 7.5,
-    "ytick.labelsize": 7.5,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "xtick.major.size": 3,
-    "ytick.major.size": 3,
-    "legend.fontsize": SMALLEST,
-    "legend.frameon": False,
-    "legend.handlelength": 1.6,
-    "lines.linewidth": 1.0,
-    "lines.markersize": 3.2,
-    "errorbar.capsize": 0,
-    "image.cmap": "viridis",
-    "figure.dpi": 300,
-    "savefig.dpi": 300,
+    "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 8, "mathtext.fontset": "dejavusans",
+    "axes.labelsize": 8.5, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "axes.prop_cycle": matplotlib.cycler(color=CYCLE),
+    "axes.spines.top": False, "axes.spines.right": False, "axes.unicode_minus": True,
+    **{f"{axis}tick.{name}": value for axis in "xy" for name, value in (
+        ("labelsize", 7.5), ("direction", "in"), ("major.width", 0.6), ("major.size", 3))},
+    "legend.fontsize": SMALLEST, "legend.frameon": False, "legend.handlelength": 1.6,
+    "lines.linewidth": 1.0, "lines.markersize": 3.2, "errorbar.capsize": 0, "image.cmap": "viridis",
+    "figure.dpi": 300, "savefig.dpi": 300,
     "pdf.fonttype": 42,  # TrueType: the text can be searched
-    "axes.unicode_minus": True,
-    "mathtext.fontset": "dejavusans",
 }
 
 
@@ -148,13 +127,6 @@ def curve(axes, rows, x, y, **look):
     return mark
 
 
-def rotation_curves(table, parameter, symbol):
-    """A complete figure: rotation against the number of discs, a curve for each value of a parameter."""
-    rows = read(table)
-    curves = [(here, {"label": f"${symbol} = {value:g}$", **look}) for value, here, look in groups(rows, parameter)]
-    rotation_figure(table, curves, ncol=3)
-
-
 def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=False, **more):
     """A complete figure: rotation against the number of `of`; `curves` are rows and their style. With `fine`, the
     scale is fine near zero."""
@@ -204,15 +176,6 @@ def log_errors(values, errors):
     return [values * (1 - 1 / factor), values * (factor - 1)]
 
 
-def mark_crossing(axes, crossings, curve, color):
-    """A dashed line at the N_c of a curve, from the table of crossings. Returns the words for its label."""
-    for row in select(crossings, curve=curve):
-        if math.isfinite(row["crossing"]):
-            axes.axvline(row["crossing"], color=color, linewidth=0.8, linestyle="--", zorder=0)
-            return f", $N_c = {row['crossing']:.1f}$"
-    return ""
-
-
 def legend(axes, ncol=2, **more):
     """Above the axes, clear of the data."""
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=ncol, columnspacing=1.2,
@@ -231,64 +194,6 @@ def rotation_axes(axes, average="by time", of="discs"):
     axes.set_xlabel(rf"number of {of} $N$")
     axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(integer=True, steps=(1, 2, 5, 10)))
     axes.set_ylabel(rf"rotation $\varpi/\Omega$, {average}")
-
-
-def sliding(rows, width):
-    """The profile of one number of discs in slices of `width` degrees that slide by one slice of the table, like
-    the paper's "angular slice slides around the entire container". All visits have the same weight; the
-    normalised angular velocity is the ratio of the two means."""
-    result = []
-    for row in rows:
-        here = [other for other in rows
-                if abs((other["theta"] - row["theta"] + 180) % 360 - 180) < width / 2]
-        visits = sum(other["visits"] for other in here)
-
-        def mean(name):
-            return sum(other["visits"] * other[name] for other in here if other["visits"]) / visits
-        if visits:
-            result.append(row | {"visits": visits, "varpi_m": mean("varpi_m"), "wall": mean("wall"),
-                                 "normalised": mean("varpi_m") / mean("wall")})
-    return result
-
-
-def profiles(table, width, quantity, level, label):
-    """A complete figure: a quantity against the angle θ, a curve for each number of discs, and the mean angles where
-    residences at the wall begin and end. `width`: that of a sliding slice, or 0."""
-    rows = read(table)
-    numbers = distinct(rows, "discs")
-    settings = [name for name in LOOKS if select(rows, setting=name)]
-    drawing, panels = figure(width=PAGE, height=2.7, ncols=len(settings), sharex=True, sharey=True, squeeze=False)
-    colors = plt.get_cmap("viridis")
-    span = max(numbers[-1] - numbers[0], 1)
-    for axes, setting in zip(panels[0], settings):
-        axes.set_title(LOOKS[setting][0])
-        for discs in distinct(select(rows, setting=setting), "discs"):
-            color = colors(0.95 * (discs - numbers[0]) / span)
-            here = select(rows, setting=setting, discs=discs)
-            shown = [row for row in (sliding(here, width) if width else here) if row["visits"] > LEAST_VISITS]
-            axes.plot(column(shown, "theta"), column(shown, quantity), color=color, linewidth=0.8,
-                      linestyle=":" if not_steady(shown) else "-")
-            for angle, marker in (("residence_begin", "v"), ("residence_end", "o")):
-                here = [row for row in shown if not math.isnan(row[angle])]
-                if not here:
-                    continue
-                nearest = min(here, key=lambda row: abs((row["theta"] - row[angle] + 180) % 360 - 180))
-                axes.plot(nearest[angle], nearest[quantity], marker, color=color, markersize=3.2,
-                          markeredgecolor=BLACK, markeredgewidth=0.4, zorder=3)
-        axes.axhline(level, color=GREY, linewidth=0.6, linestyle="--", zorder=0)
-        axes.set_xlim(0, 360)
-        axes.set_xticks(range(0, 361, 90))
-    first = panels[0][0]
-    handles = [first.plot([], [], marker, color=GREY, markeredgecolor=BLACK, markeredgewidth=0.4, markersize=3.5,
-                          label=words)[0] for marker, words in (("v", "residences at the wall begin"),
-                                                                ("o", "residences end"))]
-    panels[0][len(settings) // 2].set_xlabel(r"angular position $\theta$ in the M-frame (°); M is at 270°")
-    first.set_ylabel(label)
-    legend_of_all(drawing, handles, ncol=2)
-    bar = drawing.colorbar(scale(numbers, colors), ax=panels)
-    bar.set_label(r"number of particles $N$")
-    note_not_steady(drawing, rows)
-    save(drawing, table)
 
 
 def curves_by_setting(axes, rows, quantity, settings=tuple(LOOKS), **more):
@@ -425,38 +330,3 @@ def grid(rows, x, y, name):
 def label_grid(axes, across, up):
     axes.set_xticks(range(len(across)), [f"{value:g}" for value in across])
     axes.set_yticks(range(len(up)), [f"{value:g}" for value in up])
-
-
-def rotation_map(drawing, axes, rows, columns, label, fontsize=SMALLEST):
-    """ϖ/Ω over two parameters, as colour and as number; `columns` are the parameters along x and y."""
-    across, up, rates = grid(rows, *columns, "mean_by_time")
-    colors = plt.get_cmap("PuOr_r").copy()
-    colors.set_bad("0.85")
-    # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.
-    span = matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-1, vmax=1)
-    shown = axes.imshow(rates, origin="lower", cmap=colors, norm=span)
-    for y, line in enumerate(rates):
-        for x, value in enumerate(line):
-            if value == value:
-                number = f"{value:.2f}".replace("-0.00", "0.00").replace("-", "−")
-                axes.text(x, y, number, ha="center", va="center", fontsize=fontsize,
-                          color="white" if abs(value) > 0.3 else "black")
-    notes = []
-    drifting = not_steady(rows)
-    for row in drifting:
-        corner = (across.index(row[columns[0]]) - 0.44, up.index(row[columns[1]]) - 0.44)
-        axes.add_patch(plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7, linestyle=":"))
-    if drifting:
-        notes.append("dotted: steady state not verified")
-    if np.isnan(rates).any():
-        notes.append("grey: no result")
-    if notes:
-        note(drawing, "; ".join(notes))
-    label_grid(axes, across, up)
-    for side in axes.spines.values():
-        side.set_visible(False)
-    axes.tick_params(length=0)
-    bar = drawing.colorbar(shown, ax=axes, shrink=0.85)
-    bar.set_ticks([-1, -0.1, 0, 0.1, 1], labels=["−1", "−0.1", "0", "0.1", "1"])
-    bar.minorticks_off()
-    bar.set_label(label)

@@ -77,7 +77,10 @@ def draw(table):
         close = [row for row in here if abs(row["mean_by_event"]) + row["mean_by_event_error"] <= NEAR_ZERO]
         if close:
             style.curve(near, close, "discs", "mean_by_event", color=color, marker=marker)
-        label += style.mark_crossing(near, crossings, name, color)
+        for row in style.select(crossings, curve=name):
+            if math.isfinite(row["crossing"]):
+                near.axvline(row["crossing"], color=color, linewidth=0.8, linestyle="--", zorder=0)
+                label += f", $N_c = {row['crossing']:.1f}$"
         style.curve(axes, here, "discs", "mean_by_event", label=label, color=color, marker=marker)
     for panel in (axes, near):
         style.zero_line(panel)

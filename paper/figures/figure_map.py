@@ -1,5 +1,6 @@
 """Beyond the paper: rotation of 48 discs against both friction coefficients."""
 
+import numpy as np
 import style
 from curves import CERTAIN, lowest_of, rate_of, rows_of, with_error
 from figure import Figure
@@ -35,13 +36,32 @@ def table(points, settings):
 
 def draw(table):
     rows = style.read(table)
-    steps = style.distinct(rows, "mu_wall")
-    # The nine steps of the full study need the width of a page.
-    large = len(steps) > 6
-    drawing, axes = style.figure(width=style.PAGE if large else style.COLUMN,
-                                 height=5.6 if large else 2.9)
-    style.rotation_map(drawing, axes, rows, ("mu_disc", "mu_wall"), fontsize=8 if large else style.SMALLEST,
-                       label=r"$\varpi/\Omega$ at $N = 48$")
+    across, up, rates = style.grid(rows, "mu_disc", "mu_wall", "mean_by_time")
+    large = len(up) > 6  # the nine steps of the full study need the width of a page
+    drawing, axes = style.figure(*((style.PAGE, 5.6) if large else (style.COLUMN, 2.9)))
+    colors = style.plt.get_cmap("PuOr_r").copy()
+    colors.set_bad("0.85")
+    # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.
+    span = style.matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-1, vmax=1)
+    shown = axes.imshow(rates, origin="lower", cmap=colors, norm=span)
+    for (y, x), value in np.ndenumerate(rates):
+        if value == value:
+            number = f"{value:.2f}".replace("-0.00", "0.00").replace("-", "−")
+            axes.text(x, y, number, ha="center", va="center", fontsize=8 if large else style.SMALLEST,
+                      color="white" if abs(value) > 0.3 else "black")
+    for row in style.not_steady(rows):
+        corner = (across.index(row["mu_disc"]) - 0.44, up.index(row["mu_wall"]) - 0.44)
+        axes.add_patch(style.plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7, linestyle=":"))
+        style.note(drawing, "dotted: steady state not verified")
+    if np.isnan(rates).any():
+        style.note(drawing, "grey: no result")
+    style.label_grid(axes, across, up)
+    for side in axes.spines.values():
+        side.set_visible(False)
+    axes.tick_params(length=0)
+    bar = drawing.colorbar(shown, ax=axes, shrink=0.85, label=r"$\varpi/\Omega$ at $N = 48$")
+    bar.set_ticks([-1, -0.1, 0, 0.1, 1], labels=["−1", "−0.1", "0", "0.1", "1"])
+    bar.minorticks_off()
     axes.set(xlabel=r"disc friction $\mu_d$", ylabel=r"wall friction $\mu_w$")
     style.save(drawing, table)
 

@@ -48,7 +48,12 @@ def tangential_points(settings):
 
 
 def drawn_by(parameter, symbol):
-    return lambda table: style.rotation_curves(table, parameter, symbol)
+    """A curve for each value of the parameter."""
+    def draw(table):
+        curves = [(here, {"label": f"${symbol} = {value:g}$", **look})
+                  for value, here, look in style.groups(style.read(table), parameter)]
+        style.rotation_figure(table, curves, ncol=3)
+    return draw
 
 
 FIGURES = [Figure("inertia", "beyond", "beyond the paper: moment of inertia ½ to 10⁴", inertia_points, tables_of,

@@ -17,6 +17,7 @@ import catalogue  # noqa: E402
 import draw  # noqa: E402
 import style  # noqa: E402
 import tables  # noqa: E402
+from figures.figure_3 import sliding  # noqa: E402
 from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 from matplotlib.text import Text  # noqa: E402
@@ -265,15 +266,15 @@ class Drawings(unittest.TestCase):
     def test_sliding_slices_weight_all_visits_equally(self):
         rows = [{"theta": 2.5 + 5 * k, "visits": 100 + k, "varpi_m": -1.0 - k, "wall": -2.0, "normalised": 0}
                 for k in range(72)]
-        one = style.sliding(rows, 5)
+        one = sliding(rows, 5)
         self.assertEqual([row["varpi_m"] for row in one], [row["varpi_m"] for row in rows])
-        three = style.sliding(rows, 15)
+        three = sliding(rows, 15)
         self.assertAlmostEqual(three[10]["varpi_m"], -(109 * 10 + 110 * 11 + 111 * 12) / 330)
         self.assertAlmostEqual(three[10]["normalised"], (109 * 10 + 110 * 11 + 111 * 12) / 660)
         self.assertEqual(three[10]["visits"], 330)
         # A slice that contains θ = 0.
         self.assertAlmostEqual(three[0]["varpi_m"], -(171 * 72 + 100 + 101 * 2) / 372)
-        empty = style.sliding([row | {"visits": 0} for row in rows], 15)
+        empty = sliding([row | {"visits": 0} for row in rows], 15)
         self.assertEqual(empty, [])
 
     def test_second_argument_is_the_width_of_slices(self):
