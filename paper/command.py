@@ -163,7 +163,7 @@ def main(call):
         lines = paper.text()
         files = [file for made in paper.made for file in made["files"]]
         if paper.is_all:
-            lines.append(f"wrote {paper.report()} and {len(files) + 5} more files in the same folder")
+            lines.append(f"wrote {paper.report()} and {len(files) + 4} more files in the same folder")
         else:
             lines += [f"wrote {file}" for file in files]
     except KeyboardInterrupt:

@@ -9,7 +9,7 @@
                       "remarks" and "command"
     claims            dictionaries (report.claim_row)
 
-The layout of HTML is page.html.j2, that of Markdown page.md.j2, and that of the PDF report_pdf.py.
+The layout of HTML is page.html.j2, and that of Markdown page.md.j2.
 """
 
 import base64

@@ -1,5 +1,5 @@
-"""The report: report.md, report.html (one self-contained file) and report.pdf, from the files that `swirl paper` wrote to a
-folder.
+"""The report: report.md, and report.html (one self-contained file, with a layout for A4 when it is printed), from the files
+that `swirl paper` wrote to a folder.
 
     /usr/bin/python3 paper/report.py out
 """
@@ -151,16 +151,14 @@ def write_all(folder):
     """Writes the report from paper.json and the tables."""
     with open(os.path.join(folder, "paper.json"), encoding="utf-8") as file:
         about = json.load(file)
-    from report_pdf import report_pdf  # the only part that needs matplotlib
     blocks = contents(folder, about, judge(folder))
     for kind in ("md", "html"):
         atomic_file.write(os.path.join(folder, f"report.{kind}"),
                           rendered(f"page.{kind}.j2", folder, title=TITLE, blocks=blocks))
-    atomic_file.write(os.path.join(folder, "report.pdf"), report_pdf(folder, TITLE, blocks))
 
 
 def main():
-    folder, _ = described_folder("paper.json", "swirl paper --out", "Writes report.md, report.html and report.pdf")
+    folder, _ = described_folder("paper.json", "swirl paper --out", "Writes report.md and report.html")
     try:
         write_all(folder)
     except OSError as error:
