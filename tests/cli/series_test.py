@@ -63,6 +63,12 @@ class Series(InFolder):
         averages = read_json(self.path("r.json"))["series"]["averages"]
         self.assertFalse([name for name, value in averages.items() if "fluctuations" in value])
 
+    def test_a_run_without_the_last_value_of_its_ramp_names_the_period_that_has_it(self):
+        ramp = ("run", "--discs", 5, "--ramp", "mu=1:0.5@0..3", "--periods")
+        self.assertIn("the run ended after 3.0 periods, but its ramp has its last value in period 3, which begins after 3 "
+                      "periods", self.run_swirl(*ramp, 3).stderr)
+        self.assertNotIn("last value", self.run_swirl(*ramp, 4).stderr)
+
     def test_a_killed_and_resumed_run_has_the_same_series(self):
         whole = ("--discs", 48, "--ramp", "mu=0.2:1@3..203", "--ramp", "period=12:9@3..203")
         self.run_swirl("run", *whole, "--series", "whole.csv", "--quiet")
