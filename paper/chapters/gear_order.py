@@ -1,9 +1,9 @@
 """Do opposite spins of touching particles ("gears") get lost before the slip parameter rises, with it, or after it? Contacts
-in triangles and in none, of discs and spheres, from the runs of Figure 4.
+in triangles and in none, of discs and spheres, from the runs of the figures 4 and "gears", and of discs at other amplitudes.
 
-The gear order is the spin correlation of touching particles with the opposite sign: 1 for gears, 0 for independent spins.
-Its loss is the N beyond its maximum at which a share q of the maximum is left. The rise of the slip is the N at which the
-slip parameter has 1 − q of its way from its lowest value to that at the last N. The lag is the difference, loss minus
+The gear order is the spin correlation of touching particles in no triangle with the opposite sign: 1 for gears, 0 for
+independent spins. Its loss is the N beyond its maximum at which a share q of the maximum is left. The rise of the slip is
+the N at which the slip parameter has 1 − q of its way from its lowest value to that at the last N. The lag is loss minus
 rise, for q = 3/4, 1/2 and 1/4. Errors: jackknife over the seeds. Limits: the rise depends on the range of N; curves are
 interpolated by straight lines; a curve without certain gear order above LEAST_ORDER has no loss."""
 
@@ -11,23 +11,42 @@ import math
 
 import numpy as np
 import style
+from chapters.mechanism import gears_points, mechanism_point, mechanism_run
 from coarse_zero import rise_through
 from combine import at, number, over_seeds
-from curves import CERTAIN, rows_of, with_error
+from curves import CERTAIN, measured_cells, with_error
 from figure import Figure
 from jackknife import jackknife
-from paper_parameters import LAST_N
+from paper_parameters import AMPLITUDE, AMPLITUDES, CONTAINER_RADIUS, EXPERIMENT_DISH, LAST_N
 from runs import HALF, HIGH, LOW, ROUGH, SMOOTH, measured_point, points_of
 
 FRICTIONS = (LOW, HIGH, SMOOTH, ROUGH, HALF)
 LEFT = (0.75, 0.5, 0.25)  # q
 LEAST_ORDER = 0.1
+RATIOS = (0.11, 0.44)  # A/R of discs with μ = 1, besides the paper's 0.22
+MEASURED = ("frustration.chain_correlation", "frustration.triangle_correlation", "frustration.triangles",
+            "slip.resident=slip")
 QUANTITIES = {"order": "frustration.chain_correlation", "slip": "slip.resident"}
 
 
 def points(settings):
+    gears = gears_points(settings)
+    numbers = dict.fromkeys(p.cells["discs"] for p in gears)
     return [measured_point(settings, friction, discs) for friction, discs in points_of(settings, FRICTIONS)
-            if discs <= LAST_N]
+            if discs <= LAST_N] + gears + [
+        mechanism_point(settings, f"gear-order_A{ratio:g}_N{discs}",
+                        mechanism_run(settings, discs, 1) | {"amplitude": ratio * CONTAINER_RADIUS, "speed": 1},
+                        {"mu": 1, "discs": discs}, ["slip", "frustration"]) for ratio in RATIOS for discs in numbers]
+
+
+def row_of(point):
+    """The correlation of contacts in no triangle and in triangles, the share of the latter, and the slip."""
+    given, cells = point.parameters, point.cells
+    ratio = AMPLITUDES[cells["setting"]] / EXPERIMENT_DISH[0] if "preset" in given else (
+        given.get("amplitude", AMPLITUDE) / CONTAINER_RADIUS)
+    return {"particles": "spheres" if "preset" in given else "discs", "setting": cells.get("setting", "more"),
+            "mu": cells.get("mu", cells.get("mu_disc")), "amplitude_ratio": round(ratio, 4), "discs": cells["discs"],
+            "seeds": len(point.runs), **measured_cells(point.result, MEASURED)}
 
 
 def loss(discs, order, left):
@@ -75,7 +94,7 @@ def verdict(rows):
 def table(points, settings):
     rows, findings = [], []
     for friction in FRICTIONS:
-        here = [p for p in points if p.cells["setting"] == friction.name]
+        here = [p for p in points if p.cells.get("setting") == friction.name]
         runs = min((len(p.runs) for p in here), default=0)
         if len(here) < 2 or not runs:
             continue
@@ -90,8 +109,7 @@ def table(points, settings):
             f"{friction.words}: strongest gear order {with_error(half['order'], half['order_error'])} at N = "
             f"{half['order_discs']:.0f}; half of it is lost at N = {with_error(half['loss'], half['loss_error'])}, the slip "
             f"has half of its rise at {with_error(half['rise'], half['rise_error'])}: {words}.")
-    return {"": rows_of(points, ("frustration.chain_correlation", "frustration.triangle_correlation",
-                                 "frustration.triangles", "slip.resident=slip")), "_lags": rows}, findings
+    return {"": list(map(row_of, points)), "_lags": rows}, findings
 
 
 def draw(table):
