@@ -178,17 +178,15 @@ CAPTIONS = {
     "size": "Left: rotation of the cluster against the packing fraction φ = N r²/R² in containers of different radius, "
         "at A/R = 0.22 and μ = 1. Right: the sign of the rotation at each point (the area of a disc grows with |ϖ|), and "
         "the packing fractions at which the direction changes.",
-    "critical": "Above, at A/R = 0.22: the variance of the rotation multiplied by N and by its correlation time τ; the "
-        "correlation time; and the Binder cumulant. This cumulant is 0 for one state with a normal distribution and 2/3 "
-        "(dotted) for two equally likely states. Below: slope, fluctuations and correlation time at each change of "
-        "direction against the size of the container, with power laws (dashed) if there are three sizes. On logarithmic "
-        "axes, bars are the errors of the logarithm.",
+    "critical": "Slope, fluctuations (the variance of the rotation multiplied by N and by its correlation time τ) and "
+        "correlation time at each change of direction against the size of the container, with power laws (dashed) if "
+        "there are three sizes. On logarithmic axes, bars are the errors of the logarithm.",
     "hysteresis": "Rotation during a ramp of a parameter up (full) and down (open), each as a mean over an eighth of the "
         "ramp, for two ramp rates.",
     "lifetimes": "Mean lifetimes of the states at two points: time spent in the state divided by the number of exits.",
     "coexistence": "Left: mean lifetimes of clusters that were prepared round (full symbols) and elongated (open) "
         "against the amplitude; triangles are lower bounds. Right: distribution of the rotation in windows of five "
-        "periods where both last long.",
+        "periods, at one amplitude for each container.",
     "torque": "Torques on the cluster about its centre of mass against N, at μ = 1. (a) The sums: normal force and "
         "friction of the wall, and friction between discs, which transfers angular momentum to the spins. (b) The "
         "friction between discs by zone: two pinned discs, a pinned and a loose one, two loose ones. The line marks the "

@@ -107,7 +107,7 @@ def kind_of(change):
     return "wall" if change["occupied"] >= 0.1 else "elongated" if change["elongation"] > 1.2 else "free"
 
 
-def change_at(points, curve, found, radius):
+def change_at(points, curve, found, radius, amplitude):
     """The row of a change between two N with certain and opposite signs, at its zero; the middle one of several."""
     k, area = middle_zero(curve, found), radius * radius
     zero = zero_of_curve(curve, k)
@@ -125,7 +125,8 @@ def change_at(points, curve, found, radius):
         left, right = ends(*path, "error")
         return math.hypot((1 - f) * left, f * right)
     wall, fraction = between("contact_network", "wall"), zero.discs / area
-    change = {"direction": direction_of(found), "kind": "", "packing_fraction": fraction,
+    change = {"container_radius": radius, "amplitude_ratio": amplitude, "direction": direction_of(found), "kind": "",
+              "packing_fraction": fraction,
               "packing_fraction_error": zero.error / area, "interpolation_error": zero.interpolation / area,
               "slope": (mean_b - mean_a) / step * area, "slope_error": math.hypot(error_a, error_b) / step * area,
               "before": found["before"] / area, "after": found["after"] / area,
@@ -139,12 +140,9 @@ def change_at(points, curve, found, radius):
     for family, name in (*(("fluctuations", name) for name in ("susceptibility", "correlation", "binder")),
                          ("temperature", "granular")):
         change[name], change[f"{name}_error"] = between(family, name), error(family, name)
+    for end, point in zip(("before", "after"), points[k:k + 2]):
+        change[f"share_rotating_{end}"] = shares_of_the_states(point)["share_rotating"]
     return change
-
-
-CHANGE_COLUMNS = """container_radius amplitude_ratio direction kind packing_fraction packing_fraction_error
-    interpolation_error slope slope_error before after largest wall occupied elongation reach susceptibility
-    susceptibility_error correlation correlation_error binder binder_error granular granular_error""".split()
 
 
 def direction_changes(points):
@@ -153,8 +151,7 @@ def direction_changes(points):
     for dish in dict.fromkeys((p.cells["container_radius"], p.cells["amplitude_ratio"]) for p in points):
         here = [p for p in points if (p.cells["container_radius"], p.cells["amplitude_ratio"]) == dish]
         curve = [rate_of(point, "rigid_by_time") for point in here]
-        changes[dish] = [dict(zip(CHANGE_COLUMNS, (*dish, *change_at(here, curve, found, dish[0]).values())))
-                         for found in changes_of_sign(curve)]
+        changes[dish] = [change_at(here, curve, found, *dish) for found in changes_of_sign(curve)]
     return changes
 
 
@@ -168,7 +165,7 @@ def dish_tables(points, settings):
     """The rows of the points, and the changes of direction."""
     changes = direction_changes(points)
     rows = [{**row, **shares_of_the_states(point)} for row, point in zip(rows_of(points, QUANTITIES), points)]
-    return ({"": rows, "_changes": ([row for all in changes.values() for row in all], CHANGE_COLUMNS)},
+    return ({"": rows, "_changes": [row for all in changes.values() for row in all]},
             [f"R/r = {radius:g}, A/R = {amplitude:g}: "
              f"{'; '.join(map(words_of, all)) or 'no certain change of direction'}."
              for (radius, amplitude), all in changes.items()])

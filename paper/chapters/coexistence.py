@@ -9,11 +9,11 @@ import math
 import numpy as np
 import style
 import tables
-from chapters.lifetimes import lifetime_of
+from chapters.lifetimes import state_cells, state_words, window_means
+from cluster_axis import axis_of
 from combine import means
 from curves import with_error
 from dishes import Dish, dish_run, period_of
-from engine import swirl
 from figure import Figure
 from study import Point
 
@@ -23,28 +23,14 @@ PREPARED = 90  # periods before the first window
 # A ramp of A/R brings the cluster into a state, and then to the amplitude of the point.
 PREPARATIONS = {"round": (0.19, 0.19), "elongated": (0.27, 0.222, 0.222)}
 ELONGATED, ROUND = 1.25, 1.15  # the elongation above, below which a window is certainly in a state
-RATIOS = {24.0: (0.209, 0.2137), 34.4: (0.206, 0.209, 0.211, 0.2137, 0.217), 48.0: (0.195, 0.2, 0.205, 0.209),
-          60.0: (0.19, 0.195, 0.2, 0.205)}  # A/R
+RATIOS = {24.0: (0.2, 0.209, 0.2137), 28.0: (0.2, 0.2055), 34.4: (0.206, 0.209, 0.211, 0.2137, 0.217),
+          48.0: (0.195, 0.2, 0.205, 0.209), 60.0: (0.19, 0.195, 0.2, 0.205)}  # A/R
 BISTABLE = 0.2137  # where both states last long at R/r = 34.4
-BUDGET = ("wall_normal", "wall_tangential", "transfer")
+LOCKED = (24.0, 0.33)  # R/r and A/R of a cluster that is elongated in another way: its axis turns with the swirl
 
 
 def windows_of(parameters):
-    """Means of the rotation and the elongation in windows of the run after its preparation."""
-    series = swirl.run(series=True, measure="centre", **parameters).series
-    rows = np.array([series["rigid_by_time"], series["centre.elongation"]])[:, series["counted"] > 0]
-    count = rows.shape[1] // WINDOW
-    means = rows[:, :count * WINDOW].reshape(2, count, WINDOW).mean(axis=2)
-    return dict(zip(("rotation", "elongation"), np.round(means, 5).tolist()))
-
-
-def budget_of(parameters):
-    """Means of the torques on the orbital motion, of the shape and of the contacts, in a short run."""
-    series = swirl.run(series=True, measure=["centre", "torque", "contact_network"], **parameters).series
-    counted = series["counted"] > 0
-    columns = {"elongation": "centre.elongation", "rotation": "rigid_by_time", "wall": "contact_network.wall",
-               "largest": "contact_network.largest", **{name: f"torque.{name}" for name in BUDGET}}
-    return {name: float(np.mean(series[column][counted])) for name, column in columns.items()}
+    return window_means(parameters, {"rotation": "rigid_by_time", "elongation": "centre.elongation"}, WINDOW, ["centre"])
 
 
 def coexistence_run(radius, ratio, prepared, periods):
@@ -57,7 +43,7 @@ def coexistence_run(radius, ratio, prepared, periods):
 
 def coexistence_point(settings, radius, ratio, prepared, periods, seeds, work=windows_of):
     run = coexistence_run(radius, ratio, prepared, periods)
-    name = "coexistence" if work is windows_of else "budget"
+    name = "coexistence" if work is windows_of else "axis"
     return Point(settings, f"{name}_R{radius:g}_A{ratio:g}_{prepared}_{periods}periods", seeds, run, work=work,
                  cells={"container_radius": radius, "amplitude_ratio": ratio, "discs": run["discs"], "prepared": prepared})
 
@@ -67,8 +53,8 @@ def points(settings):
     ratios = {34.4: (BISTABLE,)} if settings.quick else RATIOS
     return ([coexistence_point(settings, radius, ratio, prepared, settings.periods(300, 2 * WINDOW), seeds)
              for radius, all_ratios in ratios.items() for ratio in all_ratios for prepared in PREPARATIONS] +
-            [coexistence_point(settings, 34.4, BISTABLE, prepared, settings.periods(60, 2), max(seeds // 2, 1), budget_of)
-             for prepared in PREPARATIONS])
+            [coexistence_point(settings, *dish, prepared, settings.periods(60, 3), seeds, axis_of)
+             for dish in ((34.4, BISTABLE), LOCKED) for prepared in PREPARATIONS])
 
 
 # --- Lifetimes ------------------------------------------------------------------------------------
@@ -80,12 +66,6 @@ def states_of(elongations):
         state = 1 if value > ELONGATED else 0 if value < ROUND else state
         states.append(state)
     return np.array(states)
-
-
-def visits(all_states, state):
-    """(periods in the state, exits) of several runs."""
-    inside = sum(int(np.sum(states == state)) for states in all_states)
-    return inside * WINDOW, sum(int(np.sum((states[:-1] == state) & (states[1:] == 1 - state))) for states in all_states)
 
 
 def rate_law(ratios, periods, exits):
@@ -124,48 +104,41 @@ def equal_lifetimes(rows):
 RATE_STEP = 0.01  # Ω
 
 
+def row_of(cells, prepared, runs):
+    """Both states at a dish and an amplitude. `prepared`: the state that each run was prepared in."""
+    states, rates = [states_of(run["elongation"]) for run in runs], [run["rotation"] for run in runs]
+    row = {**cells, "runs": len(runs)}
+    for k, name in enumerate(PREPARATIONS):
+        longest = np.concatenate([np.array(run["elongation"])[s == k] for run, s in zip(runs, states)])
+        row |= {f"prepared_{name}": sum(made == name and s[0] == k for made, s in zip(prepared, states)),
+                **state_cells(states, rates, k, WINDOW, f"_{name}"),
+                f"elongation_{name}": float(longest.mean()) if len(longest) else math.nan}
+    return row
+
+
 def table(points, settings):
-    rows, histogram, budget, findings = [], [], [], []
-    dishes = dict.fromkeys((p.cells["container_radius"], p.cells["amplitude_ratio"]) for p in points)
-    for radius, ratio in dishes:
-        here = [p for p in points if (p.cells["container_radius"], p.cells["amplitude_ratio"]) == (radius, ratio)]
-        runs = [(p.cells["prepared"], run) for p in here for run in p.runs if isinstance(run["elongation"], list)]
-        if not runs:
-            continue
-        states = [states_of(run["elongation"]) for _, run in runs]
-        row = {"container_radius": radius, "amplitude_ratio": ratio, "discs": here[0].cells["discs"], "runs": len(runs)}
-        for k, name in enumerate(("round", "elongated")):
-            periods, exits = visits(states, k)
-            rates = np.concatenate([np.array(run["rotation"])[s == k] for (_, run), s in zip(runs, states)])
-            longest = np.concatenate([np.array(run["elongation"])[s == k] for (_, run), s in zip(runs, states)])
-            prepared = [s[0] == k for (made, _), s in zip(runs, states) if made == name]
-            life, error = lifetime_of(periods, exits)
-            row |= {f"prepared_{name}": sum(prepared), f"periods_{name}": periods, f"exits_{name}": exits,
-                    f"lifetime_{name}": life if periods else math.nan, f"lifetime_{name}_error": error,
-                    f"rotation_{name}": rates.mean() if periods else math.nan,
-                    f"elongation_{name}": longest.mean() if periods else math.nan,
-                    f"ended_{name}": sum(s[-1] == k for s in states) / len(states)}
-        rows.append(row)
-        counts = np.unique(np.floor(np.concatenate([run["rotation"] for _, run in runs]) / RATE_STEP), return_counts=True)
-        histogram += [{"container_radius": radius, "amplitude_ratio": ratio, "rotation": (k + 0.5) * RATE_STEP,
-                       "windows": int(count)} for k, count in zip(*counts)]
-    for point in points:
-        runs = [run for run in point.runs if not isinstance(run["elongation"], list)]
-        if runs:
-            budget.append(point.cells | {"seeds": len(runs)} | means(runs, runs[0]))
+    rows, histogram, findings, dishes = [], [], [], {}
+    for p in (p for p in points if p.work is windows_of and p.runs):
+        dishes.setdefault(tuple(p.cells.items())[:-1], []).extend((p.cells["prepared"], run) for run in p.runs)
+    for cells, found in dishes.items():
+        prepared, runs = zip(*found)
+        rows.append(row_of(dict(cells), prepared, runs))
+        counts = np.unique(np.floor(np.concatenate([run["rotation"] for run in runs]) / RATE_STEP), return_counts=True)
+        histogram += [{**dict(cells), "rotation": (k + 0.5) * RATE_STEP, "windows": int(count)} for k, count in zip(*counts)]
+        findings.append(f"R/r = {rows[-1]['container_radius']:g}, A/R = {rows[-1]['amplitude_ratio']:g}, lifetime of the state "
+                        f"{'; '.join(state_words(name, rows[-1], f'_{name}') for name in PREPARATIONS)}.")
     for radius in dict.fromkeys(row["container_radius"] for row in rows):
-        here = [row for row in rows if row["container_radius"] == radius]
-        for row in here:
-            words = [f"{name} {'more than ' if not row[f'exits_{name}'] else ''}"
-                     f"{with_error(row[f'lifetime_{name}'], row[f'lifetime_{name}_error'])} periods ({row[f'exits_{name}']} "
-                     f"exits, ϖ/Ω = {row[f'rotation_{name}']:.3f})" if row[f"periods_{name}"] else f"{name}: not visited"
-                     for name in ("round", "elongated")]
-            findings.append(f"R/r = {radius:g}, A/R = {row['amplitude_ratio']:g}, lifetimes: {'; '.join(words)}.")
-        equal = equal_lifetimes(here)
+        equal = equal_lifetimes([row for row in rows if row["container_radius"] == radius])
         findings.append(f"R/r = {radius:g}: " + (
             f"lifetimes are equal at A/R = {with_error(*equal[0])}, {with_error(*equal[1])} periods." if equal else
             "no certain line of equal lifetimes."))
-    return {"": rows, "_histogram": histogram, "_budget": budget}, findings
+    axes = [{**p.cells, "seeds": len(p.runs), **means(p.runs, p.runs[0]), "share_elongated":
+             sum(run["elongation"] > ELONGATED for run in p.runs) / len(p.runs)}
+            for p in points if p.work is axis_of and p.runs]
+    return {"": rows, "_histogram": histogram, "_axis": axes}, findings + [
+        f"R/r = {row['container_radius']:g}, A/R = {row['amplitude_ratio']:g}, prepared {row['prepared']}: the longest axis turns "
+        f"with {with_error(row['axis_rate'], row['axis_rate_error'])} Ω, and scatters by {row['axis_scatter']:.0f}° in a period."
+        for row in axes]
 
 
 def draw(table):
@@ -174,8 +147,7 @@ def draw(table):
     left.set_yscale("log")
     for radius, here, look in style.groups(rows, "container_radius"):
         for name, filled in (("round", look["color"]), ("elongated", "white")):
-            known = [row for row in here if row[f"exits_{name}"]]
-            if known:
+            if known := [row for row in here if row[f"exits_{name}"]]:
                 style.curve(left, known, "amplitude_ratio", f"lifetime_{name}", markerfacecolor=filled, linewidth=0.7,
                             label=f"$R/r = {radius:g}$, {name}", **look)
             bounds = [row for row in here if not row[f"exits_{name}"] and row[f"periods_{name}"]]

@@ -8,7 +8,6 @@ the dish, which grow with the size without any criticality."""
 
 import math
 
-import chapter_drawings
 import numpy as np
 import style
 import tables
@@ -25,6 +24,7 @@ DECISIVE = ("slope", "correlation")
 LARGEST_ERROR = 0.5  # of an exponent; a larger error leaves open whether the quantity grows
 TWO_STATES = 1 / 3  # half of the cumulant of two equal states
 LAST_SIZES = 3  # in which growth must have ended in a crossover
+LAW = ("exponent", "exponent_error", "factor", "chi_square", "sizes")
 SLOWEST = 3.8317  # first zero of the Bessel function J_1
 
 
@@ -70,11 +70,6 @@ def verdict_on(laws, last, binder):
     return "undecided"
 
 
-def bound_of(change):
-    """The slope of the pancake line 1 − √(φ_c/φ), of clusters that roll without slip, where φ = φ_c."""
-    return 1 / (2 * change["packing_fraction"])
-
-
 def times_of(change):
     """The correlation time next to the times of sound across the diameter and of viscosity, that of the slowest swirl in a
     circle at rest, R²/(3.832² ν), in periods; the container has the speed 1."""
@@ -88,7 +83,7 @@ def times_of(change):
 
 def table(points, settings):
     found, _ = dish_tables(points, settings)
-    tables, findings = scaling_tables(found["_changes"][0])
+    tables, findings = scaling_tables(found["_changes"])
     return {**found, **tables}, findings
 
 
@@ -96,27 +91,22 @@ def scaling_tables(all_changes):
     transitions, rows, findings = {}, [], []
     for change in all_changes:
         transitions.setdefault((change["amplitude_ratio"], change["kind"]), []).append(change)
-    for (amplitude, kind), changes in transitions.items():
+    for (amplitude, kind), changes in transitions.items():  # pancake line: 1 − √(φ_c/φ), with the slope 1/2φ at φ_c
         changes.sort(key=lambda change: change["container_radius"])
         laws, last = laws_of(changes), laws_of(changes[-LAST_SIZES:])
         binder = max(((c["binder"], c["binder_error"]) for c in changes if math.isfinite(c["binder"])),
                      default=(math.nan, math.nan))
         verdict = verdict_on(laws, last, binder)
-        rows += [dict(zip(SCALING_COLUMNS, (amplitude, kind, name, *law, *last[name][:2], verdict)))
+        rows += [{"amplitude_ratio": amplitude, "kind": kind, "quantity": name, **dict(zip(LAW, law)),
+                  "exponent_last": last[name][0], "exponent_last_error": last[name][1], "verdict": verdict}
                  for name, law in laws.items()]
         exponents = ", ".join(f"{words} {with_error(*laws[name][:2])}" for name, words in QUANTITIES.items())
         findings.append(f"A/R = {amplitude:g}, {kind} ({len(changes)} sizes): {verdict}; exponents of R/r: {exponents}, "
                         f"of the slope in the largest {len(changes[-LAST_SIZES:])} {with_error(*last['slope'][:2])}; largest slope "
                         f"{with_error(abs(changes[-1]['slope']), changes[-1]['slope_error'])}, pancake line "
-                        f"{bound_of(changes[-1]):.2f}; largest Binder cumulant {with_error(*binder)}.")
+                        f"{1 / (2 * changes[-1]['packing_fraction']):.2f}; largest Binder cumulant {with_error(*binder)}.")
     times = [times_of(change) for change in all_changes if change["kind"] == "free" and change["granular"] > 0]
-    return {"_scaling": (rows, SCALING_COLUMNS), "_times": (times, TIME_COLUMNS)}, findings
-
-
-SCALING_COLUMNS = """amplitude_ratio kind quantity exponent exponent_error factor chi_square sizes exponent_last
-    exponent_last_error verdict""".split()
-TIME_COLUMNS = """container_radius amplitude_ratio kind packing_fraction granular granular_error correlation
-    correlation_error sound viscosity""".split()
+    return {"_scaling": rows, "_times": times}, findings
 
 
 # --- Drawing ------------------------------------------------------------------------------------
@@ -125,11 +115,6 @@ LABELS = (("slope", r"slope $|d(\varpi/\Omega)/d\varphi|$"),
               ("susceptibility", r"$N\,\mathrm{var}(\varpi/\Omega)\,\tau$"),
               ("correlation", r"correlation time $\tau$ (periods)"))
 KINDS = {"free": "free", "wall": "at the wall", "elongated": "elongated", "back": "back to rotation"}
-
-
-def against_packing(axes, rows, quantity, label):
-    chapter_drawings.curves(axes, rows, "container_radius", quantity, "$R/r$")
-    axes.set(xlabel=chapter_drawings.PACKING, ylabel=label)
 
 
 def against_size(axes, changes, scaling, quantity, label):
@@ -152,19 +137,11 @@ def against_size(axes, changes, scaling, quantity, label):
 
 
 def draw(table):
-    rows = tables.select(style.read(table), amplitude_ratio=0.22)
     changes, scaling = tables.companion(table, "_changes"), tables.companion(table, "_scaling")
-    drawing, axes = style.figure(style.PAGE, 4.9, ncols=3, nrows=2)
-    for upper in axes[0][:2]:
-        upper.set_yscale("log")
-    against_packing(axes[0][0], rows, "susceptibility", LABELS[1][1])
-    against_packing(axes[0][1], rows, "correlation", LABELS[2][1])
-    against_packing(axes[0][2], rows, "binder", "Binder cumulant")
-    axes[0][2].axhline(2 / 3, color=style.GREY, linewidth=0.6, linestyle=":")
-    axes[0][2].axhline(0, color=style.GREY, linewidth=0.6)
-    for lower, (quantity, label) in zip(axes[1], LABELS):
-        against_size(lower, changes, scaling, quantity, label)
-    style.legend_of_all(drawing, [mark for row in axes for mark in row[0].get_legend_handles_labels()[0]], ncol=5)
+    drawing, axes = style.figure(style.PAGE, 2.6, ncols=len(LABELS))
+    for panel, (quantity, label) in zip(axes, LABELS):
+        against_size(panel, changes, scaling, quantity, label)
+    style.legend_of_all(drawing, axes[0], ncol=5)
     style.save(drawing, table)
 
 

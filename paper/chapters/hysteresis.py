@@ -50,10 +50,7 @@ def points(settings):
 
 def table(points, settings):
     rows, findings = [], {}
-    for point in points:
-        cells, runs = point.cells, point.runs
-        if not runs:
-            continue
+    for cells, runs in ((p.cells, p.runs) for p in points if p.runs):
         up, down = (np.array([run[name] for run in runs]).T for name in ("up", "down"))
         # The difference within each run is more precise than that of the means, if both branches vary with the seed.
         means = [over_seeds(values) for values in (up, down, down - up)]

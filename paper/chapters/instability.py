@@ -27,13 +27,9 @@ def layers(settings):
     return LAYERS if settings.quick else sorted(LAYERS + MORE_LAYERS)
 
 
-def layer_run(fraction, amplitude):
-    return {**SPHERES_OF_CHAPTERS, "discs": int(fraction * RADIUS * RADIUS + 0.5), "container_radius": RADIUS,
-            "amplitude": amplitude, "period": resolved(SPHERES_OF_CHAPTERS)["period"]}
-
-
 def layer_point(settings, name, fraction, amplitude, work):
-    run = layer_run(fraction, amplitude) | lengths(settings, (20, 2), (24, 8))
+    run = {**SPHERES_OF_CHAPTERS, "discs": int(fraction * RADIUS * RADIUS + 0.5), "container_radius": RADIUS,
+           "amplitude": amplitude, "period": resolved(SPHERES_OF_CHAPTERS)["period"], **lengths(settings, (20, 2), (24, 8))}
     return Point(settings, f"{name}_N{run['discs']}_A{text(amplitude)}_{length_of(run)}", settings.chapter_seeds, run,
                  work=work, cells={"packing_fraction": fraction, "discs": run["discs"], "amplitude": amplitude})
 
@@ -62,9 +58,7 @@ def table(points, settings):
     rows, thresholds, findings = [], [], []
     for fraction in layers(settings):
         excess = []
-        for point in points:
-            if point.cells["packing_fraction"] != fraction:
-                continue
+        for point in (p for p in points if p.cells["packing_fraction"] == fraction):
             row = {**point.cells, **means(point.runs, QUANTITIES), "seeds": len(point.runs)}
             rows.append(row)
             random = distance_of_random_points(row["discs"])

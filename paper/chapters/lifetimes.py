@@ -16,64 +16,83 @@ PLACES = (("few", "N = 5, μ = 0.1", ("gas", "row that rolls along the wall"), 5
           ("dense", "N = 52, μ = 1", ("crystal", "rings"), 52, 1.0, -0.065, 600))
 
 
-def visits(parameters):
-    """Periods and exits of both states, ϖ in each, and the state in which the run ends."""
-    series = swirl.run(series=True, **{name: value for name, value in parameters.items() if name != "threshold"}).series
-    windows = len(series["spin"]) // WINDOW
-    spins, rates = (series[name][:windows * WINDOW].reshape(windows, WINDOW).mean(axis=1)
-                    for name in ("spin", "rigid_by_time"))
-    states = np.array(spins < parameters["threshold"], dtype=int)
-    left = states[:-1][states[1:] != states[:-1]]
-    return {"periods": [int(np.sum(states == k)) * WINDOW for k in (0, 1)],
-            "exits": [int(np.sum(left == k)) for k in (0, 1)],
-            "sums": [float(np.sum(rates[states == k])) * WINDOW for k in (0, 1)], "last": int(states[-1])}
+# --- Two states, also of other chapters ---------------------------------------------------------
+
+def window_means(parameters, columns, window, measure=()):
+    """{name: means in windows of the run after its warm-up} of columns {name: that of the series}."""
+    series = swirl.run(series=True, measure=list(measure), **parameters).series
+    rows = np.array([series[column] for column in columns.values()])[:, series["counted"] > 0]
+    count = rows.shape[1] // window
+    means = rows[:, :count * window].reshape(len(columns), count, window).mean(axis=2)
+    return dict(zip(columns, np.round(means, 5).tolist()))
 
 
-def points(settings):
-    return [Point(settings, f"lifetimes_{name}", settings.chapter_seeds,
-                  {"discs": discs, "mu": mu, "threshold": threshold, "warmup": 0,
-                   "periods": settings.periods(periods, 2 * WINDOW)}, work=visits)
-            for name, _, _, discs, mu, threshold, periods in PLACES]
+def visits(all_states, state, window):
+    """(periods in the state, exits) of several runs."""
+    inside = sum(int(np.sum(states == state)) for states in all_states)
+    return inside * window, sum(int(np.sum((states[:-1] == state) & (states[1:] == 1 - state))) for states in all_states)
 
 
 def lifetime_of(periods, exits):
     """The mean lifetime of a state with an exponential distribution: the time in the state over the number of exits,
     because the end of a run may cut a visit short. Without an exit it is the lower bound of 95 %, without an error."""
     if not exits:
-        return periods / 3, math.nan
+        return periods / 3 if periods else math.nan, math.nan
     return periods / exits, periods / exits / math.sqrt(exits)
+
+
+def state_cells(all_states, rates, state, window, ending=""):
+    """Columns of a state: its time, exits and lifetime, ϖ/Ω in it, and the share of the runs that end in it."""
+    periods, exits = visits(all_states, state, window)
+    life, error = lifetime_of(periods, exits)
+    inside = np.concatenate([np.array(rate)[states == state] for rate, states in zip(rates, all_states)])
+    return {f"periods{ending}": periods, f"exits{ending}": exits, f"lifetime{ending}": life,
+            f"lifetime{ending}_error": error, f"rotation{ending}": float(inside.mean()) if periods else math.nan,
+            f"share_ended{ending}": sum(states[-1] == state for states in all_states) / len(all_states)}
+
+
+def state_words(name, row, ending=""):
+    if not row[f"periods{ending}"]:
+        return f"{name}: not visited"
+    life = with_error(row[f"lifetime{ending}"], row[f"lifetime{ending}_error"])
+    return (f"{name}: {'' if row[f'exits{ending}'] else 'more than '}{life} periods, {row[f'exits{ending}']} exits, ϖ/Ω = "
+            f"{row[f'rotation{ending}']:.3f}, {100 * row[f'share_ended{ending}']:.0f} % of the runs end in it")
+
+
+# --- This chapter ---------------------------------------------------------------------------------
+
+def windows_of(parameters):
+    return window_means({name: value for name, value in parameters.items() if name != "threshold"},
+                        {"spin": "spin", "rotation": "rigid_by_time"}, WINDOW)
+
+
+def points(settings):
+    return [Point(settings, f"lifetimes_{name}", settings.chapter_seeds,
+                  {"discs": discs, "mu": mu, "threshold": threshold, "warmup": 0,
+                   "periods": settings.periods(periods, 2 * WINDOW)}, work=windows_of)
+            for name, _, _, discs, mu, threshold, periods in PLACES]
 
 
 def table(points, settings):
     rows, findings = [], []
-    for point, (_, place, states, discs, mu, _, _) in zip(points, PLACES):
-        words = []
-        for k, state in enumerate(states):
-            periods, exits, total = (sum(run[name][k] for run in point.runs) for name in ("periods", "exits", "sums"))
-            lifetime, error = lifetime_of(periods, exits)
-            rotation = total / periods if periods else math.nan
-            ended = sum(run["last"] == k for run in point.runs)
-            rows.append({"point": place, "discs": discs, "mu": mu, "state": state, "periods": periods, "exits": exits,
-                         "lifetime": lifetime, "lifetime_error": error, "rotation": rotation, "seeds": len(point.runs),
-                         "share_ended": ended / len(point.runs) if point.runs else None})
-            lasts = f"{with_error(lifetime, error)} periods" if exits else f"more than {lifetime:.0f} periods"
-            words.append(f"{state}: {lasts}, ϖ/Ω = {rotation:.3f}, {ended} of {len(point.runs)} seeds end in it"
-                         if periods else f"{state}: not visited")
-        findings.append(f"{place}: lifetime of the state {'; '.join(words)}.")
+    for point, (_, place, states, discs, mu, threshold, _) in zip(points, PLACES):
+        if not point.runs:
+            continue
+        found = [(np.array(run["spin"]) < threshold).astype(int) for run in point.runs]
+        here = [{"point": place, "discs": discs, "mu": mu, "state": state, "seeds": len(found),
+                 **state_cells(found, [run["rotation"] for run in point.runs], k, WINDOW)} for k, state in enumerate(states)]
+        rows += here
+        findings.append(f"{place}: lifetime of the state {'; '.join(state_words(row['state'], row) for row in here)}.")
     return {"": rows}, findings
 
 
 def draw(table):
     rows = [row for row in style.read(table) if row["periods"] > 0]
     drawing, axes = style.figure(height=0.5 + 0.4 * len(rows))
-    for k, row in enumerate(rows):
-        color = style.CYCLE[0 if row["exits"] else 1]
-        if row["exits"]:
-            axes.errorbar(row["lifetime"], k, xerr=row["lifetime_error"], fmt="o", color=color, elinewidth=0.9)
-        else:
-            axes.plot(row["lifetime"], k, ">", color=color, markersize=5)
-    axes.plot([], [], "o", color=style.CYCLE[0], label="mean lifetime")
-    axes.plot([], [], ">", color=style.CYCLE[1], label="no exit: lower bound, 95 %")
+    for marker, color, words in (("o", style.CYCLE[0], "mean lifetime"), (">", style.CYCLE[1], "no exit: lower bound, 95 %")):
+        here = [(row["lifetime"], k, row["lifetime_error"]) for k, row in enumerate(rows) if (marker == "o") == (row["exits"] > 0)]
+        x, y, error = zip(*here) if here else ((), (), ())
+        axes.errorbar(x, y, xerr=np.nan_to_num(error), fmt=marker, color=color, elinewidth=0.9, label=words)
     axes.set_xscale("log")
     axes.set_yticks(range(len(rows)), [f"{row['point']}:\n{row['state']}" for row in rows])
     axes.set(ylim=(len(rows) - 0.5, -0.5), xlabel="lifetime (periods)")

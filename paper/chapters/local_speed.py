@@ -60,14 +60,11 @@ def slope_of(sums):
 
 def table(points, settings):
     rows, slopes, findings = [], [], []
-    for point in points:
+    for point in (p for p in points if p.runs):
         sums = [np.array(run["sums"]) for run in point.runs]
-        if not sums:
-            continue
         for k in np.flatnonzero(np.min([one[1] for one in sums], axis=0) >= LEAST):
-            row = {**point.cells, "local_packing": k / REACH ** 2}
-            row["speed"], row["speed_error"] = over_seeds([one[0, k] / one[1, k] for one in sums])[:2]
-            rows.append(row)
+            speeds = dict(zip(("speed", "speed_error"), over_seeds([one[0, k] / one[1, k] for one in sums])))
+            rows.append({**point.cells, "local_packing": k / REACH ** 2, **speeds})
         slope, error = over_seeds([slope_of(one) for one in sums])[:2]
         slopes.append({**point.cells, "slope": slope, "slope_error": error, "seeds": len(sums)})
         sign = "faster" if slope > CERTAIN * error else "slower" if slope < -CERTAIN * error else "not certainly faster"

@@ -43,8 +43,7 @@ def table(points, settings):
         # The parabola uses three points.
         found.append((words, coefficient, (1 - coefficient * coefficient) / math.sqrt(len(points) - 4)))
     found.sort(key=lambda one: -abs(one[1]))
-    measured = [quantity.replace(".all", ".all=order") for quantity in EXPLANATIONS]
-    return ({"": rows_of(points, measured),
+    return ({"": rows_of(points, [quantity.replace(".all", ".all=order") for quantity in EXPLANATIONS]),
              "_correlations": [dict(zip(("quantity", "correlation", "correlation_error"), one)) for one in found]},
             [f"Correlation with ϖ over N = {points[0].cells['discs']} to {points[-1].cells['discs']}, without a parabola in "
              f"N: {', '.join(f'{words} {with_error(*numbers)}' for words, *numbers in found)}."])

@@ -49,13 +49,9 @@ def draw_size(table):
     chapter_drawings.dishes(table, "container_radius", r"container radius $R/r$", "$R/r$")
 
 
-def draw_amplitude(table):
-    chapter_drawings.dishes(table, "amplitude_ratio", r"amplitude $A/R$", "$A/R$")
-
-
 FIGURES = [Figure("size", "chapters", "chapter: the direction of rotation in containers of different sizes", size_points,
                   dish_tables, draw_size),
            Figure("amplitude", "chapters", "chapter: the direction of rotation for different amplitudes", amplitude_points,
-                  dish_tables, draw_amplitude),
+                  dish_tables, lambda table: chapter_drawings.dishes(table, "amplitude_ratio", r"amplitude $A/R$", "$A/R$")),
            Figure("spheres_size", "chapters", "chapter: spheres in containers of different sizes", sphere_points,
                   dish_tables, draw_size)]

@@ -7,13 +7,15 @@ import types
 
 import numpy as np
 import pytest
+import swirl
 
 sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
+import cluster_axis  # noqa: E402
 import curves  # noqa: E402
 from chapters import coexistence, cooling, gear_order, lifetimes, local_speed  # noqa: E402
 from chapters.critical import power_law, scaling_tables, verdict_on  # noqa: E402
 from coarse_zero import last_zero, zero_of_curve  # noqa: E402
-from dishes import fluctuations, kind_of, shares_of_the_states  # noqa: E402
+from dishes import direction_changes, fluctuations, kind_of, shares_of_the_states  # noqa: E402
 from hard_discs import kinematic_viscosity, sound_speed  # noqa: E402
 from jackknife import jackknife  # noqa: E402
 from micropolar import RELATIONS, Relation, fit_relation  # noqa: E402
@@ -186,7 +188,7 @@ def change_of(radius, slope, **more):
     # A correlation time that is flat rules out that a slope which grows without an end is a crossover.
     (lambda R: R / 20, "undecided"), (lambda R: 1.06 * (1 - math.exp(-(R / 12) ** 2)), "crossover")])
 def test_a_slope_that_saturates_is_told_from_one_that_grows(slopes, verdict):
-    rows = scaling_tables([change_of(R, slopes(R)) for R in (8.6, 12.0, 24.0, 34.4, 48.0)])[0]["_scaling"][0]
+    rows = scaling_tables([change_of(R, slopes(R)) for R in (8.6, 12.0, 24.0, 34.4, 48.0)])[0]["_scaling"]
     assert {row["verdict"] for row in rows} == {verdict}
 
 
@@ -201,9 +203,9 @@ def test_sound_and_viscosity_of_a_dilute_gas_are_those_of_kinetic_theory():
     # c² = 2T (two degrees of freedom), η = η_0; at φ = 10⁻⁶ density corrections are 10⁻⁵ and less.
     assert sound_speed(1e-6, 3.0) == pytest.approx(math.sqrt(6), rel=1e-5)
     assert kinematic_viscosity(1e-6, 3.0) * 1e-6 / math.pi == pytest.approx(1.022 * math.sqrt(3 / math.pi) / 4, rel=1e-5)
-    (row,) = scaling_tables([change_of(34.4, 1.0, kind="free")])[0]["_times"][0]
+    (row,) = scaling_tables([change_of(34.4, 1.0, kind="free")])[0]["_times"]
     # Sound crosses the dish in the same number of periods in every dish, viscosity takes longer in proportion to R.
-    (half,) = scaling_tables([change_of(17.2, 1.0, kind="free")])[0]["_times"][0]
+    (half,) = scaling_tables([change_of(17.2, 1.0, kind="free")])[0]["_times"]
     assert (row["sound"], row["viscosity"]) == pytest.approx((half["sound"], 2 * half["viscosity"]), rel=1e-9)
 
 
@@ -222,10 +224,26 @@ def test_seeds_in_two_states_are_counted_where_they_disagree():
     assert shares_of_the_states(point_of([0.1, -0.1, -0.2, 0.01], True)) == {"share_rotating": 0.25,
                                                                              "share_counterrotating": 0.5}
     assert set(shares_of_the_states(point_of([0.1, -0.1], False)).values()) == {None}
-    runs = [{"periods": [40, 20], "exits": [1, 0], "sums": [4.0, -2.0], "last": last} for last in (1, 1, 0)]
+    # Spins above and below the threshold of −5: two runs leave the gas after 40 periods, one stays in it.
+    runs = [{"spin": spins, "rotation": [0.1 if spin > -5 else 0.9 for spin in spins]}
+            for spins in ([0, 0, -9], [0, 0, -9], [0, 0, 0])]
     rows = lifetimes.table([types.SimpleNamespace(runs=runs)], None)[0][""]
     assert [row["share_ended"] for row in rows] == [1 / 3, 2 / 3]
-    assert [(row["lifetime"], row["rotation"]) for row in rows] == [(40, 0.1), (20, -0.1)]
+    assert [(row["lifetime"], row["rotation"]) for row in rows] == [(70, pytest.approx(0.1)), (40 / 3, 0.9)]
+
+
+def test_a_change_between_long_lived_states_has_the_share_of_the_seeds_in_each():
+    known = {"mean": 0.1, "error": 0.01}
+    measured = {family: dict.fromkeys(names.split(), known) for family, names in (
+        ("contact_network", "wall largest"), ("centre", "elongation distance"), ("slip", "cluster_perimeter"),
+        ("fluctuations", "susceptibility correlation binder"), ("temperature", "granular"))}
+    points = [point_of([rate, rate, -0.1, rate], disagree) for rate, disagree in ((0.1, True), (-0.2, False))]
+    for point, mean, discs in zip(points, (0.05, -0.2), (300, 320)):
+        point.cells = {"container_radius": 34.4, "amplitude_ratio": 0.22, "discs": discs}
+        point.result |= {"measured": measured, "rotation": {"rigid_by_time": {"mean": mean, "error": 0.01}}}
+    ((row,),) = direction_changes(points).values()
+    # Where the seeds agree, the mean is that of a state, and there are no shares.
+    assert (row["share_rotating_before"], row["share_rotating_after"]) == (0.75, None)
 
 
 def test_the_sign_changes_of_a_curve_are_listed_in_order():
@@ -267,6 +285,23 @@ def test_without_gear_order_nothing_is_lost():
     assert gear_order.verdict(gear_order.timing(NUMBERS, order, slip)) == "no gear order to lose"
 
 
+# --- The axis of a cluster ----------------------------------------------------------------------
+
+SMALL = dict(discs=30, container_radius=8.6, period=11.866071, ramp="amplitude=1.892:1.892@0..4", warmup=4, periods=12, seed=3)
+
+
+def test_torques_and_moments_of_an_axis_are_those_of_all_events():
+    found = cluster_axis.axis_of(SMALL)
+    torques = swirl.run(measure=["torque", "centre"], **SMALL).measured
+    # The centre of mass is interpolated between 30 samples of a period, and a step begins before the first whole period.
+    for name in cluster_axis.TORQUES:
+        assert found[name] == pytest.approx(torques["torque"][name].mean, rel=0.02)
+    assert found["elongation"] == pytest.approx(torques["centre"]["elongation"].mean, rel=0.01)
+    # The moments of both axes add up to the change of Σ x·u: nothing, within the fluctuation at both ends.
+    parts = {part: found[f"{part}_along"] + found[f"{part}_across"] for part in ("flow", "collisions", "wall")}
+    assert parts["flow"] > 0 and parts["collisions"] > 0 and abs(sum(parts.values())) < 0.05 * abs(parts["wall"])
+
+
 # --- Two states ---------------------------------------------------------------------------------
 
 def runs_of_two_states(lifetimes, count, windows=60):
@@ -285,15 +320,15 @@ def test_lifetimes_of_cut_runs_are_recovered():
     runs = runs_of_two_states((200, 600), 64)
     states = [coexistence.states_of(run["elongation"]) for run in runs]
     for k, exact in enumerate((200, 600)):
-        value, error = coexistence.lifetime_of(*coexistence.visits(states, k))
+        value, error = lifetimes.lifetime_of(*lifetimes.visits(states, k, coexistence.WINDOW))
         assert abs(value - exact) < 4 * error and error < 0.25 * value
     # Most runs are shorter than the longer lifetime: the mean over completed visits alone would be too short by half.
-    assert coexistence.lifetime_of(300, 0)[0] == 100
+    assert lifetimes.lifetime_of(300, 0)[0] == 100
 
 
 def test_a_noisy_state_is_not_left_at_the_middle():
     assert list(coexistence.states_of([1.2, 1.06, 1.2, 1.1, 1.2, 1.3, 1.2, 1.24])) == [-1, 0, 0, 0, 0, 1, 1, 1]
-    assert coexistence.visits([np.array([-1, 0, 0, 1, 1])], 0) == (2 * coexistence.WINDOW, 1)
+    assert lifetimes.visits([np.array([-1, 0, 0, 1, 1])], 0, coexistence.WINDOW) == (2 * coexistence.WINDOW, 1)
 
 
 def test_equal_lifetimes_follow_from_exits_at_two_amplitudes():
