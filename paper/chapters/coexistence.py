@@ -14,11 +14,13 @@ from cluster_axis import axis_of
 from combine import means
 from curves import with_error
 from dishes import Dish, dish_run, period_of
+from engine import swirl
 from figure import Figure
 from study import Point
 
 FRACTION = 0.32
 WINDOW = 5  # periods
+RATE_STEP = 0.01  # Ω, of the distribution
 PREPARED = 90  # periods before the first window
 # A ramp of A/R brings the cluster into a state, and then to the amplitude of the point.
 PREPARATIONS = {"round": (0.19, 0.19), "elongated": (0.27, 0.222, 0.222)}
@@ -101,16 +103,14 @@ def equal_lifetimes(rows):
             (lifetime, lifetime * math.sqrt(direction @ laws[0][1] @ direction)))
 
 
-RATE_STEP = 0.01  # Ω
-
-
-def row_of(cells, prepared, runs):
-    """Both states at a dish and an amplitude. `prepared`: the state that each run was prepared in."""
+def row_of(cells, runs):
+    """Both states at a dish and an amplitude; the correlation time of the elongation, in periods, and its largest window."""
     states, rates = [states_of(run["elongation"]) for run in runs], [run["rotation"] for run in runs]
-    row = {**cells, "runs": len(runs)}
+    row = {**cells, "runs": len(runs), "largest_elongation": max(max(run["elongation"]) for run in runs), **means(
+        [{"correlation": WINDOW * swirl._engine.estimate_of_series(run["elongation"])[3]} for run in runs], ["correlation"])}
     for k, name in enumerate(PREPARATIONS):
         longest = np.concatenate([np.array(run["elongation"])[s == k] for run, s in zip(runs, states)])
-        row |= {f"prepared_{name}": sum(made == name and s[0] == k for made, s in zip(prepared, states)),
+        row |= {f"prepared_{name}": sum(run["prepared"] == name and s[0] == k for run, s in zip(runs, states)),
                 **state_cells(states, rates, k, WINDOW, f"_{name}"),
                 f"elongation_{name}": float(longest.mean()) if len(longest) else math.nan}
     return row
@@ -119,10 +119,9 @@ def row_of(cells, prepared, runs):
 def table(points, settings):
     rows, histogram, findings, dishes = [], [], [], {}
     for p in (p for p in points if p.work is windows_of and p.runs):
-        dishes.setdefault(tuple(p.cells.items())[:-1], []).extend((p.cells["prepared"], run) for run in p.runs)
-    for cells, found in dishes.items():
-        prepared, runs = zip(*found)
-        rows.append(row_of(dict(cells), prepared, runs))
+        dishes.setdefault(tuple(p.cells.items())[:-1], []).extend({**run, "prepared": p.cells["prepared"]} for run in p.runs)
+    for cells, runs in dishes.items():
+        rows.append(row_of(dict(cells), runs))
         counts = np.unique(np.floor(np.concatenate([run["rotation"] for run in runs]) / RATE_STEP), return_counts=True)
         histogram += [{**dict(cells), "rotation": (k + 0.5) * RATE_STEP, "windows": int(count)} for k, count in zip(*counts)]
         findings.append(f"R/r = {rows[-1]['container_radius']:g}, A/R = {rows[-1]['amplitude_ratio']:g}, lifetime of the state "
@@ -149,7 +148,7 @@ def draw(table):
         for name, filled in (("round", look["color"]), ("elongated", "white")):
             if known := [row for row in here if row[f"exits_{name}"]]:
                 style.curve(left, known, "amplitude_ratio", f"lifetime_{name}", markerfacecolor=filled, linewidth=0.7,
-                            label=f"$R/r = {radius:g}$, {name}", **look)
+                            label=f"$R/r = {radius:g}$, {name}", **look | {"marker": "o"})
             bounds = [row for row in here if not row[f"exits_{name}"] and row[f"periods_{name}"]]
             left.plot(style.column(bounds, "amplitude_ratio"), style.column(bounds, f"lifetime_{name}"), "^",
                       color=look["color"], markerfacecolor=filled)
@@ -159,6 +158,7 @@ def draw(table):
         right.step(style.column(found, "rotation"), [row["windows"] / total for row in found], where="mid",
                    color=look["color"], label=f"$R/r = {radius:g}$, $A/R = {ratio:g}$")
     left.set(xlabel="amplitude $A/R$", ylabel="lifetime (periods)")
+    left.locator_params(axis="x", nbins=5)
     right.set(xlabel=r"rotation $\varpi/\Omega$ in five periods", ylabel="probability density")
     for axes in (left, right):
         style.legend(axes, ncol=1)
