@@ -285,6 +285,22 @@ def test_without_gear_order_nothing_is_lost():
     assert gear_order.verdict(gear_order.timing(NUMBERS, order, slip)) == "no gear order to lose"
 
 
+def test_contacts_have_the_amplitude_and_the_friction_of_their_setting():
+    measured = {"frustration": {name: {"mean": 0.1, "error": 0.01}
+                                for name in ("chain_correlation", "triangle_correlation", "triangles")},
+                "slip": {"resident": {"mean": 0.9, "error": 0.01}}}
+
+    def row(parameters, cells):
+        return gear_order.row_of(types.SimpleNamespace(parameters=parameters, cells=cells | {"discs": 24}, runs=[{}] * 8,
+                                                       result={"measured": measured}))
+    wide = row({"amplitude": 0.44 * 8.6}, {"mu": 1})
+    half = row({"preset": "experiment-half"}, {"setting": "half", "mu_disc": 0.33})
+    columns = ("particles", "mu", "amplitude_ratio", "seeds", "triangles", "slip")
+    assert [wide[name] for name in columns] == ["discs", 1, 0.44, 8, 0.1, 0.9]
+    # The radius of the path is 5.75 mm, that of the dish 25.5 mm.
+    assert [half[name] for name in columns[:3]] == ["spheres", 0.33, round(5.75 / 25.5, 4)]
+
+
 # --- The axis of a cluster ----------------------------------------------------------------------
 
 SMALL = dict(discs=30, container_radius=8.6, period=11.866071, ramp="amplitude=1.892:1.892@0..4", warmup=4, periods=12, seed=3)
