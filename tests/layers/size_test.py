@@ -17,8 +17,10 @@ LINES = {
     # a loss for users. Tables of points for sweeps (360 lines), initial states (170) and errors of short
     # recordings (60) came later.
     "engine": (["src"], [], 46_930),
-    # Goal 8,000. The rest is the chapters on published work and the judge of 62 claims.
-    "paper": (["paper"], [], 10_400),
+    # Goal 8,000. Without unused or repeated code, the rest is the chapters on published work and what only they use
+    # (2,500 lines), 22 figures (1,600), the judge of 62 claims (2,100), drawings of other commands (600), and the
+    # comparison with the authors' files (300).
+    "paper": (["paper"], [], 10_250),
     # Goal 9,000. No other part can go without a changed verdict or a claimed error that fails (bench/NOTES_tracking.md):
     # the rest is detection, links, cameras and lenses, errors, paths moved by hand, comparisons and synthetic videos.
     "track": (["track"], ["track/tests"], 15_250),
