@@ -10,6 +10,8 @@ import {chromium} from "playwright-core";
 
 const [file, executablePath, wantedHash, image, folder] = process.argv.slice(2);
 const all = process.argv.includes("--all");
+/** All cases with --all, else the first ones. */
+const some = (cases, count) => (all ? cases : cases.slice(0, count));
 const address = pathToFileURL(file).href;
 const args = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
               "--disable-background-networking", "--disable-component-update", "--disable-sync"];
@@ -190,15 +192,10 @@ const [copied, shown] = await page.evaluate(() => {
     return [copied, document.getElementById("command").textContent];
 });
 assert.equal(copied, shown);
-// Values with line breaks or invisible characters are errors: the command would not be what it seems.
-for (const [query, code] of [["?discs=5%0Atouch%20x%20%23", "000A"], ["?discs=5%0Aseed=7", "000A"],
-                             ["?seed=1&mu=0.5%0D", "000D"], ["?discs=5%00", "0000"], ["?seed=3%1B[2J", "001B"],
-                             ["?path=circle%E2%80%AE", "202E"], ["?discs=5%E2%80%A8", "2028"]]) {
-    await open(query);
-    assert.match(await text("error"), new RegExp(`control character U\\+${code},`), query);
-    assert.deepEqual([await text("command"), await page.isDisabled("#copy"), await text("event-count")],
-                     ["", true, ""], query);
-}
+// Values with line breaks or invisible characters are errors: the command would not be what it seems (more in panels.mjs).
+await open("?discs=5%0Atouch%20x%20%23");
+assert.match(await text("error"), /control character U\+000A,/);
+assert.deepEqual([await text("command"), await page.isDisabled("#copy"), await text("event-count")], ["", true, ""]);
 // Names that the page does not know, such as those that other sites add to a link, are ignored and forgotten.
 await open("?discs=12&fbclid=IwAR0x&utm_source=a%26b&gclid=&seed=2");
 await page.waitForSelector('canvas[aria-label^="12 discs"]');
@@ -287,12 +284,12 @@ await open("?mu=0.5&beside=5&view=both&color=spin&pace=3&trails=1");
 assert.equal(await page.locator("#views canvas:visible").count(), 3);
 assert.deepEqual(await page.$eval("#transport", (bar) => [bar.querySelector("#choose-view").value, bar.querySelector("#choose-coloring").value,
     bar.querySelector("#trails").ariaPressed, Math.round(10 ** bar.querySelector("#speed").value)]), ["both", "spin", "true", 3]);
-for (const wrong of ["x", "0", "-3", "1e9", ""]) {
+for (const wrong of some(["-3", "", "x", "0", "1e9"], 2)) {
     await open(`?discs=9&beside=${wrong}`);
     await page.waitForFunction(() => /beside=.* from 1 to 300/.test(document.getElementById("error").textContent));
     await page.waitForSelector('canvas[aria-label^="9 discs"]'); // the simulation runs
 }
-for (const wrong of ["pace=0", "pace=11", "pace=x", "view=top", "view=toString", "color=", "strobe=yes", "trails=2"]) {
+for (const wrong of some(["pace=11", "view=toString", "strobe=yes", "pace=0", "pace=x", "view=top", "color=", "trails=2"], 3)) {
     await open(`?discs=9&${wrong}`);
     await page.waitForFunction((given) => document.getElementById("error").textContent.startsWith(`The address contains ${given}, but it must be`), wrong);
     await page.waitForSelector('canvas[aria-label^="9 discs"]');

@@ -106,6 +106,11 @@ try {
             rejected.set(message.replace(/'.*?'/g, "").replace(/[-\d.e+]+/g, "#"), message);
         }
     assert.ok(rejected.size > 40, `only ${rejected.size} messages`);
+    // A line break or an invisible character in a value could add or hide a part of the command.
+    for (const [character, code] of [["\n", "000A"], ["\r", "000D"], ["\0", "0000"], ["\x1b[2J", "001B"], ["\u202e", "202E"],
+                                     ["\u2028", "2028"]])
+        assert.throws(() => new Engine(module).begin({discs: `5${character}seed=7`}),
+                      new RegExp(`control character U\\+${code},`));
     for (const message of [...JSON.parse(readFileSync(join(files, "messages.json"), "utf-8")), ...sudden, ...rejected.values()]) {
         const shown = translated(message, de.texts.labels), of = (text) => text.replace(/(\d),(?=\d)/g, "$1.").match(/\d+(?:\.\d+)?(?:e[-+]?\d+)?/g) ?? [];
         assert.doesNotMatch(shown, /\b(?:the|is|are|must|but|with|use|hint|container|discs)\b|--|\$|undefined/, message);
