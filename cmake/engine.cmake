@@ -31,6 +31,11 @@ function(swirl_vector_sources variable)
     set_source_files_properties(${avx2_sources} ${avx512_sources} PROPERTIES
       SKIP_UNITY_BUILD_INCLUSION ON)
     list(FILTER sources EXCLUDE REGEX "_${omitted_width}\\.cpp$")
+    if(omitted_width MATCHES "^avx[0-9]+$")
+      # This processor runs the widest loop. The baseline is there for others that use the same folder.
+      set_source_files_properties(src/swirl/engine/simd/event_loop_baseline.cpp PROPERTIES
+        COMPILE_OPTIONS "-O1;-DSWIRL_FALLBACK=1")
+    endif()
   else()
     list(FILTER sources EXCLUDE REGEX "_avx(2|512)\\.cpp$")
   endif()
