@@ -175,6 +175,11 @@ class Layers(unittest.TestCase):
             found = {os.path.basename(file) for file in all_sources()
                      if header in [what for what, _ in includes(file)]}
             self.assertEqual(found, homes, header)
+        # Headers of these libraries are most of what a file reads. Headers of swirl declare JSON only.
+        for file in all_sources():
+            if file.endswith(".hpp") and os.path.relpath(file, SOURCE).startswith("src"):
+                self.assertFalse([what for what, _ in includes(file)
+                                  if what.startswith(("fmt/", "nlohmann/json.hpp"))], file)
 
     def test_target_clones_occurs_in_one_file(self):
         # And for which compilers and sanitizers not: the thread sanitizer's programs do not even

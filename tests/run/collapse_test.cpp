@@ -1,4 +1,4 @@
-#include "swirl/run/collapse.hpp"
+#include "swirl/run/collapse_guard.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "io/scratch.hpp"
+#include "run/measured_run.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/period_series.hpp"

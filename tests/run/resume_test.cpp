@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "io/scratch.hpp"
+#include "run/measured_run.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/state_archive.hpp"
 #include "swirl/run/core_run.hpp"

@@ -9,6 +9,7 @@
 
 #include "io/scratch.hpp"
 #include "measure/snapshots.hpp"
+#include "run/measured_run.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/measure/energy_budget.hpp"
 #include "swirl/run/failure.hpp"
@@ -171,7 +172,7 @@ TEST(RunOfSpheres, TheFloorDissipatesTheWorkOfSliding) {
 TEST(RunOfSpheres, EnergyInputEqualsDissipation) {
     const RunConfig config =
         resolve({{"preset", "experiment"}, {"discs", "20"}, {"periods", "60"}, {"warmup", "20"}});
-    const MeasuredRun measured = measured_run(config, {"energy"}, {});
+    const MeasuredRun measured = measured_run(config, {"energy"});
     const auto power = [&](const char* name) {
         for (const MeasuredNumber& number : measured_numbers(measured.measured))
             if (number.name == std::string("energy.") + name) return number.estimate.mean;

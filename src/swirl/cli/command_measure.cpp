@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
@@ -45,7 +46,7 @@ OpenedSeries open_series(const MeasureCall& call) {
     if (is_trajectory(call.file)) {
         reject_track_options(call.camera, call.file);
         if (!call.max_invalid.empty()) throw_option_of_tracks("max-invalid", call.file);
-        return {series_of_run(std::make_shared<TrajectoryReader>(call.file)), "", nullptr};
+        return {series_of_run(std::make_shared<TrajectoryReader>(call.file)), ""};
     }
     return open_tracks(call.file, call.camera,
                        number_option("max-invalid", call.max_invalid, default_misfit, 0.0));
@@ -116,7 +117,7 @@ Json json_of(const MeasureCall& call, const OpenedSeries& opened, const Measured
              {{"mean_by_time", estimate_json(measured.rotation.mean_by_time)},
               {"rigid_by_time", estimate_json(measured.rotation.rigid_by_time)}}},
             {"measured", values},
-            {"camera", opened.camera},
+            {"camera", Json::parse(opened.camera)},
             {"remark", remarks},
             {"version", version()}};
 }

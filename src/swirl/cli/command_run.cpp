@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"

@@ -82,12 +82,11 @@ std::vector<std::string> measurements_in(const std::string& file, const Json& re
 
 /// The result in a file, if it can be verified.
 Json verifiable_result(const std::string& file) {
-    RepeatedNames repeated;
-    const Json json = parse_json(read_regular_file(file), std::ref(repeated));
+    std::string repeated;
+    const Json json = parse_json(read_regular_file(file), repeated);
     if (!json.is_object() || !json.contains("config") || !json.contains("state_hash"))
         throw Failure(fmt::format("'{}' is not the result of a run.", file));
-    if (!repeated.first().empty())
-        throw Failure(fmt::format("'{}' holds '{}' twice.", file, repeated.first()));
+    if (!repeated.empty()) throw Failure(fmt::format("'{}' holds '{}' twice.", file, repeated));
     if (const Json format = json.value("format", Json(1)); format != result_format)
         throw Failure(
             fmt::format("'{}' has format {} of swirl {}, but this program reads format {}.", file,

@@ -54,9 +54,9 @@ double parse_number(const TrackTexts& texts, std::string_view name) {
 class CameraFile {
   public:
     explicit CameraFile(std::filesystem::path path) : path_(std::move(path)) {
-        RepeatedNames repeated;
-        const nlohmann::json json = parse_json(read_regular_file(path_), std::ref(repeated));
-        if (!repeated.first().empty()) fail(fmt::format("'{}' appears twice", repeated.first()));
+        std::string repeated;
+        const nlohmann::json json = parse_json(read_regular_file(path_), repeated);
+        if (!repeated.empty()) fail(fmt::format("'{}' appears twice", repeated));
         if (json.is_object())
             if (const auto format = json.value("format", nlohmann::json(camera_format));
                 format != camera_format)

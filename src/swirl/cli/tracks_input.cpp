@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "swirl/run/failure.hpp"
@@ -49,7 +50,7 @@ OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, doub
     FittedSeries fitted = fitted_series(tracks, scale, misfit);
     Json found = camera_json(tracks, fitted);
     found["uneven_times"] = uneven ? Json(*uneven) : Json(nullptr);
-    return {std::move(fitted.series), std::move(fitted.remarks), std::move(found)};
+    return {std::move(fitted.series), std::move(fitted.remarks), found.dump()};
 }
 
 }  // namespace swirl

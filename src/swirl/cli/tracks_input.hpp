@@ -1,8 +1,6 @@
 // Reads the tracks of a camera: repairs them, converts units and checks them against the container.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <string>
 
 #include "swirl/cli/track_options.hpp"
@@ -14,8 +12,8 @@ namespace swirl {
 /// Frames, with remarks on them.
 struct OpenedSeries {
     SnapshotSeries series;
-    std::string remarks;            // one per line
-    nlohmann::ordered_json camera;  // repairs, fit and smoothing; tracks only
+    std::string remarks;          // one per line
+    std::string camera = "null";  // JSON: repairs, fit and smoothing; tracks only
 };
 
 /// Throws UsageError and Failure, also if more than the fraction `misfit` of the frames contradicts

@@ -5,14 +5,11 @@
 // period; one with a contact duration has at most T/t_c.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string>
 
 namespace swirl {
 
@@ -27,14 +24,6 @@ struct Collapse {
     std::uint64_t events;
     double periods;
 };
-
-/// "the last 20000 events took only 1e-05 periods"
-inline std::string duration_text(const Collapse& collapse) {
-    // The two times may be equal in double precision.
-    return fmt::format("the last {} events took {}", collapse.events,
-                       collapse.periods > 0.0 ? fmt::format("only {:.2g} periods", collapse.periods)
-                                              : "no measurable time");
-}
 
 /// Watches one run; called between its events.
 class CollapseWatch {

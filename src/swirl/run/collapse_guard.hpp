@@ -2,8 +2,6 @@
 // simulation as far as a user asks has a guard, because in a collapse time does not advance.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <optional>
 #include <string>
 
@@ -13,25 +11,11 @@
 
 namespace swirl {
 
-/// Which of the two kinds of collapse it is, and what helps.
-inline std::string reason_for_collapse(const RunConfig& config) {
-    if (config.restitution < 1.0)
-        return fmt::format(
-            "with restitution {} the {}s collide ever faster (inelastic collapse).\nhint: use a "
-            "--contact-duration longer than {}.",
-            config.restitution, body_word(config), config.contact_duration);
-    return fmt::format(
-        "friction has dissipated the relative motion of {}s that are pressed together, and they "
-        "collide ever faster (frictional collapse; docs/explanation/physics.md). The model has no "
-        "state after it.\nhint: another --seed than {} may avoid it.",
-        body_word(config), config.seed);
-}
+/// "the last 20000 events took only 1e-05 periods"
+std::string duration_text(const Collapse& collapse);
 
-inline std::string collapse_sentence(const Collapse& collapse, double periods,
-                                     const std::string& reason) {
-    return fmt::format("{} (collapse after {:.3f} periods): {}", duration_text(collapse), periods,
-                       reason);
-}
+/// Also which of the two kinds of collapse it is, and what helps.
+std::string collapse_sentence(const Collapse& collapse, double periods, const RunConfig& config);
 
 class CollapseGuard {
   public:
@@ -45,7 +29,7 @@ class CollapseGuard {
         const RunMark now = mark(simulation, period);
         const auto found = watch_.check(now);
         if (!found) return {};
-        return collapse_sentence(*found, now.periods, reason_for_collapse(config));
+        return collapse_sentence(*found, now.periods, config);
     }
 
   private:

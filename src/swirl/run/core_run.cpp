@@ -174,12 +174,14 @@ int CoreRun::events_until_check() const {
 
 std::optional<std::string> CoreRun::problem() {
     if (auto sentence = overlap_problem()) return sentence;
-    if (const auto found = watch_.check(mark())) return collapse_sentence(*found);
+    if (const auto found = watch_.check(mark()))
+        return collapse_sentence(*found, periods(), config_);
     return {};
 }
 std::optional<std::string> CoreRun::problem_at_the_end() const {
     if (auto sentence = overlap_problem()) return sentence;
-    if (const auto found = watch_.check_at_end(mark())) return collapse_sentence(*found);
+    if (const auto found = watch_.check_at_end(mark()))
+        return collapse_sentence(*found, periods(), config_);
     return {};
 }
 
@@ -194,12 +196,6 @@ std::optional<std::string> CoreRun::overlap_problem() const {
         "on such a long path.\nhint: reduce --container-radius, --amplitude or --events.",
         periods(), result_.max_overlap / smallest);
 }
-
-std::string CoreRun::collapse_sentence(const Collapse& collapse) const {
-    return swirl::collapse_sentence(collapse, periods(), reason_for_collapse());
-}
-
-std::string CoreRun::reason_for_collapse() const { return swirl::reason_for_collapse(config_); }
 
 /// Takes the sample by event of the current state, if it is due.
 void CoreRun::sample_by_event() {

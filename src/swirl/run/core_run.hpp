@@ -112,8 +112,7 @@ class CoreRun {
 
     /// The sums and counters of the run, for checkpoints. Progress and disc states are saved by
     /// Run, and the observation's state by its owner.
-    template <class Visitor>
-    void fields(Visitor&& visit) {
+    void fields(auto&& visit) {
         sample_by_event();
         visit(warm_up_.is_over, rotation_times_, few_rotation_times_);
         visit(warm_up_.rotation_before, warm_up_.rotation_after);
@@ -133,8 +132,6 @@ class CoreRun {
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
     int events_until_check() const;
     std::optional<std::string> overlap_problem() const;
-    std::string collapse_sentence(const Collapse& collapse) const;
-    std::string reason_for_collapse() const;
     void sample_by_event();
     std::uint64_t execute_span(double due, std::uint64_t maximum);
     void update_flights();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "swirl/io/table.hpp"
 #include "swirl/run/failure.hpp"
@@ -168,15 +169,6 @@ Observation observation_of(const RunConfig& config, std::vector<std::string> nam
                       [](const auto& name) { return find_measurement(name)->needs_m_frame; });
     if (!m_frame) require_m_frame_for(names);
     return Observation(config.container_radius, config.period, std::move(names), m_frame);
-}
-
-MeasuredRun measured_run(const RunConfig& config, const std::vector<std::string>& names,
-                         const RunControl& control) {
-    Observation observation = observation_of(config, names);
-    RunControl observed = control;
-    if (!names.empty()) observed.observation = &observation;
-    const RunResult result = run(config, observed);
-    return {result, measured_json(observation.report())};
 }
 
 Json measured_json(const MeasurementReports& reports) {

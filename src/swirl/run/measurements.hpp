@@ -7,9 +7,8 @@
 // table an object of columns. Missing values are null.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,15 +36,6 @@ void require_m_frame_for(const std::vector<std::string>& names);
 /// an M-frame, the list of all measurements means all that do not need it, and any other list that
 /// does throws UsageError.
 Observation observation_of(const RunConfig& config, std::vector<std::string> names);
-
-struct MeasuredRun {
-    RunResult run;
-    nlohmann::ordered_json measured;
-};
-
-/// run() with everything that these names measure, as JSON.
-MeasuredRun measured_run(const RunConfig& config, const std::vector<std::string>& names,
-                         const RunControl& control = {});
 
 /// For each measurement an object with its rows and tables. A table without a name is the object.
 nlohmann::ordered_json measured_json(const MeasurementReports& reports);

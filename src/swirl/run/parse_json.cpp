@@ -1,7 +1,14 @@
 #include "swirl/run/parse_json.hpp"
 
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
 namespace swirl {
 namespace {
+
+using Json = nlohmann::ordered_json;
+using ParserEvent = Json::parse_event_t;
 
 bool is_nested_too_deeply(const std::string& text) {
     constexpr int deepest = 100;  // a result has fewer than 10 levels
@@ -18,23 +25,31 @@ bool is_nested_too_deeply(const std::string& text) {
     return false;
 }
 
-}  // namespace
-
-nlohmann::ordered_json parse_json(const std::string& text,
-                                  const nlohmann::ordered_json::parser_callback_t& callback) {
-    if (is_nested_too_deeply(text)) return nlohmann::ordered_json::value_t::discarded;
-    return nlohmann::ordered_json::parse(text, callback, false);
+Json parse(const std::string& text, const Json::parser_callback_t& callback) {
+    if (is_nested_too_deeply(text)) return Json::value_t::discarded;
+    return Json::parse(text, callback, false);
 }
 
-bool RepeatedNames::operator()(int, nlohmann::ordered_json::parse_event_t event,
-                               nlohmann::ordered_json& part) {
-    using Event = nlohmann::ordered_json::parse_event_t;
-    if (event == Event::object_start) names_.emplace_back();
-    if (event == Event::object_end) names_.pop_back();
-    if (event == Event::key && !names_.back().insert(part.get<std::string>()).second &&
-        first_.empty())
-        first_ = part.get<std::string>();
-    return true;
+}  // namespace
+
+Json parse_json(const std::string& text) { return parse(text, nullptr); }
+
+Json parse_json(const std::string& text, std::string& repeated_name) {
+    std::vector<std::set<std::string>> names;  // names in the enclosing objects
+    return parse(text, [&](int, ParserEvent event, const Json& part) {
+        if (event == ParserEvent::object_start) names.emplace_back();
+        if (event == ParserEvent::object_end) names.pop_back();
+        if (event == ParserEvent::key && !names.back().insert(part.get<std::string>()).second &&
+            repeated_name.empty())
+            repeated_name = part.get<std::string>();
+        return true;
+    });
+}
+
+Json parse_json(const std::string& text, bool (*is_needed)(int depth, std::string_view name)) {
+    return parse(text, [&](int depth, ParserEvent event, const Json& part) {
+        return event != ParserEvent::key || is_needed(depth, part.get_ref<const std::string&>());
+    });
 }
 
 }  // namespace swirl

@@ -15,7 +15,6 @@
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/crossing.hpp"
-#include "swirl/study/disagreement.hpp"
 #include "swirl/study/hysteresis.hpp"
 #include "swirl/study/point_result.hpp"
 #include "swirl/study/sweep_folder.hpp"
@@ -201,6 +200,13 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
         if (!quantity.is_direction) collected.loop_quantities.push_back(quantity.name);
     collected.loops = loop_areas(plan, results, collected.loop_quantities);
     return collected;
+}
+
+std::string disagreement_warning(std::int64_t count, const std::string& of_what) {
+    return fmt::format(
+        "at {} of {}, the replicates scatter more than the errors within the runs explain; the "
+        "errors given are those between the replicates.",
+        count, of_what);
 }
 
 std::vector<std::string> warnings(const CollectedSweep& collected) {

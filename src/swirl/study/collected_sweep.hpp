@@ -40,6 +40,9 @@ CollectedSweep collect_sweep(const std::filesystem::path& folder, const SweepPla
 /// The value of a parameter in a table: a number if the text is one.
 Table::Cell cell_of(const std::string& text);
 
+/// "at 2 of 40 rows, the replicates scatter more …", for sweeps and searches.
+std::string disagreement_warning(std::int64_t count, const std::string& of_what);
+
 /// Reasons to distrust the table, as warnings.
 std::vector<std::string> warnings(const CollectedSweep& collected);
 

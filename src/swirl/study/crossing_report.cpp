@@ -10,8 +10,8 @@
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
+#include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/crossing.hpp"
-#include "swirl/study/disagreement.hpp"
 
 namespace swirl {
 namespace {

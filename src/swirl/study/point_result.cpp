@@ -27,14 +27,13 @@ std::string remove_and_repeat(const SweepPlan& plan) {
     return fmt::format("remove it and run `swirl {}` again.", plan.command());
 }
 
-/// JSON parser callback: skips the parts of a result that the table does not use, because building
-/// them would take most of the time.
-bool is_needed(int depth, Json::parse_event_t event, Json& parsed) {
-    if (event != Json::parse_event_t::key || (depth != 1 && depth != 3)) return true;
+/// Skips the parts of a result that the table does not use, because building them would take most
+/// of the time.
+bool is_needed(int depth, std::string_view key) {
+    if (depth != 1 && depth != 3) return true;
     static constexpr std::string_view parts[] = {
         "format",  "version", "point",    "replicate", "config",      "state_hash",
         "periods", "energy",  "rotation", "measured",  "steady_state"};
-    const auto& key = parsed.get_ref<const std::string&>();
     if (depth == 3) return key != "blocks";  // a rotation rate has blocks
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
