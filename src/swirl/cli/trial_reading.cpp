@@ -9,12 +9,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstring>
 
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/child_process.hpp"
 #include "swirl/io/event_log.hpp"
 #include "swirl/io/system_calls.hpp"
 #include "swirl/io/trajectory.hpp"
@@ -56,9 +56,7 @@ int status_of(pid_t child, int read_end) {
     constexpr int milliseconds = 100;
     while (poll(&wait, 1, milliseconds) <= 0)
         if (stop_signal().load()) kill(child, SIGKILL);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-    return status;
+    return wait_for_child(child);
 }
 
 }  // namespace

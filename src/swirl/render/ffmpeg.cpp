@@ -1,8 +1,6 @@
 #include "swirl/render/ffmpeg.hpp"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "swirl/io/child_process.hpp"
 #include "swirl/io/system_calls.hpp"
 #include "swirl/render/canvas.hpp"
 
@@ -21,18 +20,6 @@ namespace {
 
 [[noreturn]] void throw_cannot_start(int error) {
     throw DrawFailure(std::string("cannot start ffmpeg: ") + std::strerror(error) + ".");
-}
-
-/// A child in its own process group, with default handling of signals and none blocked.
-void set_up_process(posix_spawnattr_t& attributes) {
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(
-        &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 }
 
 }  // namespace
@@ -54,34 +41,11 @@ Ffmpeg::Ffmpeg(std::vector<std::string> arguments, Side side, const std::string&
             ::setsockopt(ends[from == Side::input ? 0 : 1], SOL_SOCKET, SO_SNDBUF, &buffer_size,
                          sizeof buffer_size);
 
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    const auto open_null = [&](int descriptor, int mode) {
-        posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", mode, 0);
-    };
-    if (side == Side::output)
-        open_null(STDIN_FILENO, O_RDONLY);
-    else
-        posix_spawn_file_actions_adddup2(&files, ends[1], STDIN_FILENO);
-    if (side == Side::input)
-        open_null(STDOUT_FILENO, O_WRONLY);
-    else
-        posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files, errors_, STDERR_FILENO);
-    if (!output.empty())
-        posix_spawn_file_actions_addopen(&files, output_number, output.c_str(), O_RDWR | O_NOFOLLOW,
-                                         0);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    set_up_process(attributes);
-    std::string name = "ffmpeg";
-    std::vector<char*> pointers{name.data()};
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    const int error = ::posix_spawnp(&process_, "ffmpeg", &files, &attributes, pointers.data(),
-                                     system::environment());
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
+    ChildFiles files{.errors = errors_, .third = output};
+    if (side != Side::output) files.input = ends[1];
+    if (side != Side::input) files.output = ends[1];
+    arguments.insert(arguments.begin(), "ffmpeg");
+    const int error = start_child(std::move(arguments), files, process_);
     ::close(ends[1]);
     if (error == 0) return;
     ::close(socket_);
@@ -101,9 +65,7 @@ Ffmpeg::~Ffmpeg() {
 int Ffmpeg::end() {
     if (socket_ >= 0) ::close(socket_);
     socket_ = -1;
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = wait_for_child(process_);
     process_ = -1;
     return status;
 }

@@ -1,7 +1,7 @@
 // Runs the program ffmpeg as a child process, connected through a socket.
 //
-// It has its own process group, so that Ctrl-C reaches only this program, which then ends ffmpeg
-// properly. Its standard error is stored, to be quoted in error messages.
+// After Ctrl-C this program ends ffmpeg properly (io/child_process.hpp). The standard error of ffmpeg is
+// stored, to be quoted in error messages.
 #pragma once
 
 #include <string>
@@ -42,7 +42,6 @@ class Ffmpeg {
     std::string describe_end(int status) const;
 
   private:
-    static constexpr int output_number = 3;
     int socket_ = -1;
     int errors_ = -1;  // an unnamed file that receives its standard error
     int process_ = -1;

@@ -1,20 +1,15 @@
 #include "swirl/study/python_script.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <system_error>
 
+#include "swirl/io/child_process.hpp"
 #include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
 
@@ -37,92 +32,12 @@ constexpr const char* runner =
     "import os, runpy, sys; del sys.argv[0]; sys.path.insert(0, os.path.dirname(sys.argv[0])); "
     "runpy.run_path(sys.argv[0], run_name='__main__')";
 
-/// Time for a script to remove its temporary files when it is interrupted.
-constexpr int grace = 500;         // ms
-constexpr int poll_interval = 50;  // ms
-
-struct ProcessResult {
-    int status;
-    std::string output;  // text of stdout and stderr
-};
-
 /// The words as execv() takes them.
-std::vector<char*> pointers_to(const std::vector<std::string>& words) {
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
     std::vector<char*> argv;
-    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     return argv;
-}
-
-/// Starts a child in its own process group: Ctrl-C reaches only this program, which then ends the
-/// child.
-pid_t start(const std::vector<std::string>& words, int output) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t all;
-    sigfillset(&all);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-    std::vector<char*> argv = pointers_to(words);
-    pid_t child = 0;
-    const int error =
-        posix_spawn(&child, argv[0], &actions, &attributes, argv.data(), system::environment());
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-    if (error == 0) return child;
-    throw Failure(
-        fmt::format("'{}' cannot be started: {}; the tables are written.\n"
-                    "hint: install the Debian package python3-matplotlib.",
-                    words.front(), std::generic_category().message(error)));
-}
-
-/// Appends available output; false at its end.
-bool read_output(int end, std::string& output) {
-    std::array<char, 4096> block;
-    const ssize_t got = read(end, block.data(), block.size());
-    if (got < 0) return errno == EINTR;
-    output.append(block.data(), static_cast<std::size_t>(got));
-    return got > 0;
-}
-
-/// Runs a program to its end. If `stop` is set, the program is interrupted, and killed after
-/// `grace`.
-ProcessResult run_program(const std::vector<std::string>& words, const std::atomic<bool>* stop) {
-    int ends[2];
-    if (!system::open_pipe(ends))
-        throw Failure(
-            fmt::format("a pipe cannot be opened: {}.", std::generic_category().message(errno)));
-    ProcessResult result{0, ""};
-    pid_t child = 0;
-    try {
-        child = start(words, ends[1]);
-    } catch (const Failure&) {
-        close(ends[0]);
-        close(ends[1]);
-        throw;
-    }
-    close(ends[1]);
-    pollfd waited{ends[0], POLLIN, 0};
-    int polls_left = -1;  // polls until the program is killed; -1: not interrupted
-    for (;;) {
-        const int ready = poll(&waited, 1, poll_interval);
-        if (ready > 0 && !read_output(ends[0], result.output)) break;
-        if (polls_left < 0 && stop != nullptr && stop->load()) {
-            polls_left = grace / poll_interval;
-            kill(-child, SIGINT);
-        }
-        if (ready == 0 && polls_left > 0 && --polls_left == 0) kill(-child, SIGKILL);
-    }
-    close(ends[0]);
-    while (waitpid(child, &result.status, 0) < 0 && errno == EINTR) {
-    }
-    return result;
 }
 
 /// The last line of the output, with the line before it if it is a hint.
@@ -172,26 +87,39 @@ static std::vector<std::string> command_of(const std::string& script,
     return words;
 }
 
+/// Throws Failure if the script cannot be started.
+static ProgramOutput run_script(const std::string& script,
+                                const std::vector<std::string>& arguments,
+                                const std::atomic<bool>* stop) {
+    const std::vector<std::string> words = command_of(script, arguments);
+    ProgramOutput output = run_program(words, stop);
+    if (output.error == 0) return output;
+    throw Failure(
+        fmt::format("'{}' cannot be started: {}; the tables are written.\n"
+                    "hint: install the Debian package python3-matplotlib.",
+                    words.front(), std::generic_category().message(output.error)));
+}
+
 void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
                        const std::atomic<bool>* stop) {
-    const ProcessResult result = run_program(command_of(script, arguments), stop);
+    const ProgramOutput output = run_script(script, arguments, stop);
     if (stop != nullptr && stop->load())
         throw Interrupted("stopped while figures were drawn; the tables are written.");
-    if (WIFEXITED(result.status) && WEXITSTATUS(result.status) == 0) return;
-    if (result.output.find("No module named 'matplotlib'") != result.output.npos)
+    if (output.exit_code == 0) return;
+    if (output.text.find("No module named 'matplotlib'") != output.text.npos)
         throw Failure(
             "the figures need matplotlib; the tables are written.\n"
             "hint: install the Debian package python3-matplotlib.");
     throw Failure(
         fmt::format("paper/{} failed; the tables are written: {}", script,
-                    result.output.empty() ? "no reason given." : last_message(result.output)));
+                    output.text.empty() ? "no reason given." : last_message(output.text)));
 }
 
 ScriptOutput output_of_python_script(const std::string& script,
                                      const std::vector<std::string>& arguments) {
     try {
-        const ProcessResult result = run_program(command_of(script, arguments), nullptr);
-        return {WIFEXITED(result.status) ? WEXITSTATUS(result.status) : -1, result.output};
+        const ProgramOutput output = run_script(script, arguments, nullptr);
+        return {output.exit_code, output.text};
     } catch (const Failure& failure) {
         return {-1, failure.what()};
     }

@@ -1,15 +1,16 @@
 #include "swirl/study/slurm.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
+#include <cerrno>
 #include <map>
 #include <sstream>
+#include <system_error>
 
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/child_process.hpp"
 #include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/shell_word.hpp"
@@ -26,21 +27,13 @@ std::string printable(std::string text) {
     return text;
 }
 
-struct CommandOutput {
-    int exit_code;
-    std::string text;
-};
-
-CommandOutput run_command(const std::string& command) {
-    std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    if (pipe == nullptr) throw Failure("no further process could be started.");
-    std::string text;
-    char block[4096];
-    for (std::size_t got; (got = std::fread(block, 1, sizeof block, pipe)) > 0;)
-        text.append(block, got);
-    const int status = ::pclose(pipe);
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, text};
+/// Without the line break at the end of its text.
+ProgramOutput run_command(const std::vector<std::string>& words) {
+    ProgramOutput output = run_program(words);
+    if (output.error != 0) output.text = std::generic_category().message(output.error);
+    while (!output.text.empty() && std::isspace(static_cast<unsigned char>(output.text.back())))
+        output.text.pop_back();
+    return output;
 }
 
 /// A line break in an option would end its line of the job script, and the rest would be a command.
@@ -113,9 +106,8 @@ std::string submit(const std::string& script, const fs::path& folder) {
     std::error_code ignored;
     fs::create_directories(sweep / "log", ignored);
     write_file_atomically(sweep / "job.sh", script);
-    const CommandOutput output =
-        run_command("sbatch --parsable " + shell_word((sweep / "job.sh").string()));
-    if (output.exit_code == 127)
+    const ProgramOutput output = run_command({"sbatch", "--parsable", (sweep / "job.sh").string()});
+    if (output.error == ENOENT)
         throw Failure(
             fmt::format("Slurm is not installed here: there is no sbatch.\nhint: submit '{}' on "
                         "the cluster, or use --part with another scheduler.",
@@ -135,8 +127,8 @@ std::optional<std::string> slurm_status(const fs::path& folder) {
     number.erase(std::remove_if(number.begin(), number.end(),
                                 [](unsigned char c) { return !std::isdigit(c) && c != '_'; }),
                  number.end());
-    const CommandOutput output =
-        run_command("squeue --noheader --array --format=%T --jobs=" + number);
+    const ProgramOutput output =
+        run_command({"squeue", "--noheader", "--array", "--format=%T", "--jobs=" + number});
     if (output.exit_code != 0) {
         if (output.text.find("Invalid job id") != std::string::npos)
             return fmt::format("job {}: no longer in the queue", number);
