@@ -247,15 +247,13 @@ void add_experiment_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExperimentCall>();
     const char* group = "Videos";
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
-        return subcommand.add_option(name, into, description)->type_name(type)->group(group);
+        subcommand.in(group).add({{name, &into, description, type}});
     };
     const auto flag = [&](const char* name, bool& into, const char* description) {
-        subcommand.add_flag(name, into, description)->group(group);
+        subcommand.in(group).add({{name, &into, description}});
     };
-    subcommand
-        .add_option("videos", call->rough, "Videos or image sequences, or tracks (.csv, .h5)")
-        ->type_name("VIDEO")
-        ->required();
+    subcommand.add({{"videos", &call->rough, "Videos or image sequences, or tracks (.csv, .h5)",
+                     "VIDEO", required}});
     add("--smooth", call->smooth, "VIDEO", "Videos of smoother discs (Figure 4c); repeatable");
     add("--fps", call->fps, "N", "Frames per second of all videos [from each video]");
     add("--max-frames", call->frames, "N", "Number of frames of each video [all]");

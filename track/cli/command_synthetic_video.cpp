@@ -323,10 +323,10 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SyntheticVideoCall>();
     const char* section = "Video";
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
-        subcommand.add_option(name, into, description)->type_name(type)->group(section);
+        subcommand.in(section).add({{name, &into, description, type}});
     };
     const auto flag = [&](const char* name, bool& into, const char* description) {
-        subcommand.add_flag(name, into, description)->group(section);
+        subcommand.in(section).add({{name, &into, description}});
     };
     add("--out", call->out, "FILE.mp4", "Video; its ground truth is written next to it");
     add("--length", call->periods, "PERIODS", "Duration, in periods [3]");

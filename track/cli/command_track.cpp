@@ -366,7 +366,7 @@ void track(TrackCall call) {
 void add_track_command(Subcommand& subcommand) {
     const auto call = std::make_shared<TrackCall>();
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
-        return subcommand.add_option(name, into, description)->type_name(type);
+        subcommand.add({{name, &into, description, type}});
     };
     add("video", call->source.video, "VIDEO", "Video file, or numbered images (%05d.png)");
     add("--out", call->out, "FILE.csv|FILE.h5",
@@ -389,13 +389,13 @@ void add_track_command(Subcommand& subcommand) {
     add("--overlay", call->overlay, "FILE", "Movie of the video with the discs drawn over it");
     add("--report", call->report, "DIR", "Folder for a report on the tracking, report.html");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
-    subcommand.add_flag("--spin", call->spin,
-                        "Measure spins from textures; adds columns to the tracks");
-    subcommand.add_flag("--overwrite", call->overwrite, "Replace existing tracks");
-    add_omit_paths_option(subcommand);
-    subcommand.add_flag("--verbose", call->verbose,
-                        "Also print the geometry of container and camera");
-    subcommand.add_flag("--quiet", call->quiet, "No progress line and no summary");
+    subcommand.add({
+        {"--spin", &call->spin, "Measure spins from textures; adds columns to the tracks"},
+        {"--overwrite", &call->overwrite, "Replace existing tracks"},
+        omit_paths_option(),
+        {"--verbose", &call->verbose, "Also print the geometry of container and camera"},
+        {"--quiet", &call->quiet, "No progress line and no summary"},
+    });
     subcommand.set_main_options({"--out", "--path-out", "--fps", "--container-diameter",
                                  "--disc-diameter", "--discs", "--tilt", "--overlay", "--report",
                                  "--json", "--spin"});

@@ -39,25 +39,24 @@ Size parse_size(const std::string& text) {
 std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) {
     auto texts = std::make_shared<AppearanceTexts>();
     texts->frame = "lab";
-    const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
-        subcommand.add_option(name, into, description)->type_name(type)->group("Appearance");
-    };
-    const auto flag = [&](const char* name, bool& into, const char* description) {
-        subcommand.add_flag(name, into, description)->group("Appearance");
-    };
-    add("--frame", texts->frame, "lab|m|both",
-        "Frame of reference: lab, co-rotating (M), or both [lab]");
-    add("--color", texts->color, "NAME", "Colour by sector, pinned, spin, speed, slip, id or none");
-    flag("--trails", texts->trails, "Draw the recent path of each disc");
-    add("--trail-length", texts->trail_length, "PERIODS", "Draw trails of this length [0.3]");
-    flag("--forces", texts->forces, "Centrifugal and Coriolis force on each disc (M-frame)");
-    flag("--turned-angle", texts->turned, "Arc for the turned angle (lab) [with --color sector]");
-    flag("--angles", texts->angles, "Scale of the angle θ along the wall (M-frame)");
-    flag("--plot", texts->plot, "Plot of the cluster's rotation against time");
-    add("--theme", texts->theme, "NAME", "Colour theme: light or dark [light]");
-    add("--title", texts->title, "TEXT", "Title above the image");
-    flag("--no-annotations", texts->bare, "Container and discs only, no text or markers");
-    add("--size", texts->size, "WxH", "Image size in pixels [1920x1080]");
+    subcommand.in("Appearance")
+        .add({
+            {"--frame", &texts->frame, "Frame of reference: lab, co-rotating (M), or both [lab]",
+             "lab|m|both"},
+            {"--color", &texts->color, "Colour by sector, pinned, spin, speed, slip, id or none",
+             "NAME"},
+            {"--trails", &texts->trails, "Draw the recent path of each disc"},
+            {"--trail-length", &texts->trail_length, "Draw trails of this length [0.3]", "PERIODS"},
+            {"--forces", &texts->forces, "Centrifugal and Coriolis force on each disc (M-frame)"},
+            {"--turned-angle", &texts->turned,
+             "Arc for the turned angle (lab) [with --color sector]"},
+            {"--angles", &texts->angles, "Scale of the angle θ along the wall (M-frame)"},
+            {"--plot", &texts->plot, "Plot of the cluster's rotation against time"},
+            {"--theme", &texts->theme, "Colour theme: light or dark [light]", "NAME"},
+            {"--title", &texts->title, "Title above the image", "TEXT"},
+            {"--no-annotations", &texts->bare, "Container and discs only, no text or markers"},
+            {"--size", &texts->size, "Image size in pixels [1920x1080]", "WxH"},
+        });
     return texts;
 }
 

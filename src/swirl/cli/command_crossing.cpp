@@ -237,30 +237,26 @@ void add_crossing_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CrossingCall>();
     call->settings.tolerance = default_search_tolerance;
     const char *const search = "Search", *const output = "Output";
-    subcommand.add_option("config", call->config_file,
-                          "TOML file with options; the command line overrides it", "FILE.toml");
+    subcommand.add({{"config", &call->config_file,
+                     "TOML file with options; the command line overrides it", "FILE.toml"}});
     call->parameters = add_run_options(subcommand, {"discs", "periods", "ramp"}, defaults);
-    subcommand.add_option("--tolerance", call->settings.tolerance,
-                          "Target standard error of N_c [0.1]", "NUMBER", search);
-    subcommand.add_option("--from", call->settings.from, "Smallest number of discs [5]", "N",
-                          search);
-    subcommand.add_option("--to", call->settings.to, "Largest number of discs [48]", "N", search);
-    subcommand.add_option("--step", call->settings.step,
-                          "Step of the coarse scan in discs [about eight numbers]", "N", search);
-    subcommand.add_option("--rate", call->rate,
-                          "Rotation rate that controls the search [mean_by_time]", "NAME", search);
-    subcommand.add_option("--out", call->out, "Folder for the runs; a repeated call continues",
-                          "DIR", search);
-    subcommand.add_option("--threads", call->threads, "Number of simultaneous runs [one per core]",
-                          "N", search);
-    subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
-                          output);
-    subcommand.add_option("--csv", call->table, "File for a table of the searches, or - for stdout",
-                          "FILE|-", output);
-    add_omit_paths_option(subcommand, output);
-    subcommand.add_flag("--verbose", call->verbose, "Also print all points and all four rates",
-                        output);
-    subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
+    subcommand.in(search).add({
+        {"--tolerance", &call->settings.tolerance, "Target standard error of N_c [0.1]", "NUMBER"},
+        {"--from", &call->settings.from, "Smallest number of discs [5]", "N"},
+        {"--to", &call->settings.to, "Largest number of discs [48]", "N"},
+        {"--step", &call->settings.step, "Step of the coarse scan in discs [about eight numbers]",
+         "N"},
+        {"--rate", &call->rate, "Rotation rate that controls the search [mean_by_time]", "NAME"},
+        {"--out", &call->out, "Folder for the runs; a repeated call continues", "DIR"},
+        {"--threads", &call->threads, "Number of simultaneous runs [one per core]", "N"},
+    });
+    subcommand.in(output).add({
+        {"--json", &call->json, "File for all results, or - for stdout", "FILE|-"},
+        {"--csv", &call->table, "File for a table of the searches, or - for stdout", "FILE|-"},
+        omit_paths_option(),
+        {"--verbose", &call->verbose, "Also print all points and all four rates"},
+        {"--quiet", &call->quiet, "One line of report and no progress"},
+    });
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: each combination is a search of its "
         "own. A run has at least --events events and fifty periods after the warm-up. Near "
@@ -278,9 +274,8 @@ void add_crossing_command(Subcommand& subcommand) {
                              "swirl crossing --sizes normal:1:0.2 --out N_c",
                              "swirl crossing --mu-wall 0.5 --from 20 --json -"});
     subcommand.callback([call, &subcommand] {
-        if (!call->config_file.empty())
-            take_config_file(subcommand, call->config_file, *call->parameters, Lists::accepted,
-                             "crossing");
+        take_config_file(subcommand, call->config_file, *call->parameters, Lists::accepted,
+                         "crossing");
         if (!call->rate.empty()) call->settings.rate = rate_named(call->rate);
         run_searches(*call);
     });

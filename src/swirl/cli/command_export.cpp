@@ -131,25 +131,17 @@ void export_file(const ExportCall& call) {
 
 void add_export_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExportCall>();
-    subcommand.add_option("file", call->file, "Trajectory to convert")
-        ->type_name("FILE.h5")
-        ->required();
-    subcommand.add_option("--format", call->format, "Output format, see below")
-        ->type_name("FORMAT")
-        ->required();
-    subcommand.add_option("--out", call->out, "Output file [FILE with the ending of the format]")
-        ->type_name("FILE");
-    subcommand.add_option("--scale", call->scale, "Pixels per unit of length in csv [20]")
-        ->type_name("NUMBER");
-    subcommand
-        .add_option("--range", call->range,
-                    "Range of frames, counted from 0, both ends included [all]")
-        ->type_name("FIRST:LAST");
-    subcommand.add_option("--stride", call->stride, "Distance between exported frames [1]")
-        ->type_name("N");
-    subcommand.add_flag("--container", call->container,
-                        "Add the container as a particle, lammps and xyz");
-    subcommand.add_flag("--quiet", call->quiet, "Print neither progress nor report");
+    subcommand.add({
+        {"file", &call->file, "Trajectory to convert", "FILE.h5", required},
+        {"--format", &call->format, "Output format, see below", "FORMAT", required},
+        {"--out", &call->out, "Output file [FILE with the ending of the format]", "FILE"},
+        {"--scale", &call->scale, "Pixels per unit of length in csv [20]", "NUMBER"},
+        {"--range", &call->range, "Range of frames, counted from 0, both ends included [all]",
+         "FIRST:LAST"},
+        {"--stride", &call->stride, "Distance between exported frames [1]", "N"},
+        {"--container", &call->container, "Add the container as a particle, lammps and xyz"},
+        {"--quiet", &call->quiet, "Print neither progress nor report"},
+    });
     subcommand.set_examples(
         {"swirl export frames.h5 --format vtp",
          "swirl export frames.h5 --format csv --scale 25 --out tracks.csv",

@@ -46,22 +46,14 @@ void draw_and_report(const ImageCall& call) {
 
 void add_image_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ImageCall>();
-    const auto group = "Image";
-    subcommand.add_option("--out", call->out, "Image file: .png, .svg or .pdf")
-        ->type_name("FILE")
-        ->group(group);
-    subcommand.add_option("--start", call->start, "Period of the image [20; of FILE: the last]")
-        ->type_name("PERIODS")
-        ->group(group);
-    subcommand
-        .add_option("--strobe", call->flashes,
-                    "Number of superimposed instants, from --start on [1]")
-        ->type_name("COUNT")
-        ->group(group);
-    subcommand.add_option("--every", call->every, "Periods between superimposed instants [1]")
-        ->type_name("PERIODS")
-        ->group(group);
-    subcommand.add_flag("--quiet", call->quiet, "Suppress the report")->group(group);
+    subcommand.in("Image").add({
+        {"--out", &call->out, "Image file: .png, .svg or .pdf", "FILE"},
+        {"--start", &call->start, "Period of the image [20; of FILE: the last]", "PERIODS"},
+        {"--strobe", &call->flashes, "Number of superimposed instants, from --start on [1]",
+         "COUNT"},
+        {"--every", &call->every, "Periods between superimposed instants [1]", "PERIODS"},
+        {"--quiet", &call->quiet, "Suppress the report"},
+    });
     call->appearance = add_appearance_options(subcommand);
     call->source = add_source_options(subcommand);
     subcommand.explain(source_explanation);

@@ -64,9 +64,8 @@ void reject_invalid_utf8(int argc, char** argv) {
     }
 }
 
-void add_omit_paths_option(Subcommand& subcommand, const std::string& group) {
-    subcommand.add_flag("--omit-paths", omits_paths(),
-                        "Store file names without folders, no config text", group);
+Option omit_paths_option() {
+    return {"--omit-paths", &omits_paths(), "Store file names without folders, no config text"};
 }
 
 std::string command_line() {

@@ -3,12 +3,12 @@
 
 #include <string>
 
+#include "swirl/cli/options.hpp"
+
 namespace swirl {
 
-class Subcommand;
-
 /// --omit-paths: results and recordings do not tell where files are, which may contain a user name.
-void add_omit_paths_option(Subcommand& subcommand, const std::string& group = "");
+Option omit_paths_option();
 
 /// Throws UsageError if an argument is not UTF-8: results and recordings store the command line and
 /// cannot hold anything else.

@@ -261,43 +261,36 @@ void make_map(MapCall& call) {
 void add_map_options(Subcommand& subcommand, MapCall& call) {
     const char *const map = "Map", *const crossing = "N_c";
     MapSettings& s = call.settings;
-    subcommand.add_option("--x", call.x, "Axis along x, such as mu=0:1", "NAME=VALUES", map);
-    subcommand.add_option("--y", call.y, "Axis along y; without it, a curve", "NAME=VALUES", map);
-    subcommand.add_option("--quantity", s.of,
-                          "Quantity: N_c, a rate or a measured row [mean_by_time]", "NAME", map);
-    subcommand
-        .add_option("--out", call.out, "Folder of the map; a repeated call completes it", "DIR",
-                    map)
-        ->required();
-    subcommand.add_option("--steps", s.steps, "Number of values of a range FROM:TO [16]", "N", map);
-    subcommand.add_option("--level", s.level, "Refine where the quantity crosses this [0]",
-                          "NUMBER", map);
-    subcommand.add_option("--change", s.change,
-                          "Refine where neighbours differ by more [never; N_c 2]", "NUMBER", map);
-    subcommand.add_option("--seeds", call.seeds, "Maximum number of runs at a point [16]", "N",
-                          map);
-    add_threads_option(subcommand, call.sharing, map);
-    subcommand.add_option("--csv", call.table, "File for the table, or - for stdout [DIR/map.csv]",
-                          "FILE|-", map);
-    subcommand.add_flag("--grow", call.grow, "Extend an existing map; finished runs are kept", map);
-    subcommand.add_flag("--no-figure", call.no_figure, "Do not draw the map", map);
-    subcommand.add_flag("--status", call.status, "Print the numbers of points and runs", map);
-    subcommand.add_flag("--dry-run", call.dry_run, "Print the plan and do not run", map);
-    subcommand.add_flag("--quiet", call.quiet, "No progress and no report", map);
-    subcommand.add_option("--from", call.from, "Smallest number of discs [5]", "N", crossing);
-    subcommand.add_option("--to", call.to, "Largest number of discs [48]", "N", crossing);
-    subcommand.add_option("--rate", s.rate,
-                          "Rotation rate that changes its sign at N_c [mean_by_time]", "NAME",
-                          crossing);
-    subcommand.add_option("--tolerance", s.tolerance, "Target standard error of N_c [0.5]",
-                          "NUMBER", crossing);
+    subcommand.in(map).add({
+        {"--x", &call.x, "Axis along x, such as mu=0:1", "NAME=VALUES"},
+        {"--y", &call.y, "Axis along y; without it, a curve", "NAME=VALUES"},
+        {"--quantity", &s.of, "Quantity: N_c, a rate or a measured row [mean_by_time]", "NAME"},
+        {"--out", &call.out, "Folder of the map; a repeated call completes it", "DIR", required},
+        {"--steps", &s.steps, "Number of values of a range FROM:TO [16]", "N"},
+        {"--level", &s.level, "Refine where the quantity crosses this [0]", "NUMBER"},
+        {"--change", &s.change, "Refine where neighbours differ by more [never; N_c 2]", "NUMBER"},
+        {"--seeds", &call.seeds, "Maximum number of runs at a point [16]", "N"},
+        threads_option(call.sharing),
+        {"--csv", &call.table, "File for the table, or - for stdout [DIR/map.csv]", "FILE|-"},
+        {"--grow", &call.grow, "Extend an existing map; finished runs are kept"},
+        {"--no-figure", &call.no_figure, "Do not draw the map"},
+        {"--status", &call.status, "Print the numbers of points and runs"},
+        {"--dry-run", &call.dry_run, "Print the plan and do not run"},
+        {"--quiet", &call.quiet, "No progress and no report"},
+    });
+    subcommand.in(crossing).add({
+        {"--from", &call.from, "Smallest number of discs [5]", "N"},
+        {"--to", &call.to, "Largest number of discs [48]", "N"},
+        {"--rate", &s.rate, "Rotation rate that changes its sign at N_c [mean_by_time]", "NAME"},
+        {"--tolerance", &s.tolerance, "Target standard error of N_c [0.5]", "NUMBER"},
+    });
     add_cluster_options(subcommand, call.sharing, false);
 }
 
 void add_map_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MapCall>();
-    subcommand.add_option("config", call->config_file,
-                          "TOML file with options; the command line overrides it", "FILE.toml");
+    subcommand.add({{"config", &call->config_file,
+                     "TOML file with options; the command line overrides it", "FILE.toml"}});
     call->parameters = add_run_options(subcommand, {"seed"}, map_defaults);
     add_map_options(subcommand, *call);
     subcommand.explain(
@@ -318,9 +311,7 @@ void add_map_command(Subcommand& subcommand) {
          "swirl map --x mu=0.1:1 --y amplitude=1:3 --quantity N_c --out N_c_map",
          "swirl map --x discs=10:48 --quantity slip.cluster --level 0.8 --out slip"});
     subcommand.callback([call, &subcommand] {
-        if (!call->config_file.empty())
-            take_config_file(subcommand, call->config_file, *call->parameters, Lists::rejected,
-                             "map");
+        take_config_file(subcommand, call->config_file, *call->parameters, Lists::rejected, "map");
         reject_options_of_other_maps(subcommand, *call);
         make_map(*call);
     });

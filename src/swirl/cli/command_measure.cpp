@@ -176,25 +176,23 @@ void measure_file(const MeasureCall& call) {
 void add_measure_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MeasureCall>();
     const char *const output = "Output", *const camera = "Tracks of other programs";
-    subcommand.add_option("file", call->file, "Trajectory, tracks (CSV) or LAMMPS text dump",
-                          "FILE");
-    subcommand.add_option("--measure", call->list,
-                          "Measurements, separated by commas, or all (or help)", "LIST", output);
-    subcommand.add_option("--tables", call->tables, "Folder for the measurements as CSV tables",
-                          "DIR", output);
-    subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
-                          output);
-    subcommand.add_option("--warmup", call->warmup, "Periods at the start to exclude [0]",
-                          "PERIODS", output);
-    add_omit_paths_option(subcommand, output);
-    subcommand.add_flag("--quiet", call->quiet, "No progress and no report", output);
+    subcommand.add({{"file", &call->file, "Trajectory, tracks (CSV) or LAMMPS text dump", "FILE"}});
+    subcommand.in(output).add({
+        {"--measure", &call->list, "Measurements, separated by commas, or all (or help)", "LIST"},
+        {"--tables", &call->tables, "Folder for the measurements as CSV tables", "DIR"},
+        {"--json", &call->json, "File for all results, or - for stdout", "FILE|-"},
+        {"--warmup", &call->warmup, "Periods at the start to exclude [0]", "PERIODS"},
+        omit_paths_option(),
+        {"--quiet", &call->quiet, "No progress and no report"},
+    });
     add_track_options(subcommand, call->camera, camera);
-    subcommand.add_option("--amplitude", call->camera.amplitude,
-                          "Amplitude of the swirling motion, in disc radii [0]", "NUMBER", camera);
-    subcommand.add_option("--container-radius", call->camera.container_radius,
-                          "Radius of the container, in disc radii", "NUMBER", camera);
-    subcommand.add_option("--max-invalid", call->max_invalid,
-                          "Allowed fraction of invalid frames [0.05]", "SHARE", camera);
+    subcommand.in(camera).add({
+        {"--amplitude", &call->camera.amplitude,
+         "Amplitude of the swirling motion, in disc radii [0]", "NUMBER"},
+        {"--container-radius", &call->camera.container_radius,
+         "Radius of the container, in disc radii", "NUMBER"},
+        {"--max-invalid", &call->max_invalid, "Allowed fraction of invalid frames [0.05]", "SHARE"},
+    });
     subcommand.explain(
         "FILE is a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text "
         "dump. A frame is invalid if discs overlap or lie outside the container "

@@ -103,31 +103,16 @@ void make_and_report(const MovieCall& call) {
 
 void add_movie_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MovieCall>();
-    const auto group = "Movie";
-    subcommand.add_option("--out", call->out, "Movie file: .mp4, .webm or .gif")
-        ->type_name("FILE")
-        ->group(group);
-    subcommand
-        .add_option("--frame-files", call->frames_folder, "Folder for PNG files of all frames")
-        ->type_name("DIR")
-        ->group(group);
-    subcommand.add_option("--seconds", call->seconds, "Duration of the movie [10; .gif: 6]")
-        ->type_name("SECONDS")
-        ->group(group);
-    subcommand.add_option("--periods", call->periods, "Duration in periods, instead of --seconds")
-        ->type_name("PERIODS")
-        ->group(group);
-    subcommand.add_option("--pace", call->pace, "Periods per second of the movie [2]")
-        ->type_name("NUMBER")
-        ->group(group);
-    subcommand.add_option("--fps", call->frames_per_second, "Frames per second [60; .gif: 25]")
-        ->type_name("NUMBER")
-        ->group(group);
-    subcommand
-        .add_option("--start", call->start, "Period of the first frame [20; of FILE: its first]")
-        ->type_name("PERIODS")
-        ->group(group);
-    subcommand.add_flag("--quiet", call->quiet, "Suppress progress and report")->group(group);
+    subcommand.in("Movie").add({
+        {"--out", &call->out, "Movie file: .mp4, .webm or .gif", "FILE"},
+        {"--frame-files", &call->frames_folder, "Folder for PNG files of all frames", "DIR"},
+        {"--seconds", &call->seconds, "Duration of the movie [10; .gif: 6]", "SECONDS"},
+        {"--periods", &call->periods, "Duration in periods, instead of --seconds", "PERIODS"},
+        {"--pace", &call->pace, "Periods per second of the movie [2]", "NUMBER"},
+        {"--fps", &call->frames_per_second, "Frames per second [60; .gif: 25]", "NUMBER"},
+        {"--start", &call->start, "Period of the first frame [20; of FILE: its first]", "PERIODS"},
+        {"--quiet", &call->quiet, "Suppress progress and report"},
+    });
     call->appearance = add_appearance_options(subcommand);
     call->source = add_source_options(subcommand);
     subcommand.explain(std::string(source_explanation) +

@@ -59,31 +59,22 @@ nlohmann::ordered_json json_of(const PaperCall& call) {
 
 void add_paper_command(Subcommand& subcommand) {
     const auto call = std::make_shared<PaperCall>();
-    subcommand
-        .add_option("config", call->config_file,
-                    "TOML file with option names; the command line overrides it")
-        ->type_name("FILE.toml");
-    subcommand.add_option("--figure", call->figures, "Figures or groups to make [all]; repeatable")
-        ->type_name("NAME");
-    subcommand.add_flag("--quick", call->quick,
-                        "Fewer points and seeds, in runs of the same length");
-    subcommand.add_flag("--movies", call->movies,
-                        "Movies of the paper, and movies.html that plays them");
-    subcommand
-        .add_option("--events", call->events, "Events per run; scales lengths in periods [1e6]")
-        ->type_name("NUMBER");
-    subcommand.add_option("--seed", call->seed, "Random seed of the first run of each point [1]")
-        ->type_name("NUMBER");
-    subcommand
-        .add_option("--seeds", call->seeds,
-                    "Runs per point; undecided claims get more [8, quick 3]")
-        ->type_name("NUMBER");
-    subcommand.add_option("--out", call->out, "Output folder [out]")->type_name("DIR");
-    subcommand.add_option("--part", call->share.part, "Part of the runs to make, such as 2/10")
-        ->type_name("K/M");
-    add_threads_option(subcommand, call->share, "");
-    add_omit_paths_option(subcommand);
-    subcommand.add_flag("--quiet", call->quiet, "No progress line");
+    subcommand.add({
+        {"config", &call->config_file, "TOML file with option names; the command line overrides it",
+         "FILE.toml"},
+        {"--figure", &call->figures, "Figures or groups to make [all]; repeatable", "NAME"},
+        {"--quick", &call->quick, "Fewer points and seeds, in runs of the same length"},
+        {"--movies", &call->movies, "Movies of the paper, and movies.html that plays them"},
+        {"--events", &call->events, "Events per run; scales lengths in periods [1e6]", "NUMBER"},
+        {"--seed", &call->seed, "Random seed of the first run of each point [1]", "NUMBER"},
+        {"--seeds", &call->seeds, "Runs per point; undecided claims get more [8, quick 3]",
+         "NUMBER"},
+        {"--out", &call->out, "Output folder [out]", "DIR"},
+        {"--part", &call->share.part, "Part of the runs to make, such as 2/10", "K/M"},
+        threads_option(call->share),
+        omit_paths_option(),
+        {"--quiet", &call->quiet, "No progress line"},
+    });
     subcommand.set_examples({"swirl paper --figure 5b --quick",
                              "swirl paper --figure 5b --out fig5b",
                              "swirl paper --figure chapters --quick", "swirl paper --quick"});
@@ -95,8 +86,7 @@ void add_paper_command(Subcommand& subcommand) {
     });
     subcommand.callback([call, &subcommand] {
         ParameterTexts parameters;
-        if (!call->config_file.empty())
-            take_config_file(subcommand, call->config_file, parameters, Lists::rejected, "paper");
+        take_config_file(subcommand, call->config_file, parameters, Lists::rejected, "paper");
         for (const auto& [name, into] :
              {std::pair("events", &call->events), std::pair("seed", &call->seed)})
             if (const auto found = parameters.find(name); found != parameters.end())

@@ -238,18 +238,16 @@ void add_run_command(Subcommand& subcommand) {
     call->parameters = add_run_options(subcommand);
     call->recording = add_recording_options(subcommand);
     const char* const output = "Output";
-    subcommand.add_option("--json", call->json, "File for all results, or - for stdout", "FILE|-",
-                          output);
-    subcommand.add_option("--measure", call->measure,
-                          "Measurements, separated by commas, or all (or help)", "LIST", output);
-    subcommand.add_option("--tables", call->tables, "Folder for the measurements as CSV tables",
-                          "DIR", output);
-    add_omit_paths_option(subcommand, output);
-    subcommand.add_flag("--quiet", call->quiet, "One line of report and no progress", output);
-    subcommand.add_flag("--verbose", call->verbose, "Also report errors, energy, overlap and time",
-                        output);
-    subcommand.add_flag("--dry-run", call->dry_run, "Print the configuration file and do not run",
-                        output);
+    subcommand.in(output).add({
+        {"--json", &call->json, "File for all results, or - for stdout", "FILE|-"},
+        {"--measure", &call->measure, "Measurements, separated by commas, or all (or help)",
+         "LIST"},
+        {"--tables", &call->tables, "Folder for the measurements as CSV tables", "DIR"},
+        omit_paths_option(),
+        {"--quiet", &call->quiet, "One line of report and no progress"},
+        {"--verbose", &call->verbose, "Also report errors, energy, overlap and time"},
+        {"--dry-run", &call->dry_run, "Print the configuration file and do not run"},
+    });
     subcommand.set_main_options({"--discs", "--mu", "--body", "--container-radius", "--events",
                                  "--periods", "--warmup", "--seed", "--measure", "--json"});
     subcommand.set_examples({"swirl run --discs 48", "swirl run --discs 28 --mu 0.5 --json -",

@@ -232,35 +232,24 @@ void sweep(const SweepCall& call) {
 
 void add_sweep_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SweepCall>();
-    const char* const group = "Sweep";
-    subcommand.add_option("plan", call->config_file, "TOML file with parameters and lists of them",
-                          "PLAN.toml");
+    subcommand.add(
+        {{"plan", &call->config_file, "TOML file with parameters and lists of them", "PLAN.toml"}});
     call->parameters = add_run_options(subcommand);
-    subcommand
-        .add_option("--out", call->out, "Folder of the sweep; a repeated call completes it", "DIR",
-                    group)
-        ->required();
-    subcommand.add_option("--points", call->points, "Table of points instead of lists of values",
-                          "FILE.csv", group);
-    subcommand.add_option("--seeds", call->seeds, "Number of replicates of each point [1]", "N",
-                          group);
-    subcommand.add_option("--measure", call->measure, "Measurements, as for swirl run", "LIST",
-                          group);
-    subcommand.add_option("--frames", call->frames, "Recorded frames per period of each run [none]",
-                          "N", group);
-    subcommand.add_flag("--series", call->series,
-                        "Table of the averages of every period, for each run", group);
-    subcommand.add_option("--chain", call->chain,
-                          "Parameter along which each run continues from the last", "NAME", group);
-    add_threads_option(subcommand, call->sharing, group);
-    subcommand.add_flag("--plot", call->plot, "Collect and draw the table when all runs are done",
-                        group);
-    subcommand.add_flag("--grow", call->grow, "Extend an existing sweep; finished runs are kept",
-                        group);
-    subcommand.add_flag("--status", call->status, "Print the numbers of runs done and failed",
-                        group);
-    subcommand.add_flag("--dry-run", call->dry_run, "Print the plan and do not run", group);
-    subcommand.add_flag("--quiet", call->quiet, "No progress and no report", group);
+    subcommand.in("Sweep").add({
+        {"--out", &call->out, "Folder of the sweep; a repeated call completes it", "DIR", required},
+        {"--points", &call->points, "Table of points instead of lists of values", "FILE.csv"},
+        {"--seeds", &call->seeds, "Number of replicates of each point [1]", "N"},
+        {"--measure", &call->measure, "Measurements, as for swirl run", "LIST"},
+        {"--frames", &call->frames, "Recorded frames per period of each run [none]", "N"},
+        {"--series", &call->series, "Table of the averages of every period, for each run"},
+        {"--chain", &call->chain, "Parameter along which each run continues from the last", "NAME"},
+        threads_option(call->sharing),
+        {"--plot", &call->plot, "Collect and draw the table when all runs are done"},
+        {"--grow", &call->grow, "Extend an existing sweep; finished runs are kept"},
+        {"--status", &call->status, "Print the numbers of runs done and failed"},
+        {"--dry-run", &call->dry_run, "Print the plan and do not run"},
+        {"--quiet", &call->quiet, "No progress and no report"},
+    });
     add_cluster_options(subcommand, call->sharing, true);
     subcommand.explain(
         "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. A table of "
@@ -279,9 +268,8 @@ void add_sweep_command(Subcommand& subcommand) {
                              "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop --plot",
                              "swirl sweep --out study --status"});
     subcommand.callback([call, &subcommand] {
-        if (!call->config_file.empty())
-            take_config_file(subcommand, call->config_file, *call->parameters, Lists::accepted,
-                             "sweep");
+        take_config_file(subcommand, call->config_file, *call->parameters, Lists::accepted,
+                         "sweep");
         sweep(*call);
     });
 }
@@ -377,15 +365,15 @@ void collect(const CollectCall& call) {
 
 void add_collect_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CollectCall>();
-    subcommand.add_option("folder", call->folder, "Folder of a sweep", "DIR")->required();
-    subcommand.add_option("--csv", call->table,
-                          "File for the table, or - for stdout [DIR/table.csv]", "FILE|-");
-    subcommand.add_option("--crossings", call->crossings,
-                          "File for a table of N_c, or - for stdout", "FILE|-");
-    subcommand.add_option("--loops", call->loops,
-                          "File for the areas of hysteresis loops, or - for stdout", "FILE|-");
-    subcommand.add_flag("--plot", call->plot, "Draw the table as PNG and PDF next to it");
-    subcommand.add_option("--quantity", call->quantity, "Column to draw [mean_by_time]", "NAME");
+    subcommand.add({
+        {"folder", &call->folder, "Folder of a sweep", "DIR", required},
+        {"--csv", &call->table, "File for the table, or - for stdout [DIR/table.csv]", "FILE|-"},
+        {"--crossings", &call->crossings, "File for a table of N_c, or - for stdout", "FILE|-"},
+        {"--loops", &call->loops, "File for the areas of hysteresis loops, or - for stdout",
+         "FILE|-"},
+        {"--plot", &call->plot, "Draw the table as PNG and PDF next to it"},
+        {"--quantity", &call->quantity, "Column to draw [mean_by_time]", "NAME"},
+    });
     subcommand.explain(
         "N_c is the number of discs at which the rotation (by time) changes its sign, for each "
         "combination of the other parameters. The area of a loop is the integral, over the "

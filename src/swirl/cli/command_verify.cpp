@@ -53,8 +53,7 @@ std::string version_of(const Json& result) {
 }
 
 /// Repeats a run. `pass_event` passes each event and returns false to end the run early.
-template <class PassEvent>
-RunResult repeat_run(const RunConfig& config, bool quiet, const PassEvent& pass_event,
+RunResult repeat_run(const RunConfig& config, bool quiet, const auto& pass_event,
                      RunControl control = {}) {
     ProgressLine line("verifying", quiet);
     control.stop = &stop_signal();
@@ -227,8 +226,7 @@ bool same_frame(const Snapshot& frame, const Snapshot& now) {
 
 /// Compares the texts of a recording on its run. Returns the names of those that a repeated run
 /// cannot give.
-template <class Reader>
-std::string verify_provenance(const std::string& file, Reader& recording, const RunConfig& config) {
+std::string verify_provenance(const std::string& file, auto& recording, const RunConfig& config) {
     std::vector<std::string> unverifiable;
     const std::string by = recording.provenance("version");
     for (const auto& [name, now] : provenance_of(config, "", "")) {
@@ -424,10 +422,10 @@ void add_verify_command(Subcommand& subcommand) {
         bool quiet = false;
     };
     const auto call = std::make_shared<Verify>();
-    subcommand.add_option("file", call->file, "Result (JSON), trajectory or event log (HDF5)")
-        ->type_name("FILE")
-        ->required();
-    subcommand.add_flag("--quiet", call->quiet, "Print neither progress nor report");
+    subcommand.add({
+        {"file", &call->file, "Result (JSON), trajectory or event log (HDF5)", "FILE", required},
+        {"--quiet", &call->quiet, "Print neither progress nor report"},
+    });
     subcommand.set_examples({"swirl verify result.json", "swirl verify frames.h5"});
     subcommand.callback([call] {
         if (!file_signature(call->file).starts_with('\x89'))

@@ -133,6 +133,7 @@ bool is_config_file(const std::string& argument) { return argument.ends_with(".t
 void take_config_file(const Subcommand& subcommand, const std::string& file,
                       ParameterTexts& parameters, Lists lists, const std::string& command,
                       const std::vector<std::vector<std::string>>& alternatives) {
+    if (file.empty()) return;
     std::map<std::string, const Option*> options;
     std::vector<std::string> names;
     for (const Option& option : subcommand.options()) {

@@ -23,47 +23,30 @@ struct Option {
     OptionTarget target;
     std::string description;
     std::string value_form = {};  // the value in the help: "FILE"
-    std::string help_group = {};
     bool is_required = false;
-    bool is_given = false;  // set by parse()
     /// Not 0: the option may be repeated, and its values are joined by this character.
     char joined_by = '\0';
-
-    Option* type_name(std::string form) {
-        value_form = std::move(form);
-        return this;
-    }
-    Option* group(std::string name_of_group) {
-        help_group = std::move(name_of_group);
-        return this;
-    }
-    Option* repeatable(char separator) {
-        joined_by = separator;
-        return this;
-    }
-    Option* required() {
-        is_required = true;
-        return this;
-    }
+    std::string help_group = {};  // set by Group::add()
+    bool is_given = false;        // set by parse()
 };
+inline constexpr bool required = true;
 
 class Subcommand {
   public:
-    /// The returned pointer stays valid. With a vector as target, the option may be repeated.
-    template <class Target>
-    Option* add_option(std::string name, Target& target, std::string description,
-                       std::string form = "", std::string group = "") {
-        Option* const option = add(std::move(name), &target, std::move(description));
-        return option->type_name(std::move(form))->group(std::move(group));
-    }
-    Option* add_option_function(std::string name, std::function<void(const std::string&)> take,
-                                std::string description) {
-        return add(std::move(name), std::move(take), std::move(description));
-    }
-    Option* add_flag(std::string name, bool& target, std::string description,
-                     std::string group = "") {
-        return add(std::move(name), &target, std::move(description))->group(std::move(group));
-    }
+    /// subcommand.in("Output").add({{"--json", &json, "File for all results", "FILE"}}): options in a
+    /// group of the help. With a vector as target, an option may be repeated.
+    struct Group {
+        std::deque<Option>& all;
+        std::string name;
+        void add(std::vector<Option> options) {
+            for (Option& option : options) {
+                option.help_group = name;
+                all.push_back(std::move(option));
+            }
+        }
+    };
+    Group in(std::string group) { return {options_, std::move(group)}; }
+    void add(std::vector<Option> options) { in("").add(std::move(options)); }
 
     /// The options in the short help (-h), by name: about ten. Without a call, all are.
     void set_main_options(std::vector<std::string> names) { main_options_ = std::move(names); }
@@ -93,11 +76,6 @@ class Subcommand {
     void act() const { action_(); }
 
   private:
-    Option* add(std::string name, OptionTarget target, std::string description) {
-        options_.push_back({std::move(name), std::move(target), std::move(description)});
-        return &options_.back();
-    }
-
     std::deque<Option> options_;
     std::vector<std::string> main_options_;
     std::function<std::string()> explanation_;

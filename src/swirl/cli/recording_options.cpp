@@ -125,35 +125,25 @@ std::string toml_value(const std::string& text) {
 
 std::shared_ptr<RecordingCall> add_recording_options(Subcommand& subcommand) {
     auto call = std::make_shared<RecordingCall>();
-    subcommand
-        .add_option("config", call->config_file,
-                    "TOML file with option names and values; options override it")
-        ->type_name("FILE.toml");
+    subcommand.add({{"config", &call->config_file,
+                     "TOML file with option names and values; options override it", "FILE.toml"}});
     for (const RecordingOption& option : options) {
         const std::string name = option.name;
-        subcommand
-            .add_option_function(
-                option_name(name),
-                [call, name](const std::string& text) {
-                    if (text.empty())
-                        throw UsageError(
-                            fmt::format("{} is empty, but it needs a value.", option_name(name)));
-                    call->texts[name] = text;
-                },
-                option.description)
-            ->type_name(option.value)
-            ->group(group);
+        const auto take = [call, name](const std::string& text) {
+            if (text.empty())
+                throw UsageError(
+                    fmt::format("{} is empty, but it needs a value.", option_name(name)));
+            call->texts[name] = text;
+        };
+        subcommand.in(group).add({{option_name(name), take, option.description, option.value}});
     }
-    subcommand.add_flag("--resume", call->resume, "Continue from the checkpoint, if it exists")
-        ->group(group);
-    subcommand
-        .add_flag("--overwrite", call->overwrite,
-                  "Replace existing files; a checkpoint becomes NAME.backup")
-        ->group(group);
-    subcommand
-        .add_flag("--keep-checkpoint", call->keep_checkpoint,
-                  "Keep the final checkpoint; --resume can then extend the run")
-        ->group(group);
+    subcommand.in(group).add({
+        {"--resume", &call->resume, "Continue from the checkpoint, if it exists"},
+        {"--overwrite", &call->overwrite,
+         "Replace existing files; a checkpoint becomes NAME.backup"},
+        {"--keep-checkpoint", &call->keep_checkpoint,
+         "Keep the final checkpoint; --resume can then extend the run"},
+    });
     return call;
 }
 

@@ -18,18 +18,14 @@ std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
         const std::string name = p.name;
         const auto other = defaults.find(name);
         const std::string default_text = other == defaults.end() ? default_of(p) : other->second;
-        Option* const option =
-            subcommand
-                .add_option_function(
-                    option_name(name),
-                    [texts, name](const std::string& text) {
-                        (*texts)[name] = with_file_contents(name, text);
-                    },
-                    default_text.empty() ? p.description
-                                         : fmt::format("{} [{}]", p.description, default_text))
-                ->type_name(p.form)
-                ->group(p.group);
-        if (name == "ramp") option->repeatable(';');
+        const auto take = [texts, name](const std::string& text) {
+            (*texts)[name] = with_file_contents(name, text);
+        };
+        const std::string shown_default =
+            default_text.empty() ? "" : fmt::format(" [{}]", default_text);
+        Option option{option_name(name), take, p.description + shown_default, p.form};
+        if (name == "ramp") option.joined_by = ';';
+        subcommand.in(p.group).add({option});
     }
     return texts;
 }

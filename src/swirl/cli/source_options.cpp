@@ -75,29 +75,18 @@ FrameSource tracked_in(const SourceTexts& texts) {
 
 std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand) {
     auto texts = std::make_shared<SourceTexts>();
-    const auto group = "Source";
-    subcommand.add_option("FILE", texts->file, "Recording or TOML file, instead of a new run")
-        ->group(group);
-    subcommand.add_option("--compare", texts->compared_discs, "Second container, with N discs")
-        ->type_name("N")
-        ->group(group);
-    subcommand
-        .add_option("--rolling-ball", texts->slip, "Minimal model: one ball; 0 slips, 1 rolls")
-        ->type_name("S")
-        ->group(group);
-    subcommand
-        .add_option("--ball-radius", texts->ball_radius, "Radius of the ball in disc radii [4.3]")
-        ->type_name("NUMBER")
-        ->group(group);
+    subcommand.in("Source").add({
+        {"FILE", &texts->file, "Recording or TOML file, instead of a new run", ""},
+        {"--compare", &texts->compared_discs, "Second container, with N discs", "N"},
+        {"--rolling-ball", &texts->slip, "Minimal model: one ball; 0 slips, 1 rolls", "S"},
+        {"--ball-radius", &texts->ball_radius, "Radius of the ball in disc radii [4.3]", "NUMBER"},
+    });
     const auto camera = "Scale of tracks (also --amplitude, --container-radius)";
     add_track_options(subcommand, texts->camera, camera);
-    subcommand.add_option("--over", texts->images, "Camera images or video to draw over")
-        ->type_name("NAME")
-        ->group(camera);
-    subcommand
-        .add_option("--over-first", texts->first_image, "Number of frame 0 among the images [0]")
-        ->type_name("NUMBER")
-        ->group(camera);
+    subcommand.in(camera).add({
+        {"--over", &texts->images, "Camera images or video to draw over", "NAME"},
+        {"--over-first", &texts->first_image, "Number of frame 0 among the images [0]", "NUMBER"},
+    });
     texts->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
     return texts;
 }

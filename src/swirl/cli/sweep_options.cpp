@@ -49,29 +49,26 @@ SlurmJob ShareOptions::slurm_job() const {
     return result;
 }
 
-void add_threads_option(Subcommand& subcommand, ShareOptions& options, const char* group) {
-    subcommand.add_option("--threads", options.threads,
-                          "Number of simultaneous runs [one per core]", "N", group);
+Option threads_option(ShareOptions& options) {
+    return {"--threads", &options.threads, "Number of simultaneous runs [one per core]", "N"};
 }
 
 void add_cluster_options(Subcommand& subcommand, ShareOptions& options, bool with_rest) {
     const char* const cluster = "Cluster";
-    subcommand.add_option("--part", options.part, "Part of the points to run, such as 2/10",
-                          "PART/PARTS", cluster);
+    subcommand.in(cluster).add(
+        {{"--part", &options.part, "Part of the points to run, such as 2/10", "PART/PARTS"}});
     if (with_rest)
-        subcommand.add_flag("--finish-others", options.rest,
-                            "After the part, run points that no process works on", cluster);
-    subcommand.add_flag("--slurm", options.slurm,
-                        "Submit a Slurm job array instead of running here", cluster);
-    subcommand.add_option("--nodes", options.nodes, "Number of tasks of the array [1]", "N",
-                          cluster);
-    subcommand.add_option("--cpus", options.cpus, "Cores per task [the default of the cluster]",
-                          "N", cluster);
-    subcommand.add_option("--time", options.job.time,
-                          "Time limit of a task, in the format of sbatch", "TIME", cluster);
-    subcommand.add_option("--partition", options.job.partition, "Slurm partition", "NAME", cluster);
-    subcommand.add_option("--sbatch", options.job.sbatch,
-                          "Further option of sbatch, such as mem=4G; repeatable", "ARG", cluster);
+        subcommand.in(cluster).add({{"--finish-others", &options.rest,
+                                     "After the part, run points that no process works on"}});
+    subcommand.in(cluster).add({
+        {"--slurm", &options.slurm, "Submit a Slurm job array instead of running here"},
+        {"--nodes", &options.nodes, "Number of tasks of the array [1]", "N"},
+        {"--cpus", &options.cpus, "Cores per task [the default of the cluster]", "N"},
+        {"--time", &options.job.time, "Time limit of a task, in the format of sbatch", "TIME"},
+        {"--partition", &options.job.partition, "Slurm partition", "NAME"},
+        {"--sbatch", &options.job.sbatch, "Further option of sbatch, such as mem=4G; repeatable",
+         "ARG"},
+    });
 }
 
 }  // namespace swirl

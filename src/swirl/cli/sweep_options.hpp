@@ -21,8 +21,8 @@ struct ShareOptions {
     SlurmJob slurm_job() const;
 };
 
-/// --threads, in the given group.
-void add_threads_option(Subcommand& subcommand, ShareOptions& options, const char* group);
+/// --threads
+Option threads_option(ShareOptions& options);
 /// --part, --slurm and so on. Without `with_rest` the rest always follows.
 void add_cluster_options(Subcommand& subcommand, ShareOptions& options, bool with_rest);
 

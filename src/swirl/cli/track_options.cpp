@@ -164,20 +164,16 @@ double number_option(const std::string& name, const std::string& text, double ot
 }
 
 void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::string& group) {
-    const auto text = [&](const std::string& name, std::string& into, const char* type,
-                          const char* description) {
-        subcommand.add_option(name, into, description)->type_name(type)->group(group);
-    };
-    text("--camera-fps", texts.fps, "NUMBER", "Frames (LAMMPS: steps) per unit of time [1]");
-    text("--scale", texts.scale, "NUMBER", "Image scale, pixels per disc radius [1]");
-    text("--omega", texts.omega, "NUMBER",
-         "Angular velocity of the container, rad per unit of time");
-    text("--centre", texts.centre, "X,Y", "Centre of the container's path, in pixels [0,0]");
-    text("--phase", texts.phase, "DEG",
-         "Container phase at frame 0, counter-clockwise from +x [0]");
-    subcommand
-        .add_flag("--clockwise", texts.clockwise, "The container moves clockwise in the image")
-        ->group(group);
+    subcommand.in(group).add({
+        {"--camera-fps", &texts.fps, "Frames (LAMMPS: steps) per unit of time [1]", "NUMBER"},
+        {"--scale", &texts.scale, "Image scale, pixels per disc radius [1]", "NUMBER"},
+        {"--omega", &texts.omega, "Angular velocity of the container, rad per unit of time",
+         "NUMBER"},
+        {"--centre", &texts.centre, "Centre of the container's path, in pixels [0,0]", "X,Y"},
+        {"--phase", &texts.phase, "Container phase at frame 0, counter-clockwise from +x [0]",
+         "DEG"},
+        {"--clockwise", &texts.clockwise, "The container moves clockwise in the image"},
+    });
 }
 
 void throw_option_of_tracks(std::string_view name, const std::string& file) {
