@@ -55,21 +55,15 @@ std::size_t whole_periods(const MeasuredSeries& measured) {
 /// periods count as no block. All columns of a table are averages over the same blocks.
 void correct_errors(MeasuredSeries& measured) {
     const std::size_t all = whole_periods(measured);
-    const auto factor = [&](std::size_t blocks) {
-        return few_blocks_factor(std::min(blocks, all));
-    };
-    const auto correct = [&](Estimate& e) {
-        if (e.blocks > 0) e.error *= factor(e.blocks);
-    };
-    correct(measured.rotation.mean_by_time);
-    correct(measured.rotation.rigid_by_time);
+    for (Estimate* const e : {&measured.rotation.mean_by_time, &measured.rotation.rigid_by_time})
+        *e = corrected(*e, all);
     for (MeasurementReport& measurement : measured.reports) {
-        for (ReportRow& row : measurement.report.rows) correct(row.estimate);
+        for (ReportRow& row : measurement.report.rows) row.estimate = corrected(row.estimate, all);
         for (ReportTable& table : measurement.report.tables)
             for (std::size_t c = 0; c < table.columns.size(); ++c) {
                 if (!table.columns[c].name.ends_with("_error")) continue;
                 for (std::size_t r = 0; r < table.rows(); ++r)
-                    table.values[r * table.columns.size() + c] *= factor(all);
+                    table.values[r * table.columns.size() + c] *= few_blocks_factor(all);
             }
     }
 }

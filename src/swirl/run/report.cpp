@@ -10,6 +10,7 @@
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/ramp.hpp"
 #include "swirl/run/reading.hpp"
+#include "swirl/statistics/few_blocks.hpp"
 #include "swirl/statistics/zero_crossing.hpp"
 
 namespace swirl {
@@ -20,6 +21,14 @@ std::string with_minus(const std::string& text) {
 }
 
 std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
+
+/// Few periods determine the error itself badly.
+RotationEstimates corrected(RotationEstimates e) {
+    for (Estimate* const rate :
+         {&e.mean_by_event, &e.mean_by_time, &e.rigid_by_event, &e.rigid_by_time})
+        *rate = swirl::corrected(*rate);
+    return e;
+}
 
 /// On straight segments, the vertices of the path add energy on average.
 bool energy_grows_without_bound(const RunConfig& c) {
@@ -195,7 +204,7 @@ std::string events_text(const RunResult& r) {
 /// The lines that only --verbose prints.
 std::string details(const RunResult& r) {
     std::string text;
-    const RotationEstimates& e = r.rotation;
+    const RotationEstimates e = corrected(r.rotation);
     if (r.config.discs > 1 && r.has_whole_period()) {
         text += report_line("by time",
                             fmt::format("{} mean over the discs, {} rigid body",
@@ -297,7 +306,7 @@ std::string rigid_body_line(const RotationEstimates& e) {
 }
 
 std::string headline(const RunResult& r) {
-    const Estimate& e = r.rotation.mean_by_time;
+    const Estimate e = swirl::corrected(r.rotation.mean_by_time);
     const char* const body = body_word(r.config);
     if (r.config.discs == 1)
         return fmt::format("1 {} has no rotation about its own centre of mass.", body);
@@ -357,7 +366,7 @@ std::string report(const RunResult& r, bool verbose) {
             "Ω", "2π/T, only a unit, because this path has no M-frame; ϖ > 0 is counter-clockwise");
     if (const std::string rounded = rounded_share_text(r.config); !rounded.empty())
         text += report_line("mixture", rounded);
-    if (has_averages) text += rigid_body_line(r.rotation);
+    if (has_averages) text += rigid_body_line(corrected(r.rotation));
     if (r.has_whole_period()) text += report_line("average", average_text(r));
     if (r.config.ramps.empty()) text += report_line("steady", steady_text(r));
     text += report_line("repeat", fmt::format("seed {} gives final state {:016x} on every machine",
