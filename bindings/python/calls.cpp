@@ -114,8 +114,7 @@ std::string list_text(const std::string& name, const py::handle& values) {
     return text;
 }
 
-template <class TextOf>
-ParameterTexts texts_by(const py::dict& given, TextOf&& text_of) {
+ParameterTexts texts_by(const py::dict& given, auto&& text_of) {
     ParameterTexts texts;
     for (const auto& [key, value] : given) {
         if (value.is_none()) continue;

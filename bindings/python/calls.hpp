@@ -62,8 +62,7 @@ bool is_main_thread();
 
 /// Runs work() in another thread. Meanwhile this thread checks for Ctrl-C 20 times per second and
 /// calls `more`. An exception sets `stop`, and is rethrown here when the work has ended.
-template <class Work>
-auto interruptible(std::atomic<bool>& stop, Work&& work, const std::function<void()>& more = {}) {
+auto interruptible(std::atomic<bool>& stop, auto&& work, const std::function<void()>& more = {}) {
     PendingError error;
     std::future<decltype(work())> done;
     {

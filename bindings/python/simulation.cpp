@@ -73,8 +73,7 @@ class InteractiveSimulation {
 
     /// Calls work(simulation) with exclusive access. It waits without the interpreter lock, which
     /// the thread that has access may need.
-    template <class Work>
-    auto exclusively(Work&& work) {
+    auto exclusively(auto&& work) {
         std::unique_lock lock(mutex_, std::try_to_lock);
         if (!lock) {
             if (process_ != getpid())
@@ -218,8 +217,7 @@ class InteractiveSimulation {
 
     /// Calls step() until it returns false. Other Python threads run meanwhile. Ctrl-C ends it
     /// between two steps.
-    template <class Step>
-    void repeat_interruptibly(Step&& step) {
+    void repeat_interruptibly(auto&& step) {
         PendingError error;
         exclusively([&](Simulation&) {
             const WithoutInterpreter without;

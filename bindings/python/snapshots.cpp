@@ -71,8 +71,7 @@ void bind_columns(Class& type) {
 }
 
 /// Order of the columns in a pickled object, for io/state_archive.hpp.
-template <class Visitor>
-void visit_columns(Frames& f, Visitor&& visit) {
+void visit_columns(Frames& f, auto&& visit) {
     visit(f.discs, f.period, f.container_radius, f.on_floor, f.are_spheres, f.lie_flat, f.radius,
           f.mass, f.inertia, f.periods, f.clock, f.time, f.container_centre, f.container_velocity,
           f.position, f.velocity, f.acceleration, f.rolling_spin, f.angle, f.spin);

@@ -21,8 +21,7 @@ constexpr std::chrono::milliseconds log_flush_interval(1000);
 
 /// Calls visit(stored, name, field) for each column of /events, in a fixed order. The column's type
 /// is std::decay_t<decltype(stored)>, and field(event) refers to the value in an Event.
-template <class Visit>
-void for_each_column(bool are_spheres, Visit&& visit) {
+void for_each_column(bool are_spheres, auto&& visit) {
     visit(
         std::int64_t{}, "swirls", [](auto& e) -> auto& { return e.periods; });
     visit(

@@ -29,8 +29,7 @@ void add(Text& text, fmt::format_string<Parts...> format, Parts&&... parts) {
 /// Unknown values are NaN in a snapshot; formats without a missing value get 0.
 double or_zero(double value) { return std::isfinite(value) ? value : 0.0; }
 
-template <class Write>
-void write_frames(const SnapshotSeries& series, const ExportOptions& options, Write&& write) {
+void write_frames(const SnapshotSeries& series, const ExportOptions& options, auto&& write) {
     const std::uint64_t count = exported_frames(series.frames, options);
     for (std::uint64_t n = 0; n < count; ++n) {
         const std::uint64_t k = options.first + n * options.stride;
@@ -45,9 +44,8 @@ const PinnedColumns* states_of(const SnapshotSeries& series, std::uint64_t k) {
 }
 
 /// Appends the text that format(text, k, snapshot) adds for each frame k.
-template <class Format>
 void write_text_frames(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options,
-                       Format&& format) {
+                       auto&& format) {
     write_frames(series, options, [&](std::uint64_t k, const Snapshot& s) {
         Text text;
         format(text, k, s);

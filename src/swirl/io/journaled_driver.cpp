@@ -21,8 +21,7 @@ const JournaledDriver& driver_of(const H5FD_t* file) {
 }
 
 /// Exceptions must not pass through C code, so they become an error code.
-template <class Action>
-herr_t guarded(JournaledDriver& driver, Action&& action) {
+herr_t guarded(JournaledDriver& driver, auto&& action) {
     try {
         action();
         return 0;

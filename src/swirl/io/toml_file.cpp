@@ -145,8 +145,4 @@ Config parse_config(std::string text, std::string_view name) {
     return config;
 }
 
-Config read_config(const std::filesystem::path& path) {
-    return parse_config(read_whole_file(path, largest_config), path.string());
-}
-
 }  // namespace swirl

@@ -34,6 +34,5 @@ struct Config {
 /// `name` appears in error messages. Throws FileError with the line of the error: invalid TOML,
 /// tables, dates, nested lists, or bytes that are not UTF-8 text.
 Config parse_config(std::string text, std::string_view name);
-Config read_config(const std::filesystem::path& path);
 
 }  // namespace swirl

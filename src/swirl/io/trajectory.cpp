@@ -36,8 +36,7 @@ namespace {
 
 /// Calls read(), and again if the file has changed meanwhile. A writer commits twice a second, and
 /// read() takes milliseconds, so the second attempt mostly succeeds.
-template <class Read>
-auto repeat_if_changed(Read&& read) {
+auto repeat_if_changed(auto&& read) {
     for (int attempts_left = 50;; --attempts_left) {
         try {
             return read();

@@ -85,9 +85,8 @@ std::vector<Run> runs_of(std::string_view text, const LabelStyle& style) {
 }
 
 /// Calls visit(run, left) for each run, with its face selected; the first starts at `x`.
-template <class Visit>
 void for_each_run(cairo_t* cairo, const std::vector<Run>& runs, const LabelStyle& style, double x,
-                  Visit&& visit) {
+                  auto&& visit) {
     for (const Run& run : runs) {
         const double advance = advance_of(cairo, run, style);
         double left = x;

@@ -49,10 +49,7 @@ class EventSampler {
         return in_period;
     }
 
-    template <class Visitor>
-    void fields(Visitor&& visit) {
-        visit(interval_, left_, events_before_);
-    }
+    void fields(auto&& visit) { visit(interval_, left_, events_before_); }
 
   private:
     bool is_fixed_, is_due_ = false;

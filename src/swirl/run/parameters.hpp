@@ -219,13 +219,13 @@ inline constexpr ParameterRange positive{smallest_value, largest_value},
 }
 
 struct Parameter {
-    const char* name;          // "mu_disc": the key in every file; the option is --mu-disc
-    const char* symbol = "";   // symbol in docs/explanation/physics.md
-    const char* unit = "";     // "length", "time", …; empty for a pure number
-    const char* form = "";     // the value after the option: "NUMBER"
-    const char* description;   // --help shows it: at most 60 characters
-    const char* details = "";  // further sentences for docs/reference/parameters.md
-    const char* group;
+    const char* name;             // "mu_disc": the key in every file; the option is --mu-disc
+    const char* symbol = "";      // symbol in docs/explanation/physics.md
+    const char* unit = "";        // "length", "time", …; empty for a pure number
+    const char* form = "";        // the value after the option: "NUMBER"
+    const char* description;      // --help shows it: at most 60 characters
+    const char* details = "";     // further sentences for docs/reference/parameters.md
+    const char* group = nullptr;  // the first row of a group names it
     /// The member of RunConfig and its allowed range.
     std::variant<std::monostate, double RunConfig::*, std::int64_t RunConfig::*, int RunConfig::*,
                  std::uint64_t RunConfig::*, std::optional<std::int64_t> RunConfig::*>
@@ -257,8 +257,17 @@ namespace parameter_group {
 inline constexpr const char *particles = "Particles", *container = "Container", *run = "Run";
 }
 
+constexpr auto with_groups(auto rows) {
+    const char* group = nullptr;
+    for (Parameter& row : rows) {
+        if (row.group) group = row.group;
+        row.group = group;
+    }
+    return rows;
+}
+
 /// In the order of `swirl run --help`, of the JSON and of the axes of a sweep.
-inline constexpr auto run_parameters = std::to_array<Parameter>({
+inline constexpr auto run_parameters = with_groups(std::to_array<Parameter>({
     {.name = "preset",
      .form = "experiment|experiment-rough|experiment-half",
      .description = "The paper's experiment as defaults: smooth spheres",
@@ -275,14 +284,12 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "N",
      .form = "N",
      .description = "Number of discs or spheres",
-     .group = parameter_group::particles,
      .member = &RunConfig::discs,
      .range = {1, max_discs}},
     {.name = "mu",
      .symbol = "μ",
      .form = "NUMBER",
      .description = "Friction coefficient between particles and at the wall",
-     .group = parameter_group::particles,
      .range = parameter_range::nonnegative,
      .read = read_mu,
      .default_text = "1",
@@ -292,7 +299,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "μ_d",
      .form = "NUMBER",
      .description = "Friction coefficient between particles [value of --mu]",
-     .group = parameter_group::particles,
      .member = &RunConfig::mu_disc,
      .range = parameter_range::nonnegative,
      .default_text = "",
@@ -301,7 +307,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "μ_w",
      .form = "NUMBER",
      .description = "Friction coefficient at the wall [value of --mu]",
-     .group = parameter_group::particles,
      .member = &RunConfig::mu_wall,
      .range = parameter_range::nonnegative,
      .default_text = "",
@@ -312,7 +317,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details = "wall: with the wall. boundary: between two discs whose centres are both within "
                 "1.5 radii of the wall. bulk: all other contacts between discs. Other contacts "
                 "have the coefficients above (docs/results/beyond.md).",
-     .group = parameter_group::particles,
      .read = read_frictionless,
      .write = write_frictionless,
      .default_text = "none",
@@ -321,7 +325,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "disc|sphere",
      .description = "Type of particle",
      .details = "Spheres rotate about all three axes (docs/explanation/spheres.md).",
-     .group = parameter_group::particles,
      .read = read_body,
      .write = write_body,
      .default_text = "disc",
@@ -333,7 +336,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Moment of inertia of one particle, number or name",
      .details = "paper = 10 m r^2, ring = m r^2, solid (disc) = m r^2 / 2, sphere = 2/5 m r^2 "
                 "(the default for spheres), shell = 2/3 m r^2.",
-     .group = parameter_group::particles,
      .member = &RunConfig::inertia,
      .range = {1e-12, 1e18},
      .read = read_inertia,
@@ -345,7 +347,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .unit = "mass",
      .form = "NUMBER",
      .description = "Mass of one particle",
-     .group = parameter_group::particles,
      .member = &RunConfig::mass,
      .range = parameter_range::positive},
     {.name = "radius",
@@ -353,7 +354,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .unit = "length",
      .form = "NUMBER",
      .description = "Radius of one particle",
-     .group = parameter_group::particles,
      .member = &RunConfig::radius,
      .range = parameter_range::positive},
     {.name = "mixture",
@@ -363,7 +363,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
                 "particles. "
                 "The default mass is that of the same material: m ~ r^2 for discs, r^3 for "
                 "spheres.",
-     .group = parameter_group::particles,
      .range = parameter_range::positive,
      .read = read_mixture,
      .write = write_mixture,
@@ -379,7 +378,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
          "if wanted, a mass per particle. Other masses are those of the material of --radius "
          "and --mass: m ~ r^2 for discs, r^3 for spheres "
          "(docs/how-to/sizes.md).",
-     .group = parameter_group::particles,
      .read = read_sizes,
      .write = write_sizes,
      .default_text = "",
@@ -389,7 +387,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "FILE",
      .description = "CSV file with initial x, y, vx, vy, spin of the discs",
      .details = "In the lab frame (docs/how-to/sizes.md). Only for discs without a floor.",
-     .group = parameter_group::particles,
      .read = read_initial,
      .write = write_initial,
      .default_text = "",
@@ -399,7 +396,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "e",
      .form = "0..1",
      .description = "Normal coefficient of restitution; 1 is elastic",
-     .group = parameter_group::particles,
      .member = &RunConfig::restitution,
      .range = parameter_range::fraction,
      .can_ramp = true},
@@ -408,7 +404,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "0..1",
      .description = "Tangential restitution of a sticking contact",
      .details = "The fraction of the slip that the contact returns.",
-     .group = parameter_group::particles,
      .member = &RunConfig::tangential_restitution,
      .range = parameter_range::fraction,
      .can_ramp = true},
@@ -419,14 +414,12 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Contact duration of the TC model",
      .details = "A collision within this time of the last collision of a particle dissipates "
                 "nothing. It matters with --restitution below 1 or on a floor.",
-     .group = parameter_group::particles,
      .member = &RunConfig::contact_duration,
      .range = parameter_range::nonnegative},
     {.name = "floor",
      .form = "none|sliding",
      .description = "Floor under the particles",
      .details = "On a sliding floor, spheres slide and roll; discs (coins) slide.",
-     .group = parameter_group::particles,
      .read = read_floor,
      .write = write_floor,
      .default_text = "none",
@@ -435,7 +428,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "μ_f",
      .form = "NUMBER",
      .description = "Friction coefficient of the floor",
-     .group = parameter_group::particles,
      .member = &RunConfig::floor_friction,
      .range = parameter_range::positive,
      .written = WrittenIf::floor,
@@ -445,7 +437,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .unit = "length / time²",
      .form = "NUMBER",
      .description = "Gravitational acceleration; acts only with a floor",
-     .group = parameter_group::particles,
      .member = &RunConfig::gravity,
      .range = parameter_range::positive,
      .written = WrittenIf::floor},
@@ -454,7 +445,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "NUMBER",
      .description = "Rolling resistance coefficient of spheres on a floor",
      .details = "At most --floor-friction.",
-     .group = parameter_group::particles,
      .member = &RunConfig::rolling_resistance,
      .range = parameter_range::nonnegative,
      .written = WrittenIf::not_default},
@@ -463,7 +453,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "0..1",
      .description = "Fraction of vertical slip that friction opposes, spheres",
      .details = "For contacts between two spheres; 0: friction acts as between discs.",
-     .group = parameter_group::particles,
      .member = &RunConfig::vertical_disc,
      .range = parameter_range::fraction,
      .written = WrittenIf::not_default},
@@ -472,7 +461,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "0..1",
      .description = "Fraction of vertical slip that friction opposes, wall",
      .details = "For contacts of a sphere with the wall; 0: friction acts as for discs.",
-     .group = parameter_group::particles,
      .member = &RunConfig::vertical_wall,
      .range = parameter_range::fraction,
      .written = WrittenIf::not_default},
@@ -493,7 +481,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
          "Of a polygon, the radius of its circumscribed circle. Of an ellipse or a line, the "
          "semi-axis along x; of a Lissajous figure, along x and y. Of a path from a file, "
          "the largest distance from the origin: another value scales the path.",
-     .group = parameter_group::container,
      .member = &RunConfig::amplitude,
      .range = parameter_range::nonnegative,
      .can_ramp = true},
@@ -503,7 +490,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .form = "NUMBER",
      .description = "Duration of one turn of the path",
      .details = "A path from a file has its own period: another value scales its times.",
-     .group = parameter_group::container,
      .member = &RunConfig::period,
      .range = parameter_range::positive,
      .can_ramp = true},
@@ -512,7 +498,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .unit = "length / time",
      .form = "NUMBER",
      .description = "Speed of the container; replaces --period or --amplitude",
-     .group = parameter_group::container,
      .range = parameter_range::nonnegative,
      .read = read_speed,
      .write = write_speed,
@@ -523,7 +508,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .symbol = "Ω",
      .unit = "1 / time",
      .description = "Angular velocity of the container, 2 π / T",
-     .group = parameter_group::container,
      .write = write_omega,
      .default_text = "",
      .is_derived = true},
@@ -533,13 +517,11 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details = "Other shapes: ellipse:RATIO, lissajous:P:Q[:DEGREES]. A CSV file "
                 "holds a closed path of one period, with the columns t, x and y "
                 "(docs/how-to/paths.md).",
-     .group = parameter_group::container,
      .read = read_path,
      .write = write_path},
     {.name = "direction",
      .form = "counter-clockwise|clockwise",
      .description = "Direction of the path",
-     .group = parameter_group::container,
      .read = read_direction,
      .write = write_direction,
      .default_text = "counter-clockwise",
@@ -548,7 +530,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .unit = "°",
      .form = "DEG",
      .description = "Point of the path where a run starts, 360 for a period",
-     .group = parameter_group::container,
      .member = &RunConfig::path_phase,
      .range = {0, 360},
      .written = WrittenIf::not_default},
@@ -558,7 +539,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Number of straight segments of the path",
      .details =
          "The default for a Lissajous figure is 30 times the larger of its two numbers of cycles.",
-     .group = parameter_group::container,
      .member = &RunConfig::sides,
      .range = {3, max_sides},
      .read = read_sides,
@@ -576,7 +556,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .unit = "periods",
      .form = "NUMBER",
      .description = "Length of the run in periods; replaces --events",
-     .group = parameter_group::run,
      .member = &RunConfig::periods,
      .range = {1, max_periods},
      .read = read_periods,
@@ -587,7 +566,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .description = "Initial periods to exclude, or auto",
      .details = "auto determines them by MSER-5 and Geweke's test of rotation and spins; at most "
                 "half of the run.",
-     .group = parameter_group::run,
      .member = &RunConfig::warmup,
      .range = {0, max_periods},
      .read = read_warmup,
@@ -599,7 +577,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
      .details =
          "1 takes a sample after every event. By default a period with many events has about "
          "128 samples. The mean is the same.",
-     .group = parameter_group::run,
      .member = &RunConfig::events_per_sample,
      .range = {0, max_events},
      .written = WrittenIf::not_default},
@@ -611,7 +588,6 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
                 "tangential_restitution, floor_friction, amplitude, period. Several ramps: repeat "
                 "the option, or separate them by semicolons. Without --events and --periods, the "
                 "run ends after period Q.",
-     .group = parameter_group::run,
      .read = read_ramp,
      .write = write_ramp,
      .default_text = "",
@@ -620,9 +596,8 @@ inline constexpr auto run_parameters = std::to_array<Parameter>({
     {.name = "seed",
      .form = "NUMBER",
      .description = "Seed of the initial positions and velocities",
-     .group = parameter_group::run,
      .member = &RunConfig::seed},
-});
+}));
 
 /// The row with this name, spelled with underscores or hyphens; nullptr if there is none.
 const Parameter* find_parameter(std::string_view name);

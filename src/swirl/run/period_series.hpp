@@ -90,8 +90,7 @@ class PeriodSeries {
     std::string header() const;
     std::string rows(std::size_t first = 0) const;
 
-    template <class Visitor>
-    void fields(Visitor&& visit) {
+    void fields(auto&& visit) {
         visit(values_, events_, energy_, centre_.x, centre_.y, samples_);
         if (measures()) visit(measured_);
     }

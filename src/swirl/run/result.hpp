@@ -47,8 +47,7 @@ struct RunResult {
     /// Calls visit(group, row) for every number that each run has. JSON, the page and
     /// docs/reference/measurements.md use it; a group is an object in JSON, rows without group are
     /// plain keys.
-    template <class Visitor>
-    void report(Visitor&& visit) const {
+    void report(auto&& visit) const {
         const auto number = [&](const char* group, const char* name, const char* unit,
                                 const char* description, double value) {
             visit(group, ReportRow{name, unit, description, {.mean = value}, {}, false});

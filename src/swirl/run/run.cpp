@@ -37,8 +37,7 @@ struct SavedTrajectory {
     static SavedTrajectory of(const Simulation& simulation) {
         return {simulation.progress(), discs_of(simulation)};
     }
-    template <class Visitor>
-    void fields(Visitor&& visit) {
+    void fields(auto&& visit) {
         visit(progress.periods, progress.clock, progress.segment, progress.events);
         visit(discs);
     }

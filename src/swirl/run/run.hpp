@@ -34,10 +34,7 @@ struct FinalState {
     Vec2 container_centre{0.0, 0.0};
     std::vector<Disc> discs;
 
-    template <class Visitor>
-    void fields(Visitor&& visit) {
-        visit(container_centre.x, container_centre.y, discs);
-    }
+    void fields(auto&& visit) { visit(container_centre.x, container_centre.y, discs); }
 };
 
 /// Optional services during a run. None of them changes the trajectory: it stays bitwise identical.

@@ -89,19 +89,4 @@ struct Crossing {
 /// Points in any order.
 Crossing find_crossing(std::span<const RotationPoint> points);
 
-/// The free number between `left` and `right` that is nearest to their middle: the next one for a
-/// search to try in a bracket. Nothing if none is free.
-template <class IsFree>
-std::optional<std::int64_t> middle_number(std::int64_t left, std::int64_t right,
-                                          const IsFree& is_free) {
-    std::optional<std::int64_t> nearest;
-    const auto distance = [&](std::int64_t n) {
-        const std::int64_t twice = 2 * n - left - right;
-        return twice < 0 ? -twice : twice;
-    };
-    for (std::int64_t n = left + 1; n < right; ++n)
-        if (is_free(n) && (!nearest || distance(n) < distance(*nearest))) nearest = n;
-    return nearest;
-}
-
 }  // namespace swirl

@@ -37,9 +37,8 @@ constexpr std::size_t max_points = 10'000'000;
 
 /// Calls visit(index) in order for the product indices, in the whole plan, of the points that a
 /// stage adds to the stage before it.
-template <class Visit>
 void for_each_new_index(const SweepPlan& plan, const SweepStage& stage, const SweepStage* before,
-                        const Visit& visit) {
+                        const auto& visit) {
     if (plan.is_table()) {
         for (std::size_t row = 0; row < stage.row_replicas.size(); ++row) {
             const bool existed = before && row < before->row_replicas.size();
@@ -105,12 +104,10 @@ std::vector<std::string> range(std::string_view name, std::string_view text) {
             option_name(name), text, why));
     };
     std::vector<double> parts;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(':', begin), text.size());
-        const auto part = read_number(text.substr(begin, end - begin));
+    for (const std::string_view text_of_part : split(text, ":")) {
+        const auto part = read_number(text_of_part);
         if (!part) reject("a part of it is not a number");
         parts.push_back(*part);
-        begin = end + 1;
     }
     if (parts.size() > 3) reject("it has more than three parts");
     const double from = parts.front(), to = parts.back();
@@ -300,9 +297,7 @@ std::string SweepPlan::text() const { return plan_json(*this).dump(); }
 
 std::vector<std::string> list_of_values(std::string_view name, std::string_view text) {
     std::vector<std::string> values;
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::string_view part = text.substr(begin, end - begin);
+    for (const std::string_view part : split(text, ",")) {
         if (part.empty())
             throw UsageError(fmt::format("{} is '{}', but a value in the list is empty.",
                                          option_name(name), text));
@@ -314,7 +309,6 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
         } else {
             values.emplace_back(part);
         }
-        begin = end + 1;
     }
     return values;
 }
