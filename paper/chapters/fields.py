@@ -96,7 +96,8 @@ def panel(drawing, axes, rows, name, label, unit, colors, symmetric, limit=None)
     shown.set_clip_path(style.plt.Circle((0, 0), radius, transform=axes.transData))
     axes.add_patch(style.plt.Circle((0, 0), radius, fill=False, linewidth=0.8))
     axes.set_axis_off()
-    axes.set(aspect="equal", xlim=(-1.03 * radius, 1.03 * radius), ylim=(-1.03 * radius, 1.03 * radius), title=label)
+    axes.set(aspect="equal", xlim=(-1.03 * radius, 1.03 * radius), ylim=(-1.03 * radius, 1.03 * radius))
+    axes.set_title(label, loc="left")
     drawing.colorbar(shown, ax=axes, shrink=0.7, pad=0.1, label=unit)
     return limit
 
@@ -139,7 +140,7 @@ def draw_fields(table):
     last.set_xlabel(r"$\Gamma\sqrt{mT}\,(\mathrm{curl}\,u - 2\omega)$, $m v^2/r^2$")
     last.set_ylabel(r"torque of the stress, $m v^2/r^2$")
     last.locator_params(axis="x", nbins=3)
-    last.set_title("(f) point by point", pad=18)
+    last.set_title("(f) point by point", loc="left", pad=18)
     style.save(drawing, table)
 
 
