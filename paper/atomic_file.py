@@ -3,6 +3,8 @@ file next to the target, is synchronised to the disk, and is then renamed. A kil
 file without a lock; the next `swirl paper` or `swirl experiment` on that folder removes it."""
 
 import fcntl
+import hashlib
+import json
 import os
 import secrets
 import sys
@@ -23,6 +25,25 @@ def write(path, content):
         except BaseException:
             os.remove(temporary)
             raise
+
+
+def store(path, content):
+    """Stores what a later call reuses, as JSON."""
+    write(path, json.dumps({"checksum": checksum_of(content), "content": content}) + "\n")
+
+
+def stored(path):
+    """What an earlier call has stored; None if there is nothing, or if it was changed."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            found = json.load(file)
+        return found["content"] if found["checksum"] == checksum_of(found["content"]) else None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def checksum_of(content):
+    return hashlib.sha256(json.dumps(content).encode()).hexdigest()
 
 
 def remove_if_unlocked(temporary):

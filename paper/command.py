@@ -138,7 +138,7 @@ def make_part(paper, part, progress):
     points = [point for plan in paper.plans() for point in plan]
     counts = study.make(points, paper.settings, progress, part)
     print(f"{counts['tasks'] - counts['reused']} runs of part {part[0]}/{part[1]} in "
-          f"{duration(time.monotonic() - paper.begin)}; stored in '{os.path.join(paper.settings.out, 'parts')}'.")
+          f"{duration(time.monotonic() - paper.begin)}; stored in '{paper.settings.out}'.")
     problems = [f"figure {name} cannot be made: {problem}" for name, problem in paper.problems.items()]
     if counts["failed"] or problems:
         raise Problem("; ".join([f"{counts['failed']} runs failed", *problems]) + ".")
@@ -167,7 +167,7 @@ def main(call):
         else:
             lines += [f"wrote {file}" for file in files]
     except KeyboardInterrupt:
-        raise Problem(f"stopped before the end; finished runs are stored in '{os.path.join(paper.settings.out, 'parts')}'."
+        raise Problem(f"stopped before the end; finished runs are stored in '{paper.settings.out}'."
                       "\nhint: the same call continues from there.", INTERRUPTED) from None
     print("\n".join(lines), flush=True)
     missing = [made["name"] for made in paper.made if made["problem"]]

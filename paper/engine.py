@@ -1,6 +1,7 @@
 """The Python module swirl, imported when it is first used: to draw a table, it need not be built."""
 
 import importlib
+import json
 
 
 class Module:
@@ -9,6 +10,11 @@ class Module:
 
 
 swirl = Module()
+
+
+def result_of(parameters, measure):
+    """The result of a run, as it is stored."""
+    return json.loads(swirl.run(measure=list(measure), **parameters).to_json())
 
 
 def simulation_of(parameters):

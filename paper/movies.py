@@ -1,6 +1,5 @@
 """The numerical movies of the paper's supplement, and movies.html, which plays them."""
 
-import json
 import os
 import subprocess
 from types import SimpleNamespace
@@ -12,7 +11,6 @@ from console import INTERRUPTED, Problem, Progress
 from engine import swirl
 from html_page import rendered
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
-from study import checksum_of
 
 WARMUP = 20  # periods before the first frame
 SAMPLES = 64  # per period, of the rotation
@@ -78,16 +76,16 @@ def rotation_in(movie):
     return float(np.mean([frames[k].rotation()[0] for k in range(len(frames))]))
 
 
+def note_of(movie, folder):
+    return os.path.join(folder, "parts", f"movie-{movie.name}.json")
+
+
 def finished(movie, folder):
     """The rotation in this movie, if an earlier call has made the same one."""
-    try:
-        with open(os.path.join(folder, "parts", f"movie-{movie.name}.json"), encoding="utf-8") as file:
-            stored = json.load(file)
-        same = (stored["result"]["movie"] == movie.options and stored["checksum"] == checksum_of(stored) and
-                stored["result"]["bytes"] == os.path.getsize(os.path.join(folder, f"{movie.name}.mp4")))
-        return stored["result"]["rotation"] if same else None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
+    stored, file = atomic_file.stored(note_of(movie, folder)), os.path.join(folder, f"{movie.name}.mp4")
+    same = (stored and stored["movie"] == movie.options and os.path.exists(file) and
+            stored["bytes"] == os.path.getsize(file))
+    return stored["rotation"] if same else None
 
 
 def make_movie(movie, call):
@@ -98,11 +96,10 @@ def make_movie(movie, call):
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode:
         raise Problem(done.stderr.removeprefix("error: ").strip())
-    stored = {"seconds": 0.0, "result": {"movie": movie.options, "bytes": os.path.getsize(file),
-                                         "rotation": rotation_in(movie)}}
-    atomic_file.write(os.path.join(call["out"], "parts", f"movie-{movie.name}.json"),
-                      json.dumps({**stored, "checksum": checksum_of(stored)}) + "\n")
-    return stored["result"]["rotation"]
+    rotation = rotation_in(movie)
+    atomic_file.store(note_of(movie, call["out"]), {"movie": movie.options, "bytes": os.path.getsize(file),
+                                                    "rotation": rotation})
+    return rotation
 
 
 def make(call):

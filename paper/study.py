@@ -1,7 +1,8 @@
 """The points of the figures, and the runs that they need: in parallel, stored when done, and reused.
 
-A point is a set of parameters with several seeds. The result of each seed is OUT/parts/KEY.json, so an interrupted
-study continues, and two figures that need the same point share its runs.
+A point is a set of parameters with several seeds. Its runs are those of a sweep (run_folder.py). A figure that computes
+in Python during or after a run has a function `work`; its results are OUT/parts/KEY.json. So an interrupted study
+continues, and two figures that need the same point share its runs.
 """
 
 import dataclasses
@@ -15,6 +16,7 @@ import time
 
 import atomic_file
 import combine
+import run_folder
 from combine import at, failed
 from console import Problem
 from engine import swirl
@@ -80,10 +82,9 @@ class Point:
     """
 
     def __init__(self, settings, name, seeds, parameters, measure=(), work=None, cells=None):
-        self.name, self.parameters, self.measure, self.work = name, parameters, tuple(measure), work
-        self.cells = dict(cells or {})
+        self.name, self.cells = name, dict(cells or {})
         seeds = max(seeds, settings.seeds_of_point.get(name, 0))
-        self.tasks = [Task(name, {**parameters, "seed": settings.seed + k}, self.measure, work) for k in range(seeds)]
+        self.tasks = [Task(name, {**parameters, "seed": settings.seed + k}, measure, work) for k in range(seeds)]
         self.result = None  # over the seeds, once they are done
 
     @property
@@ -93,13 +94,16 @@ class Point:
 
 
 class Task:
-    """One seed of a point."""
+    """One seed of a point: a run, or a call of `work`. Equal tasks have equal keys."""
 
     def __init__(self, name, parameters, measure, work):
-        self.parameters, self.measure, self.work = parameters, measure, work
+        self.parameters, self.measure, self.work = parameters, tuple(sorted(measure)), work
         self.result, self.seconds = None, 0.0
-        self.identity = repr((sorted(parameters.items()), work and f"{work.__module__}.{work.__name__}"))
-        self.key = f"{name}_seed{parameters['seed']}_{swirl._engine.checksum(self.identity)[:8]}"
+        if work:
+            self.identity = repr((sorted(parameters.items()), f"{work.__module__}.{work.__name__}"))
+            self.key = f"{name}_seed{parameters['seed']}_{swirl._engine.checksum(self.identity)[:8]}"
+        else:
+            self.key = swirl._engine.run_identity(parameters)
 
     def file(self, out):
         return os.path.join(out, "parts", f"{self.key}.json")
@@ -109,24 +113,11 @@ class Task:
         p = self.parameters
         return p["periods"] * events_per_period(p) if "periods" in p else float(p.get("events", DEFAULT_EVENTS))
 
-    def take(self, stored):
-        """Takes a stored result if it is whole, of this version, and has all measurements."""
-        if (isinstance(stored, dict) and stored.get("identity") == self.identity and stored.get("version") ==
-                swirl._engine.version() and set(self.measure) <= set(stored["measure"])
-                and stored["checksum"] == checksum_of(stored)):
-            self.result, self.seconds = stored["result"], stored["seconds"]
-        return self.result is not None
-
     def find(self, out):
-        try:
-            with open(self.file(out), encoding="utf-8") as file:
-                return self.take(json.load(file))
-        except (FileNotFoundError, ValueError, KeyError, TypeError):
-            return False
-
-
-def checksum_of(stored):
-    return swirl._engine.checksum(json.dumps([stored["result"], stored["seconds"]]))
+        """Takes the stored result of `work`, if it is of this version."""
+        stored = atomic_file.stored(self.file(out))
+        if stored and (stored["identity"], stored["version"]) == (self.identity, swirl._engine.version()):
+            self.result, self.seconds = stored["result"], stored["seconds"]
 
 
 def events_per_period(p):
@@ -145,10 +136,6 @@ def events_per_period(p):
 
 # --- Running ------------------------------------------------------------------------------------
 
-def plain_run(parameters, measure):
-    return json.loads(swirl.run(measure=list(measure), **parameters).to_json())
-
-
 def worker(parent):
     """Ctrl-C reaches the parent alone, which ends its workers; they also end if it is killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -162,19 +149,17 @@ def worker(parent):
 
 
 def do(job):
-    """Makes the result of a task and stores it. A failed run is a result, too, but it is not stored."""
+    """Calls the `work` of a task and stores the result. A failed run is a result, too, but it is not stored."""
     k, task, out = job
     begin = time.monotonic()
     try:
-        result = task.work(task.parameters) if task.work else plain_run(task.parameters, task.measure)
-        result = json.loads(json.dumps(result))  # as it will be read
+        result = json.loads(json.dumps(task.work(task.parameters)))  # as it will be read
     except Exception as error:  # the other runs are made
         failure = {"failed": reason_of(error)} | ({} if isinstance(error, swirl.Failure) else {"broken": True})
         return k, {"result": failure, "seconds": time.monotonic() - begin}
-    stored = {"identity": task.identity, "version": swirl._engine.version(), "measure": list(task.measure),
+    stored = {"identity": task.identity, "version": swirl._engine.version(),
               "seconds": time.monotonic() - begin, "result": result}
-    stored["checksum"] = checksum_of(stored)
-    atomic_file.write(task.file(out), json.dumps(stored) + "\n")
+    atomic_file.store(task.file(out), stored)
     return k, stored
 
 
@@ -193,23 +178,31 @@ def distinct(points):
     for point in points:
         for task in point.tasks:
             known = tasks.setdefault(task.key, task)
-            known.measure = tuple(dict.fromkeys((*known.measure, *task.measure)))
+            known.measure = tuple(sorted({*known.measure, *task.measure}))
     return sorted(tasks.values(), key=lambda task: -task.cost())
 
 
 def make(points, settings, progress=lambda fraction: None, part=(1, 1)):
     """Makes the missing runs of the points, or those of a part, and combines those of every point. Returns the counts
     of all runs, those reused and those failed, and the seconds of all of them."""
-    out = settings.out
+    out, tasks = settings.out, distinct(points)
     os.makedirs(os.path.join(out, "parts"), exist_ok=True)
     remove_leftovers(out)
-    tasks = distinct(points)[part[0] - 1::part[1]]
-    reused = sum(task.find(out) for task in tasks)
+    run_folder.plan(out, [task for task in tasks if not task.work])
+    tasks = tasks[part[0] - 1::part[1]]
+    run_folder.find(out, [task for task in tasks if not task.work])
+    for task in tasks:
+        if task.work:
+            task.find(out)
     left = [task for task in tasks if task.result is None]
-    total, done = sum(task.cost() for task in left) or 1.0, 0.0
-    if left:
-        with multiprocessing.Pool(min(settings.workers, len(left)), worker, (os.getpid(),)) as pool:
-            jobs = [(k, task, out) for k, task in enumerate(left)]
+    reused, total, done = len(tasks) - len(left), sum(task.cost() for task in left) or 1.0, 0.0
+    for measure, here in run_folder.by_measurements([task for task in left if not task.work]):
+        cost = sum(task.cost() for task in here)
+        run_folder.make(out, measure, here, settings.threads, lambda share: progress((done + share * cost) / total))
+        done += cost
+    jobs = [(k, task, out) for k, task in enumerate(left) if task.work]
+    if jobs:
+        with multiprocessing.Pool(min(settings.workers, len(jobs)), worker, (os.getpid(),)) as pool:
             for k, stored in pool.imap_unordered(do, jobs):
                 left[k].result, left[k].seconds = stored["result"], stored["seconds"]
                 done += left[k].cost()

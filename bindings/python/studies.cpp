@@ -91,7 +91,8 @@ std::vector<std::map<std::string, std::string>> points_of(const SweepPlan& plan)
     return points;
 }
 
-/// The files of the results of each row, and of the messages of failed runs.
+/// The files of the results of each row, and of the messages of failed runs; none for a row that the
+/// sweep does not have.
 std::vector<std::vector<std::pair<std::string, std::string>>> result_files(
     const std::string& folder, const std::vector<py::dict>& rows, std::int64_t replicas) {
     const SweepPlan plan = read_plan(folder);
@@ -105,11 +106,17 @@ std::vector<std::vector<std::pair<std::string, std::string>>> result_files(
     return files;
 }
 
+/// Runs all points, or those of some rows in this order.
 py::tuple sweep(const std::string& folder, unsigned threads, const ProgressCallback& callback,
-                std::size_t part, std::size_t parts) {
+                const Rows& rows) {
     const SweepPlan plan = read_plan(folder);
-    SweepShare share{.part = part, .parts = parts};
+    SweepShare share;
     share.threads = threads;
+    if (rows) {
+        share.only.emplace();
+        for (const auto& points : points_of_rows(plan, point_rows(*rows, 1)))
+            share.only->insert(share.only->end(), points.begin(), points.end());
+    }
     std::atomic<bool> stop = false;
     LatestProgress<double, double, std::uint64_t> latest;
     SweepControl control;
@@ -271,9 +278,12 @@ void bind_studies(py::module_& module) {
         };
         write_plan(folder, plan(), &before);
     });
+    module.def("run_identity", [](const py::dict& given) {
+        return fmt::format("{:016x}", identity_of(resolve(texts_of(given))));
+    });
     module.def("result_files", &result_files);
     module.def("sweep", &sweep, py::arg("folder"), py::arg("threads"), py::arg("progress"),
-               py::arg("part") = 1, py::arg("parts") = 1);
+               py::arg("rows") = py::none());
     module.def("collect", &collect);
     module.def("crossing", &crossing, py::arg("folder"), py::arg("parameters"),
                py::arg("min_discs"), py::arg("max_discs"), py::arg("tolerance"), py::arg("rate"),

@@ -10,10 +10,11 @@ import style
 from combine import at, number, over_seeds
 from curves import with_error
 from dishes import Dish, dish_run
+from engine import result_of
 from figure import Figure
 from micropolar import RELATIONS, fit_relation
 from runs import length_of, lengths
-from study import Point, plain_run
+from study import Point
 
 AMPLITUDE = 0.22  # A/R, the paper's
 RANGES = [(0.2 + 0.1 * k, 0.2 + 0.1 * (k + 1)) for k in range(7)]  # of the packing fraction
@@ -27,7 +28,7 @@ RESIDUALS = ("mass_residual", "momentum_residual", "spin_residual")
 
 def fields_run(parameters):
     """The means of all columns, and the largest residual of the three balances."""
-    fields = at(plain_run(parameters, ["fields"]), "measured", "fields")
+    fields = at(result_of(parameters, ["fields"]), "measured", "fields")
     return {"fields": {name: column for name, column in fields["m_frame_4"].items() if not name.endswith("_error")},
             "residual": max(number(fields[name]) for name in RESIDUALS)}
 

@@ -1,13 +1,11 @@
 """Beyond the paper: without disc friction the cluster condenses. The waiting time against the number of
 discs, and the granular temperature before and after."""
 
-import json
-
 import numpy as np
 import style
 from combine import MIN_PERIODS, at, number, over_seeds
 from curves import with_error
-from engine import simulation_of, swirl
+from engine import result_of, simulation_of
 from figure import Figure
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
 from runs import NO_DISC, paper_run, with_periods
@@ -45,8 +43,7 @@ def condensation(parameters):
     def averages(begin, end):
         if end - begin < MIN_PERIODS:
             return {}
-        run = swirl.run(measure=["temperature", "frustration"], **{**parameters, "warmup": begin, "periods": end})
-        run = json.loads(run.to_json())
+        run = result_of({**parameters, "warmup": begin, "periods": end}, ["temperature", "frustration"])
         return {**run["measured"], "rotation": run["rotation"]}
     after = period + QUIET
     return {"condensed": condensed, "periods": period, "events": events, "before": averages(0, period),

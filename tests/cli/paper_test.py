@@ -73,11 +73,11 @@ class Figure5b(InFolder):
         for _ in range(3):
             process = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                        text=True)
-            parts = self.path("cut/parts")
-            before = len(os.listdir(parts)) if os.path.isdir(parts) else 0
+            runs = self.path("cut/runs/rotation/results")
+            before = len(os.listdir(runs)) if os.path.isdir(runs) else 0
             deadline = time.time() + 150
             while time.time() < deadline and process.poll() is None:
-                if os.path.isdir(parts) and len(os.listdir(parts)) > before + 5:
+                if os.path.isdir(runs) and len(os.listdir(runs)) > before + 5:
                     process.send_signal(signal.SIGINT)
                     break
                 time.sleep(0.001)

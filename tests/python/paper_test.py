@@ -2,10 +2,12 @@
 
 import csv
 import os
+import re
 import sys
 from pathlib import Path
 
 import pytest
+import swirl
 
 PAPER = os.path.join(os.environ["SWIRL_SOURCE"], "paper")
 sys.path.insert(0, PAPER)
@@ -33,20 +35,22 @@ def rows(folder, name):
         return list(csv.reader(file))
 
 
-def test_runs_are_reused_and_a_damaged_result_is_made_again(tmp_path):
-    first = made(tmp_path, "restitution")
+@pytest.mark.parametrize("name, folder", (("restitution", "runs/rotation/results"), ("energy", "parts")))
+def test_runs_are_reused_and_a_damaged_result_is_made_again(tmp_path, name, folder):
+    first = made(tmp_path, name)
     assert (first["reused"], first["failed"]) == (0, 0)
-    table, parts = rows(tmp_path, "restitution"), sorted(Path(tmp_path, "parts").iterdir())
-    assert len(parts) == first["tasks"]
-    whole = parts[0].read_text()
-    edited = next(part for part in reversed(parts) if '"mean": 0.' in part.read_text())
-    edited.write_text(edited.read_text().replace('"mean": 0.', '"mean": 1.', 1))
+    table, files = rows(tmp_path, name), sorted(Path(tmp_path, folder).iterdir())
+    assert len(files) == first["tasks"]
+    whole, last = files[0].read_text(), files[-1].read_text()
+    edited = re.sub(r"(\d\.)\d", lambda digits: digits[1] + "77", last)
+    assert edited != last
     damages = "", "{", "[]", '{"key": 3}', '{"result": {}}', whole[:-20], whole[:len(whole) // 2]
-    for part, text in zip(parts, damages):
-        part.write_text(text)
-    again = made(tmp_path, "restitution")
+    for file, text in zip(files, damages):
+        file.write_text(text)
+    files[-1].write_text(edited)
+    again = made(tmp_path, name)
     assert again["reused"] == first["tasks"] - len(damages) - 1
-    assert rows(tmp_path, "restitution") == table
+    assert rows(tmp_path, name) == table
 
 
 def test_parts_share_the_runs(tmp_path):
@@ -78,6 +82,44 @@ def test_a_point_with_measurements_serves_one_without(tmp_path):
     assert plain.result["rotation"] == measured.result["rotation"]
     again = study.Point(settings, "p", 2, {"discs": 5})
     assert study.make([again], settings)["reused"] == 2
+
+
+def test_runs_are_sweeps_that_other_programs_read_and_complete(tmp_path):
+    settings = study.Settings(quick=True, events=EVENTS, out=str(tmp_path))
+    # Two figures with the same run under different names, and a run of another call with measurements.
+    names = [study.Point(settings, name, 2, parameters) for name, parameters in
+             (("a", {"discs": 5}), ("b", {"discs": 5, "mu": 1}), ("c", {"discs": 6}))]
+    assert study.make(names[:2], settings)["tasks"] == 2
+    study.make([study.Point(settings, "d", 1, {"discs": 5}, ("slip",))], settings)
+    # A part plans the runs of all parts, and makes its own.
+    assert study.make(names, settings, part=(1, 2))["tasks"] == 2
+    table = swirl.sweep(tmp_path / "runs" / "rotation")
+    assert table.attrs["runs"]["done"] == 4 and table["discs"].tolist() == [5, 5, 6, 6]
+    assert study.make(names, settings)["reused"] == 4
+    assert names[0].result["rotation"] == names[1].result["rotation"]
+    assert [run["rotation"]["mean_by_event"]["mean"] for run in names[2].runs] == table["mean_by_event"].tolist()[2:]
+    assert sorted(os.listdir(tmp_path / "runs")) == ["lock", "rotation", "slip"]
+
+
+def test_runs_of_other_calls_are_not_made(tmp_path):
+    settings = study.Settings(quick=True, events=EVENTS, out=str(tmp_path))
+    wanted, other = (study.Point(settings, f"p{n}", 2, {"discs": n}) for n in (5, 6))
+    study.make([wanted, other], settings, part=(1, 4))
+    study.make([wanted], settings)
+    assert len(list((tmp_path / "runs" / "rotation" / "results").iterdir())) < 4
+
+
+def test_runs_that_another_process_makes_are_awaited(tmp_path, monkeypatch):
+    sweep, calls = swirl._engine.sweep, []
+
+    def first_elsewhere(*arguments):
+        calls.append(arguments)
+        return (0, 0, 2, "") if len(calls) == 1 else sweep(*arguments)
+    monkeypatch.setattr(swirl._engine, "sweep", first_elsewhere)
+    settings = study.Settings(quick=True, events=EVENTS, out=str(tmp_path))
+    point = study.Point(settings, "p", 2, {"discs": 5})
+    assert study.make([point], settings)["failed"] == 0
+    assert (len(calls), len(point.runs)) == (2, 2)
 
 
 def test_more_seeds_for_a_single_point():

@@ -222,8 +222,8 @@ std::vector<std::vector<std::size_t>> points_of_rows(const SweepPlan& plan,
         points_of_plan[plan.product_index(point) / std::size_t(plan.replicas)].push_back(point);
     for (const PointRow& row : rows) {
         const auto found = index.find(identity_of(resolve(row.parameters)));
-        if (found == index.end()) reject(row.where, "the sweep does not have this point.");
-        points.push_back(points_of_plan[found->second]);
+        points.emplace_back();
+        if (found != index.end()) points.back() = points_of_plan[found->second];
         points.back().resize(std::min(points.back().size(), std::size_t(row.replicas)));
     }
     return points;

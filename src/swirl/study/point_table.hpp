@@ -38,7 +38,7 @@ SweepPlan make_plan(std::vector<PointRow> rows, const ParameterTexts& common);
 SweepPlan grown(const SweepPlan& plan, std::vector<PointRow> rows, const ParameterTexts& common,
                 const std::vector<std::string>& measure);
 
-/// The points of each row, which must be in the plan. Throws UsageError.
+/// The points of each row; none if the row is not in the plan.
 std::vector<std::vector<std::size_t>> points_of_rows(const SweepPlan& plan,
                                                      const std::vector<PointRow>& rows);
 

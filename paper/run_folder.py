@@ -1,0 +1,93 @@
+"""The runs of the figures are sweeps, one for each list of measurements: OUT/runs/rotation, OUT/runs/frustration+slip,
+and so on. `swirl collect OUT/runs/rotation` makes the table of one, and Python and the command line can continue it."""
+
+import fcntl
+import glob
+import json
+import os
+import time
+
+import atomic_file
+from engine import swirl
+
+
+def folder_of(out, measure):
+    return os.path.join(out, "runs", "+".join(measure) or "rotation")
+
+
+def by_measurements(tasks):
+    """[(measurements, the tasks that need them)]"""
+    return [(measure, [task for task in tasks if task.measure == measure])
+            for measure in dict.fromkeys(task.measure for task in tasks)]
+
+
+def files_of(folder, tasks):
+    """[[(file of the result, file of the error message)]] for each task; [] if the sweep does not have its run."""
+    return swirl._engine.result_files(folder, [task.parameters for task in tasks], 1)
+
+
+def plan(out, tasks):
+    """Adds the runs to their sweeps. All parts of a call plan all of its runs, in turn."""
+    os.makedirs(os.path.join(out, "runs"), exist_ok=True)
+    with open(os.path.join(out, "runs", "lock"), "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        for measure, here in by_measurements(tasks):
+            folder = folder_of(out, measure)
+            if not os.path.exists(os.path.join(folder, "plan.json")):
+                swirl._engine.Plan({}, 1, list(measure), 0, rows=[task.parameters for task in here]).write(folder)
+            elif new := [task.parameters for task, files in zip(here, files_of(folder, here)) if not files]:
+                swirl._engine.grow(folder, {}, 1, [], new)
+
+
+def take(folder, tasks):
+    """Takes the results of these tasks that are whole, of this version, and unchanged since they were first read. Any
+    other result is removed, so that its run is made again."""
+    list_of_checksums = os.path.join(folder, "checksums.json")
+    known = atomic_file.stored(list_of_checksums) or {}
+    before = dict(known)
+    for task, files in zip(tasks, files_of(folder, tasks)):
+        for file, _ in files:
+            name, text = os.path.basename(file), text_of(file)
+            if text is None:
+                continue
+            try:
+                stored, checksum = json.loads(text), swirl._engine.checksum(text)
+                if stored["version"] == swirl._engine.version() and known.setdefault(name, checksum) == checksum:
+                    task.result, task.seconds = stored, stored["seconds"]
+                    continue
+            except (ValueError, KeyError, TypeError):
+                pass
+            known.pop(name, None)
+            os.remove(file)
+    if known != before:
+        atomic_file.store(list_of_checksums, known)
+
+
+def text_of(file):
+    try:
+        with open(file, encoding="utf-8", errors="replace") as opened:
+            return opened.read()
+    except FileNotFoundError:
+        return None
+
+
+def find(out, tasks):
+    """Takes the results that exist. A sweep with further measurements serves a task without them."""
+    for folder in map(os.path.dirname, sorted(glob.glob(os.path.join(glob.escape(out), "runs", "*", "plan.json")))):
+        has = set(os.path.basename(folder).split("+"))
+        take(folder, [task for task in tasks if task.result is None and set(task.measure) <= has])
+
+
+def make(out, measure, tasks, threads, progress):
+    """Makes the runs of one sweep, in the order of the tasks. Waits for those that another process makes."""
+    folder, left = folder_of(out, measure), tasks
+    while left:
+        swirl._engine.sweep(folder, threads, lambda done, runs, _: progress(done / runs if runs else 1.0),
+                            [task.parameters for task in left])
+        take(folder, left)
+        for task, [(_, failure)] in zip(left, files_of(folder, left)):
+            if task.result is None and (message := text_of(failure)):
+                task.result = {"failed": message.strip()}
+        left = [task for task in left if task.result is None]
+        if left:
+            time.sleep(1)
