@@ -83,13 +83,14 @@ packages_for_this_call() {
     has_packages "$@" || ! install_packages "$@" || touch "$packages_stamp" 2>/dev/null || true
 }
 
-# Prints the sources "$@", the current commit (which every result names) and the packages of [build] that have
-# changed since the stamp was set. It compares ctime, so that files moved here with an old date count; a
+# Prints the sources "$@", the current commit (which every result names) and the packages of [build], [drawing] and
+# [camera] that have changed since the stamp was set. It compares ctime, so that files moved here with an old date count; a
 # removed file counts because its folder has changed.
 changed_since() {
     git_folder=$home/.git
     [ ! -f "$git_folder" ] || git_folder=$(sed -n 's/^gitdir: //p' "$git_folder")
-    libraries=$(sed -n '/^\[build\]/,/^$/s|^[a-z].*|'$dpkg'/info/&[.:]*list|p' "$home/packages")
+    libraries=$(awk -v info=$dpkg/info/ '/^\[/ { section = $0 }
+        /^[a-z]/ && section ~ /build|drawing|camera/ { print info $0 "[.:]*list" }' "$home/packages")
     (cd "$home" && find "$@" "$git_folder/logs/HEAD" "$git_folder/HEAD" $libraries -cnewer "$stamp" 2>/dev/null)
 }
 
@@ -129,7 +130,7 @@ system_python() {
 # lists what a system without dpkg lacks; CMake names missing libraries.
 has_tools() {
     lacking=
-    for tool in cmake ninja pkg-config; do command -v $tool >/dev/null || lacking="$lacking\n    $tool"; done
+    for tool in cmake ninja; do command -v $tool >/dev/null || lacking="$lacking\n    $tool"; done
     for compiler in "${CXX-}" c++ g++ clang++ ''; do ! command -v "$compiler" >/dev/null || break; done
     [ -n "$compiler" ] || lacking="$lacking\n    a C++20 compiler"
     [ -n "$lacking" ] || return 0

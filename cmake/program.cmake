@@ -1,6 +1,8 @@
 # One library per layer; a layer uses only the layers below it (tests/layers).
-find_package(PkgConfig REQUIRED)
-pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+find_package(PkgConfig)
+if(PkgConfig_FOUND)
+  pkg_check_modules(cairo IMPORTED_TARGET cairo)
+endif()
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
@@ -24,6 +26,7 @@ endfunction()
 
 function(swirl_part target folder level)
   file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/tracked_source.cpp$") # draws
   add_library(${target} STATIC ${sources})
   target_link_libraries(${target} ${ARGN})
   swirl_compiled_at_once(${target})
@@ -41,33 +44,44 @@ target_include_directories(swirl_io SYSTEM PRIVATE ${hdf5_include})
 set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer.cpp
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 swirl_layer(run -O1 PUBLIC swirl_io)
-swirl_layer(render -O2 PUBLIC swirl_run PkgConfig::cairo)
 swirl_layer(study -O1 PUBLIC swirl_run Threads::Threads)
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper ${PROJECT_BINARY_DIR}/share/swirl/paper SYMBOLIC)
 # Tracking (track/). Only track/video needs OpenCV; without it (section [camera] of `packages`), `swirl track`
 # reports what is missing.
-swirl_part(swirl_track_tables track/tables -O2 PUBLIC swirl_render)
+swirl_part(swirl_track_tables track/tables -O2 PUBLIC swirl_run)
 target_include_directories(swirl_track_tables PUBLIC ${PROJECT_SOURCE_DIR})
 target_link_libraries(swirl_track_tables PRIVATE ${hdf5_libraries})
 target_include_directories(swirl_track_tables SYSTEM PRIVATE ${hdf5_include})
-swirl_part(swirl_track_synthetic track/synthetic -O2 PUBLIC swirl_track_tables)
+# Without this part, `swirl image`, `movie` and `synthetic-video` are listed in the help, and report what is missing.
+option(SWIRL_DRAWING "Build the subcommands that draw, if cairo is found" ON)
+if(NOT cairo_FOUND)
+  message(STATUS "cairo was not found: this build has no image, movie and synthetic-video")
+  set(SWIRL_DRAWING OFF)
+endif()
+if(SWIRL_DRAWING)
+  swirl_layer(render -O2 PUBLIC swirl_run PkgConfig::cairo)
+  swirl_part(swirl_track_synthetic track/synthetic -O2 PUBLIC swirl_track_tables swirl_render)
+  target_sources(swirl_track_synthetic PRIVATE track/tables/tracked_source.cpp)
+endif()
 # Without this part, `swirl experiment` is listed in the help, and reports what is missing.
 option(SWIRL_EXPERIMENT "Build `swirl experiment`" ON)
 if(SWIRL_EXPERIMENT)
   swirl_part(swirl_track_experiment track/experiment -O1 PUBLIC swirl_track_tables swirl_study)
 endif()
-cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON SWIRL_EXPERIMENT OFF)
+cmake_dependent_option(SWIRL_CAMERA "Build `swirl track` if OpenCV is found" ON
+                       "SWIRL_EXPERIMENT;SWIRL_DRAWING" OFF)
 # Debian's package with the CMake files of OpenCV depends on all of OpenCV, so they are not used.
 find_path(opencv_include opencv2/imgproc.hpp PATH_SUFFIXES opencv4)
 find_library(opencv_core_library opencv_core)
 find_library(opencv_imgproc_library opencv_imgproc)
 if(NOT (opencv_include AND opencv_core_library AND opencv_imgproc_library))
+  message(STATUS "OpenCV was not found: this build has no track")
   set(SWIRL_CAMERA OFF)
 endif()
 if(SWIRL_CAMERA)
-  swirl_part(swirl_track_video track/video -O3 PUBLIC swirl_track_tables Threads::Threads
+  swirl_part(swirl_track_video track/video -O3 PUBLIC swirl_track_synthetic Threads::Threads
     PRIVATE ${opencv_imgproc_library} ${opencv_core_library})
   target_include_directories(swirl_track_video SYSTEM PUBLIC ${opencv_include})
 endif()
@@ -81,8 +95,20 @@ set_source_files_properties(src/swirl/run/version.cpp PROPERTIES COMPILE_DEFINIT
 
 # The command line: one file per subcommand.
 file(GLOB app_sources CONFIGURE_DEPENDS src/swirl/cli/*.cpp track/cli/*.cpp)
+# A library of its own, so that adding this part later compiles nothing else of the command line again.
+set(drawing_sources ${app_sources})
+list(FILTER drawing_sources INCLUDE REGEX "/(appearance_options|source_options|command_(image|movie|synthetic_video)).cpp$")
+list(REMOVE_ITEM app_sources ${drawing_sources})
+add_library(swirl_drawing_commands OBJECT ${drawing_sources})
+target_link_libraries(swirl_drawing_commands PRIVATE swirl_study swirl_track_tables)
+swirl_settings(swirl_drawing_commands -O1)
+swirl_compiled_at_once(swirl_drawing_commands)
+if(SWIRL_DRAWING)
+  target_link_libraries(swirl_drawing_commands PUBLIC swirl_track_synthetic)
+  target_compile_definitions(swirl_drawing_commands PRIVATE SWIRL_DRAWING=1)
+endif()
 add_executable(swirl ${app_sources})
-target_link_libraries(swirl PRIVATE swirl_study swirl_track_synthetic CLI11::CLI11)
+target_link_libraries(swirl PRIVATE swirl_study swirl_track_tables swirl_drawing_commands CLI11::CLI11)
 if(SWIRL_EXPERIMENT)
   target_link_libraries(swirl PRIVATE swirl_track_experiment)
   # Outside the batches, so that adding this part later compiles nothing else of the command line again.

@@ -13,9 +13,10 @@ CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
 file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
 add_executable(swirl ${sources})
+option(SWIRL_DRAWING "" ON)
 option(SWIRL_EXPERIMENT "" ON)
 option(SWIRL_CAMERA "" ON)
-target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_EXPERIMENT},${SWIRL_CAMERA}")
+target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_DRAWING},${SWIRL_EXPERIMENT},${SWIRL_CAMERA}")
 """
 PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
  "binaryDir": "${sourceDir}/build/release"}]}"""
@@ -181,7 +182,7 @@ class Launcher(InFolder):
         self.assertEqual(process.returncode, -signal.SIGTERM)
 
     def parts(self, subcommand, *arguments):
-        """The built parts of the program, experiment and camera, and whether the call built anything."""
+        """The built parts of the program, drawing, experiment and camera, and whether the call built anything."""
         # The small program ends with exit code 0 for the name of a subcommand.
         done = self.call(subcommand, *(arguments or ("parts",)))
         return done.stdout.split()[:1], "building" in done.stderr
@@ -189,24 +190,24 @@ class Launcher(InFolder):
     def test_each_part_is_built_on_first_use_and_stays(self):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
         for subcommand, parts, builds in (
-                ("run", "OFF,OFF", True), ("run", "OFF,OFF", False), ("movie", "OFF,OFF", False),
-                ("synthetic-video", "OFF,OFF", False), ("paper", "OFF,OFF", True),  # the Python module
-                ("paper", "OFF,OFF", False), ("run", "OFF,OFF", False), ("track", "ON,ON", True),
-                ("track", "ON,ON", False), ("paper", "ON,ON", True), ("paper", "ON,ON", False),
-                ("experiment", "ON,ON", False), ("run", "ON,ON", False)):
+                ("run", "OFF,OFF,OFF", True), ("run", "OFF,OFF,OFF", False), ("paper", "OFF,OFF,OFF", True),  # module
+                ("movie", "ON,OFF,OFF", True), ("image", "ON,OFF,OFF", False), ("run", "ON,OFF,OFF", False),
+                ("synthetic-video", "ON,OFF,OFF", False), ("track", "ON,ON,ON", True), ("track", "ON,ON,ON", False),
+                ("movie", "ON,ON,ON", False), ("paper", "ON,ON,ON", True), ("paper", "ON,ON,ON", False),
+                ("experiment", "ON,ON,ON", False), ("run", "ON,ON,ON", False)):
             with self.subTest(subcommand, parts=parts):
                 self.assertEqual(self.parts(subcommand), ([parts], builds))
         self.write_program("second")
-        self.assertEqual(self.parts("run")[0], ["ON,ON"])
+        self.assertEqual(self.parts("run")[0], ["ON,ON,ON"])
         self.assertEqual(self.word(), "second")
 
     def test_help_and_a_usage_error_add_no_part(self):
-        self.assertEqual(self.parts("run"), (["OFF,OFF"], True))
-        for subcommand in ("paper", "track", "experiment"):
+        self.assertEqual(self.parts("run"), (["OFF,OFF,OFF"], True))
+        for subcommand in ("paper", "image", "movie", "track", "experiment"):
             with self.subTest(subcommand):
                 self.assertEqual(self.parts(subcommand, "--wrong"), ([], False))
                 self.assertEqual(self.parts(subcommand, "--help")[1], False)
-                self.assertEqual(self.parts("run"), (["OFF,OFF"], False))
+                self.assertEqual(self.parts("run"), (["OFF,OFF,OFF"], False))
 
     def test_works_through_a_link(self):
         os.symlink(self.path("swirl"), self.path("link"))
@@ -275,7 +276,7 @@ exit 100
             self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
             self.assertFalse(os.path.exists(self.path("asked")))
         done = self.call_with_stand_ins("track", "parts")
-        self.assertEqual(done.stdout.split()[:2], ["ON,ON", "first"], done.stderr)
+        self.assertEqual(done.stdout.split()[:2], ["ON,ON,ON", "first"], done.stderr)
         self.assertTrue(os.path.exists(self.path("asked")))
 
     def test_help_installs_and_builds_nothing(self):
@@ -316,12 +317,14 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
     def test_only_changes_of_the_packages_of_the_build_make_it_stale(self):
         launcher = read_text(self.path("cmake/launcher.sh"))
         self.write("cmake/launcher.sh", launcher.replace("/var/lib/dpkg", self.path("dpkg")))
-        packages = [self.path("dpkg/info/" + name) for name in ("g++.list", "cmake:amd64.list", "other.list")]
+        packages = [self.path("dpkg/info/" + name) for name in ("g++.list", "cmake:amd64.list", "other.list",
+                                                             "lens.list")]
+        self.write("packages", "[build]\ng++\ncmake\nninja-build\n[figures]\nother\n[camera]\nlens\n")
         for name in [self.path("dpkg/status"), *packages]:
             self.write(name, "")
         self.assertEqual(self.word(), "first")
         for name, builds in ((self.path("dpkg/status"), False), (packages[2], False), (packages[0], True),
-                             (packages[1], True)):
+                             (packages[1], True), (packages[3], True)):
             with self.subTest(name):
                 os.utime(name)
                 self.assertEqual("sources have changed" in self.call("run", "--help").stderr, builds)

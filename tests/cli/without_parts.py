@@ -1,7 +1,8 @@
 """Programs without some parts compile, run, list all subcommands, and report what is missing: the one
-that the first ./swirl builds (no figures, no camera), and one without camera support only."""
+that the first ./swirl builds (no drawing, no camera), and one without camera support only."""
 
 import os
+import subprocess
 import unittest
 
 import program
@@ -27,6 +28,20 @@ class WithoutParts(InFolder):
         for which in (FIRST, WITHOUT_CAMERA):
             self.assert_missing(which, "libopencv-core-dev", "track", "video.mp4", "--out",
                                 self.path("tracks.csv"))
+
+    def test_commands_that_draw_name_the_package_to_install(self):
+        for call in (("image",), ("movie",), ("synthetic-video",)):
+            self.assert_missing(FIRST, "libcairo2-dev", *call, "--out", self.path("drawn"))
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_without_cairo_and_opencv_cmake_says_what_the_build_lacks(self):
+        done = subprocess.run(
+            ["cmake", "-S", program.SOURCE, "-B", self.path("build"), "-DSWIRL_TESTS=OFF",
+             "-DCMAKE_IGNORE_PATH=/usr/include/opencv4"],
+            capture_output=True, text=True, env=dict(os.environ, PKG_CONFIG_LIBDIR=self.folder))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for library in ("cairo", "OpenCV"):
+            self.assertIn(f"-- {library} was not found", done.stdout)
 
     def test_experiment_names_the_packages_to_install(self):
         self.assert_missing(WITHOUT_CAMERA, "libopencv-core-dev", "experiment", "video.mp4",

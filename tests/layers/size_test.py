@@ -17,7 +17,7 @@ LINES = {
     # a loss for users. Tables of points for sweeps (360 lines), initial states (170) and errors of short
     # recordings (60) came later. Searches for equal blocks of tokens find none longer than ten lines, and searches
     # for names without a use find accessors of tests only.
-    "engine": (["src"], [], 46_740),
+    "engine": (["src"], [], 46_790),
     # Goal 8,000. Without unused or repeated code, the rest is the chapters on published work and what only they use
     # (2,500 lines), 22 figures (1,600), the judge of 62 claims (2,100), drawings of other commands (600), and the
     # comparison with the authors' files (300).

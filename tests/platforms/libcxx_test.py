@@ -16,7 +16,8 @@ SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.
 GENERATED = os.path.join(os.environ.get("SWIRL_LIBRARIES", os.path.join(SOURCE, "build", "tests")), "generated")
 COMPILER = "clang++-19"
 FLAGS = ["-std=c++20", "-stdlib=libc++", "-fsyntax-only", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror",
-         "-Wno-deprecated-declarations", f"-I{SOURCE}/src", f"-I{SOURCE}", f"-I{GENERATED}", '-DSWIRL_BUILD=""']
+         "-Wno-deprecated-declarations", f"-I{SOURCE}/src", f"-I{SOURCE}", f"-I{GENERATED}", '-DSWIRL_BUILD=""',
+         "-DSWIRL_DRAWING=1"]
 SYSTEM_FOLDERS = ("/usr/include/hdf5/serial", "/usr/include/opencv4")
 ONE_BY_ONE = ("cli", "engine")
 VECTORS = {"avx2": ["-mavx2"],

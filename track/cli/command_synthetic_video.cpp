@@ -9,19 +9,22 @@
 #include <tuple>
 
 #include "swirl/cli/commands.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/io/table.hpp"
 #include "swirl/math/unit_circle.hpp"
-#include "swirl/render/frame_source.hpp"
-#include "swirl/render/movie_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/version.hpp"
+#ifdef SWIRL_DRAWING
+#include "swirl/render/frame_source.hpp"
+#include "swirl/render/movie_file.hpp"
 #include "track/synthetic/camera_view.hpp"
+#endif
 
 namespace swirl {
 namespace {
@@ -48,6 +51,12 @@ struct SyntheticVideoCall {
     bool rolls = false, mirrored = false, still = false, flat = false, interlaced = false;
     bool overwrite = false, quiet = false;
 };
+
+#ifndef SWIRL_DRAWING
+
+void make_synthetic_video(const SyntheticVideoCall&) { throw_no_drawing_support(); }
+
+#else
 
 /// The direction and share of a light from one side, and levels by contrast. Throws UsageError.
 template <typename Apply>
@@ -318,6 +327,8 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
         call.out, frames, camera.size.width, camera.size.height, camera.frames_per_period,
         disc_file.string(), container_file.string(), json_file.string()));
 }
+
+#endif  // SWIRL_DRAWING
 
 void add_synthetic_video_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SyntheticVideoCall>();

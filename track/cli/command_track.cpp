@@ -20,11 +20,11 @@
 #include "swirl/run/shell_word.hpp"
 #include "track/cli/recorded_path.hpp"
 #include "track/cli/tracked_video.hpp"
-#include "track/tables/tracked_source.hpp"
 #ifdef SWIRL_CAMERA
 #include "swirl/render/label.hpp"
 #include "swirl/render/movie.hpp"
 #include "swirl/render/movie_file.hpp"
+#include "track/tables/tracked_source.hpp"
 #include "track/video/spin.hpp"
 #include "track/video/tracking.hpp"
 #endif

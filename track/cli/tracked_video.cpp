@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "swirl/run/failure.hpp"
-#include "track/tables/tracked_source.hpp"
 #ifdef SWIRL_CAMERA
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/output.hpp"
@@ -21,6 +20,7 @@
 #include "swirl/run/version.hpp"
 #include "swirl/study/python_script.hpp"
 #include "track/tables/track_recording.hpp"
+#include "track/tables/tracked_source.hpp"
 #include "track/video/spin.hpp"
 #include "track/video/tracking.hpp"
 #endif

@@ -6,8 +6,38 @@
 
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
+#ifdef SWIRL_DRAWING
+#include "swirl/render/movie.hpp"
+#endif
 
 namespace swirl {
+
+std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) {
+    auto texts = std::make_shared<AppearanceTexts>();
+    texts->frame = "lab";
+    subcommand.in("Appearance")
+        .add({
+            {"--frame", &texts->frame, "Frame of reference: lab, co-rotating (M), or both [lab]",
+             "lab|m|both"},
+            {"--color", &texts->color, "Colour by sector, pinned, spin, speed, slip, id or none",
+             "NAME"},
+            {"--trails", &texts->trails, "Draw the recent path of each disc"},
+            {"--trail-length", &texts->trail_length, "Draw trails of this length [0.3]", "PERIODS"},
+            {"--forces", &texts->forces, "Centrifugal and Coriolis force on each disc (M-frame)"},
+            {"--turned-angle", &texts->turned,
+             "Arc for the turned angle (lab) [with --color sector]"},
+            {"--angles", &texts->angles, "Scale of the angle θ along the wall (M-frame)"},
+            {"--plot", &texts->plot, "Plot of the cluster's rotation against time"},
+            {"--theme", &texts->theme, "Colour theme: light or dark [light]", "NAME"},
+            {"--title", &texts->title, "Title above the image", "TEXT"},
+            {"--no-annotations", &texts->bare, "Container and discs only, no text or markers"},
+            {"--size", &texts->size, "Image size in pixels [1920x1080]", "WxH"},
+        });
+    return texts;
+}
+
+#ifdef SWIRL_DRAWING
+
 namespace {
 
 constexpr std::int64_t min_side = 16, max_side = 8192;  // side of an image, pixels
@@ -35,30 +65,6 @@ Size parse_size(const std::string& text) {
 }
 
 }  // namespace
-
-std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) {
-    auto texts = std::make_shared<AppearanceTexts>();
-    texts->frame = "lab";
-    subcommand.in("Appearance")
-        .add({
-            {"--frame", &texts->frame, "Frame of reference: lab, co-rotating (M), or both [lab]",
-             "lab|m|both"},
-            {"--color", &texts->color, "Colour by sector, pinned, spin, speed, slip, id or none",
-             "NAME"},
-            {"--trails", &texts->trails, "Draw the recent path of each disc"},
-            {"--trail-length", &texts->trail_length, "Draw trails of this length [0.3]", "PERIODS"},
-            {"--forces", &texts->forces, "Centrifugal and Coriolis force on each disc (M-frame)"},
-            {"--turned-angle", &texts->turned,
-             "Arc for the turned angle (lab) [with --color sector]"},
-            {"--angles", &texts->angles, "Scale of the angle θ along the wall (M-frame)"},
-            {"--plot", &texts->plot, "Plot of the cluster's rotation against time"},
-            {"--theme", &texts->theme, "Colour theme: light or dark [light]", "NAME"},
-            {"--title", &texts->title, "Title above the image", "TEXT"},
-            {"--no-annotations", &texts->bare, "Container and discs only, no text or markers"},
-            {"--size", &texts->size, "Image size in pixels [1920x1080]", "WxH"},
-        });
-    return texts;
-}
 
 Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     Appearance result;
@@ -108,5 +114,7 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
             "--forces shows forces in the M-frame.\nhint: use --frame m or --frame both.");
     return result;
 }
+
+#endif  // SWIRL_DRAWING
 
 }  // namespace swirl

@@ -6,9 +6,11 @@
 #include <string>
 
 #include "swirl/cli/options.hpp"
-#include "swirl/render/movie.hpp"
 
 namespace swirl {
+
+struct Appearance;
+struct Size;
 
 /// Options as given; appearance() parses them.
 struct AppearanceTexts {

@@ -3,10 +3,13 @@
 
 #include "swirl/cli/appearance_options.hpp"
 #include "swirl/cli/commands.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/source_options.hpp"
-#include "swirl/render/still.hpp"
 #include "swirl/run/failure.hpp"
+#ifdef SWIRL_DRAWING
+#include "swirl/render/still.hpp"
+#endif
 
 namespace swirl {
 namespace {
@@ -20,6 +23,12 @@ struct ImageCall {
     std::string out;
     bool quiet = false;
 };
+
+#ifndef SWIRL_DRAWING
+
+void draw_and_report(const ImageCall&) { throw_no_drawing_support(); }
+
+#else
 
 void draw_and_report(const ImageCall& call) {
     StillConfig config;
@@ -43,6 +52,8 @@ void draw_and_report(const ImageCall& call) {
         print_all(fmt::format("{}: period {:g}, {}x{} pixels.\n", call.out, start,
                               config.appearance.size.width, config.appearance.size.height));
 }
+
+#endif  // SWIRL_DRAWING
 
 void add_image_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ImageCall>();

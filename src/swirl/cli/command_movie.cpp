@@ -7,13 +7,16 @@
 
 #include "swirl/cli/appearance_options.hpp"
 #include "swirl/cli/commands.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/source_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
-#include "swirl/render/movie.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
+#ifdef SWIRL_DRAWING
+#include "swirl/render/movie.hpp"
+#endif
 
 namespace swirl {
 namespace {
@@ -27,6 +30,12 @@ struct MovieCall {
     std::optional<double> pace;
     bool quiet = false;
 };
+
+#ifndef SWIRL_DRAWING
+
+void make_and_report(const MovieCall&) { throw_no_drawing_support(); }
+
+#else
 
 MovieConfig movie_config(const MovieCall& call) {
     MovieConfig config;
@@ -100,6 +109,8 @@ void make_and_report(const MovieCall& call) {
         throw Interrupted(fmt::format("stopped after {} of {} frames; they are in '{}'.",
                                       result.frames, config.frames, where));
 }
+
+#endif  // SWIRL_DRAWING
 
 void add_movie_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MovieCall>();

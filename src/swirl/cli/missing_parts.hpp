@@ -13,6 +13,12 @@ namespace swirl {
         "does both.");
 }
 
+[[noreturn]] inline void throw_no_drawing_support() {
+    throw Failure(
+        "this build cannot draw (cairo was not found, or SWIRL_DRAWING is OFF).\n"
+        "hint: install libcairo2-dev and rebuild; ./swirl does both.");
+}
+
 [[noreturn]] inline void throw_no_experiment_support() {
     throw Failure(
         "this build cannot compare videos with simulations (SWIRL_EXPERIMENT is OFF).\n"

@@ -8,16 +8,50 @@
 #include "swirl/cli/config_file.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/run_options.hpp"
+#include "swirl/run/failure.hpp"
+#ifdef SWIRL_DRAWING
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/trial_reading.hpp"
 #include "swirl/render/label.hpp"
 #include "swirl/render/numbered_frames.hpp"
-#include "swirl/run/failure.hpp"
+#include "swirl/render/page.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
 #include "track/tables/tracked_source.hpp"
+#endif
 
 namespace swirl {
+
+std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand) {
+    auto texts = std::make_shared<SourceTexts>();
+    subcommand.in("Source").add({
+        {"FILE", &texts->file, "Recording or TOML file, instead of a new run", ""},
+        {"--compare", &texts->compared_discs, "Second container, with N discs", "N"},
+        {"--rolling-ball", &texts->slip, "Minimal model: one ball; 0 slips, 1 rolls", "S"},
+        {"--ball-radius", &texts->ball_radius, "Radius of the ball in disc radii [4.3]", "NUMBER"},
+    });
+    const auto camera = "Scale of tracks (also --amplitude, --container-radius)";
+    add_track_options(subcommand, texts->camera, camera);
+    subcommand.in(camera).add({
+        {"--over", &texts->images, "Camera images or video to draw over", "NAME"},
+        {"--over-first", &texts->first_image, "Number of frame 0 among the images [0]", "NUMBER"},
+    });
+    texts->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
+    return texts;
+}
+
+void take_video_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
+                       const std::vector<std::vector<std::string>>& instead) {
+    if (!is_config_file(texts.file)) return;
+    const std::string config = std::exchange(texts.file, "");
+    // FILE was the configuration, which may itself name a recording as `file`.
+    for (Option& option : subcommand.options())
+        if (option.name == "FILE") option.is_given = false;
+    take_config_file(subcommand, config, *texts.parameters, Lists::rejected, command, instead);
+}
+
+#ifdef SWIRL_DRAWING
+
 namespace {
 
 RollingBall ball_of(const SourceTexts& texts, const RunConfig& container) {
@@ -73,34 +107,6 @@ FrameSource tracked_in(const SourceTexts& texts) {
 
 }  // namespace
 
-std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand) {
-    auto texts = std::make_shared<SourceTexts>();
-    subcommand.in("Source").add({
-        {"FILE", &texts->file, "Recording or TOML file, instead of a new run", ""},
-        {"--compare", &texts->compared_discs, "Second container, with N discs", "N"},
-        {"--rolling-ball", &texts->slip, "Minimal model: one ball; 0 slips, 1 rolls", "S"},
-        {"--ball-radius", &texts->ball_radius, "Radius of the ball in disc radii [4.3]", "NUMBER"},
-    });
-    const auto camera = "Scale of tracks (also --amplitude, --container-radius)";
-    add_track_options(subcommand, texts->camera, camera);
-    subcommand.in(camera).add({
-        {"--over", &texts->images, "Camera images or video to draw over", "NAME"},
-        {"--over-first", &texts->first_image, "Number of frame 0 among the images [0]", "NUMBER"},
-    });
-    texts->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
-    return texts;
-}
-
-void take_video_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
-                       const std::vector<std::vector<std::string>>& instead) {
-    if (!is_config_file(texts.file)) return;
-    const std::string config = std::exchange(texts.file, "");
-    // FILE was the configuration, which may itself name a recording as `file`.
-    for (Option& option : subcommand.options())
-        if (option.name == "FILE") option.is_given = false;
-    take_config_file(subcommand, config, *texts.parameters, Lists::rejected, command, instead);
-}
-
 std::vector<FrameSource> frame_sources(const SourceTexts& texts) {
     if (!texts.file.empty()) try_reading(texts.file);
     const bool is_tracks = !texts.file.empty() && !is_trajectory(texts.file);
@@ -155,5 +161,7 @@ void print_source_warnings(const std::vector<FrameSource>& sources, const Appear
                        frames, min_rate_of_pinned);
     }
 }
+
+#endif  // SWIRL_DRAWING
 
 }  // namespace swirl

@@ -9,11 +9,13 @@
 
 #include "swirl/cli/options.hpp"
 #include "swirl/cli/track_options.hpp"
-#include "swirl/render/frame_source.hpp"
-#include "swirl/render/page.hpp"
+#include "swirl/physics/container_path.hpp"
 #include "swirl/run/parameters.hpp"
 
 namespace swirl {
+
+struct Appearance;
+struct FrameSource;
 
 struct SourceTexts {
     std::shared_ptr<ParameterTexts> parameters;
