@@ -135,8 +135,8 @@ std::string light_text(const TrackedVideo& video) {
 std::string species_text(const TrackedVideo& video) {
     std::string text;
     for (const TrackedSpecies& one : video.species)
-        text += fmt::format("{}{} of radius {:.2f} pixels", text.empty() ? "" : ", ", one.number,
-                            one.radius);
+        text += fmt::format("{}{} of radius {} pixels", text.empty() ? "" : ", ", one.number,
+                            with_error(one.radius, one.radius * video.radius_error / video.radius));
     return text;
 }
 
@@ -161,13 +161,14 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
 std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
     const std::string unit = video.fps > 0.0 ? "s" : "frame";
     const double period = 2.0 * pi / video.path.omega;
+    const double ratio = video.container_radius / video.radius;
     const double step = video.times.size() > 1 ? (video.times.back() - video.times.front()) /
                                                      double(video.times.size() - 1)
                                                : 1.0;
     std::string text = fmt::format(
         "  video       {}x{} pixels\n"
-        "  discs       {}, {} on {} floor\n"
-        "  container   radius {:.2f} pixels, {:.3f} disc radii\n"
+        "  discs       {}, {} floor\n"
+        "  container   radius {} pixels, {} disc radii\n"
         "  path        {}\n"
         "  centre      {}, {} pixels\n"
         "  amplitude   {} pixels, {:.3f} disc radii\n"
@@ -178,9 +179,13 @@ std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
         "{}{}"
         "  filled in   {} positions\n"
         "  error       from {}\n",
-        video.width, video.height, species_text(video), video.bright ? "bright" : "dark",
-        video.bright ? "a dark" : "a bright", video.container_radius,
-        video.container_radius / video.radius,
+        video.width, video.height, species_text(video),
+        video.mixed    ? "dark and bright on the"
+        : video.bright ? "bright on a dark"
+                       : "dark on a bright",
+        with_error(video.container_radius, video.container_radius_error),
+        with_error(ratio, std::hypot(video.container_radius_error, ratio * video.radius_error) /
+                              video.radius),
         video.path.clockwise ? "clockwise in the image" : "counter-clockwise",
         with_error(video.path.centre.x, video.path.centre_error),
         with_error(video.path.centre.y, video.path.centre_error),

@@ -47,11 +47,6 @@ using Json = nlohmann::ordered_json;
 double degrees(double radians) { return radians * 180.0 / pi; }
 double whole_turn(double angle) { return angle - 360.0 * std::floor(angle / 360.0); }
 
-Json camera_motion_source(const TrackedVideo& video) {
-    if (video.camera.poses.empty()) return nullptr;
-    return video.camera.from_rim ? "rim" : "background";
-}
-
 Json vector_json(const Vec2& v) { return Json::array({v.x, v.y}); }
 
 /// `frames` has {x, y, a, b} for each frame: the position p of the steady camera is seen at
@@ -63,7 +58,8 @@ Json camera_motion_json(const TrackedVideo& video) {
         poses.push_back({origin.x, origin.y, pose.a, pose.b});
     }
     const auto& frames = video.tracks.frames;
-    return {{"source", camera_motion_source(video)},
+    return {{"source",
+             poses.empty() ? Json(nullptr) : Json(video.camera.from_rim ? "rim" : "background")},
             {"shake", video.camera.shake},
             {"drift", video.camera.drift},
             {"zoom", video.camera.zoom},
@@ -94,8 +90,10 @@ Json lens_json(const TrackedVideo& video) {
 Json video_json(const TrackedVideo& video, const VideoSource& source) {
     Json species = Json::array();
     for (const TrackedSpecies& one : video.species)
-        species.push_back(
-            {{"number", one.number}, {"radius", one.radius}, {"radius_scatter", one.scatter}});
+        species.push_back({{"number", one.number},
+                           {"radius", one.radius},
+                           {"radius_error", one.radius * video.radius_error / video.radius},
+                           {"radius_scatter", one.scatter}});
     const TrackScale scale = video.scale();
     return {
         {"format", camera_format},
@@ -105,9 +103,12 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
         {"fps", video.fps > 0.0 ? Json(video.fps) : Json(nullptr)},
         {"discs", video.number},
         {"species", species},
-        {"discs_are", video.bright ? "bright" : "dark"},
+        {"discs_are", video.mixed    ? "dark and bright"
+                      : video.bright ? "bright"
+                                     : "dark"},
         {"container",
          {{"radius", video.container_radius},
+          {"radius_error", video.container_radius_error},
           {"rim_radius", video.rim_radius},
           {"disc_reach", video.reach},
           {"rim_support", video.rim_support},

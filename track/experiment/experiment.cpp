@@ -31,22 +31,14 @@ namespace {
 constexpr double same_container = 0.02;
 
 const std::vector<std::string>& numbers_against_n() {
-    static const std::vector<std::string> names{"slip.cluster_perimeter",
-                                                "slip.pancake",
-                                                "slip.cluster",
-                                                "slip.pinned_region",
-                                                "slip.resident=slip_resident",
-                                                "frustration.wall_spin",
-                                                "frustration.pinned_wall_spin",
-                                                "frustration.resident_spin",
-                                                "frustration.spin_correlation",
-                                                "frustration.triangles",
-                                                "centre.distance=centre_distance",
-                                                "centre.theta=centre_theta",
-                                                "order.all=psi6",
-                                                "temperature.granular",
-                                                "pinned.share=pinned_share",
-                                                "residence.share=residence_share"};
+    static const auto parts = split(
+        "slip.cluster_perimeter,slip.pancake,slip.cluster,slip.pinned_region,"
+        "slip.resident=slip_resident,frustration.wall_spin,frustration.pinned_wall_spin,"
+        "frustration.resident_spin,frustration.spin_correlation,frustration.triangles,"
+        "centre.distance=centre_distance,centre.theta=centre_theta,order.all=psi6,"
+        "temperature.granular,pinned.share=pinned_share,residence.share=residence_share",
+        ",");
+    static const std::vector<std::string> names(parts.begin(), parts.end());
     return names;
 }
 
@@ -121,6 +113,10 @@ class Experiment {
     void each_side(Visit&& visit) const;
     std::vector<NamedCurve> curves() const;
 
+    fs::path written(const Table& table, const std::string& name) const {
+        table.write(settings_.out / (name + ".csv"));
+        return settings_.out / (name + ".csv");
+    }
     fs::path write_videos() const;
     fs::path write_points() const;
     fs::path write_profiles() const;
@@ -304,36 +300,27 @@ fs::path Experiment::write_videos() const {
                  "failed"});
     for (std::size_t k = 0; k < videos_.size(); ++k) {
         const ContainerVideo& video = videos_[k];
-        const auto found = [&](std::initializer_list<std::string_view> path) {
-            return number(at(video.found, path));
-        };
-        const auto mean = [&](const Json& result, const char* which, const char* what) {
-            return number(at(result, {"rotation", which, what}));
-        };
-        table.add({video.name,
-                   std::string(kind_of(video.smooth)),
-                   whole(at(video.found, {"discs"})),
-                   whole(at(video.found, {"frames"})),
-                   number(at(video.result, {"periods"})),
-                   frames_per_period(video),
-                   of_camera(video, "scale"),
-                   of_camera(video, "container-radius"),
-                   of_camera(video, "amplitude"),
-                   found({"path", "omega"}),
-                   found({"path", "omega_error"}),
-                   found({"quality", "complete_share"}),
-                   found({"quality", "position_error"}),
-                   mean(video.result, "mean_by_time", "mean"),
-                   mean(video.result, "mean_by_time", "error"),
-                   mean(video.result, "rigid_by_time", "mean"),
-                   mean(video.result, "rigid_by_time", "error"),
-                   mean(simulated(k), "mean_by_time", "mean"),
-                   mean(simulated(k), "mean_by_time", "error"),
-                   video.good() ? std::string() : video.result["failed"].get<std::string>()});
+        std::vector<Table::Cell> row{video.name,
+                                     std::string(kind_of(video.smooth)),
+                                     whole(at(video.found, {"discs"})),
+                                     whole(at(video.found, {"frames"})),
+                                     number(at(video.result, {"periods"})),
+                                     frames_per_period(video)};
+        for (const char* name : {"scale", "container-radius", "amplitude"})
+            row.emplace_back(of_camera(video, name));
+        for (const auto& [part, name] :
+             {std::pair("path", "omega"), std::pair("path", "omega_error"),
+              std::pair("quality", "complete_share"), std::pair("quality", "position_error")})
+            row.emplace_back(number(at(video.found, {part, name})));
+        for (const auto& [result, which] :
+             {std::pair(&video.result, "mean_by_time"), std::pair(&video.result, "rigid_by_time"),
+              std::pair(&simulated(k), "mean_by_time")})
+            for (const char* what : {"mean", "error"})
+                row.emplace_back(number(at(*result, {"rotation", which, what})));
+        row.emplace_back(video.good() ? std::string() : video.result["failed"].get<std::string>());
+        table.add(std::move(row));
     }
-    const fs::path file = settings_.out / "videos.csv";
-    table.write(file);
-    return file;
+    return written(table, "videos");
 }
 
 fs::path Experiment::write_points() const {
@@ -352,9 +339,7 @@ fs::path Experiment::write_points() const {
         row.emplace_back(source == std::string("video") ? "steady" : steadiness(result));
         table.add(std::move(row));
     });
-    const fs::path file = settings_.out / "points.csv";
-    table.write(file);
-    return file;
+    return written(table, "points");
 }
 
 fs::path Experiment::write_profiles() const {
@@ -373,9 +358,7 @@ fs::path Experiment::write_profiles() const {
             table.add(std::move(row));
         }
     });
-    const fs::path file = settings_.out / "profiles.csv";
-    table.write(file);
-    return file;
+    return written(table, "profiles");
 }
 
 fs::path Experiment::write_maps(std::size_t k) const {
@@ -395,9 +378,7 @@ fs::path Experiment::write_maps(std::size_t k) const {
     };
     add("video", discs_of(videos_[k]), videos_[k].result);
     add("simulation", discs_of(videos_[k]), simulated(k));
-    const fs::path file = settings_.out / fmt::format("maps_{}.csv", videos_[k].name);
-    table.write(file);
-    return file;
+    return written(table, "maps_" + videos_[k].name);
 }
 
 std::vector<fs::path> Experiment::write_tables() const {

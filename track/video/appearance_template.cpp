@@ -1,7 +1,6 @@
 #include "track/video/appearance_template.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
@@ -66,24 +65,6 @@ class GridRow {
 inline float bounded(float x) {
     const float y = std::min(std::max(x, -3.0f), 3.0f), square = y * y;
     return y * (27.0f + square) / (27.0f + 9.0f * square);
-}
-
-/// Solves A x = b in place, for symmetric positive definite A; false otherwise.
-template <std::size_t n>
-bool solve_system(std::array<std::array<double, n>, n>& a, std::array<double, n>& b) {
-    for (std::size_t c = 0; c < n; ++c) {
-        if (!(a[c][c] > 1e-12)) return false;
-        for (std::size_t r = c + 1; r < n; ++r) {
-            const double f = a[r][c] / a[c][c];
-            for (std::size_t k = c; k < n; ++k) a[r][k] -= f * a[c][k];
-            b[r] -= f * b[c];
-        }
-    }
-    for (std::size_t c = n; c-- > 0;) {
-        for (std::size_t k = c + 1; k < n; ++k) b[c] -= a[c][k] * b[k];
-        b[c] /= a[c][c];
-    }
-    return true;
 }
 
 std::vector<DetectedParticle> with_positions(std::vector<DetectedParticle> particles,
@@ -350,8 +331,8 @@ double AppearanceTemplate::excess_at(const Excess& excess, const Vec2& position)
 
 /// Normal equations A x = b for the changes of the gain and of the position, and their weights.
 struct AppearanceTemplate::Normal {
-    std::array<std::array<double, 3>, 3> a{};
-    std::array<double, 3> b{};
+    cv::Matx33d a;
+    cv::Vec3d b;
     int pixels = 0;
 };
 
@@ -377,19 +358,19 @@ AppearanceTemplate::Normal AppearanceTemplate::normal(const Excess& excess, cons
             ++sum.pixels;
         }
         const double slope = -gain / r.scale;
-        sum.a[0][0] += double(level[0]);
-        sum.a[0][1] += slope * double(level[1]);
-        sum.a[0][2] += slope * double(level[2]);
-        sum.a[1][1] += slope * slope * double(across[1]);
-        sum.a[1][2] += slope * slope * double(across[2]);
-        sum.a[2][2] += slope * slope * double(down);
+        sum.a(0, 0) += double(level[0]);
+        sum.a(0, 1) += slope * double(level[1]);
+        sum.a(0, 2) += slope * double(level[2]);
+        sum.a(1, 1) += slope * slope * double(across[1]);
+        sum.a(1, 2) += slope * slope * double(across[2]);
+        sum.a(2, 2) += slope * slope * double(down);
         sum.b[0] += double(seen[0]);
         sum.b[1] += slope * double(seen[1]);
         sum.b[2] += slope * double(seen[2]);
     });
-    for (std::size_t r = 0; r < 3; ++r)
-        for (std::size_t k = 0; k < r; ++k) sum.a[r][k] = sum.a[k][r];
-    for (std::size_t r = 0; r < 3; ++r) sum.b[r] -= gain * sum.a[r][0];
+    for (int r = 0; r < 3; ++r)
+        for (int k = 0; k < r; ++k) sum.a(r, k) = sum.a(k, r);
+    for (int r = 0; r < 3; ++r) sum.b[r] -= gain * sum.a(r, 0);
     return sum;
 }
 
@@ -412,13 +393,15 @@ AppearanceTemplate::Fit AppearanceTemplate::fit(const Excess& excess, const Vec2
             return fit;
         const double patch = std::max(1.0, pixels_of_a_patch / (stride * stride)),
                      weight = variance_ * patch / (gain_varies * gain_varies);
-        system.a[0][0] += weight;
+        system.a(0, 0) += weight;
         system.b[0] += weight * (1.0 - gain);
-        if (!solve_system(system.a, system.b)) return fit;
-        gain += system.b[0];
+        bool solved = false;
+        const cv::Vec3d change = system.a.inv(cv::DECOMP_CHOLESKY, &solved) * system.b;
+        if (!solved) return fit;
+        gain += change[0];
         const double maximum = max_step * model.radius;
-        const Vec2 move{std::clamp(system.b[1], -maximum, maximum),
-                        std::clamp(system.b[2], -maximum, maximum)};
+        const Vec2 move{std::clamp(change[1], -maximum, maximum),
+                        std::clamp(change[2], -maximum, maximum)};
         fit.centre = fit.centre + move;
         if (length(move) < small_move) break;
     }

@@ -51,25 +51,6 @@ cv::Mat reduced(const cv::Mat& grey, int reduction) {
     return small;
 }
 
-/// For each position of a patch's centre, how well the patch determines both coordinates: the
-/// smaller eigenvalue of its gradient matrix.
-cv::Mat patch_texture(const cv::Mat& smooth) {
-    cv::Mat image, dx, dy, xx, xy, yy;
-    smooth.convertTo(image, CV_32F);
-    cv::Scharr(image, dx, CV_32F, 1, 0, 1.0 / 32.0);
-    cv::Scharr(image, dy, CV_32F, 0, 1, 1.0 / 32.0);
-    const cv::Size side(patch_side, patch_side);
-    cv::boxFilter(dx.mul(dx), xx, CV_32F, side);
-    cv::boxFilter(dx.mul(dy), xy, CV_32F, side);
-    cv::boxFilter(dy.mul(dy), yy, CV_32F, side);
-    cv::Mat half, difference;
-    half = 0.5 * (xx + yy);
-    difference = 0.5 * (xx - yy);
-    cv::Mat root;
-    cv::sqrt(difference.mul(difference) + xy.mul(xy), root);
-    return half - root;
-}
-
 /// The best correlation of `patch` within `window` of an image, with its position in the image.
 struct Peak {
     double score = -1.0;
@@ -100,11 +81,14 @@ Peak best_correlation(const cv::Mat& image, const cv::Mat& patch, cv::Rect windo
 
 StaticBackground::StaticBackground(const cv::Mat& reference, const Vec2& centre, double swept)
     : size_(reference.size()) {
-    constexpr int coarse_width = 320;     // pixels of the reduced image, at least
-    constexpr float min_texture = 0.05f;  // squared grey levels per pixel: below is a uniform area
+    constexpr int coarse_width = 320;  // pixels of the reduced image, at least
+    // 0.05 squared grey levels per pixel², in OpenCV's unit: below is a uniform area.
+    constexpr float min_texture = 16.0f * 0.05f / (255.0f * 255.0f);
     reduction_ = std::max(2, size_.width / coarse_width);
     const cv::Mat smooth = patch_image(reference), small = reduced(reference, reduction_);
-    cv::Mat texture = patch_texture(smooth);
+    // How well a patch determines both coordinates: the smaller eigenvalue of its gradient matrix.
+    cv::Mat texture;
+    cv::cornerMinEigenVal(smooth, texture, patch_side, cv::FILTER_SCHARR);
     const int margin = patch_side / 2 + reduction_ + 1;
     for (int row = 0; row < texture.rows; ++row)
         for (int column = 0; column < texture.cols; ++column) {

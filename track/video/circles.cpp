@@ -78,20 +78,10 @@ struct RayEdge {
     double profile_residual = 0.0, weight = 1.0;
 };
 
-/// Solves the symmetric 3×3 (or, without the last row, 2×2) system; false if it is singular.
-bool solve(const double (&m)[3][3], const double (&b)[3], int n, double (&x)[3],
+/// Solves the symmetric 3×3 system; false if it is singular.
+bool solve(const double (&m)[3][3], const double (&b)[3], double (&x)[3],
            double (&inverse_diagonal)[3]) {
     constexpr double singular = 1e-9;  // determinant / product of the diagonal
-    if (n == 2) {
-        const double det = m[0][0] * m[1][1] - m[0][1] * m[0][1];
-        if (!(det > singular * m[0][0] * m[1][1])) return false;
-        x[0] = (m[1][1] * b[0] - m[0][1] * b[1]) / det;
-        x[1] = (m[0][0] * b[1] - m[0][1] * b[0]) / det;
-        x[2] = 0.0;
-        inverse_diagonal[0] = m[1][1] / det;
-        inverse_diagonal[1] = m[0][0] / det;
-        return true;
-    }
     const double c00 = m[1][1] * m[2][2] - m[1][2] * m[1][2];
     const double c01 = m[0][2] * m[1][2] - m[0][1] * m[2][2];
     const double c02 = m[0][1] * m[1][2] - m[0][2] * m[1][1];
@@ -248,8 +238,11 @@ class RayCircleFit {
                     b[r] += w * j[r] * y;
                 }
             }
-            m[1][0] = m[0][1];
-            if (!solve(m, b, settings_.free_radius ? 3 : 2, x, step.inverse)) return std::nullopt;
+            if (!settings_.free_radius) {  // the change of the radius is 0
+                m[0][2] = m[1][2] = b[2] = 0.0;
+                m[2][2] = 1.0;
+            }
+            if (!solve(m, b, x, step.inverse)) return std::nullopt;
             double moved = 0.0;
             for (int r = 0; r < 3; ++r) moved += std::abs(x[r] - d[r]), d[r] = x[r];
             scale = std::max(mad_to_sigma * median_in_place(values_), min_scale);

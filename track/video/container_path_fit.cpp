@@ -11,14 +11,18 @@
 namespace swirl::tracking {
 
 PathCircle circle_through(const std::vector<Vec2>& points) {
-    constexpr int passes = 8;          // passes of reweighting
-    constexpr double far_ratio = 4.0;  // median distances from the middle: no point of the circle
+    constexpr int passes = 8;            // passes of reweighting
+    constexpr double far_ratio = 4.0;    // median distances from the middle: no point of the circle
+    constexpr double most_points = 0.9;  // share of the points
     constexpr double cutoff = 4.5, min_cutoff = 0.2;  // standard deviations; pixels
     std::vector<double> weights, distances;
     const Vec2 origin = median_point(points);
     // The equations have squares of the distances, so one far outlier would decide the first pass.
     for (const Vec2& p : points) distances.push_back(length(p - origin));
-    const double far = far_ratio * median(distances);
+    // While the container rests, its centre stays at one point of the circle, perhaps in most frames.
+    const double middle = median(distances);
+    const double far =
+        far_ratio * (middle > min_path_amplitude ? middle : quantile(distances, most_points));
     for (const double d : distances) weights.push_back(d <= far ? 1.0 : 0.0);
     PathCircle circle;
     for (int pass = 0; pass < passes; ++pass) {

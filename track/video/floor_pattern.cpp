@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/run/failure.hpp"
 #include "swirl/run/parallel_for.hpp"
 #include "track/video/prepared_frame.hpp"
 #include "track/video/robust_statistics.hpp"
@@ -74,6 +75,31 @@ std::optional<FloorPattern> FloorPattern::learned(const std::vector<cv::Mat>& im
     }
     if (!floor.patterned()) return std::nullopt;
     floor.plain_level_ = floor.plain_level_for(patches);
+    return floor;
+}
+
+FloorPattern FloorPattern::folded(const std::vector<cv::Mat>& images, const ContainerRim& rim) {
+    constexpr int every = 3;          // frames, rows and columns are enough
+    constexpr double extreme = 0.02;  // share of the pixels
+    constexpr double margin = 0.15;   // share of the range of levels
+    const double reach = inside * rim.radius - rim.amplitude;  // the floor in all frames
+    std::vector<std::uint8_t> levels;
+    for (std::size_t k = 0; k < images.size(); k += every)
+        for (int row = 0; row < images[k].rows; row += every)
+            for (int column = 0; column < images[k].cols; column += every)
+                if (length(Vec2{double(column), double(row)} - rim.path_centre) < reach)
+                    levels.push_back(images[k].at<std::uint8_t>(row, column));
+    if (levels.empty()) throw Failure("the container's path is larger than the container");
+    std::sort(levels.begin(), levels.end());
+    const auto end = double(levels.size() - 1);
+    const double darkest = levels[std::size_t(extreme * end)],
+                 brightest = levels[std::size_t((1.0 - extreme) * end)],
+                 far = margin * (brightest - darkest);
+    const std::vector<std::uint8_t> between(
+        std::lower_bound(levels.begin(), levels.end(), darkest + far),
+        std::upper_bound(levels.begin(), levels.end(), brightest - far));
+    FloorPattern floor;
+    floor.fold_ = between.size() < 2 ? 0.5 * (darkest + brightest) : densest_third(between).middle;
     return floor;
 }
 
@@ -221,6 +247,11 @@ Vec2 FloorPattern::registered(const cv::Mat& image, const Vec2& centre) const {
 }
 
 void FloorPattern::remove(cv::Mat& image) const {
+    if (fold_) {
+        cv::absdiff(image, cv::Scalar(*fold_), image);
+        image += cv::Scalar(32.0);  // grey levels: the illumination needs some
+        return;
+    }
     // Of the rim's radius: a narrower match may be a part of a disc that is as bright as the floor.
     constexpr double smallest = 1.0 / 25.0;
     const std::optional<Vec2> rim = rim_centre(image);

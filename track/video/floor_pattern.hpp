@@ -8,6 +8,9 @@
 //
 // Discs of equal brightness that cover a point most of the time would be taken for the floor.
 // Therefore the pattern is removed only if most frames contradict the discs that were found with it.
+//
+// A plain floor between dark and bright discs is removed by folding: |I − F| with the level F of the
+// floor. It has the same edges, but all discs are bright.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +30,13 @@ class FloorPattern {
                                                const ContainerRim& rim, double reduction,
                                                unsigned threads);
 
-    /// Sets the floor of a frame to one level. A frame without a rim stays as it is.
+    /// For frames with dark and bright discs: folds them at the commonest level inside the rim that
+    /// is far from the darkest and the brightest.
+    static FloorPattern folded(const std::vector<cv::Mat>& images, const ContainerRim& rim);
+
+    bool folds() const { return fold_.has_value(); }
+
+    /// Sets the floor of a frame to one level, or folds it. A frame without a rim stays as it is.
     void remove(cv::Mat& image) const;
 
   private:
@@ -55,6 +64,7 @@ class FloorPattern {
     cv::Mat slope_x_, slope_y_, slope_;  // slope of the level, per pixel, and their magnitude
     cv::Mat known_;                      // 8 bits: 255 where the floor is known
     double plain_level_ = 0.0;
+    std::optional<double> fold_;
 };
 
 }  // namespace swirl::tracking

@@ -9,6 +9,7 @@
 #include "swirl/run/parallel_for.hpp"
 #include "track/video/appearance_template.hpp"
 #include "track/video/particle_size.hpp"
+#include "track/video/robust_statistics.hpp"
 #include "track/video/shading_detection.hpp"
 
 namespace swirl::tracking {
@@ -64,7 +65,7 @@ std::vector<ParticleSpecies> species_of(std::vector<double> radii) {
         result.radius = median(part);
         std::vector<double> off;
         for (const double r : part) off.push_back(std::abs(r - result.radius));
-        result.scatter = 1.4826 * median(off);
+        result.scatter = mad_to_sigma * median(off);
         result.number = part.size();
         return result;
     };
@@ -393,6 +394,21 @@ void combine_positions(DetectedParticle& particle, const Vec2& by_edge,
     particle.error = std::max(particle.error, by_template.error());
 }
 
+double contact_distance(const DetectedParticle& a, const DetectedParticle& b,
+                        const ParticleAppearance& appearance) {
+    return appearance.spacing *
+           (appearance.species[a.species].radius + appearance.species[b.species].radius);
+}
+
+/// True if one of `others` is nearer than this fraction of the contact distance.
+bool overlaps(const std::vector<DetectedParticle>& others, const DetectedParticle& particle,
+              double distance, const ParticleAppearance& appearance) {
+    return std::any_of(others.begin(), others.end(), [&](const DetectedParticle& other) {
+        return length(other.centre - particle.centre) <
+               distance * contact_distance(other, particle, appearance);
+    });
+}
+
 /// Finds the particles of a frame that match the template, the best first, with or without edges.
 class TemplateSearch {
   public:
@@ -421,7 +437,7 @@ class TemplateSearch {
             if (best.score < 0.5 * disc_score) return;
             fit_and_score(best);
             best.by_edge = best.particle.centre;
-            if (best.score < disc_score || overlaps(best.particle, free_distance)) return;
+            if (best.score < disc_score || is_covered(best.particle, free_distance)) return;
             best.particle.error = template_.error();
             open_.push_back(best);
             accept(open_.size() - 1);
@@ -432,7 +448,7 @@ class TemplateSearch {
         for (std::size_t k = 0; k < accepted_.size(); ++k)
             combine_positions(accepted_[k], edges_[k], excess_, accepted_, appearance_);
         for (Candidate& c : open_) {
-            if (overlaps(c.particle, same_distance)) continue;
+            if (is_covered(c.particle, same_distance)) continue;
             c.particle.sure = false;
             c.particle.support = std::max(c.score, 0.01);
             accepted_.push_back(c.particle);
@@ -447,15 +463,8 @@ class TemplateSearch {
         double score;
     };
 
-    double sum_of_radii(const DetectedParticle& a, const DetectedParticle& b) const {
-        return appearance_.spacing *
-               (appearance_.species[a.species].radius + appearance_.species[b.species].radius);
-    }
-    /// True if an accepted particle is nearer than this fraction of the sum of radii.
-    bool overlaps(const DetectedParticle& particle, double distance) const {
-        return std::any_of(accepted_.begin(), accepted_.end(), [&](const DetectedParticle& t) {
-            return length(t.centre - particle.centre) < distance * sum_of_radii(t, particle);
-        });
+    bool is_covered(const DetectedParticle& particle, double distance) const {
+        return overlaps(accepted_, particle, distance, appearance_);
     }
     double score(const DetectedParticle& particle) const {
         return template_.score(excess_, particle.centre, particle.species,
@@ -478,7 +487,7 @@ class TemplateSearch {
         edges_.push_back(c.by_edge);
         for (Candidate& o : open_)
             if (length(o.particle.centre - c.particle.centre) <
-                1.3 * sum_of_radii(o.particle, c.particle))
+                1.3 * contact_distance(o.particle, c.particle, appearance_))
                 o.score = score(o.particle);
     }
     /// Index of the best open candidate; open_.size() if there is none.
@@ -488,7 +497,7 @@ class TemplateSearch {
             if (open_[k].score < disc_score ||
                 (best < open_.size() && open_[k].score <= open_[best].score))
                 continue;
-            if (!overlaps(open_[k].particle, free_distance)) best = k;
+            if (!is_covered(open_[k].particle, free_distance)) best = k;
         }
         return best;
     }
@@ -504,7 +513,7 @@ class TemplateSearch {
                     if (!appearance_.shading &&
                         !(template_.excess_at(excess_, c.particle.centre) > 0.3 * template_.soft()))
                         continue;
-                    if (overlaps(c.particle, min_distance)) continue;
+                    if (is_covered(c.particle, min_distance)) continue;
                     c.score = score(c.particle);
                     if (c.score > best.score) best = c;
                 }
@@ -553,11 +562,7 @@ std::optional<DetectedParticle> find_near_with_template(
     const auto fit =
         by_template.fit(excess, best.centre, species, sure_others(others, best, appearance));
     if (fit.good) best.centre = fit.centre;
-    for (const DetectedParticle& other : others)
-        if (length(other.centre - best.centre) <
-            free_distance * appearance.spacing *
-                (radius + appearance.species[other.species].radius))
-            return std::nullopt;
+    if (overlaps(others, best, free_distance, appearance)) return std::nullopt;
     best.error = 2.0 * by_template.error();
     return best;
 }
@@ -582,16 +587,9 @@ std::optional<DetectedParticle> find_particle_near(const PreparedFrame& frame, c
                 frame.sharp, seed, appearance.steepest * appearance.lens.seen_radius(seed, radius),
                 appearance.polarity, rays);
             if (!fit.good || length(fit.centre - expected) > search_reach * radius) continue;
-            const bool overlaps_other =
-                std::any_of(others.begin(), others.end(), [&](const DetectedParticle& other) {
-                    return length(other.centre - fit.centre) <
-                           min_gap * appearance.spacing *
-                               (radius + appearance.species[other.species].radius);
-                });
-            if (overlaps_other || fit.support <= best.support) continue;
-            best.centre = fit.centre;
-            best.support = fit.support;
-            best.error = fit.error;
+            const DetectedParticle found{fit.centre, species, fit.support, fit.error, false};
+            if (fit.support > best.support && !overlaps(others, found, min_gap, appearance))
+                best = found;
         }
     if (best.support < any_support) return std::nullopt;
     refine_position(best, others, frame, appearance);
@@ -659,23 +657,17 @@ std::vector<DetectedParticle> find_particles(const PreparedFrame& frame, const C
         all.begin(), all.end(),
         [](const DetectedParticle& a, const DetectedParticle& b) { return a.support > b.support; });
     std::vector<DetectedParticle> accepted;
-    const auto overlaps = [&](const DetectedParticle& particle, bool sure_ones, double distance) {
-        return std::any_of(accepted.begin(), accepted.end(), [&](const DetectedParticle& k) {
-            return (k.sure || !sure_ones) && length(k.centre - particle.centre) <
-                                                 distance * appearance.spacing *
-                                                     (appearance.species[k.species].radius +
-                                                      appearance.species[particle.species].radius);
-        });
-    };
+    std::vector<DetectedParticle> sure;
     for (DetectedParticle particle : all) {
-        if (overlaps(particle, false, same_distance)) continue;
-        bool is_covered = overlaps(particle, true, min_distance);
+        if (overlaps(accepted, particle, same_distance, appearance)) continue;
+        bool is_covered = overlaps(sure, particle, min_distance, appearance);
         if (!is_covered && particle.support < appearance.sure) {
             particle = refit_from_around(particle, frame, appearance);
-            is_covered = overlaps(particle, true, min_distance);
+            is_covered = overlaps(sure, particle, min_distance, appearance);
         }
         particle.sure = !is_covered && particle.support >= appearance.sure;
         accepted.push_back(particle);
+        if (particle.sure) sure.push_back(particle);
     }
     for (DetectedParticle& particle : accepted)
         refine_position(particle, accepted, frame, appearance);

@@ -111,7 +111,10 @@ std::optional<UnevenMotion> uneven_motion(const std::vector<double>& phases) {
     constexpr double max_variation = 0.12;  // relative: motors and polygons stay below
     constexpr std::size_t min_frames = 16;
     if (phases.size() < min_frames) return std::nullopt;
-    const double usual = quantile(local_rates(phases, 2), 0.75);
+    // The container may rest in most frames.
+    const std::vector<double> quick_rates = local_rates(phases, 2);
+    double usual = quantile(quick_rates, 0.75);
+    if (const double fast = quantile(quick_rates, 0.9); usual < moving_share * fast) usual = fast;
     if (!(usual > 0.0)) return std::nullopt;
     const auto quarter = std::max<std::size_t>(1, std::size_t(0.5 * pi / usual));
     if (phases.size() < 4 * quarter) return std::nullopt;

@@ -66,8 +66,7 @@ cv::Mat texture_of(const cv::Mat& patch, const MeanDisc& mean) {
     mean.mask.convertTo(known, CV_32F);
     const cv::Mat weighed = mean.mean.mul(known);
     const double own = patch.dot(weighed), all = mean.mean.dot(weighed);
-    cv::Mat texture = patch - (all > 0.0 ? own / all : 0.0) * mean.mean;
-    return texture;
+    return patch - (all > 0.0 ? own / all : 0.0) * mean.mean;
 }
 
 /// Bilinear interpolation, which is accurate enough because textures are smoothed.
@@ -94,21 +93,15 @@ struct Gradient {
 };
 
 /// The rotation that maps the texture `first` to `second`, and their correlation afterwards.
-struct Registration {
-    Vector turn{};
-    double match = 0.0;
-    bool found = false;
-};
-
-Registration register_turn(const cv::Mat& first, const cv::Mat& second, const cv::Mat& mask,
-                           const Gradient& slope, double radius, const Vector& initial_estimate,
-                           double centre_error) {
+DiscSpin register_turn(const cv::Mat& first, const cv::Mat& second, const cv::Mat& mask,
+                       const Gradient& slope, double radius, const Vector& initial_estimate,
+                       double centre_error) {
     constexpr int unknowns = 5, rounds = 10;
     const double middle = 0.5 * (first.cols - 1);
     const int reach = static_cast<int>(usable_radius * radius);
     Vector w = initial_estimate;
     double shift_x = 0.0, shift_y = 0.0;
-    Registration best;
+    DiscSpin best;
     for (int round = 0; round < rounds; ++round) {
         const Rotation r = rotation_by(w);
         cv::Matx<double, unknowns, unknowns> m = cv::Matx<double, unknowns, unknowns>::zeros();
@@ -160,7 +153,7 @@ Registration register_turn(const cv::Mat& first, const cv::Mat& second, const cv
         if (moved < 2e-4) break;
     }
     best.turn = w;
-    best.found = best.match > min_match;
+    best.known = best.match > min_match;
     return best;
 }
 
@@ -189,12 +182,7 @@ void mask_uniform_pixels(double radius, MeanDisc& all) {
             variation.at<float>(row, column) = static_cast<float>(share);
             common.push_back(share);
         }
-    const double limit = minimum * median(common);
-    all.mask = cv::Mat(all.mean.size(), CV_8U, cv::Scalar(0));
-    for (int row = 0; row < all.mean.rows; ++row)
-        for (int column = 0; column < all.mean.cols; ++column)
-            all.mask.at<std::uint8_t>(row, column) =
-                double(variation.at<float>(row, column)) > limit ? 1 : 0;
+    all.mask = variation > minimum * median(common);
 }
 
 /// Replaces the mean image by a polynomial of degree two in the surface normal (X, Y, Z), on which
@@ -298,16 +286,12 @@ std::vector<DiscPatch> disc_patches(const cv::Mat& image, const TrackedVideo& tr
 DiscSpin step_between(const DiscPatch& from, const DiscPatch& to) {
     constexpr double fast_turn = 0.25;  // rad: more than Gauss–Newton finds from 0
     const Gradient slope(to.texture);
-    DiscSpin spin;
     const double error = std::hypot(min_error + from.error, min_error + to.error);
-    Registration found;
+    DiscSpin spin;
     for (const double start : {0.0, fast_turn, -fast_turn})
-        if (!found.found)
-            found = register_turn(from.texture, to.texture, to.mask, slope, from.radius,
-                                  {0.0, 0.0, start}, error);
-    spin.turn = found.turn;
-    spin.match = found.match;
-    spin.known = found.found;
+        if (!spin.known)
+            spin = register_turn(from.texture, to.texture, to.mask, slope, from.radius,
+                                 {0.0, 0.0, start}, error);
     return spin;
 }
 
@@ -366,12 +350,6 @@ DiscSpin spin_at(const Steps& steps, std::size_t k, std::int64_t id, int step) {
     return spin;
 }
 
-DiscSpin between(const DiscSpin& a, const DiscSpin& b, double u) {
-    DiscSpin spin;
-    for (std::size_t i = 0; i < 3; ++i) spin.turn[i] = (1.0 - u) * a.turn[i] + u * b.turn[i];
-    return spin;
-}
-
 /// Interpolates spins in frames without a measurement; NaN for discs without any measurement.
 void fill_gaps(const TrackedVideo& tracked, VideoSpins& spins) {
     std::map<std::int64_t, std::vector<std::pair<std::size_t, std::size_t>>> occurrences;
@@ -391,9 +369,10 @@ void fill_gaps(const TrackedVideo& tracked, VideoSpins& spins) {
                     spin(g).turn.fill(not_available);
                     continue;
                 }
-                const DiscSpin& a = spin(last == where.size() ? j : last);
-                const DiscSpin& b = spin(j == where.size() ? last : j);
-                spin(g) = between(a, b, double(g + 1 - begin) / double(j - begin + 1));
+                const Vector &a = spin(last == where.size() ? j : last).turn,
+                             &b = spin(j == where.size() ? last : j).turn;
+                const double u = double(g + 1 - begin) / double(j - begin + 1);
+                for (std::size_t n = 0; n < 3; ++n) spin(g).turn[n] = (1.0 - u) * a[n] + u * b[n];
             }
             last = j;
         }

@@ -28,7 +28,14 @@ unsigned thread_count(const TrackingSettings& settings) {
 double TrackedVideo::step() const {
     std::vector<double> steps;
     for (std::size_t k = 1; k < times.size(); ++k) steps.push_back(times[k] - times[k - 1]);
+    // Times by the phase hardly advance while the container rests.
+    const double least = by_phase ? 0.1 * quantile(steps, 1.0) : 0.0;
+    std::erase_if(steps, [&](double step) { return step < least; });
     return quantile(steps, 0.5);
+}
+
+double TrackedVideo::periods() const {
+    return (times.back() - times.front() + step()) * path.omega / (2.0 * pi);
 }
 
 TrackScale TrackedVideo::scale() const {
@@ -129,6 +136,7 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     tracked.width = survey.size.width;
     tracked.height = survey.size.height;
     tracked.bright = survey.appearance.polarity > 0;
+    tracked.mixed = survey.floor && survey.floor->folds();
     tracked.tilt = survey.tilt;
     tracked.spacing = survey.appearance.spacing;
     if (tracked.spacing > 1.0) tracked.contact_ratio = tracked.spacing;
@@ -154,16 +162,17 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     set_species(settings, survey.appearance, all, tracked);
 
     const Links links = link_detections(settings, survey, all, tracked);
-    remove_shading_shift(links, survey.brighter, all, tracked);
+    // Light from one side shifts dark and bright discs in opposite directions.
+    if (!tracked.mixed) remove_shading_shift(links, survey.brighter, all, tracked);
     find_contacts(links, all, tracked);
     assemble_tracks(all, links, settings.first_frame, tracked);
     if (tracked.number == 0) throw Failure("no disc could be followed through the video");
 
     if (tracked.lens.tilted()) move_path_to_wall(tracked);
     measure_quality(all, tracked);
-    reject_contradicted_discs(tracked);
+    reject_contradicted_discs(tracked, survey.floor != nullptr);
     set_radii(tracked);
-    if (survey.floor)
+    if (survey.floor && !tracked.mixed)
         tracked.warnings.emplace_back(
             "the floor of the container has a pattern, which was learned from the video and "
             "removed; a plain floor gives more accurate positions");
@@ -230,11 +239,16 @@ TrackedVideo detect_and_link(TrackingSettings settings) {
     try {
         finish_tracking(settings, survey, times, all, tracked);
     } catch (const Failure& failure) {
-        // A damaged video has a cause that no other message states.
-        if (tracked.damage.empty()) throw;
+        // Causes that no other message states.
+        std::string cause;
+        if (!tracked.damage.empty())
+            cause = fmt::format("; the video is damaged, ffmpeg reports: {}", tracked.damage);
+        else if (tracked.path.amplitude > 0.0 && share_outside(tracked) > complete_rim)
+            cause = fmt::format("; {:.0f} % of the container's rim lies outside the frame",
+                                100.0 * share_outside(tracked));
+        if (cause.empty()) throw;
         std::string text = failure.what();
-        text.insert(std::min(text.find('\n'), text.size()),
-                    fmt::format("; the video is damaged, ffmpeg reports: {}", tracked.damage));
+        text.insert(std::min(text.find('\n'), text.size()), cause);
         throw Failure(text);
     }
     return tracked;

@@ -87,7 +87,8 @@ struct TrackedVideo {
     double rim_radius = 0.0;        // median over the frames
     double reach = 0.0;             // of the outermost disc, in most frames
     double container_radius = 0.0;  // one of these two
-    bool wall_reached = false;      // discs touch it at least three times per period
+    double container_radius_error = 0.0;
+    bool wall_reached = false;  // discs touch it at least three times per period
     std::size_t rims_missed = 0;
     CameraMotion camera;  // removed from all positions
     double shake = 0.0;   // what is left of it, from frame to frame, rms of a coordinate
@@ -99,8 +100,10 @@ struct TrackedVideo {
     std::vector<double> rim_offsets;  // distance of the rim from the path; −1 if not found
 
     bool bright = true;  // discs on a darker floor
+    bool mixed = false;  // dark and bright discs
     std::vector<TrackedSpecies> species;
     double radius = 0.0;  // of the most frequent species: the unit of length
+    double radius_error = 0.0;
 
     Tracks tracks;                                // ids from 0; radius for each disc
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
@@ -122,8 +125,10 @@ struct TrackedVideo {
     double jitter = 0.0;    // of the video's times, in steps
     std::vector<std::string> warnings;  // one line each, without "warning: "
 
-    /// Median time between two frames.
+    /// Median time between two frames in which the container moves.
     double step() const;
+    /// That the frames show.
+    double periods() const;
     /// Centre of the container in this frame.
     Vec2 container(std::size_t frame) const { return path.at(times[frame]); }
     /// The position in the frame as recorded.

@@ -2,18 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
+#include "track/video/robust_statistics.hpp"
 #include "track/video/tracking_steps.hpp"
 
 namespace swirl::tracking {
 
-namespace {
+double share_outside(const TrackedVideo& tracked) {
+    constexpr int steps = 36;  // steps of the period and of the rim: 10 degrees
+    int out = 0;
+    for (int a = 0; a < steps; ++a)
+        for (int b = 0; b < steps; ++b) {
+            const Vec2 p =
+                tracked.lens.seen(tracked.path.centre - tracked.rim_shift +
+                                  tracked.path.amplitude * unit_circle(double(a) / steps) +
+                                  tracked.rim_radius * unit_circle(double(b) / steps));
+            if (p.x < 0.0 || p.y < 0.0 || p.x > tracked.width - 1.0 || p.y > tracked.height - 1.0)
+                ++out;
+        }
+    return double(out) / (steps * steps);
+}
 
-constexpr double complete_rim = 0.005;  // share of the rim outside the frame that is no warning
+namespace {
 
 /// Successive frames in each of which many discs are missing.
 struct Occlusion {
@@ -55,22 +68,6 @@ std::string omission_text(const Occlusion& occlusion, const TrackedVideo& tracke
     return "";
 }
 
-/// Share of the rim, averaged over a period, that lies outside the frame.
-double share_outside(const TrackedVideo& tracked) {
-    constexpr int steps = 36;  // steps of the period and of the rim: 10 degrees
-    int out = 0;
-    for (int a = 0; a < steps; ++a)
-        for (int b = 0; b < steps; ++b) {
-            const Vec2 p =
-                tracked.lens.seen(tracked.path.centre - tracked.rim_shift +
-                                  tracked.path.amplitude * unit_circle(double(a) / steps) +
-                                  tracked.rim_radius * unit_circle(double(b) / steps));
-            if (p.x < 0.0 || p.y < 0.0 || p.x > tracked.width - 1.0 || p.y > tracked.height - 1.0)
-                ++out;
-        }
-    return double(out) / (steps * steps);
-}
-
 template <typename... Values>
 void warn(TrackedVideo& tracked, fmt::format_string<Values...> text, Values&&... values) {
     tracked.warnings.push_back(fmt::format(text, std::forward<Values>(values)...));
@@ -80,7 +77,7 @@ void warn_about_motion(TrackedVideo& tracked) {
     constexpr double min_periods = 1.0, min_per_period = 24.0, min_used = 0.9;
     constexpr std::size_t max_missed = 20;  // one rim in 20 may be missed
     const double per_period = 2.0 * pi / (tracked.path.omega * tracked.step());
-    const double periods = double(tracked.frame_count) / per_period;
+    const double periods = tracked.periods();
     if (periods < min_periods)
         warn(tracked, "the video shows {:.2f} periods; Ω and the centre need at least one",
              periods);
@@ -162,6 +159,10 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
             "the container, perhaps a hand; a disc may have different IDs before and after{}",
             first + occlusion.begin, first + occlusion.end - 1, 100.0 * occlusion.share,
             omission_text(occlusion, tracked));
+    if (tracked.mixed)
+        warn(tracked,
+             "dark and bright discs are tracked together: light from one side shifts them in "
+             "opposite directions, so discs of one brightness give more accurate positions");
     if (tracked.complete_share < min_complete && !hidden)
         warn(tracked,
              "all {} discs are detected in only {:.1f} % of the frames: more even light, less "
@@ -184,14 +185,10 @@ namespace {
 
 /// The largest number of discs that are detected in more than a seventh of the frames.
 std::size_t detected_at_once(const TrackedVideo& tracked) {
-    constexpr std::size_t one_in = 7;
-    std::vector<std::size_t> numbers;
+    std::vector<double> numbers;
     for (const auto& seen : tracked.seen)
-        numbers.push_back(std::size_t(std::count(seen.begin(), seen.end(), 1)));
-    if (numbers.empty()) return 0;
-    const auto at = numbers.begin() + std::ptrdiff_t(numbers.size() / one_in);
-    std::nth_element(numbers.begin(), at, numbers.end(), std::greater<>());
-    return *at;
+        numbers.push_back(double(std::count(seen.begin(), seen.end(), 1)));
+    return std::size_t(quantile(numbers, 6.0 / 7.0));
 }
 
 /// Throws UncertainDiscs if the video contradicts the number that the user gave.
@@ -215,13 +212,28 @@ void reject_contradicted_number(const TrackedVideo& tracked) {
                         given, double(given) + excess));
 }
 
+/// The floor is what most frames show. Where the container rests in most of them, so do its discs.
+void reject_discs_learned_as_floor(const TrackedVideo& tracked) {
+    constexpr double most = 1.0 / 3.0, all = 0.9;  // share of the frames, of the discs
+    const Occlusion missing = longest_occlusion(tracked);
+    if (double(missing.size()) < most * double(tracked.seen.size()) || missing.share < all) return;
+    const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
+    throw UncertainDiscs(
+        fmt::format("in frames {} to {} no disc is visible against the floor, which was learned "
+                    "from all frames: "
+                    "discs that rest for long look like a part of it.\n"
+                    "hint: --from and --to limit the video to frames in which the container moves.",
+                    first + missing.begin, first + missing.end - 1));
+}
+
 }  // namespace
 
-void reject_contradicted_discs(const TrackedVideo& tracked) {
+void reject_contradicted_discs(const TrackedVideo& tracked, bool floor_is_learned) {
+    if (floor_is_learned) reject_discs_learned_as_floor(tracked);
     if (tracked.number_given) return reject_contradicted_number(tracked);
-    constexpr double most = 0.5;        // share of the frames
-    constexpr double max_excess = 0.1;  // share of the discs
-    constexpr double max_incomplete = 0.8;
+    constexpr double most = 0.5;         // share of the frames
+    constexpr double max_excess = 0.05;  // share of the discs
+    constexpr double max_incomplete = 0.3;
     const double crowded = double(tracked.crowded), frames = double(tracked.frame_count);
     if (crowded < most * frames || 1.0 - tracked.complete_share < max_incomplete) return;
     const double excess = double(tracked.rejected) / crowded;

@@ -8,12 +8,28 @@
 #include "track/video/appearance_template.hpp"
 #include "track/video/contact_distance.hpp"
 #include "track/video/floor_pattern.hpp"
+#include "track/video/robust_statistics.hpp"
 #include "track/video/shading_detection.hpp"
 #include "track/video/tracking_steps.hpp"
 
 namespace swirl::tracking {
 
 namespace {
+
+/// Removes images in which hardly anything has moved since the one before: many images of one state
+/// count its texture as often as its discs.
+void drop_repeated(std::vector<cv::Mat>& images) {
+    constexpr double least = 0.4;        // of the usual change
+    constexpr std::size_t minimum = 12;  // images
+    std::vector<double> changes{0.0};
+    for (std::size_t k = 1; k < images.size(); ++k)
+        changes.push_back(cv::norm(images[k], images[k - 1], cv::NORM_L1));
+    const double usual = quantile(changes, 0.9);
+    std::vector<cv::Mat> chosen;
+    for (std::size_t k = 0; k < images.size(); ++k)
+        if (k == 0 || changes[k] > least * usual) chosen.push_back(images[k]);
+    if (chosen.size() >= minimum) images = std::move(chosen);
+}
 
 std::vector<cv::Mat> read_survey_frames(const TrackingSettings& settings,
                                         std::int64_t frame_count) {
@@ -29,6 +45,7 @@ std::vector<cv::Mat> read_survey_frames(const TrackingSettings& settings,
         images.push_back(grey.clone());
         settings.report_progress("surveying the video", double(images.size()) / double(maximum));
     }
+    drop_repeated(images);
     return images;
 }
 
@@ -221,6 +238,22 @@ void remove_camera_motion(const TrackingSettings& settings, double reduction,
     frames = std::move(again);
 }
 
+void remove_floor(const TrackingSettings& settings, const std::vector<cv::Mat>& seen,
+                  double reduction, FloorPattern&& floor, std::vector<cv::Mat>& images,
+                  std::vector<PreparedFrame>& frames, VideoSurvey& survey) {
+    survey.floor = std::make_shared<const FloorPattern>(std::move(floor));
+    parallel_for(
+        images.size(),
+        [&](std::size_t k) {
+            settings.throw_if_stopped();
+            images[k] = seen[k].clone();
+            survey.floor->remove(images[k]);
+        },
+        thread_count(settings));
+    frames = prepare_all(images, reduction, settings);
+    if (const auto rim = find_moving_rim(frames, true)) survey.rim = *rim;
+}
+
 /// Throws Failure if the floor has no pattern.
 void remove_floor_pattern(const TrackingSettings& settings, double reduction,
                           std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
@@ -233,18 +266,32 @@ void remove_floor_pattern(const TrackingSettings& settings, double reduction,
         std::optional<FloorPattern> floor =
             FloorPattern::learned(seen, survey.rim, reduction, thread_count(settings));
         if (!floor) throw Failure("the floor of the container has no pattern");
-        survey.floor = std::make_shared<const FloorPattern>(std::move(*floor));
-        parallel_for(
-            images.size(),
-            [&](std::size_t k) {
-                settings.throw_if_stopped();
-                images[k] = seen[k].clone();
-                survey.floor->remove(images[k]);
-            },
-            thread_count(settings));
-        frames = prepare_all(images, reduction, settings);
-        if (const auto rim = find_moving_rim(frames, true)) survey.rim = *rim;
+        remove_floor(settings, seen, reduction, std::move(*floor), images, frames, survey);
     }
+}
+
+/// Some discs are darker and some brighter than the floor: folds the images. Throws Failure if that
+/// does not show all of them.
+void fold_mixed_brightness(const TrackingSettings& settings, double reduction, double detail,
+                           std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
+                           VideoSurvey& survey) {
+    const ParticleAppearance one = survey.appearance;
+    const std::vector<cv::Mat> seen = images;
+    try {
+        remove_floor(settings, seen, reduction, FloorPattern::folded(seen, survey.rim), images,
+                     frames, survey);
+        survey.appearance = survey_appearance(images, frames, detail, survey.rim, settings);
+        if (survey.appearance.polarity > 0 && !survey.appearance.shading &&
+            survey.appearance.number >= one.number + one.opposite / 2)
+            return;
+    } catch (const Failure&) {
+        settings.throw_if_stopped();
+    }
+    throw Failure(
+        fmt::format("there are {} {} discs and {} {} ones, but both could not be found together.\n"
+                    "hint: use a floor that is darker or brighter than all discs.",
+                    one.number, one.polarity > 0 ? "bright" : "dark", one.opposite,
+                    one.polarity > 0 ? "dark" : "bright"));
 }
 
 }  // namespace
@@ -270,8 +317,12 @@ VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_co
     remove_camera_motion(settings, reduction, images, frames, survey);
     if (survey.rim.rough) survey.rim = survey_container_rim(frames);
     if (settings.patterned_floor) remove_floor_pattern(settings, reduction, images, frames, survey);
-    survey.appearance = survey_appearance(
-        images, frames, std::min(1.0, particle_side * rim_side / side), survey.rim, settings);
+    const double detail = std::min(1.0, particle_side * rim_side / side);
+    survey.appearance = survey_appearance(images, frames, detail, survey.rim, settings);
+    constexpr std::size_t one_in = 10;  // discs: fewer of the other brightness may be marks
+    if (one_in * survey.appearance.opposite > survey.appearance.number && !settings.motion_only &&
+        !survey.floor)
+        fold_mixed_brightness(settings, reduction, detail, images, frames, survey);
     settings.throw_if_stopped();
     // Where edges are too poor for discs, they are too poor for the tilt.
     KnownCamera camera = settings.camera;

@@ -7,6 +7,7 @@
 #include "math/deviate.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
+#include "track/video/circles.hpp"
 
 namespace swirl::tracking {
 namespace {
@@ -48,6 +49,19 @@ TEST(ContainerPath, ContainerAtRestHasNoPath) {
         centres.push_back({300.0 + 0.3 * deviate(random), 200.0 + 0.3 * deviate(random)});
     }
     EXPECT_FALSE(fit_container_path(centres, times));
+}
+
+TEST(ContainerPath, CircleIsFoundIfTheContainerRestsInMostFrames) {
+    Random random(7);
+    const TrackedPath truth{{310.0, 250.0}, 40.0, 0.1, 0.7};
+    std::vector<Vec2> centres;
+    for (int k = 0; k < 300; ++k)
+        centres.push_back(truth.at(std::max(0, k - 220)) +
+                          Vec2{0.1 * deviate(random), 0.1 * deviate(random)});
+    // 80 points on the circle give its centre and radius to about 0.03 pixels.
+    const PathCircle found = circle_through(centres);
+    EXPECT_NEAR(found.radius, 40.0, 0.15);
+    EXPECT_NEAR(length(found.centre - truth.centre), 0.0, 0.15);
 }
 
 }  // namespace

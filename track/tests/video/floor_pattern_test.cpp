@@ -114,6 +114,28 @@ TEST(FloorPattern, PlainFloorHasNone) {
     EXPECT_FALSE(FloorPattern::learned(images_of(video(60.0, 70.0, 2.0)), outer_edge(), 1.0, 1));
 }
 
+TEST(FloorPattern, FoldingMakesDarkAndBrightDiscsBright) {
+    std::vector<Frame> all = video(120.0, 120.0, 2.0);
+    for (Frame& frame : all)  // discs on the left are dark
+        for (int row = 0; row < side; ++row)
+            for (int column = 0; column < side / 2; ++column)
+                if (frame.discs.at<std::uint8_t>(row, column))
+                    frame.image.at<std::uint8_t>(row, column) = 40;
+    const FloorPattern floor = FloorPattern::folded(images_of(all), outer_edge());
+    for (const Frame& frame : all) {
+        cv::Mat image = frame.image.clone();
+        floor.remove(image);
+        for (int row = 0; row < side; ++row)
+            for (int column = 0; column < side; ++column) {
+                if (length(Vec2{double(column), double(row)} - frame.centre) > radius - 1.0)
+                    continue;
+                // Discs are 70 or 80 levels from the floor, and the noise stays below 5 deviations.
+                const int level = image.at<std::uint8_t>(row, column);
+                ASSERT_EQ(level > 85, frame.discs.at<std::uint8_t>(row, column) != 0) << level;
+            }
+    }
+}
+
 TEST(FloorPattern, FewFramesGiveNone) {
     std::vector<cv::Mat> images = images_of(video(40.0, 90.0, 2.0));
     images.resize(11);
