@@ -24,13 +24,14 @@ LINES = {
     "paper": (["paper"], [], 10_250),
     # Goal 9,000. No other part can go without a changed verdict or a claimed error that fails (bench/NOTES_tracking.md):
     # the rest is detection, links, cameras and lenses, errors, paths moved by hand, comparisons and synthetic videos.
-    "track": (["track"], ["track/tests"], 15_250),
+    # Discs of both brightnesses and containers that rest in most frames came later (100 lines).
+    "track": (["track"], ["track/tests"], 15_280),
     "page": (["web/src"], [], 6_500),
     # Goal 30,000. The number that can be defended is 43,500: copied setup and repeated mechanisms are gone (60 equal
     # blocks of four lines remain). 22,000 lines of C++ test the layers, with one or two assertions for each formula,
     # law and invariant, which the mutations need; 8,300 the command line; 1,900 the judge of the claims; 3,200 the
     # Python module; 4,600 tracking. 3,900 are fuzzing, faults, mutations and platforms.
-    "tests": (["tests", "track/tests"], [], 44_300),
+    "tests": (["tests", "track/tests"], [], 44_360),
 }
 
 
