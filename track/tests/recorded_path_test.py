@@ -117,7 +117,7 @@ class RecordedPath(InFolder):
 
     def test_what_cannot_be_recorded(self):
         skipped = ",".join(f"{FRAMES * k}-{FRAMES * k + 11}" for k in range(4))  # a quarter of each period
-        moving = self.video(length=2.2)
+        moving = self.video()
         for video, more, says in ((self.video("--camera-on-container", name="still.mp4"), (), "stands still"),
                                   (self.video(length=1.3, name="short.mp4"), (), "at least two"),
                                   (moving, ("--skip", skipped), "gap")):
