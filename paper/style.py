@@ -9,18 +9,30 @@ import math
 import os
 import sys
 
-import matplotlib
 import numpy as np
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import matplotlib.ticker  # noqa: E402
-from matplotlib.patheffects import withStroke  # noqa: E402
+import atomic_file
+import tables
+from paper_parameters import AMPLITUDE
+from tables import column, distinct, select  # noqa: F401
 
-import atomic_file  # noqa: E402
-import tables  # noqa: E402
-from paper_parameters import AMPLITUDE  # noqa: E402
-from tables import column, distinct, select  # noqa: E402, F401
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import matplotlib.ticker
+    from matplotlib.patheffects import withStroke
+except ModuleNotFoundError as missing:
+    if missing.name != "matplotlib":
+        raise
+
+    class Missing:
+        """Tables are made without matplotlib; the first use of it fails."""
+
+        def __getattr__(self, name):
+            raise ModuleNotFoundError("No module named 'matplotlib'", name="matplotlib")
+
+    matplotlib = plt = Missing()
 
 # Column widths of the Physical Review, in inches.
 COLUMN = 3.375
@@ -49,7 +61,7 @@ LOOKS = {
 
 SETTINGS = {
     "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 8, "mathtext.fontset": "dejavusans",
-    "axes.labelsize": 8.5, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "axes.prop_cycle": matplotlib.cycler(color=CYCLE),
+    "axes.labelsize": 8.5, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "axes.prop_cycle": f"cycler(color={CYCLE})",
     "axes.spines.top": False, "axes.spines.right": False, "axes.unicode_minus": True,
     **{f"{axis}tick.{name}": value for axis in "xy" for name, value in (
         ("labelsize", 7.5), ("direction", "in"), ("major.width", 0.6), ("major.size", 3))},

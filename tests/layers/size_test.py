@@ -31,7 +31,7 @@ LINES = {
     # blocks of four lines remain). 22,000 lines of C++ test the layers, with one or two assertions for each formula,
     # law and invariant, which the mutations need; 8,300 the command line; 1,900 the judge of the claims; 3,200 the
     # Python module; 4,600 tracking. 3,900 are fuzzing, faults, mutations and platforms.
-    "tests": (["tests", "track/tests"], [], 44_360),
+    "tests": (["tests", "track/tests"], [], 44_380),
 }
 
 

@@ -3,6 +3,7 @@
 import csv
 import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -155,6 +156,25 @@ def test_an_error_in_the_code_of_a_figure_does_not_end_the_others(tmp_path, monk
     if broken.points is raises:
         with pytest.raises(console.Problem, match="figure broken cannot be made: LookupError"):
             command.main(call | {"part": [1, 1]})
+
+
+def test_tables_need_no_matplotlib(tmp_path):
+    call = {"figures": ["5b"], "quick": True, "events": EVENTS, "out": str(tmp_path), "quiet": True}
+    done = subprocess.run([sys.executable, "-c", f"""
+import sys
+sys.modules["matplotlib"] = None
+sys.path.insert(0, {PAPER!r})
+import catalogue, command, study
+for figure in catalogue.named(["all"]):
+    figure.points(study.Settings(quick=True))
+try:
+    command.main({call})
+except command.Problem as problem:
+    sys.exit(problem.code)
+"""], capture_output=True, text=True)
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "the figures need matplotlib; the tables are written" in done.stdout
+    assert len(rows(tmp_path, "5b")) > 50
 
 
 def test_a_file_that_cannot_be_imported_fails_alone(tmp_path, monkeypatch):
