@@ -145,8 +145,8 @@ void set_radii(TrackedVideo& tracked);
 /// Share of the rim, averaged over a period, that lies outside the frame.
 double share_outside(const TrackedVideo& tracked);
 inline constexpr double complete_rim = 0.005;  // share outside that is no warning
-/// Throws UncertainDiscs if most frames contradict the discs that were found, or if discs at rest were
-/// removed with the pattern of the floor.
+/// Throws UncertainDiscs if most frames contradict the discs that were found, or if discs at rest
+/// were removed with the pattern of the floor.
 void reject_contradicted_discs(const TrackedVideo& tracked, bool floor_is_learned);
 /// Adds warnings about what looks wrong, with the likely cause.
 void add_warnings(TrackedVideo& tracked);

@@ -220,8 +220,7 @@ void reject_discs_learned_as_floor(const TrackedVideo& tracked) {
     const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
     throw UncertainDiscs(
         fmt::format("in frames {} to {} no disc is visible against the floor, which was learned "
-                    "from all frames: "
-                    "discs that rest for long look like a part of it.\n"
+                    "from all frames: discs that rest for long look like a part of it.\n"
                     "hint: --from and --to limit the video to frames in which the container moves.",
                     first + missing.begin, first + missing.end - 1));
 }
