@@ -39,8 +39,6 @@ FIGURES = {
 
 
 class Figures(InFolder):
-    in_memory = True
-
     def test_tables_and_drawings(self):
         out = self.path("out")
         # Lengths in periods scale with the events; these two need five periods at N = 48.

@@ -13,8 +13,6 @@ SWEEP = ["--discs", "2:3", "--events", "200"]
 
 
 class Hints(InFolder):
-    in_memory = True
-
     def call(self, *words):
         return swirl(*words, cwd=self.folder)
 
@@ -88,8 +86,6 @@ class EndOfOptions(InFolder):
 
 
 class FormerNames(InFolder):
-    in_memory = True
-
     def test_a_former_name_gets_the_present_one(self):
         for command, former, present in (
                 ("movie", "--frames", "--frame-files"), ("track", "--path", "--path-out"),
@@ -110,8 +106,6 @@ class FormerNames(InFolder):
 
 
 class Values(InFolder):
-    in_memory = True
-
     def assert_rejected(self, *words, says):
         self.assertEqual(self.assert_fails(2, *words, says=says, cwd=self.folder).stdout, "")
         self.assertEqual(self.left_behind(), [])

@@ -21,8 +21,6 @@ SPHERES = [*DISCS, "--body", "sphere", "--floor", "sliding"]
 
 
 class HostileFiles(InFolder):
-    in_memory = True
-
     def recorded(self, *run):
         """A trajectory, an event log and a result."""
         self.assert_works(*run, "--trajectory", self.path("t.h5"), "--log-events", self.path("e.h5"), "--json",

@@ -18,8 +18,6 @@ MAP = ["map", "--x", "mu=0:1", "--y", "discs=4:40", "--steps", "7", "--level", "
 
 
 class Map(InFolder):
-    in_memory = True
-
     def table(self, folder):
         return read_text(os.path.join(folder, "map.csv"))
 

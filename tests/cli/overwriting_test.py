@@ -14,8 +14,6 @@ from program import SOURCE, SWIRL, InFolder, read_bytes, swirl, without_time
 
 
 class Overwriting(InFolder):
-    in_memory = True
-
     def run_call(self, *more, seed=1, events="20000"):
         return ["run", "--discs", "8", "--events", events, "--seed", seed, "--trajectory",
                 self.path("t.h5"), "--log-events", self.path("e.h5"), "--json", self.path("r.json"),
@@ -178,8 +176,6 @@ class Overwriting(InFolder):
 class Names(InFolder):
     """An output file never replaces another file of the same call, whatever its spelling, nor an input file,
     a device or a pipe."""
-
-    in_memory = True
 
     def recorded(self):
         self.assert_works("run", "--discs", 5, "--events", 2000, "--trajectory", self.path("t.h5"), "--quiet")

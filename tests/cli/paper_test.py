@@ -19,8 +19,6 @@ def make(out, **how):
 
 
 class Figure5b(InFolder):
-    in_memory = True  # two hundred files for each call
-
     def make(self, out, **how):
         return make(self.path(out), **how)
 

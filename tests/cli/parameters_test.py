@@ -50,8 +50,6 @@ def another(name):
 
 
 class Everywhere(InFolder):
-    in_memory = True
-
     def test_the_docs_list_all_parameters(self):
         self.assertGreater(len(GIVEN), 15)
         self.assertEqual(set(result_of("--events", 10)["config"]), set(PARAMETERS) - {"mu", "preset"} - OF_SPHERES - IF_SET)
@@ -95,8 +93,6 @@ class Everywhere(InFolder):
 
 
 class Precedence(InFolder):
-    in_memory = True
-
     def on_top_of(self, file, *by_hand):
         """The settings from these options and a file with all parameters."""
         write_text(self.path("a.toml"), swirl("run", *file, "--dry-run").stdout)

@@ -14,8 +14,6 @@ RUN = ["run", "--discs", "24", "--events", "100000", "--warmup", "5", "--seed", 
 
 
 class Recorded(InFolder):
-    in_memory = True
-
     def arguments(self, folder):
         os.makedirs(folder, exist_ok=True)
         return [*RUN, "--trajectory", os.path.join(folder, "t.h5"),

@@ -74,8 +74,6 @@ class Trajectory(unittest.TestCase):
 
 
 class InitialState(InFolder):
-    in_memory = True
-
     def test_a_run_from_a_file_is_verified_without_it(self):
         start = self.path("start.csv")
         write_text(start, "x,y,vx,vy,spin\n2,0,0,1,0\n2,3,0,0,-1\n")

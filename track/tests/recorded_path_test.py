@@ -38,8 +38,6 @@ class Recorded:
 
 
 class RecordedPath(InFolder):
-    in_memory = True
-
     def video(self, *more, name="shaker.mp4", length=3.2):
         done = swirl("synthetic-video", *VIDEO, "--length", length, "--out", self.path(name), "--quiet", *more)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -77,7 +77,8 @@ void require_file(const std::string& source) {
             "'{0}' is a folder, but a video must be a file.\n"
             "hint: for numbered images, mark the field of the number, as in '{0}/%05d.png'.",
             source));
-    if (std::filesystem::exists(source, ignored) || source.starts_with("/dev/"))
+    if (std::filesystem::exists(source, ignored) ||
+        (source.starts_with("/dev/") && !source.starts_with("/dev/shm/")))
         throw UsageError(fmt::format(
             "'{}' is a device or a stream, but a video must be a file: it is read more than "
             "once.\nhint: {}.",
