@@ -18,8 +18,10 @@ option(SWIRL_EXPERIMENT "" ON)
 option(SWIRL_CAMERA "" ON)
 target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_DRAWING},${SWIRL_EXPERIMENT},${SWIRL_CAMERA}")
 """
+# Without CMake's tests of the compiler, which the tests below do not need.
 PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
- "binaryDir": "${sourceDir}/build/release"}]}"""
+ "binaryDir": "${sourceDir}/build/release", "cacheVariables": {"CMAKE_CXX_COMPILER_FORCED": "ON",
+ "CMAKE_CXX_COMPILER_ID_RUN": "ON", "CMAKE_CXX_COMPILER_ID": "GNU"}}]}"""
 PROGRAM = """#include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -437,13 +439,22 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
         self.assertEqual(self.word(), "first")
 
     def test_a_long_build_prints_its_progress(self):
+        # The launcher reports when its sleep has ended: here when the build has begun its second step, which waits for
+        # the second sleep.
+        self.write("slower.sh", "touch begun\nuntil [ -e slept-twice ]; do sleep 0.05; done\n")
+        self.stand_in("sleep", f"""[ "$1" = 10 ] || exec /bin/sleep $1
+cd {self.path("build/release")}
+while ! [ -e begun ]; do /bin/sleep 0.05; done
+[ ! -e slept ] || touch slept-twice
+touch slept
+""")
         self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT slow.txt VERBATIM
-  COMMAND sleep 1 COMMAND ${CMAKE_COMMAND} -E touch slow.txt)
+  COMMAND ${CMAKE_COMMAND} -E touch slow.txt)
 add_custom_command(OUTPUT slower.txt DEPENDS slow.txt VERBATIM
-  COMMAND sleep 11 COMMAND ${CMAKE_COMMAND} -E touch slower.txt)
+  COMMAND sh ${PROJECT_SOURCE_DIR}/slower.sh COMMAND ${CMAKE_COMMAND} -E touch slower.txt)
 add_custom_target(slow ALL DEPENDS slower.txt)
 """)
-        self.assertRegex(self.call().stderr, r"building: [1-9] of \d, \d\d %\n")
+        self.assertRegex(self.call_with_stand_ins().stderr, r"building: [1-9] of \d, \d\d %\n")
 
 
 if __name__ == "__main__":
