@@ -8,7 +8,7 @@
      FAULT_ERRNO  the number of the error it gives; 0: the process is killed instead
      FAULT_EVER   1: all calls from there on fail, not only this one
      FAULT_UNDER  only files in this folder count
-     FAULT_COUNT  the number of calls is written here in the end
+     FAULT_COUNT  the number of calls of each kind is written here in the end
      FAULT_RECORD every change and every sync is recorded here, for replaying a power cut
 
    A failed fsync also loses what it was to bring onto the disk, as Linux does: with FAULT_LOSE=1
@@ -33,7 +33,10 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static char names[MOST_FILES][512];        /* of the open files that count; "" for others */
 static struct { int file; off_t at; size_t size; } pending[MOST_PENDING];
 static int pending_count;
-static long counted;
+/* The first counts every call that changes files. operator new is counted only if it is FAULT_CALL. */
+static const char* const kinds[] = {"change", "open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close", "new"};
+#define KINDS (int)(sizeof kinds / sizeof *kinds)
+static long counted[KINDS];
 static int record = -1;
 
 static const char* setting(const char* name) {
@@ -77,8 +80,9 @@ static void keep(char what, long a, long size, const char* from, const char* to,
 static void tell_count(void) {
     const char* path = setting("FAULT_COUNT");
     if (!*path) return;
-    char text[32];
-    const int length = snprintf(text, sizeof text, "%ld\n", counted);
+    char text[32 * KINDS];
+    int length = 0;
+    for (int k = 0; k < KINDS; ++k) length += snprintf(text + length, 32, "%s %ld\n", kinds[k], counted[k]);
     const int file = (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (file < 0) return;
     raw_write(file, text, (size_t)length);
@@ -89,10 +93,14 @@ __attribute__((constructor)) static void begin(void) { atexit(tell_count); }
 /* Does this call fail? Called with the lock held. */
 static int fails(const char* call, int changes) {
     const char* wanted = setting("FAULT_CALL");
-    if (strcmp(wanted, call) != 0 && !(changes && strcmp(wanted, "change") == 0)) return 0;
-    ++counted;
+    long count = 0; /* of the wanted kind, with this call; 0: this call is of another */
+    for (int k = 0; k < KINDS; ++k) {
+        if (strcmp(kinds[k], call) != 0 && !(k == 0 && changes)) continue;
+        ++counted[k];
+        if (strcmp(kinds[k], wanted) == 0) count = counted[k];
+    }
     const long at = atol(setting("FAULT_AT"));
-    if (at == 0 || (counted != at && !(counted > at && *setting("FAULT_EVER") == '1'))) return 0;
+    if (count == 0 || at == 0 || (count != at && !(count > at && *setting("FAULT_EVER") == '1'))) return 0;
     const int error = atoi(setting("FAULT_ERRNO"));
     if (error == 0) kill(getpid(), SIGKILL);
     errno = error;
