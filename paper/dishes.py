@@ -4,7 +4,6 @@ import dataclasses
 import json
 import math
 
-import numpy as np
 from coarse_zero import changes_of_sign, middle_zero, zero_of_curve
 from combine import at, number
 from curves import CERTAIN, direction_of, rate_of, rows_of, with_error
@@ -52,25 +51,15 @@ QUANTITIES = """slip.cluster_perimeter slip.cluster=slip contact_network.wall co
     fluctuations.correlation fluctuations.susceptibility fluctuations.binder""".split()
 
 
-def fluctuations(values, discs):
-    """Of a rate ϖ/Ω with mean m, from period to period: the variance; the integrated autocorrelation time in periods; N ·
-    variance · time, which is N times the variance of a long mean, times its periods; the Binder cumulant
-    1 − ⟨(ϖ−m)⁴⟩ / 3⟨(ϖ−m)²⟩², which is 0 for one normal state and 2/3 for two equal ones."""
-    mean, _, _, correlation = swirl._engine.estimate_of_series(list(values))
-    apart = np.asarray(values) - mean
-    square = np.mean((apart - apart.mean()) ** 2)
-    constant = not square > 1e-28 * np.mean(np.asarray(values) ** 2)  # a rounding error
-    binder = math.nan if constant else 1 - np.mean((apart - apart.mean()) ** 4) / (3 * square ** 2)
-    variance = 0.0 if constant else square * len(apart) / (len(apart) - 1)
-    return {"variance": variance, "correlation": correlation, "susceptibility": discs * variance * correlation,
-            "binder": binder}
-
-
 def fluctuating_run(parameters):
-    run = swirl.run(measure=list(MEASURED), series=True, **parameters)
-    found = fluctuations(run.series["rigid_by_time"][run.series["counted"] > 0], parameters["discs"])
-    result = json.loads(run.to_json())
-    result["measured"]["fluctuations"] = {name: {"mean": value, "error": None} for name, value in found.items()}
+    """A run with the fluctuations of ϖ from period to period: their variance, correlation time τ in periods, Binder cumulant
+    (0 for one normal state, 2/3 for two equal ones), and N · variance · τ, which does not depend on the length of the means."""
+    result = json.loads(swirl.run(measure=list(MEASURED), series=True, **parameters).to_json())
+    found = result["series"]["averages"]["rigid_by_time"]["fluctuations"]
+    variance, time = (number(found[name]["mean"]) for name in ("n_variance", "correlation_time"))
+    result["measured"]["fluctuations"] = {"correlation": found["correlation_time"], "binder": found["binder"],
+                                          "variance": {"mean": variance / parameters["discs"], "error": None},
+                                          "susceptibility": {"mean": variance * time, "error": None}}
     return result
 
 

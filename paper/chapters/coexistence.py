@@ -22,13 +22,18 @@ FRACTION = 0.32
 WINDOW = 5  # periods
 RATE_STEP = 0.01  # Ω, of the distribution
 PREPARED = 90  # periods before the first window
+PREPARATIONS = ("round", "elongated")
 # A ramp of A/R brings the cluster into a state, and then to the amplitude of the point.
-PREPARATIONS = {"round": (0.19, 0.19), "elongated": (0.27, 0.222, 0.222)}
+ELONGATING = (0.27, 0.222, 0.222)
 ELONGATED, ROUND = 1.25, 1.15  # the elongation above, below which a window is certainly in a state
-RATIOS = {24.0: (0.2, 0.209, 0.2137), 28.0: (0.2, 0.2055), 34.4: (0.206, 0.209, 0.211, 0.2137, 0.217),
-          48.0: (0.195, 0.2, 0.205, 0.209), 60.0: (0.19, 0.195, 0.2, 0.205)}  # A/R
+# For R/r: A/R of the points, the A/R of the ramp that prepares a round cluster, and the length of a run relative to
+# the others, since a period at R/r = 60 has 10⁵ events.
+DISHES = {24.0: ((0.2, 0.209, 0.2137), 0.19, 1), 28.0: ((0.2, 0.2055), 0.19, 1),
+          34.4: ((0.206, 0.209, 0.211, 0.2137, 0.217), 0.19, 1), 48.0: ((0.1425, 0.145, 0.2, 0.238, 0.24), 0.1, 1),
+          60.0: ((0.1425, 0.145, 0.2, 0.265, 0.27), 0.1, 0.25)}
 BISTABLE = 0.2137  # where both states last long at R/r = 34.4
-LOCKED = (24.0, 0.33)  # R/r and A/R of a cluster that is elongated in another way: its axis turns with the swirl
+# R/r and A/R of axes: of the rotating wave, one that turns with the swirl, one that stands still, and one in between.
+AXES = ((34.4, BISTABLE), (24.0, 0.33), (48.0, 0.145), (48.0, 0.2))
 
 
 def windows_of(parameters):
@@ -38,7 +43,8 @@ def windows_of(parameters):
 def coexistence_run(radius, ratio, prepared, periods):
     dish = Dish(radius, 0.22)
     run = dish_run(dish, dish.discs(FRACTION))
-    ramp = ":".join(repr(radius * value) for value in (*PREPARATIONS[prepared], ratio))
+    start = ELONGATING if prepared == "elongated" else (DISHES[radius][1],) * 2
+    ramp = ":".join(repr(radius * value) for value in (*start, ratio))
     return {"discs": run["discs"], "container_radius": radius, "period": period_of(run),
             "ramp": f"amplitude={ramp}@0..{PREPARED}", "warmup": PREPARED, "periods": PREPARED + periods}
 
@@ -52,11 +58,11 @@ def coexistence_point(settings, radius, ratio, prepared, periods, seeds, work=wi
 
 def points(settings):
     seeds = settings.first_seeds or settings.chapter_seeds
-    ratios = {34.4: (BISTABLE,)} if settings.quick else RATIOS
-    return ([coexistence_point(settings, radius, ratio, prepared, settings.periods(300, 2 * WINDOW), seeds)
-             for radius, all_ratios in ratios.items() for ratio in all_ratios for prepared in PREPARATIONS] +
+    dishes = {34.4: ((BISTABLE,), *DISHES[34.4][1:])} if settings.quick else DISHES
+    return ([coexistence_point(settings, radius, ratio, prepared, settings.periods(300 * length, 2 * WINDOW), seeds)
+             for radius, (ratios, _, length) in dishes.items() for ratio in ratios for prepared in PREPARATIONS] +
             [coexistence_point(settings, *dish, prepared, settings.periods(60, 3), seeds, axis_of)
-             for dish in ((34.4, BISTABLE), LOCKED) for prepared in PREPARATIONS])
+             for dish in (AXES[:2] if settings.quick else AXES) for prepared in PREPARATIONS])
 
 
 # --- Lifetimes ------------------------------------------------------------------------------------
@@ -88,7 +94,8 @@ def rate_law(ratios, periods, exits):
 
 def equal_lifetimes(rows):
     """The A/R at which both laws of the rates agree, and the lifetime there, each with its error. None if a law is
-    undetermined, or if the lifetime of the elongated state does not certainly grow relative to that of the round one."""
+    undetermined, if the lifetime of the elongated state does not certainly grow relative to that of the round one, or if the
+    lifetime is longer than all runs together: then it would follow from an extrapolation alone."""
     laws = [rate_law(*([row[name] for row in rows] for name in ("amplitude_ratio", f"periods_{state}", f"exits_{state}")))
             for state in ("round", "elongated")]
     if None in laws:
@@ -99,6 +106,8 @@ def equal_lifetimes(rows):
     shift = -height / slope
     direction = np.array([1.0, shift])
     lifetime = math.exp(-laws[0][0] @ direction)
+    if lifetime > sum(row["periods_round"] + row["periods_elongated"] for row in rows):
+        return None
     return ((BISTABLE + shift, math.sqrt(direction @ spread @ direction) / slope),
             (lifetime, lifetime * math.sqrt(direction @ laws[0][1] @ direction)))
 
