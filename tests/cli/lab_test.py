@@ -59,37 +59,40 @@ const engineOf = async (path) => {
         return {out, write, begin, asked: text, answer: (size) => read(out.text(), size)};
     };
 };
-engineOf(process.argv[1]).then((make) => {
-    const said = [];
-    for (const {given, events, steps} of JSON.parse(process.argv[2])) {
-        const engine = make(), answers = [];
-        try {
-            engine.begin(given);
-            engine.out.run_events(events);
-            for (const [name, ...values] of steps ?? []) {
-                if (["change", "keeps_discs"].includes(name)) engine.write(values.pop());
-                answers.push(engine.out[name](...values));
+// Answers each line, the calls of an engine each, with one line.
+engineOf(process.argv[1]).then(async (make) => {
+    for await (const line of require("readline").createInterface({input: process.stdin})) {
+        const said = [];
+        for (const {given, events, steps} of JSON.parse(line)) {
+            const engine = make(), answers = [];
+            try {
+                engine.begin(given);
+                engine.out.run_events(events);
+                for (const [name, ...values] of steps ?? []) {
+                    if (["change", "keeps_discs"].includes(name)) engine.write(values.pop());
+                    answers.push(engine.out[name](...values));
+                }
+                const seen = answers.length ? engine.out.frame(steps.at(-1)[1]) : 0;
+                const frame = new Float64Array(engine.out.memory.buffer, seen,
+                                               seen ? engine.out.frame_size() : 0);
+                said.push({
+                    answers, frame: answers.length ? [...frame] : [],
+                    hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
+                    rotation: JSON.parse(engine.answer(engine.out.rotation())),
+                    result: JSON.parse(engine.answer(engine.out.result())),
+                    turns: [...new Float64Array(engine.out.memory.buffer, engine.out.turns(), 2)],
+                    cause: [...new Float64Array(engine.out.memory.buffer, engine.out.cause(), 10)],
+                    contacts: engine.out.contacts() / 4,
+                    problem: engine.answer(engine.out.problem(1)),
+                    command: engine.answer(engine.out.command()),
+                    asked: engine.asked});
+            } catch (error) {
+                said.push({rejected: error.message});
             }
-            const seen = answers.length ? engine.out.frame(steps.at(-1)[1]) : 0;
-            const frame = new Float64Array(engine.out.memory.buffer, seen,
-                                           seen ? engine.out.frame_size() : 0);
-            said.push({
-                answers, frame: answers.length ? [...frame] : [],
-                hash: BigInt.asUintN(64, engine.out.state_hash()).toString(16).padStart(16, "0"),
-                rotation: JSON.parse(engine.answer(engine.out.rotation())),
-                result: JSON.parse(engine.answer(engine.out.result())),
-                turns: [...new Float64Array(engine.out.memory.buffer, engine.out.turns(), 2)],
-                cause: [...new Float64Array(engine.out.memory.buffer, engine.out.cause(), 10)],
-                contacts: engine.out.contacts() / 4,
-                problem: engine.answer(engine.out.problem(1)),
-                command: engine.answer(engine.out.command()),
-                asked: engine.asked});
-        } catch (error) {
-            said.push({rejected: error.message});
         }
+        const table = make();
+        console.log(JSON.stringify({said, parameters: JSON.parse(table.answer(table.out.parameters()))}));
     }
-    const table = make();
-    console.log(JSON.stringify({said, parameters: JSON.parse(table.answer(table.out.parameters()))}));
 });
 """
 
@@ -133,11 +136,14 @@ class Laboratory(ProgramTest):
     @classmethod
     def setUpClass(cls):
         cls.page = made_of_the_web(cls, LAB, "laboratory.html")
+        cls.node = subprocess.Popen(["node", "-e", NODE, os.path.join(SOURCE, "build/wasm/swirl.wasm")],
+                                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        cls.addClassCleanup(cls.node.communicate)
 
     def engine(self, calls):
-        done = subprocess.run(["node", "-e", NODE, os.path.join(SOURCE, "build/wasm/swirl.wasm"),
-                               json.dumps(calls)], check=True, capture_output=True, text=True)
-        return json.loads(done.stdout)
+        self.node.stdin.write(json.dumps(calls) + "\n")
+        self.node.stdin.flush()
+        return json.loads(self.node.stdout.readline())
 
     def test_fourteen_scenes_match_the_command_line_exactly(self):
         said = self.engine([{"given": {**{k: str(v) for k, v in scene.items()}, "warmup": "0",
@@ -572,7 +578,7 @@ class Laboratory(ProgramTest):
                 self.assertAlmostEqual(float(row[f"varpi_{rate}_error"]), error, delta=0.01 * error, msg=rate)
 
     def test_maps_are_measured_only_while_they_are_shown(self):
-        done = subprocess.run(["node", "-e", NODE.split("engineOf(process.argv[1])")[0] + """
+        done = subprocess.run(["node", "-e", NODE.split("// Answers each line")[0] + """
             engineOf(process.argv[1]).then((make) => {
                 const said = {}, period = 11.866071;
                 for (const [name, from, to] of [["never", 99, 99], ["always", 0, 99], ["late", 22.5, 99], ["ended", 0, 25]]) {
@@ -618,7 +624,7 @@ class Laboratory(ProgramTest):
                                   "20000", "--json", "-", "--quiet").stdout)
         runs = [number for point in search["points"]
                 for number in (point["discs"], point["mean"], point["error"], 100, 0)]
-        done = subprocess.run(["node", "-e", NODE.split("engineOf(process.argv[1])")[0] + """
+        done = subprocess.run(["node", "-e", NODE.split("// Answers each line")[0] + """
             engineOf(process.argv[1]).then((make) => {
                 const engine = make(), runs = JSON.parse(process.argv[2]), at = engine.out.runs(runs.length / 5);
                 new Float64Array(engine.out.memory.buffer, at, runs.length).set(runs);
