@@ -13,7 +13,7 @@ from program import SWIRL, InFolder, read_json, read_rows, swirl, write_text
 
 SHORT = ["--events", "2e4", "--tolerance", 5, "--quiet"]
 FEW = ["--from", 5, "--to", 7]
-AROUND = ["--from", 37, "--to", 39]  # where it crosses, so that there is a number to compare
+AROUND = ["--from", 35, "--to", 41]  # where it crosses, so that there is a number to compare
 
 
 class Crossing(InFolder):
