@@ -47,10 +47,13 @@ file(GLOB_RECURSE statistics_sources CONFIGURE_DEPENDS src/swirl/statistics/*.cp
 file(GLOB_RECURSE measure_sources CONFIGURE_DEPENDS src/swirl/measure/*.cpp)
 swirl_vector_sources(engine_sources)
 swirl_vector_sources(measure_sources)
+set_source_files_properties(src/swirl/engine/simd/event_loop_baseline.cpp
+  src/swirl/engine/simd/event_loop_partial_friction.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 add_library(swirl_engine STATIC ${engine_sources})
 target_link_libraries(swirl_engine PUBLIC swirl_physics)
 target_compile_options(swirl_engine PRIVATE -fno-exceptions)
+swirl_compiled_at_once(swirl_engine)
 if(SWIRL_FUZZ)
   # The fuzz targets test the readers of files. The engine has a separate suite with sanitizers; here they
   # would add minutes of compilation for each event loop.
@@ -60,6 +63,7 @@ foreach(layer statistics measure)
   add_library(swirl_${layer} STATIC ${${layer}_sources})
   target_compile_options(swirl_${layer} PRIVATE -fno-exceptions)
 endforeach()
+swirl_compiled_at_once(swirl_statistics)
 target_link_libraries(swirl_statistics PUBLIC swirl_physics)
 target_link_libraries(swirl_measure PUBLIC swirl_statistics)
 swirl_compiled_at_once(swirl_measure)

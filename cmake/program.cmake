@@ -40,11 +40,15 @@ swirl_layer(io -O2
   PUBLIC swirl_measure swirl_engine nlohmann_json::nlohmann_json fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${hdf5_libraries})
 target_include_directories(swirl_io SYSTEM PRIVATE ${hdf5_include})
-# Classes in these files have members of types in unnamed namespaces. In a batch, g++ warns about them.
-set_source_files_properties(src/swirl/io/hdf5.cpp src/swirl/io/trajectory_writer.cpp
-  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+# Classes have members of types in unnamed namespaces. In a batch, g++ warns about them.
+target_compile_options(swirl_io PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 swirl_layer(run -O1 PUBLIC swirl_io)
 swirl_layer(study -O1 PUBLIC swirl_run Threads::Threads)
+# Without this part, `swirl sweep`, `collect`, `map` and `crossing` are listed in the help, and report what is missing.
+option(SWIRL_STUDY "Build the subcommands that make many runs" ON)
+if(NOT SWIRL_STUDY)  # `swirl experiment` and the Python module may still need it
+  set_target_properties(swirl_study PROPERTIES EXCLUDE_FROM_ALL ON)
+endif()
 # The program in the build tree finds the scripts as an installed program does.
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/swirl)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/paper ${PROJECT_BINARY_DIR}/share/swirl/paper SYMBOLIC)
@@ -95,29 +99,34 @@ set_source_files_properties(src/swirl/run/version.cpp PROPERTIES COMPILE_DEFINIT
 
 # The command line: one file per subcommand.
 file(GLOB app_sources CONFIGURE_DEPENDS src/swirl/cli/*.cpp track/cli/*.cpp)
-# A library of its own, so that adding this part later compiles nothing else of the command line again.
-set(drawing_sources ${app_sources})
-list(FILTER drawing_sources INCLUDE REGEX "/(appearance_options|source_options|command_(image|movie|synthetic_video)).cpp$")
-list(REMOVE_ITEM app_sources ${drawing_sources})
-add_library(swirl_drawing_commands OBJECT ${drawing_sources})
-target_link_libraries(swirl_drawing_commands PRIVATE swirl_study swirl_track_tables)
-swirl_settings(swirl_drawing_commands -O1)
-swirl_compiled_at_once(swirl_drawing_commands)
-if(SWIRL_DRAWING)
-  target_link_libraries(swirl_drawing_commands PUBLIC swirl_track_synthetic)
-  target_compile_definitions(swirl_drawing_commands PRIVATE SWIRL_DRAWING=1)
-endif()
+# The commands of a part are a library, so that adding the part later compiles nothing else of the command line again.
+function(swirl_commands part option library files)
+  set(sources ${app_sources})
+  list(FILTER sources INCLUDE REGEX "/(${files}).cpp$")
+  list(REMOVE_ITEM app_sources ${sources})
+  add_library(swirl_${part}_commands OBJECT ${sources})
+  target_link_libraries(swirl_${part}_commands PRIVATE swirl_track_tables)
+  swirl_settings(swirl_${part}_commands -O1)
+  swirl_compiled_at_once(swirl_${part}_commands)
+  if(${option})
+    target_link_libraries(swirl_${part}_commands PUBLIC ${library})
+    target_compile_definitions(swirl_${part}_commands PRIVATE ${option}=1)
+  endif()
+  set(app_sources ${app_sources} PARENT_SCOPE)
+  set(${part}_sources ${sources} PARENT_SCOPE)
+endfunction()
+swirl_commands(study SWIRL_STUDY swirl_study "command_(crossing|map|sweep)")
+swirl_commands(drawing SWIRL_DRAWING swirl_track_synthetic
+  "appearance_options|source_options|command_(image|movie|synthetic_video)")
+swirl_commands(experiment SWIRL_EXPERIMENT swirl_track_experiment "command_experiment")
 add_executable(swirl ${app_sources})
-target_link_libraries(swirl PRIVATE swirl_study swirl_track_tables swirl_drawing_commands CLI11::CLI11)
-if(SWIRL_EXPERIMENT)
-  target_link_libraries(swirl PRIVATE swirl_track_experiment)
-  # Outside the batches, so that adding this part later compiles nothing else of the command line again.
-  set_source_files_properties(track/cli/command_experiment.cpp PROPERTIES COMPILE_DEFINITIONS SWIRL_EXPERIMENT=1)
-endif()
-set_source_files_properties(track/cli/command_experiment.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+target_link_libraries(swirl PRIVATE swirl_track_tables swirl_study_commands swirl_drawing_commands
+  swirl_experiment_commands CLI11::CLI11)
 if(SWIRL_CAMERA)
-  target_link_libraries(swirl PRIVATE swirl_track_video)
-  target_compile_definitions(swirl PRIVATE SWIRL_CAMERA=1)
+  foreach(target swirl swirl_experiment_commands)
+    target_link_libraries(${target} PRIVATE swirl_track_video)
+    target_compile_definitions(${target} PRIVATE SWIRL_CAMERA=1)
+  endforeach()
 endif()
 swirl_settings(swirl -O1)
 swirl_compiled_at_once(swirl)

@@ -13,10 +13,11 @@ CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
 file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
 add_executable(swirl ${sources})
+option(SWIRL_STUDY "" ON)
 option(SWIRL_DRAWING "" ON)
 option(SWIRL_EXPERIMENT "" ON)
 option(SWIRL_CAMERA "" ON)
-target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_DRAWING},${SWIRL_EXPERIMENT},${SWIRL_CAMERA}")
+target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_STUDY},${SWIRL_DRAWING},${SWIRL_EXPERIMENT},${SWIRL_CAMERA}")
 """
 # Without CMake's tests of the compiler, which the tests below do not need.
 PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
@@ -184,32 +185,33 @@ class Launcher(InFolder):
         self.assertEqual(process.returncode, -signal.SIGTERM)
 
     def parts(self, subcommand, *arguments):
-        """The built parts of the program, drawing, experiment and camera, and whether the call built anything."""
+        """The built parts (study, drawing, experiment, camera), or None if nothing ran, and whether the call built."""
         # The small program ends with exit code 0 for the name of a subcommand.
         done = self.call(subcommand, *(arguments or ("parts",)))
-        return done.stdout.split()[:1], "building" in done.stderr
+        built = [letter for letter, part in zip("sdec", done.stdout.split(",")) if part.startswith("ON")]
+        return "".join(built) if done.stdout else None, "building" in done.stderr
 
     def test_each_part_is_built_on_first_use_and_stays(self):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
         for subcommand, parts, builds in (
-                ("run", "OFF,OFF,OFF", True), ("run", "OFF,OFF,OFF", False), ("paper", "OFF,OFF,OFF", True),  # module
-                ("movie", "ON,OFF,OFF", True), ("image", "ON,OFF,OFF", False), ("run", "ON,OFF,OFF", False),
-                ("synthetic-video", "ON,OFF,OFF", False), ("track", "ON,ON,ON", True), ("track", "ON,ON,ON", False),
-                ("movie", "ON,ON,ON", False), ("paper", "ON,ON,ON", True), ("paper", "ON,ON,ON", False),
-                ("experiment", "ON,ON,ON", False), ("run", "ON,ON,ON", False)):
+                ("run", "", True), ("run", "", False), ("paper", "", True),  # the module
+                ("movie", "d", True), ("image", "d", False), ("run", "d", False), ("synthetic-video", "d", False),
+                ("crossing", "sd", True), ("sweep", "sd", False), ("collect", "sd", False), ("map", "sd", False),
+                ("track", "sdec", True), ("track", "sdec", False), ("movie", "sdec", False), ("paper", "sdec", True),
+                ("paper", "sdec", False), ("experiment", "sdec", False), ("run", "sdec", False)):
             with self.subTest(subcommand, parts=parts):
-                self.assertEqual(self.parts(subcommand), ([parts], builds))
+                self.assertEqual(self.parts(subcommand), (parts, builds))
         self.write_program("second")
-        self.assertEqual(self.parts("run")[0], ["ON,ON,ON"])
+        self.assertEqual(self.parts("run")[0], "sdec")
         self.assertEqual(self.word(), "second")
 
     def test_help_and_a_usage_error_add_no_part(self):
-        self.assertEqual(self.parts("run"), (["OFF,OFF,OFF"], True))
-        for subcommand in ("paper", "image", "movie", "track", "experiment"):
+        self.assertEqual(self.parts("run"), ("", True))
+        for subcommand in ("paper", "sweep", "map", "image", "movie", "track", "experiment"):
             with self.subTest(subcommand):
-                self.assertEqual(self.parts(subcommand, "--wrong"), ([], False))
+                self.assertEqual(self.parts(subcommand, "--wrong"), (None, False))
                 self.assertEqual(self.parts(subcommand, "--help")[1], False)
-                self.assertEqual(self.parts("run"), (["OFF,OFF,OFF"], False))
+                self.assertEqual(self.parts("run"), ("", False))
 
     def test_works_through_a_link(self):
         os.symlink(self.path("swirl"), self.path("link"))
@@ -278,7 +280,7 @@ exit 100
             self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
             self.assertFalse(os.path.exists(self.path("asked")))
         done = self.call_with_stand_ins("track", "parts")
-        self.assertEqual(done.stdout.split()[:2], ["ON,ON,ON", "first"], done.stderr)
+        self.assertEqual(done.stdout.split()[:2], ["OFF,ON,ON,ON", "first"], done.stderr)
         self.assertTrue(os.path.exists(self.path("asked")))
 
     def test_help_installs_and_builds_nothing(self):

@@ -1,5 +1,5 @@
 """Programs without some parts compile, run, list all subcommands, and report what is missing: the one
-that the first ./swirl builds (no drawing, no camera), and one without camera support only."""
+that the first ./swirl builds (no studies, no drawing, no camera), and one without camera support only."""
 
 import os
 import subprocess
@@ -24,10 +24,9 @@ class WithoutParts(InFolder):
         self.assertEqual((done.returncode, done.stdout), (1, ""), done.stderr)
         self.assertIn(names, done.stderr)
 
-    def test_track_names_the_packages_to_install(self):
-        for which in (FIRST, WITHOUT_CAMERA):
-            self.assert_missing(which, "libopencv-core-dev", "track", "video.mp4", "--out",
-                                self.path("tracks.csv"))
+    def test_commands_that_read_videos_name_the_packages_to_install(self):
+        for which, *call in ((FIRST, "track"), (WITHOUT_CAMERA, "track"), (WITHOUT_CAMERA, "experiment", "--no-simulation")):
+            self.assert_missing(which, "libopencv-core-dev", *call, "video.mp4", "--out", self.path("tracks"))
 
     def test_commands_that_draw_name_the_package_to_install(self):
         for call in (("image",), ("movie",), ("synthetic-video",)):
@@ -43,15 +42,14 @@ class WithoutParts(InFolder):
         for library in ("cairo", "OpenCV"):
             self.assertIn(f"-- {library} was not found", done.stdout)
 
-    def test_experiment_names_the_packages_to_install(self):
-        self.assert_missing(WITHOUT_CAMERA, "libopencv-core-dev", "experiment", "video.mp4",
-                            "--no-simulation", "--out", self.path("report"))
-
-    def test_experiment_names_the_option_of_the_build(self):
-        call = ["experiment", "video.mp4", "--out", self.path("report")]
-        self.assert_missing(FIRST, "SWIRL_EXPERIMENT", *call)
-        self.assertFalse(os.path.exists(self.path("report")))
-        self.assert_missing(FIRST, "./swirl experiment", *call)
+    def test_commands_of_a_part_name_the_option_of_the_build(self):
+        out = self.path("folder")
+        for option, *call in (("SWIRL_EXPERIMENT", "experiment", "video.mp4", "--out", out),
+                              ("SWIRL_STUDY", "sweep", "--discs", "5", "--out", out), ("SWIRL_STUDY", "collect", out),
+                              ("SWIRL_STUDY", "crossing"), ("SWIRL_STUDY", "map", "--x", "mu=0:1", "--out", out)):
+            self.assert_missing(FIRST, option, *call)
+            self.assert_missing(FIRST, f"./swirl {call[0]}", *call)
+        self.assertEqual(os.listdir(self.folder), [])
 
     def test_every_subcommand_is_listed(self):
         help_of_all = swirl("--help").stdout

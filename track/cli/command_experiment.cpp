@@ -1,28 +1,27 @@
 // swirl experiment: the paper's figures from a set of videos, compared with simulations.
+#include "swirl/cli/commands.hpp"
+#include "swirl/cli/missing_parts.hpp"
+#include "swirl/cli/run_options.hpp"
+#include "track/experiment/experiment.hpp"
+#ifdef SWIRL_EXPERIMENT
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "swirl/cli/command_line.hpp"
-#include "swirl/cli/commands.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
-#include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
-#include "swirl/cli/track_options.hpp"
 #include "swirl/cli/tracks_input.hpp"
 #include "swirl/io/atomic_file.hpp"
-#include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/parse_json.hpp"
 #include "swirl/run/version.hpp"
 #include "track/cli/tracked_video.hpp"
-#include "track/experiment/experiment.hpp"
+#endif
 #ifdef SWIRL_CAMERA
 #include "track/video/spin.hpp"
 #include "track/video/tracking.hpp"
@@ -45,7 +44,9 @@ struct ExperimentCall {
 
 #ifndef SWIRL_EXPERIMENT
 
-void make_experiment_report(const ExperimentCall&) { throw_no_experiment_support(); }
+void make_experiment_report(const ExperimentCall&) {
+    throw_missing("experiment", "SWIRL_EXPERIMENT");
+}
 
 #else
 

@@ -37,7 +37,6 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
 }
 
 #ifdef SWIRL_DRAWING
-
 namespace {
 
 constexpr std::int64_t min_side = 16, max_side = 8192;  // side of an image, pixels
@@ -114,7 +113,6 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
             "--forces shows forces in the M-frame.\nhint: use --frame m or --frame both.");
     return result;
 }
-
 #endif  // SWIRL_DRAWING
 
 }  // namespace swirl

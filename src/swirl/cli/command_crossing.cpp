@@ -4,10 +4,12 @@
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
+#include "swirl/cli/sweep_options.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/study/crossing.hpp"
@@ -19,18 +21,20 @@ namespace swirl {
 namespace {
 
 const ParameterTexts defaults{{"events", default_search_events}};
-constexpr std::int64_t max_threads = 4096;
 
 struct CrossingCall {
     std::shared_ptr<ParameterTexts> parameters;
     CrossingSettings settings;
     std::string config_file, json, table, rate, out;
-    std::int64_t threads = 0;
+    ShareOptions sharing;
     bool quiet = false, verbose = false;
 
     bool uses_stdout() const { return json == "-" || table == "-"; }
 };
 
+#ifndef SWIRL_STUDY
+void run_searches(const Subcommand&, CrossingCall&) { throw_missing("crossing", "SWIRL_STUDY"); }
+#else
 /// One of the searches of a call: one for each combination of the lists.
 struct SearchTask {
     CrossingSettings settings;
@@ -76,10 +80,7 @@ std::vector<SearchTask> tasks_of(const CrossingCall& call, const SweepPlan& plan
 
 void validate_call(const CrossingCall& call) {
     validate_range(call.settings.from, call.settings.to);
-    if (call.threads < 0 || call.threads > max_threads)
-        throw UsageError(fmt::format(
-            "--threads is {}, but it must be a whole number from 1 to {}, or 0 for all cores.",
-            call.threads, max_threads));
+    (void)call.sharing.share();
 }
 
 void validate_outputs(const CrossingCall& call) {
@@ -98,7 +99,7 @@ CrossingResult search_with_progress(const CrossingCall& call, const SearchTask& 
     ProgressLine line(task.name.empty() ? "crossing" : task.name, call.quiet);
     CrossingControl control;
     control.stop = &stop_signal();
-    control.threads = static_cast<unsigned>(call.threads);
+    control.threads = call.sharing.share().threads;
     control.stored = stored;
     double done = 0.0;
     control.progress = [&](const std::string& stage, double rate) {
@@ -209,7 +210,9 @@ std::string json_of(const CallResults& results, bool is_single) {
 
 /// Runs a search for every combination of the lists. The files are written after each search, so an
 /// interrupted call keeps the finished ones.
-void run_searches(const CrossingCall& call) {
+void run_searches(const Subcommand& subcommand, CrossingCall& call) {
+    take_config_file(subcommand, call.config_file, *call.parameters, Lists::accepted, "crossing");
+    if (!call.rate.empty()) call.settings.rate = rate_named(call.rate);
     validate_call(call);
     const SweepPlan plan = plan_of(call);
     const std::vector<SearchTask> tasks = tasks_of(call, plan);
@@ -232,6 +235,7 @@ void run_searches(const CrossingCall& call) {
                             : fmt::format("every run failed in {} of {} searches; see the report.",
                                           results.empty, tasks.size()));
 }
+#endif  // SWIRL_STUDY
 
 void add_crossing_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CrossingCall>();
@@ -248,7 +252,7 @@ void add_crossing_command(Subcommand& subcommand) {
          "N"},
         {"--rate", &call->rate, "Rotation rate that controls the search [mean_by_time]", "NAME"},
         {"--out", &call->out, "Folder for the runs; a repeated call continues", "DIR"},
-        {"--threads", &call->threads, "Number of simultaneous runs [one per core]", "N"},
+        threads_option(call->sharing),
     });
     subcommand.in(output).add({
         {"--json", &call->json, "File for all results, or - for stdout", "FILE|-"},
@@ -273,12 +277,7 @@ void add_crossing_command(Subcommand& subcommand) {
                              "swirl crossing --mu 0.5 --tolerance 0.1",
                              "swirl crossing --sizes normal:1:0.2 --out N_c",
                              "swirl crossing --mu-wall 0.5 --from 20 --json -"});
-    subcommand.callback([call, &subcommand] {
-        take_config_file(subcommand, call->config_file, *call->parameters, Lists::accepted,
-                         "crossing");
-        if (!call->rate.empty()) call->settings.rate = rate_named(call->rate);
-        run_searches(*call);
-    });
+    subcommand.callback([call, &subcommand] { run_searches(subcommand, *call); });
 }
 
 const Command crossing_command(15, "crossing",

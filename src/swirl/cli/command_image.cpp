@@ -25,11 +25,8 @@ struct ImageCall {
 };
 
 #ifndef SWIRL_DRAWING
-
 void draw_and_report(const ImageCall&) { throw_no_drawing_support(); }
-
 #else
-
 void draw_and_report(const ImageCall& call) {
     StillConfig config;
     if (call.out.empty()) throw UsageError("missing required option --out FILE.");
@@ -52,7 +49,6 @@ void draw_and_report(const ImageCall& call) {
         print_all(fmt::format("{}: period {:g}, {}x{} pixels.\n", call.out, start,
                               config.appearance.size.width, config.appearance.size.height));
 }
-
 #endif  // SWIRL_DRAWING
 
 void add_image_command(Subcommand& subcommand) {

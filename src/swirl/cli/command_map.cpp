@@ -8,18 +8,19 @@
 
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/sweep_options.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/python_script.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/study/map.hpp"
 #include "swirl/study/map_plan.hpp"
-#include "swirl/study/python_script.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
@@ -45,6 +46,9 @@ struct MapCall {
     bool is_part() const { return !sharing.part.empty(); }
 };
 
+#ifndef SWIRL_STUDY
+void make_map(const Subcommand&, MapCall&) { throw_missing("map", "SWIRL_STUDY"); }
+#else
 /// Throws UsageError for the folder of a sweep.
 SweepPlan map_in(const std::string& folder) {
     SweepPlan plan = read_plan(folder);
@@ -239,7 +243,9 @@ std::string map_plan_text(const SweepPlan& plan) {
     return text;
 }
 
-void make_map(MapCall& call) {
+void make_map(const Subcommand& subcommand, MapCall& call) {
+    take_config_file(subcommand, call.config_file, *call.parameters, Lists::rejected, "map");
+    reject_options_of_other_maps(subcommand, call);
     if (call.status) return print_map_status(call, map_in(call.out));
     const auto [plan, grown_from] = map_plan_of(call);
     const SweepShare share = call.sharing.share();
@@ -257,6 +263,7 @@ void make_map(MapCall& call) {
                     "for table and figure `swirl map --out {}`.\n",
                     submit(script, call.out), shell_word(call.out), shell_word(call.out)));
 }
+#endif  // SWIRL_STUDY
 
 void add_map_options(Subcommand& subcommand, MapCall& call) {
     const char *const map = "Map", *const crossing = "N_c";
@@ -310,11 +317,7 @@ void add_map_command(Subcommand& subcommand) {
          "swirl map --x mu=0.1:1 --quantity N_c --out N_c",
          "swirl map --x mu=0.1:1 --y amplitude=1:3 --quantity N_c --out N_c_map",
          "swirl map --x discs=10:48 --quantity slip.cluster --level 0.8 --out slip"});
-    subcommand.callback([call, &subcommand] {
-        take_config_file(subcommand, call->config_file, *call->parameters, Lists::rejected, "map");
-        reject_options_of_other_maps(subcommand, *call);
-        make_map(*call);
-    });
+    subcommand.callback([call, &subcommand] { make_map(subcommand, *call); });
 }
 
 const Command map_command(32, "map", "Map a quantity over one or two parameters", add_map_command);

@@ -32,11 +32,8 @@ struct MovieCall {
 };
 
 #ifndef SWIRL_DRAWING
-
 void make_and_report(const MovieCall&) { throw_no_drawing_support(); }
-
 #else
-
 MovieConfig movie_config(const MovieCall& call) {
     MovieConfig config;
     config.out = call.out;
@@ -109,7 +106,6 @@ void make_and_report(const MovieCall& call) {
         throw Interrupted(fmt::format("stopped after {} of {} frames; they are in '{}'.",
                                       result.frames, config.frames, where));
 }
-
 #endif  // SWIRL_DRAWING
 
 void add_movie_command(Subcommand& subcommand) {

@@ -13,8 +13,8 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/python_script.hpp"
 #include "swirl/run/version.hpp"
-#include "swirl/study/python_script.hpp"
 
 namespace swirl {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
+#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
@@ -15,12 +16,12 @@
 #include "swirl/cli/sweep_options.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/python_script.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "swirl/study/collected_sweep.hpp"
 #include "swirl/study/point_table.hpp"
-#include "swirl/study/python_script.hpp"
 #include "swirl/study/slurm.hpp"
 #include "swirl/study/sweep.hpp"
 #include "swirl/study/sweep_folder.hpp"
@@ -37,6 +38,22 @@ struct SweepCall {
     bool status = false, dry_run = false, quiet = false, grow = false, series = false, plot = false;
 };
 
+struct CollectCall {
+    std::string folder, table, crossings, loops, quantity;
+    bool plot = false, quiet = false;
+
+    std::string table_file() const {
+        return table.empty() ? (fs::path(folder) / "table.csv").string() : table;
+    }
+    /// A table on the standard output is alone there.
+    bool prints_report() const {
+        return !quiet && table_file() != "-" && crossings != "-" && loops != "-";
+    }
+};
+#ifndef SWIRL_STUDY
+void sweep(const Subcommand&, const SweepCall&) { throw_missing("sweep", "SWIRL_STUDY"); }
+void collect(const CollectCall&) { throw_missing("collect", "SWIRL_STUDY"); }
+#else
 std::vector<std::string> further_measurements(const SweepCall& call) {
     if (!call.frames.empty() || call.series || !call.chain.empty())
         throw UsageError(
@@ -180,18 +197,6 @@ SweepOutcome run_with_progress(const SweepCall& call, const SweepPlan& plan,
     return run_sweep(call.out, plan, share, control);
 }
 
-struct CollectCall {
-    std::string folder, table, crossings, loops, quantity;
-    bool plot = false, quiet = false;
-
-    std::string table_file() const {
-        return table.empty() ? (fs::path(folder) / "table.csv").string() : table;
-    }
-    /// A table on the standard output is alone there.
-    bool prints_report() const {
-        return !quiet && table_file() != "-" && crossings != "-" && loops != "-";
-    }
-};
 void collect(const CollectCall& call);
 
 /// Table and figure of a complete sweep, and the areas of its loops if it is a chain.
@@ -204,7 +209,8 @@ void draw_sweep(const SweepCall& call, const SweepPlan& plan) {
     collect(tables);
 }
 
-void sweep(const SweepCall& call) {
+void sweep(const Subcommand& subcommand, const SweepCall& call) {
+    take_config_file(subcommand, call.config_file, *call.parameters, Lists::accepted, "sweep");
     if (call.status) return print_status(call, read_plan(call.out));
     if (call.plot && (call.sharing.slurm || !call.sharing.part.empty()))
         throw UsageError(fmt::format(
@@ -228,50 +234,6 @@ void sweep(const SweepCall& call) {
         fmt::format("Submitted as job {}; for its progress run `swirl sweep --out {} "
                     "--status`.\n",
                     submit(script, call.out), shell_word(call.out)));
-}
-
-void add_sweep_command(Subcommand& subcommand) {
-    const auto call = std::make_shared<SweepCall>();
-    subcommand.add(
-        {{"plan", &call->config_file, "TOML file with parameters and lists of them", "PLAN.toml"}});
-    call->parameters = add_run_options(subcommand);
-    subcommand.in("Sweep").add({
-        {"--out", &call->out, "Folder of the sweep; a repeated call completes it", "DIR", required},
-        {"--points", &call->points, "Table of points instead of lists of values", "FILE.csv"},
-        {"--seeds", &call->seeds, "Number of replicates of each point [1]", "N"},
-        {"--measure", &call->measure, "Measurements, as for swirl run", "LIST"},
-        {"--frames", &call->frames, "Recorded frames per period of each run [none]", "N"},
-        {"--series", &call->series, "Table of the averages of every period, for each run"},
-        {"--chain", &call->chain, "Parameter along which each run continues from the last", "NAME"},
-        threads_option(call->sharing),
-        {"--plot", &call->plot, "Collect and draw the table when all runs are done"},
-        {"--grow", &call->grow, "Extend an existing sweep; finished runs are kept"},
-        {"--status", &call->status, "Print the numbers of runs done and failed"},
-        {"--dry-run", &call->dry_run, "Print the plan and do not run"},
-        {"--quiet", &call->quiet, "No progress and no report"},
-    });
-    add_cluster_options(subcommand, call->sharing, true);
-    subcommand.explain(
-        "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. A table of "
-        "points has a column for each parameter that varies, and may have a column seeds, the "
-        "number of replicates of each row; other parameters have one value. With "
-        "--grow, the given values, replicates (--seeds is their new total) and measurements are "
-        "added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in DIR/series. "
-        "With --chain NAME, the runs follow each other in rising and then in falling values of "
-        "NAME, and each starts from the final state of the run before it.\n");
-    subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--points", "--seeds",
-                                 "--out", "--measure", "--threads", "--grow", "--status"});
-    subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
-                             "swirl sweep --out study --grow --discs 49:55 --seeds 16",
-                             "swirl sweep --points points.csv --periods 200 --seeds 8 --out study",
-                             "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
-                             "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop --plot",
-                             "swirl sweep --out study --status"});
-    subcommand.callback([call, &subcommand] {
-        take_config_file(subcommand, call->config_file, *call->parameters, Lists::accepted,
-                         "sweep");
-        sweep(*call);
-    });
 }
 
 /// The table must not overwrite the files of the sweep.
@@ -361,6 +323,47 @@ void collect(const CollectCall& call) {
         print_warning(fmt::format("the table is incomplete: no result yet for {} of {} runs.",
                                   s.points - s.done, s.points));
     for (const std::string& warning : warnings(collected)) print_warning(warning);
+}
+#endif  // SWIRL_STUDY
+
+void add_sweep_command(Subcommand& subcommand) {
+    const auto call = std::make_shared<SweepCall>();
+    subcommand.add(
+        {{"plan", &call->config_file, "TOML file with parameters and lists of them", "PLAN.toml"}});
+    call->parameters = add_run_options(subcommand);
+    subcommand.in("Sweep").add({
+        {"--out", &call->out, "Folder of the sweep; a repeated call completes it", "DIR", required},
+        {"--points", &call->points, "Table of points instead of lists of values", "FILE.csv"},
+        {"--seeds", &call->seeds, "Number of replicates of each point [1]", "N"},
+        {"--measure", &call->measure, "Measurements, as for swirl run", "LIST"},
+        {"--frames", &call->frames, "Recorded frames per period of each run [none]", "N"},
+        {"--series", &call->series, "Table of the averages of every period, for each run"},
+        {"--chain", &call->chain, "Parameter along which each run continues from the last", "NAME"},
+        threads_option(call->sharing),
+        {"--plot", &call->plot, "Collect and draw the table when all runs are done"},
+        {"--grow", &call->grow, "Extend an existing sweep; finished runs are kept"},
+        {"--status", &call->status, "Print the numbers of runs done and failed"},
+        {"--dry-run", &call->dry_run, "Print the plan and do not run"},
+        {"--quiet", &call->quiet, "No progress and no report"},
+    });
+    add_cluster_options(subcommand, call->sharing, true);
+    subcommand.explain(
+        "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. A table of "
+        "points has a column for each parameter that varies, and may have a column seeds, the "
+        "number of replicates of each row; other parameters have one value. With "
+        "--grow, the given values, replicates (--seeds is their new total) and measurements are "
+        "added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in DIR/series. "
+        "With --chain NAME, the runs follow each other in rising and then in falling values of "
+        "NAME, and each starts from the final state of the run before it.\n");
+    subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--points", "--seeds",
+                                 "--out", "--measure", "--threads", "--grow", "--status"});
+    subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
+                             "swirl sweep --out study --grow --discs 49:55 --seeds 16",
+                             "swirl sweep --points points.csv --periods 200 --seeds 8 --out study",
+                             "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
+                             "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop --plot",
+                             "swirl sweep --out study --status"});
+    subcommand.callback([call, &subcommand] { sweep(subcommand, *call); });
 }
 
 void add_collect_command(Subcommand& subcommand) {

@@ -6,6 +6,12 @@
 
 namespace swirl {
 
+[[noreturn]] inline void throw_missing(const std::string& subcommand, const std::string& option) {
+    throw Failure("this build has no `swirl " + subcommand + "` (" + option +
+                  " is OFF).\nhint: ./swirl " + subcommand +
+                  " builds what is missing; so does cmake with -D" + option + "=ON.");
+}
+
 [[noreturn]] inline void throw_no_camera_support() {
     throw Failure(
         "this build has no camera support (OpenCV was not found, or SWIRL_CAMERA is OFF).\n"
@@ -17,13 +23,6 @@ namespace swirl {
     throw Failure(
         "this build cannot draw (cairo was not found, or SWIRL_DRAWING is OFF).\n"
         "hint: install libcairo2-dev and rebuild; ./swirl does both.");
-}
-
-[[noreturn]] inline void throw_no_experiment_support() {
-    throw Failure(
-        "this build cannot compare videos with simulations (SWIRL_EXPERIMENT is OFF).\n"
-        "hint: ./swirl experiment builds what is missing; so does cmake with "
-        "-DSWIRL_EXPERIMENT=ON.");
 }
 
 }  // namespace swirl

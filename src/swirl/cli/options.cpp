@@ -1,6 +1,11 @@
 #include "swirl/cli/options.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "swirl/run/failure.hpp"
+#include "swirl/run/reading.hpp"
 
 namespace swirl {
 
@@ -17,6 +22,16 @@ void Subcommand::set_examples(const std::vector<std::string>& examples) {
 
 std::string Subcommand::footer() const {
     return explanation_ ? explanation_() + "\n" + examples_ : examples_;
+}
+
+std::int64_t whole_number(const char* name, const std::string& text, std::int64_t default_value,
+                          std::int64_t maximum, std::int64_t minimum) {
+    if (text.empty()) return default_value;
+    const auto value = read_whole_number(text);
+    if (!value || *value < minimum || *value > maximum)
+        throw UsageError(fmt::format("{} is '{}', but it must be a whole number from {} to {}.",
+                                     option_name(name), text, minimum, maximum));
+    return *value;
 }
 
 }  // namespace swirl

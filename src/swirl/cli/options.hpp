@@ -83,4 +83,8 @@ class Subcommand {
     std::function<void()> check_, action_;
 };
 
+/// The value of an option, from `minimum` to `maximum`, or the default. Throws UsageError.
+std::int64_t whole_number(const char* name, const std::string& text, std::int64_t default_value,
+                          std::int64_t maximum, std::int64_t minimum = 1);
+
 }  // namespace swirl

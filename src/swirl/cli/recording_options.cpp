@@ -56,17 +56,6 @@ double number(const RecordingCall& call, const char* name, double default_value,
     return *value;
 }
 
-std::int64_t integer(const RecordingCall& call, const char* name, std::int64_t default_value,
-                     std::int64_t minimum, std::int64_t maximum) {
-    const std::string text = text_of(call, name);
-    if (text.empty()) return default_value;
-    const auto value = read_whole_number(text);
-    if (!value || *value < minimum || *value > maximum)
-        throw UsageError(fmt::format("{} is '{}', but it must be a whole number from {} to {}.",
-                                     option_name(name), text, minimum, maximum));
-    return *value;
-}
-
 FrameTimes frame_times(const RecordingCall& call) {
     constexpr std::int64_t maximum = 1'000'000'000;
     FrameTimes times;
@@ -79,12 +68,13 @@ FrameTimes frame_times(const RecordingCall& call) {
     if (given > 0 && text_of(call, "trajectory").empty())
         throw UsageError(
             "the options for frames need a trajectory.\nhint: add --trajectory FILE.h5.");
-    times.per_period = static_cast<int>(integer(call, "frames", times.per_period, 1, 1'000'000));
+    times.per_period = static_cast<int>(
+        whole_number("frames", text_of(call, "frames"), times.per_period, 1'000'000));
     if (!text_of(call, "frame_interval").empty())
         times.interval =
             number(call, "frame_interval", 0.0, 1e-9, "a time of at least 1e-9, for example 0.1");
     if (!text_of(call, "frame_events").empty())
-        times.events = integer(call, "frame_events", 1, 1, maximum);
+        times.events = whole_number("frame_events", text_of(call, "frame_events"), 1, maximum);
     return times;
 }
 
@@ -175,7 +165,8 @@ RunFiles run_files(const RecordingCall& call, const RunConfig& config,
             throw UsageError(
                 fmt::format("--{} is '{}', but its name must end in {}.\nhint: the {}.", name,
                             file->string(), ending, kind));
-    files.compression = static_cast<int>(integer(call, "compression", files.compression, 0, 9));
+    files.compression = static_cast<int>(
+        whole_number("compression", text_of(call, "compression"), files.compression, 9, 0));
     files.resume = call.resume;
     if (call.resume && call.overwrite)
         throw UsageError(

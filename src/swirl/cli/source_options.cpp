@@ -51,7 +51,6 @@ void take_video_config(Subcommand& subcommand, SourceTexts& texts, const std::st
 }
 
 #ifdef SWIRL_DRAWING
-
 namespace {
 
 RollingBall ball_of(const SourceTexts& texts, const RunConfig& container) {
@@ -161,7 +160,6 @@ void print_source_warnings(const std::vector<FrameSource>& sources, const Appear
                        frames, min_rate_of_pinned);
     }
 }
-
 #endif  // SWIRL_DRAWING
 
 }  // namespace swirl

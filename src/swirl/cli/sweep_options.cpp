@@ -14,16 +14,6 @@ constexpr std::int64_t max_parts = 1'000'000, max_nodes = 100'000, max_cores = 4
 
 }  // namespace
 
-std::int64_t whole_number(const char* name, const std::string& text, std::int64_t default_value,
-                          std::int64_t maximum) {
-    if (text.empty()) return default_value;
-    const auto value = read_whole_number(text);
-    if (!value || *value < 1 || *value > maximum)
-        throw UsageError(fmt::format("--{} is '{}', but it must be a whole number from 1 to {}.",
-                                     name, text, maximum));
-    return *value;
-}
-
 SweepShare ShareOptions::share() const {
     SweepShare result;
     result.rest = rest;

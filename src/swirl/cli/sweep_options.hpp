@@ -26,8 +26,4 @@ Option threads_option(ShareOptions& options);
 /// --part, --slurm and so on. Without `with_rest` the rest always follows.
 void add_cluster_options(Subcommand& subcommand, ShareOptions& options, bool with_rest);
 
-/// The value of --NAME, from 1 to `maximum`; the default if the text is empty. Throws UsageError.
-std::int64_t whole_number(const char* name, const std::string& text, std::int64_t default_value,
-                          std::int64_t maximum);
-
 }  // namespace swirl

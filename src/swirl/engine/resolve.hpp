@@ -79,6 +79,7 @@ struct DiscsWithPartialFriction : Discs {
     SWIRL_INLINE static Surface disc_surface(const EngineState& state, std::uint32_t i,
                                              std::uint32_t j, const Vec2& at_i, const Vec2& at_j,
                                              double t) {
+        if (!is_partial(state.frictionless)) return state.disc_surface;
         const Vec2 centre = state.segments[state.segment].flight_at(t).position;
         const bool at_wall =
             is_at_wall(state, i, at_i, centre) && is_at_wall(state, j, at_j, centre);

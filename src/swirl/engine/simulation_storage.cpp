@@ -10,10 +10,7 @@
 namespace swirl {
 namespace {
 
-const EventLoops& event_loops(const InitialState& scene, Width width) {
-    width = width_meant(width);
-    if (scene.frictionless == Frictionless::boundary || scene.frictionless == Frictionless::bulk)
-        return event_loops_partial_friction;
+const EventLoops& event_loops_of(Width width) {
 #if defined(SWIRL_HAS_AVX512)
     if (width == Width::avx512) return event_loops_avx512;
 #endif
@@ -21,6 +18,13 @@ const EventLoops& event_loops(const InitialState& scene, Width width) {
     if (width == Width::avx2) return event_loops_avx2;
 #endif
     return event_loops_baseline;
+}
+
+const EventLoops& event_loops(const InitialState& scene, Width width) {
+    const EventLoops& loops = event_loops_of(width_meant(width));
+    // A fallback for other processors has no loops of its own for discs.
+    const bool has_loops = are_spheres(scene) || loops.lists.run != nullptr;
+    return is_partial(scene.frictionless) || !has_loops ? event_loops_partial_friction : loops;
 }
 
 }  // namespace

@@ -179,6 +179,9 @@ struct EventLoops {
 
 /// For discs that lack friction in some contacts with each other; baseline width only.
 extern const EventLoops event_loops_partial_friction;
+constexpr bool is_partial(Frictionless where) {
+    return where == Frictionless::boundary || where == Frictionless::bulk;
+}
 extern const EventLoops event_loops_baseline;
 extern const EventLoops event_loops_avx2;
 extern const EventLoops event_loops_avx512;

@@ -15,8 +15,8 @@ inline namespace SWIRL_TARGET {
 /// next multiple of eight.
 template <std::uint32_t max_all_pairs>
 constexpr EventLoops event_loops(const char* width) {
-#if defined(SWIRL_INTERNAL_CHECKS) || defined(SWIRL_FALLBACK)
-    // The largest size serves all: a fallback, and the sanitizers, which compile for a minute each.
+#if defined(SWIRL_INTERNAL_CHECKS)
+    // The largest size serves all: the sanitizers compile each for a minute.
     const EventLoop all_pairs = event_loop<AllPairs<max_discs_in_columns / 8>>(width);
     const EventLoop few_spheres = event_loop<FewSpheres<max_spheres_in_columns / 8>>(width);
     return {event_loop<VerletLists>(width),

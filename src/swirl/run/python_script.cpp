@@ -1,4 +1,4 @@
-#include "swirl/study/python_script.hpp"
+#include "swirl/run/python_script.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
