@@ -34,6 +34,8 @@ WIDTH, HEIGHT = 640, 480  # pixels
 REST, PAUSE = 4, 3.4  # periods: two seconds before the start, and a stop of 1.7 s
 COMMON = ["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23]
 ROUGH = ["--discs", 28, "--width", 640, "--height", 480, "--scale", 15, "--frames-per-period", 64]
+LIGHT = ["--light-from", 135, "--light-elevation", 45, "--light-share", 0.8]
+MIXED = ["--disc-level", 40, "--other-level", 215, "--floor-level", 125, "--gloss", 0]
 LARGE = ["--width", 1920, "--height", 1080, "--scale", 44]
 # Name, options of synthetic-video, what is done to the video afterwards.
 KINDS = [
@@ -51,7 +53,10 @@ KINDS = [
     ("transparent marbles", ["--transparency", 0.8, "--gloss", 180], None),
     ("coins", ["--flat", "--texture", 0.3, "--gloss", 0], None),
     ("by hand", ["--speed-variation", 0.25, "--rest", REST, "--pause", PAUSE], "by hand"),
-    ("dark and bright", ["--disc-level", 40, "--other-level", 215, "--floor-level", 125, "--gloss", 0], None),
+    ("dark and bright", MIXED, None),
+    ("lit balls", LIGHT, None),
+    ("lit balls, dark and bright", [*MIXED, *LIGHT], None),
+    ("dim wall", ["--scale", 16], None),
     ("moving shadow", ["--shadow", 60], None),
     ("pixels of 4:3", [], "anamorphic"),
     # Complete calls: other cameras and difficult set-ups.
@@ -62,8 +67,7 @@ KINDS = [
      "complete"),
     ("camera tilted by 8 degrees", [*ROUGH, "--length", 2, "--tilt", 8, "--tilt-towards", 250, "--quality", 14],
      "complete"),
-    ("light from one side", [*ROUGH, "--length", 6, "--quality", 14, "--light-from", 135, "--light-elevation", 45,
-                             "--light-share", 0.8, "--gloss", 60], "complete"),
+    ("light from one side", [*ROUGH, "--length", 6, "--quality", 14, *LIGHT, "--gloss", 60], "complete"),
     ("contrast 1.3:1", [*ROUGH, "--length", 2.5, "--floor-level", 100, "--contrast", 1.3, "--rim-level", 110, "--gloss",
                         10, "--texture", 0.2, "--light-elevation", 45, "--noise", 3, "--quality", 29], "complete"),
 ]

@@ -120,10 +120,10 @@ std::string camera_motion_text(const TrackedVideo& video) {
            (camera.from_rim ? "; removed, from the rim\n" : "; removed, from the background\n");
 }
 
-/// The shift by light from one side, if it was removed.
+/// The shift by light from one side, if it is more than its error.
 std::string light_text(const TrackedVideo& video) {
     const double shift = std::hypot(video.shading_shift.x, video.shading_shift.y);
-    if (!(shift > 0.0)) return "";
+    if (!(shift > 2.0 * video.shading_shift_error)) return "";
     const double towards = 360.0 * turns_of({video.shading_shift.x, -video.shading_shift.y});
     return fmt::format(
         "  light       from one side; shifts discs by {} pixels towards {:.0f} "

@@ -4,7 +4,16 @@
 #include <array>
 #include <cmath>
 
+#include "track/video/robust_statistics.hpp"
+
 namespace swirl::tracking {
+
+double normal_and_exponential(double x, double error, double decay) {
+    const double rate = 1.0 / decay;
+    const double inner = std::clamp(0.5 * rate * (rate * error * error - 2.0 * x), -300.0, 300.0);
+    return 0.5 * rate * std::exp(inner) *
+           std::erfc((rate * error * error - x) / (std::sqrt(2.0) * error));
+}
 
 namespace {
 
@@ -21,17 +30,11 @@ struct Spread {
     double contact = 0.0, error = 1.0, decay = 1.0, share = 0.7;
 };
 
-/// Density of the sum of a normal and an exponential deviate. `x` counts from the mean of the
-/// normal one, `error` is its standard deviation, and `decay` is the mean of the exponential one.
-double normal_and_exponential(double x, double error, double decay) {
-    const double rate = 1.0 / decay;
-    const double inner = std::clamp(0.5 * rate * (rate * error * error - 2.0 * x), -300.0, 300.0);
-    return 0.5 * rate * std::exp(inner) *
-           std::erfc((rate * error * error - x) / (std::sqrt(2.0) * error));
-}
-
 /// Log likelihood of a histogram, up to a constant.
 double log_likelihood(const Histogram& seen, const Spread& spread) {
+    // Share of wrong positions in each bin. Without it, a few distances far below the contact
+    // decide the error of all others.
+    constexpr double outliers = 3e-4;
     std::array<double, bins> near{};
     double sum = 0.0, beyond = 0.0;
     for (std::size_t k = 0; k < bins; ++k) {
@@ -43,37 +46,19 @@ double log_likelihood(const Histogram& seen, const Spread& spread) {
     for (std::size_t k = 0; k < bins; ++k) {
         const double far = double(k) + 0.5 > spread.contact ? 1.0 / std::max(beyond, 1.0) : 0.0;
         const double share = spread.share * near[k] / std::max(sum, 1e-300);
-        log_of_all += seen.number[k] * std::log(share + (1.0 - spread.share) * far + 1e-9);
+        log_of_all += seen.number[k] * std::log(share + (1.0 - spread.share) * far + outliers);
     }
     return log_of_all;
 }
 
-/// Maximises the likelihood by coordinate search; steps shrink if none improves it.
 Spread most_likely(const Histogram& seen, Spread spread) {
-    std::array<double*, 4> numbers{&spread.contact, &spread.error, &spread.decay, &spread.share};
-    std::array<double, 4> steps{2.0, 1.0, 3.0, 0.15};
     const auto allowed = [&] {
         return spread.error >= 0.2 && spread.decay >= 0.5 && spread.decay <= 2.0 * bins &&
                spread.share >= 0.05 && spread.share <= 1.0;
     };
-    double best = log_likelihood(seen, spread);
-    for (int round = 0; round < 300 && steps[0] > 0.01; ++round) {
-        bool better = false;
-        for (std::size_t n = 0; n < numbers.size(); ++n)
-            for (const double step : {steps[n], -steps[n]}) {
-                const double before = *numbers[n];
-                *numbers[n] += step;
-                const double now = allowed() ? log_likelihood(seen, spread) : -1e300;
-                if (now > best) {
-                    best = now;
-                    better = true;
-                    break;
-                }
-                *numbers[n] = before;
-            }
-        if (!better)
-            for (double& step : steps) step *= 0.6;
-    }
+    maximise<4>({&spread.contact, &spread.error, &spread.decay, &spread.share},
+                {2.0, 1.0, 3.0, 0.15}, 0.01,
+                [&] { return allowed() ? log_likelihood(seen, spread) : -1e300; });
     return spread;
 }
 
@@ -92,10 +77,13 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
         ++used;
     }
     if (used < minimum) return std::nullopt;
-    // The search starts at the most frequent distance.
-    const auto top = std::max_element(seen.number.begin(), seen.number.end());
-    const double at = double(top - seen.number.begin());
-    const Spread spread = most_likely(seen, {at - 1.0, 2.0, 0.15 * bins, 0.7});
+    // The search starts on the rise: in a dilute crowd the most frequent distance may be anywhere
+    // beyond.
+    const double half = 0.5 * *std::max_element(seen.number.begin(), seen.number.end());
+    const auto rise = std::find_if(seen.number.begin(), seen.number.end(),
+                                   [&](double number) { return number >= half; });
+    const double at = double(rise - seen.number.begin());
+    const Spread spread = most_likely(seen, {at, 2.0, 0.15 * bins, 0.7});
     // A maximum at an end of the histogram, or nearly as wide as the histogram, is no contact.
     if (spread.contact < 0.1 * bins || spread.contact > 0.8 * bins || spread.error > 0.25 * bins)
         return std::nullopt;
@@ -103,7 +91,7 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
                    log_likelihood(seen, spread) / double(used)};
 }
 
-std::optional<Contact> contact_of_discs(const std::vector<double>& ratios) {
+std::optional<Contact> contact_of_discs(const std::vector<double>& ratios, double at_wall) {
     constexpr double range = 0.1, soft_range = 0.2;  // range from 1
     constexpr double max_soft_off = 0.15;            // more is no contact of soft edges
     if (const auto found = contact_of(ratios, 1.0 - range, 1.0 + range);
@@ -114,7 +102,8 @@ std::optional<Contact> contact_of_discs(const std::vector<double>& ratios) {
     // The edge of a transparent ball is within the ball. Discs that never touch have no sharp onset.
     constexpr double max_error = 0.04;
     const auto inside = contact_of(ratios, 1.0 - soft_range, 1.0 + contact_range);
-    if (!inside || inside->at < 1.0 + max_contact_off || inside->error > max_error)
+    if (!inside || inside->at < 1.0 + max_contact_off ||
+        (inside->error > max_error && std::abs(inside->at - at_wall) > max_error))
         return std::nullopt;
     return inside;
 }

@@ -18,6 +18,10 @@
 
 namespace swirl::tracking {
 
+/// Density of the sum of a normal and an exponential deviate. `x` counts from the mean of the
+/// normal one, `error` is its standard deviation, and `decay` is the mean of the exponential one.
+double normal_and_exponential(double x, double error, double decay);
+
 struct Contact {
     double at = 0.0;              // the contact distance
     double error = 0.0;           // standard deviation of a distance
@@ -28,8 +32,9 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
                                   double farthest);
 
 /// The contact of discs, from distances in sums of radii: near 1, or farther off if their edges are
-/// soft and their radii wrong. Uses distances within `contact_range` of 1.
-std::optional<Contact> contact_of_discs(const std::vector<double>& ratios);
+/// soft and their radii wrong. Uses distances within `contact_range` of 1. A contact far off that is
+/// not sharp counts if it is near `at_wall`, which the positions of discs at the wall imply.
+std::optional<Contact> contact_of_discs(const std::vector<double>& ratios, double at_wall = 0.0);
 inline constexpr double contact_range = 0.5;
 /// A contact that is farther from 1 implies another radius.
 inline constexpr double max_contact_off = 0.05;

@@ -8,7 +8,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parallel_for.hpp"
-#include "track/video/prepared_frame.hpp"
+#include "track/video/circles.hpp"
 #include "track/video/robust_statistics.hpp"
 
 namespace swirl::tracking {

@@ -91,7 +91,7 @@ class Linker {
 };
 
 /// A time in steps of the track's latest one. That is almost zero while the container rests
-/// (phase_times.cpp), and then says nothing about the motion that follows.
+/// (frame_times.cpp), and then says nothing about the motion that follows.
 double steps_of(const Track& track, double time) {
     constexpr double most = 8.0;  // longer than any gap that is filled
     return std::min(most, time / (track.time - track.time_before));

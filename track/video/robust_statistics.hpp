@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -36,6 +37,30 @@ inline double quantile(std::vector<double> values, double share) {
                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
+}
+
+/// Maximises value() over `numbers` by coordinate search; steps shrink if none improves it, until
+/// the first one is below `settled`.
+template <std::size_t count, typename Value>
+void maximise(const std::array<double*, count>& numbers, std::array<double, count> steps,
+              double settled, const Value& value) {
+    double best = value();
+    for (int round = 0; round < 300 && steps[0] > settled; ++round) {
+        bool better = false;
+        for (std::size_t n = 0; n < count; ++n)
+            for (const double step : {steps[n], -steps[n]}) {
+                const double before = *numbers[n];
+                *numbers[n] += step;
+                if (const double now = step != 0.0 ? value() : -1e300; now > best) {
+                    best = now;
+                    better = true;
+                    break;
+                }
+                *numbers[n] = before;
+            }
+        if (!better)
+            for (double& step : steps) step *= 0.6;
+    }
 }
 
 /// The medians of both coordinates.

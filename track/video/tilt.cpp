@@ -7,7 +7,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 #include "track/video/container_path_fit.hpp"
-#include "track/video/outline.hpp"
+#include "track/video/container_rim.hpp"
 #include "track/video/robust_statistics.hpp"
 
 namespace swirl::tracking {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "swirl/math/unit_circle.hpp"
+#include "track/video/contact_distance.hpp"
 #include "track/video/robust_statistics.hpp"
 #include "track/video/tracking_steps.hpp"
 
@@ -136,6 +137,26 @@ void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
 
 }  // namespace
 
+void find_contacts(TrackedVideo& tracked) {
+    std::vector<double> distances;
+    for (std::size_t k = 0; k < tracked.seen.size(); ++k) {
+        const TrackFrame& f = tracked.tracks.frames[k];
+        for (std::size_t a = 0; a < f.id.size(); ++a)
+            for (std::size_t b = a + 1; b < f.id.size() && tracked.seen[k][a]; ++b) {
+                const double ratio = length(f.position[a] - f.position[b]) /
+                                     (tracked.spacing * (f.radius[a] + f.radius[b]));
+                if (tracked.seen[k][b] && std::abs(ratio - 1.0) < contact_range)
+                    distances.push_back(ratio);
+            }
+    }
+    const auto found = contact_of_discs(distances, tracked.contact_at_wall / tracked.spacing);
+    if (!found) return;
+    tracked.contact_ratio = found->at * tracked.spacing;
+    tracked.contact_fitted = true;
+    // In pixels, a distance errs by 2 radii times this; a coordinate by that divided by √2.
+    tracked.overlap_error = found->error * tracked.spacing * tracked.radius * std::sqrt(2.0);
+}
+
 void measure_quality(const Detections& all, TrackedVideo& tracked) {
     constexpr double near = 0.25;  // radii between neighbours, for statistics of contacts
     constexpr double no_neighbour = 1e300;
@@ -162,9 +183,7 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
             if (std::abs(nearest) < near * f.radius[i]) gaps.push_back(nearest);
         }
         // At rest, discs lie where they stopped.
-        const bool rests = tracked.by_phase && k > 0 &&
-                           tracked.times[k] - tracked.times[k - 1] < 0.1 * tracked.step();
-        if (reach > 0.0 && !rests) reaches.push_back(reach);
+        if (reach > 0.0 && !tracked.rests_in(k)) reaches.push_back(reach);
     }
     tracked.complete_share = double(complete) / double(std::max<std::size_t>(used, 1));
     tracked.position_error = count ? std::sqrt(square / double(count)) : 0.0;

@@ -27,10 +27,8 @@ unsigned thread_count(const TrackingSettings& settings) {
 
 double TrackedVideo::step() const {
     std::vector<double> steps;
-    for (std::size_t k = 1; k < times.size(); ++k) steps.push_back(times[k] - times[k - 1]);
-    // Times by the phase hardly advance while the container rests.
-    const double least = by_phase ? 0.1 * quantile(steps, 1.0) : 0.0;
-    std::erase_if(steps, [&](double step) { return step < least; });
+    for (std::size_t k = 1; k < times.size(); ++k)
+        if (!rests_in(k)) steps.push_back(times[k] - times[k - 1]);
     return quantile(steps, 0.5);
 }
 
@@ -162,13 +160,10 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     set_species(settings, survey.appearance, all, tracked);
 
     const Links links = link_detections(settings, survey, all, tracked);
-    // Light from one side shifts dark and bright discs in opposite directions.
-    if (!tracked.mixed) remove_shading_shift(links, survey.brighter, all, tracked);
-    find_contacts(links, all, tracked);
     assemble_tracks(all, links, settings.first_frame, tracked);
     if (tracked.number == 0) throw Failure("no disc could be followed through the video");
-
-    if (tracked.lens.tilted()) move_path_to_wall(tracked);
+    find_wall(survey, tracked);
+    find_contacts(tracked);
     measure_quality(all, tracked);
     reject_contradicted_discs(tracked, survey.floor != nullptr);
     set_radii(tracked);

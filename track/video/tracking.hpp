@@ -96,6 +96,7 @@ struct TrackedVideo {
     Vec2 rim_shift{0.0, 0.0};      // of the path's centre from the rim's to the discs', pixels
     Vec2 shading_shift{0.0, 0.0};  // of discs by light from one side, pixels; removed
     double shading_shift_error = 0.0;
+    double contact_at_wall = 0.0;  // contact_ratio that discs at the wall imply; 0: unknown
     double rim_support = 0.0;
     std::vector<double> rim_offsets;  // distance of the rim from the path; −1 if not found
 
@@ -120,15 +121,17 @@ struct TrackedVideo {
     std::uint64_t filled = 0;     // interpolated positions
     std::uint64_t rejected = 0, crowded = 0;  // discs beyond the number, and frames with such discs
     bool uneven_times = false;  // `times` have unequal steps: the video's own, or by the phase
-    bool by_phase = false;  // the motion is uneven: a time is the phase of the container over Ω
-    std::string damage;     // ffmpeg's message about a damaged video
-    double jitter = 0.0;    // of the video's times, in steps
+    bool by_phase = false;    // the motion is uneven: a time is the phase of the container over Ω
+    std::vector<char> rests;  // for each frame: the container rests; empty: it never does
+    std::string damage;       // ffmpeg's message about a damaged video
+    double jitter = 0.0;      // of the video's times, in steps
     std::vector<std::string> warnings;  // one line each, without "warning: "
 
     /// Median time between two frames in which the container moves.
     double step() const;
     /// That the frames show.
     double periods() const;
+    bool rests_in(std::size_t frame) const { return !rests.empty() && rests[frame]; }
     /// Centre of the container in this frame.
     Vec2 container(std::size_t frame) const { return path.at(times[frame]); }
     /// The position in the frame as recorded.

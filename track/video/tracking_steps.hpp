@@ -33,7 +33,7 @@ struct VideoSurvey {
     std::shared_ptr<const StaticBackground> background;  // set if the camera moves
     std::shared_ptr<const FloorPattern> floor;           // set if it is removed from all frames
     cv::Size size;                                       // of the frames
-    Vec2 brighter{0.0, 0.0};  // mean gradient of the brightness of a disc, levels per radius
+    Vec2 shading{0.0, 0.0};  // gradient of a disc's brightness, of its contrast per radius
 
     static constexpr double vote_radius = 12.0;  // of a disc, pixels: more only costs time
     /// Reduction of the frames in which votes for discs are counted.
@@ -68,7 +68,7 @@ Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& su
 /// Sets the final lens, corrects all positions by it, and sets the radius of the rim.
 void correct_lens(const VideoSurvey& survey, Detections& all, TrackedVideo& tracked);
 
-// camera_steps.cpp
+// container_motion.cpp
 
 /// Sets the camera's motion from the poses of the frames. Frames without one are not used.
 void collect_camera_motion(Detections& all, TrackedVideo& tracked);
@@ -91,9 +91,6 @@ void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
 /// times if the settings accept them. Duplicates are then no longer used. True if times changed.
 bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims, Detections& all,
                        TrackedVideo& tracked);
-
-// phase_times.cpp
-
 /// If the container moves unevenly, as by hand, sets times by its phase, and warns. True if it did.
 bool set_times_by_phase(const TrackingSettings& settings, const RimCentres& rims,
                         TrackedVideo& tracked);
@@ -118,26 +115,17 @@ void for_each_linked(const Links& links, Use&& use) {
         for (std::size_t d = 0; d < links.track[k].size(); ++d)
             if (const int t = links.track[k][d]; t >= 0) use(k, static_cast<std::size_t>(t), d);
 }
-// wall_fit.cpp
 
-/// Light from one side shifts discs towards the side that stands out from the floor. Removes the
-/// shift of discs at the wall, the same at opposite sides, from all positions. `brighter`: gradient
-/// of the brightness of a disc; a shift that is not along it has another cause.
-void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& all,
-                          TrackedVideo& tracked);
-
-// disc_contacts.cpp, track_assembly.cpp, wall_fit.cpp, track_quality.cpp,
-// tracking_warnings.cpp
-
-/// Sets the contact distance of discs, and the error of positions that the distances imply.
-void find_contacts(const Links& links, const Detections& all, TrackedVideo& tracked);
+// track_assembly.cpp, wall_fit.cpp, track_quality.cpp, tracking_warnings.cpp
 /// Writes the tracks, with short gaps filled.
 void assemble_tracks(const Detections& all, const Links& links, std::int64_t first_frame,
                      TrackedVideo& tracked);
 
-/// Seen at an angle, the rim is shifted relative to the discs, and larger: moves the path to where
-/// the wall stops discs.
-void move_path_to_wall(TrackedVideo& tracked);
+/// Finds the wall from the discs that it stops: removes their shift by light from one side from all
+/// positions, and moves the path of a rim that is displaced.
+void find_wall(const VideoSurvey& survey, TrackedVideo& tracked);
+/// Sets the contact distance of discs, and the error of positions that the distances imply.
+void find_contacts(TrackedVideo& tracked);
 /// Sets the errors, the shares, and how far out discs come.
 void measure_quality(const Detections& all, TrackedVideo& tracked);
 /// Sets the container's radius from the rim and the discs; corrects the radii of discs in contact.

@@ -179,10 +179,6 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
             double(tracked.rejected) / double(tracked.crowded));
 }
 
-}  // namespace
-
-namespace {
-
 /// The largest number of discs that are detected in more than a seventh of the frames.
 std::size_t detected_at_once(const TrackedVideo& tracked) {
     std::vector<double> numbers;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "swirl/run/failure.hpp"
@@ -153,29 +154,44 @@ bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& 
     return true;
 }
 
-/// Mean gradient of the brightness over the inner part of a disc, in grey levels per radius.
-Vec2 mean_gradient(const std::vector<AppearanceTemplate::Example>& examples,
-                   const ParticleAppearance& appearance) {
-    constexpr double inner = 0.7;  // radii: without the edge
-    Vec2 sum{0.0, 0.0};
-    double weight = 0.0;
+/// The gradient of the brightness over the inner part of a disc, of the contrast per radius. Its
+/// sign is arbitrary: dark and bright discs differ. Texture, which has any direction, is removed.
+Vec2 shading_gradient(const std::vector<AppearanceTemplate::Example>& examples,
+                      const ParticleAppearance& appearance) {
+    constexpr double inner = 0.7, floor = 1.15, outer = 1.3;  // radii: without the edge
+    double across = 0.0, diagonal = 0.0, number = 0.0;
+    std::vector<double> inside, outside;
     for (const AppearanceTemplate::Example& example : examples)
         for (const DetectedParticle& p : example.particles) {
             if (!p.sure) continue;
-            const double radius = appearance.species[p.species].radius, reach = inner * radius;
+            const double radius = appearance.species[p.species].radius, reach = outer * radius;
             const int top = std::max(0, int(p.centre.y - reach) + 1),
                       bottom = std::min(example.sharp.rows - 1, int(p.centre.y + reach)),
                       left = std::max(0, int(p.centre.x - reach) + 1),
                       right = std::min(example.sharp.cols - 1, int(p.centre.x + reach));
+            Vec2 sum{0.0, 0.0};
+            double weight = 0.0;
             for (int row = top; row <= bottom; ++row)
                 for (int column = left; column <= right; ++column) {
                     const Vec2 d = (1.0 / radius) * (Vec2{double(column), double(row)} - p.centre);
+                    const double level = double(example.sharp.ptr<float>(row)[column]);
+                    if (dot(d, d) > floor * floor && dot(d, d) < outer * outer)
+                        outside.push_back(level);
                     if (dot(d, d) > inner * inner) continue;
-                    sum = sum + double(example.sharp.ptr<float>(row)[column]) * d;
+                    inside.push_back(level);
+                    sum = sum + level * d;
                     weight += 0.5 * dot(d, d);
                 }
+            const Vec2 g = (1.0 / std::max(weight, 1e-9)) * sum;
+            across += g.x * g.x - g.y * g.y;
+            diagonal += 2.0 * g.x * g.y;
+            number += 1.0;
         }
-    return weight > 0.0 ? (1.0 / weight) * sum : sum;
+    const double contrast = median(inside) - median(outside);
+    if (number == 0.0 || contrast == 0.0) return {0.0, 0.0};
+    const double size = std::sqrt(std::hypot(across, diagonal) / number) / contrast,
+                 angle = 0.5 * std::atan2(diagonal, across);
+    return size * Vec2{std::cos(angle), std::sin(angle)};
 }
 
 /// Learns the discs' mean appearance, for videos with poor edges.
@@ -184,7 +200,7 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
     std::vector<AppearanceTemplate::Example> examples = find_examples(images, settings, survey);
     if (correct_radius_by_contacts(examples, survey.appearance))
         examples = find_examples(images, settings, survey);
-    if (!survey.appearance.shading) survey.brighter = mean_gradient(examples, survey.appearance);
+    if (!survey.appearance.shading) survey.shading = shading_gradient(examples, survey.appearance);
     if (auto learned =
             AppearanceTemplate::learned(examples, survey.appearance, thread_count(settings)))
         survey.appearance.appearance_template =

@@ -1,20 +1,24 @@
 // The wall, from the positions at which it stops discs.
 //
-// Tilted camera: seen at an angle, the rim is shifted relative to the discs, which lie lower. Being
-// nearer to the camera, it is larger, and so is its path. For discs at the wall,
+// Seen from the rim's centre, discs at the wall lie on a circle. Two causes displace it. Light from
+// one side shifts all positions towards the side that stands out, in proportion to the radius. And
+// the rim is seen at an angle, or a part of it is mistaken for the wall's outer edge.
 //
-//     r = reach + shift·n − excess C·n
+// With u the distance of a disc's centre from the rim's, n its direction, and C the direction of the
+// path's centre to the rim's, the gap between the disc and the wall is
 //
-// with r the outer end of a disc from the rim's centre, n its direction, and C the direction of the
-// path's centre to the rim's. `excess` is by how much the rim's amplitude is too large.
+//     gap = reach + shift·n − excess C·n − u
 //
-// Light from one side: the shaded side of a ball looks like the floor, so its position is shifted
-// towards the side that stands out. The shift is the same in all frames and grows with the radius.
-// It is determined as above, with n in units of the most frequent radius and without the last term.
+// where `excess` is by how much the amplitude of a rim nearer to the camera is too large. Gaps are
+// distributed as those between discs in contact (contact_distance.hpp), with a steep onset.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
+#include "track/video/contact_distance.hpp"
 #include "track/video/robust_statistics.hpp"
 #include "track/video/tracking_steps.hpp"
 
@@ -24,117 +28,192 @@ namespace {
 
 constexpr double stands_out = 4.0;  // standard errors
 
-/// Positions at which discs may be at the wall.
-struct WallRows {
-    std::vector<cv::Vec4d> rows;  // factors of reach, shift and excess
-    std::vector<double> outer;    // outer ends of the discs from the rim's centre
+/// A disc that may be at the wall.
+struct WallRow {
+    cv::Vec4d factors;  // of reach, shift and excess
+    double distance;    // from the rim's centre
+    std::size_t frame;
+    std::int64_t disc;
+    double widest = 0.0;  // gap that is just used
 };
 
 struct WallFit {
-    cv::Vec4d value{}, error{};  // value of reach, shift and excess
+    cv::Vec4d value{};  // reach, shift and excess
+    cv::Matx44d covariance;
 };
 
-/// None if discs are too seldom at the wall.
-std::optional<WallFit> fit_wall(const WallRows& wall, double radius, std::size_t discs) {
-    constexpr double first_range = 0.5, range = 0.15;  // radii: a disc this close is at the wall
-    constexpr double narrowing = 0.8;                  // share of the range, from pass to pass
-    constexpr int passes = 20;                         // more than the narrowing takes
-    constexpr std::size_t min_positions = 400;         // positions at the wall, for four unknowns
-    const double number = double(std::max<std::size_t>(discs, 1));
-    WallFit fit;
-    // Initial estimate: the outermost disc of every frame is at the wall. With a better estimate of
-    // the wall, more discs are found at it.
-    fit.value[0] = quantile(wall.outer, 1.0 - 0.5 / number);
-    double near = first_range * radius;
-    for (int pass = 0; pass < passes; ++pass, near = std::max(narrowing * near, range * radius)) {
-        cv::Matx44d normal = cv::Matx44d::zeros();
-        cv::Vec4d right = cv::Vec4d::all(0.0);
-        double square = 0.0;
-        std::size_t used = 0;
-        for (std::size_t k = 0; k < wall.rows.size(); ++k) {
-            const double residual = wall.outer[k] - wall.rows[k].dot(fit.value);
-            if (std::abs(residual) > near) continue;
-            normal += wall.rows[k] * wall.rows[k].t();
-            right += residual * wall.rows[k];
-            square += residual * residual;
-            ++used;
-        }
-        if (used < min_positions) return std::nullopt;
-        if (normal(3, 3) == 0.0) normal(3, 3) = 1.0;  // an unused term is zero
-        const cv::Matx44d inverse = normal.inv(cv::DECOMP_SVD);
-        fit.value += inverse * right;
-        // A disc stays at one position of the wall for many frames, which count as one.
-        const double scatter = std::sqrt(square / double(used) * number);
-        for (int a = 0; a < 4; ++a)
-            fit.error[a] = scatter * std::sqrt(std::max(0.0, inverse(a, a)));
+/// Where the wall is, and how the gaps to it are distributed; in radii.
+struct WallModel {
+    cv::Vec4d value{};
+    double error = 0.1, decay = 0.5, share = 0.9;
+    static constexpr double inner = 1.5, outer = 0.5;  // range of gaps; a second layer is beyond
+    double gap(const WallRow& row) const { return row.factors.dot(value) - row.distance; }
+    /// `moved`: of the wall outwards.
+    double log_density(const WallRow& row, double moved = 0.0) const {
+        const double here = gap(row) + moved, widest = row.widest + here;
+        const double near = normal_and_exponential(here, error, decay) /
+                            (1.0 - std::exp(-std::max(widest, 0.1) / decay));
+        return std::log(share * near + (1.0 - share) / (inner + outer) + 1e-12);
     }
-    return fit;
+    bool allowed(double least_error) const {
+        return error >= least_error && error <= 0.2 && decay >= 0.1 && decay <= 3.0 &&
+               share >= 0.05 && share <= 1.0;
+    }
+};
+
+/// The covariance from the slopes of the likelihood. A disc stays at the wall for several frames,
+/// whose errors are correlated: they count as one visit. None if there are too few.
+std::optional<cv::Matx44d> covariance_of(const std::vector<WallRow>& rows, const WallModel& model,
+                                         std::size_t every) {
+    constexpr double step = 1e-3, at_wall = 0.15;  // radii
+    constexpr std::size_t min_visits = 12;         // for three or four unknowns
+    struct Visit {
+        std::size_t last;
+        bool touches = false;
+        cv::Vec4d slope{};
+    };
+    cv::Matx44d information = cv::Matx44d::zeros(), scatter = information;
+    std::size_t touching = 0;
+    const auto finish = [&](const Visit& visit) {
+        scatter += visit.slope * visit.slope.t();
+        touching += visit.touches;
+    };
+    std::map<std::int64_t, Visit> visits;
+    for (const WallRow& row : rows) {
+        const double change = model.log_density(row, step) - model.log_density(row, -step);
+        const double slope = change / (2.0 * step);
+        information += slope * slope * (row.factors * row.factors.t());
+        Visit& visit = visits.try_emplace(row.disc, Visit{row.frame}).first->second;
+        if (row.frame > visit.last + every) finish(std::exchange(visit, {}));
+        visit.last = row.frame;
+        visit.slope += slope * row.factors;
+        visit.touches = visit.touches || std::abs(model.gap(row)) < at_wall;
+    }
+    for (const auto& [disc, visit] : visits) finish(visit);
+    if (touching < min_visits) return std::nullopt;
+    if (information(3, 3) == 0.0) information(3, 3) = 1.0;  // an unused term is zero
+    const cv::Matx44d inverse = information.inv(cv::DECOMP_SVD);
+    const cv::Matx44d spread =
+        double(touching) / double(touching - 4) * inverse * scatter * inverse;
+    // Few visits may agree by chance: never less than the error of independent positions. As the
+    // onset is not smooth, squared errors are twice these values in 20 simulated videos.
+    const double ratio = (spread(1, 1) + spread(2, 2)) / (inverse(1, 1) + inverse(2, 2));
+    return 2.0 * std::max(1.0, ratio) * inverse;
+}
+
+/// `rows` in pixels, in the order of the frames.
+std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::size_t discs) {
+    // A sharp onset has many local maxima: the passes sharpen it.
+    constexpr std::array least_errors{0.08, 0.04, 0.02, 0.01, 0.01};  // radii
+    constexpr std::size_t enough = 4000;                              // positions near the wall
+    if (rows.empty()) return std::nullopt;
+    std::vector<double> distances;
+    for (WallRow& row : rows) distances.push_back(row.distance /= radius);
+    // Initial estimate: the outermost disc of every frame is at the wall.
+    WallModel model;
+    model.value[0] = quantile(distances, 1.0 - 0.5 / double(std::max<std::size_t>(discs, 1)));
+    std::vector<WallRow> used;
+    std::size_t every = 1;
+    for (const double least_error : least_errors) {
+        model.error = std::max(model.error, least_error);
+        const auto near = [&](const WallRow& row) {
+            const double gap = model.gap(row);
+            return gap < WallModel::inner && gap > -WallModel::outer;
+        };
+        every = 1 + std::size_t(std::count_if(rows.begin(), rows.end(), near)) / enough;
+        used.clear();
+        for (WallRow row : rows) {
+            if (row.frame % every != 0 || !near(row)) continue;
+            row.widest = WallModel::inner - model.gap(row);
+            used.push_back(row);
+        }
+        const auto value = [&] {
+            if (!model.allowed(least_error)) return -1e300;
+            double sum = 0.0;
+            for (const WallRow& row : used) sum += model.log_density(row);
+            return sum;
+        };
+        auto& v = model.value;
+        maximise<7>({&v[0], &v[1], &v[2], &model.error, &model.decay, &model.share, &v[3]},
+                    {0.05, 0.05, 0.05, 0.02, 0.1, 0.1, rows.front().factors[3] == 0.0 ? 0.0 : 0.05},
+                    0.0005, value);
+    }
+    const auto variance = covariance_of(used, model, every);
+    if (!variance) return {};
+    return WallFit{radius * model.value, radius * radius * *variance};
+}
+
+/// What the appearance of discs implies about their shift, as a covariance: a shift along the
+/// gradient of the brightness, which grows steeply until the shaded edge is as dark as the floor.
+/// Shifts are 0.16 and 0.006 radii at gradients of 0.92 and 0.45. A template without edges does not
+/// define a centre, so its shift has any direction.
+cv::Matx22d expected_shift(const VideoSurvey& survey) {
+    constexpr double unknown_shift = 0.1, steepness = 0.2;  // radii: rms of a coordinate
+    if (survey.appearance.shading) return unknown_shift * unknown_shift * cv::Matx22d::eye();
+    const Vec2 along = steepness * std::pow(length(survey.shading), 3.0) * survey.shading;
+    return cv::Vec2d(along.x, along.y) * cv::Vec2d(along.x, along.y).t();
+}
+
+/// Removes the shift by light from all positions. Returns what is left of the wall's displacement.
+Vec2 remove_shading_shift(const VideoSurvey& survey, const std::optional<WallFit>& found,
+                          TrackedVideo& tracked) {
+    cv::Matx22d left = tracked.radius * tracked.radius * expected_shift(survey);
+    cv::Vec2d displaced(0.0, 0.0), shift = displaced;
+    if (found) displaced = {found->value[1], found->value[2]};
+    // A tilted rim is displaced, too. Dark and bright discs are shifted in opposite directions.
+    if (found && !tracked.lens.tilted() && !tracked.mixed) {
+        const cv::Matx22d sum = left + found->covariance.get_minor<2, 2>(1, 1);
+        // If it is much larger than both allow, the rim is displaced, and not the discs.
+        const cv::Vec2d part = left * displaced;
+        if (std::abs(part.dot(displaced)) < stands_out * std::sqrt(part.dot(sum * part))) {
+            const cv::Matx22d gain = left * sum.inv();
+            shift = gain * displaced;
+            left -= gain * left;
+        }
+    }
+    tracked.shading_shift = {shift[0], shift[1]};
+    tracked.shading_shift_error = std::sqrt(std::max(0.0, 0.5 * cv::trace(left)));
+    for (TrackFrame& f : tracked.tracks.frames)
+        for (std::size_t i = 0; i < f.id.size(); ++i)
+            f.position[i] = f.position[i] - (f.radius[i] / tracked.radius) * tracked.shading_shift;
+    return {displaced[0] - shift[0], displaced[1] - shift[1]};
 }
 
 }  // namespace
 
-void move_path_to_wall(TrackedVideo& tracked) {
-    WallRows wall;
+void find_wall(const VideoSurvey& survey, TrackedVideo& tracked) {
+    constexpr double least_shift = 0.05;  // radii: positions err by about as much
+    std::vector<WallRow> rows;
     for (std::size_t k = 0; k < tracked.tracks.frames.size(); ++k) {
         const TrackFrame& f = tracked.tracks.frames[k];
         const Vec2 c = tracked.container(k);
         const Vec2 out = (1.0 / tracked.path.amplitude) * (c - tracked.path.centre);
         for (std::size_t i = 0; i < f.id.size(); ++i) {
             const Vec2 d = f.position[i] - c;
-            const double distance = length(d);
+            const double distance = length(d), size = f.radius[i] / tracked.radius;
             if (!tracked.seen[k][i] || !(distance > 0.0)) continue;
             const Vec2 n = (1.0 / distance) * d;
-            wall.rows.emplace_back(1.0, n.x, n.y, -dot(out, n));
-            wall.outer.push_back(distance + f.radius[i]);
+            rows.push_back(
+                {{1.0, size * n.x, size * n.y, tracked.lens.tilted() ? -dot(out, n) : 0.0},
+                 distance + f.radius[i],
+                 k,
+                 f.id[i]});
         }
     }
-    const auto found = fit_wall(wall, tracked.radius, tracked.number);
+    const auto found = fit_wall(std::move(rows), tracked.spacing * tracked.radius, tracked.number);
+    const Vec2 residual = remove_shading_shift(survey, found, tracked);
     if (!found) return;
-    const cv::Vec4d &fit = found->value, &error = found->error;
-    if (std::hypot(fit[1], fit[2]) < stands_out * std::max(error[1], error[2])) return;
-    tracked.rim_shift = {fit[1], fit[2]};
-    tracked.path.centre = tracked.path.centre + tracked.rim_shift;
-    tracked.path.centre_error = std::hypot(tracked.path.centre_error, std::max(error[1], error[2]));
-    if (std::abs(fit[3]) < stands_out * error[3]) return;
-    tracked.path.amplitude -= fit[3];
-    tracked.path.amplitude_error = std::hypot(tracked.path.amplitude_error, error[3]);
-}
-
-void remove_shading_shift(const Links& links, const Vec2& brighter, Detections& all,
-                          TrackedVideo& tracked) {
-    constexpr double unknown_shift = 0.1;  // radii: rms of a coordinate in four videos
-    constexpr double min_share = 0.5;  // share of the shift along the gradient of the brightness
-    if (tracked.lens.tilted()) return;
-    WallRows wall;
-    for_each_linked(links, [&](std::size_t k, std::size_t, std::size_t d) {
-        const DetectedParticle& p = all[k].particles[d];
-        const double radius = tracked.species[p.species].radius;
-        const Vec2 apart = p.centre - tracked.container(k);
-        const double distance = length(apart);
-        if (!(distance > 0.0)) return;
-        const Vec2 n = (radius / (tracked.radius * distance)) * apart;
-        wall.rows.emplace_back(1.0, n.x, n.y, 0.0);
-        wall.outer.push_back(distance + radius);
-    });
-    const auto found = fit_wall(wall, tracked.spacing * tracked.radius, links.species.size());
-    // A template without edges does not define a centre, so its shift is removed in any case. If
-    // the wall does not show it, the positions err by it.
-    const bool unknown = length(brighter) == 0.0;
-    if (!found && unknown) tracked.shading_shift_error = unknown_shift * tracked.radius;
-    if (!found) return;
-    const Vec2 shift{found->value[1], found->value[2]};
-    const double error = std::max(found->error[1], found->error[2]);
-    // The side that stands out from the floor: the bright side of bright balls, and of dark ones
-    // the dark side.
-    const Vec2 towards = (tracked.bright ? 1.0 : -1.0) * brighter;
-    if ((!unknown && length(shift) < stands_out * error) ||
-        dot(shift, towards) < min_share * length(shift) * length(towards))
-        return;
-    tracked.shading_shift = shift;
-    tracked.shading_shift_error = error;
-    for (FrameDetections& frame : all)
-        for (DetectedParticle& p : frame.particles)
-            p.centre = p.centre - (tracked.species[p.species].radius / tracked.radius) * shift;
+    tracked.contact_at_wall = 1.0 + (tracked.rim_radius - found->value[0]) / tracked.radius;
+    const double error = std::sqrt(std::max(found->covariance(1, 1), found->covariance(2, 2))),
+                 least = tracked.lens.tilted() ? 0.0 : least_shift * tracked.radius;
+    if (length(residual) < std::max(stands_out * error, least)) return;
+    tracked.rim_shift = residual;
+    tracked.path.centre = tracked.path.centre + residual;
+    tracked.path.centre_error = std::hypot(tracked.path.centre_error, error);
+    const double excess = found->value[3], excess_error = std::sqrt(found->covariance(3, 3));
+    if (std::abs(excess) < stands_out * excess_error) return;
+    tracked.path.amplitude -= excess;
+    tracked.path.amplitude_error = std::hypot(tracked.path.amplitude_error, excess_error);
 }
 
 }  // namespace swirl::tracking

@@ -5,6 +5,7 @@
 #include "math/deviate.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
+#include "track/video/contact_distance.hpp"
 #include "track/video/tracking_steps.hpp"
 
 namespace swirl::tracking {
@@ -68,6 +69,116 @@ TEST(WallBounces, ScatterByTheErrorOfAPosition) {
         // The claimed error of a coordinate; that of the edges, 0.05, is too small.
         EXPECT_GT(tracked.position_error, 0.7 * noise);
         EXPECT_LT(tracked.position_error, 2.0 * noise);  // flights are extrapolated to the wall
+    }
+}
+
+/// Two periods of a phone's video: sixteen discs near the wall, displaced by `shift`.
+TrackedVideo discs_at_the_wall(std::uint64_t seed, const Vec2& shift) {
+    constexpr double radius = 20.0, reach = 152.0;
+    TrackedVideo tracked;
+    tracked.path = {.centre = {320.0, 240.0}, .amplitude = 38.0, .omega = 2.0 * pi / 15.0};
+    tracked.radius = radius;
+    tracked.number = 16;
+    Random random(seed);
+    for (int k = 0; k < 30; ++k) {
+        tracked.times.push_back(k);
+        TrackFrame f;
+        for (std::int64_t i = 0; i < 16; ++i) {
+            const double gap = -0.4 * radius * std::log(1.0 - random.uniform());
+            const Vec2 noise = 0.3 * Vec2{deviate(random), deviate(random)};
+            f.id.push_back(i);
+            f.radius.push_back(radius);
+            f.position.push_back(tracked.path.at(k) +
+                                 (reach - gap) * unit_circle(random.uniform()) + noise + shift);
+        }
+        tracked.tracks.frames.push_back(f);
+        tracked.seen.emplace_back(16, 1);
+    }
+    return tracked;
+}
+
+TEST(WallFit, TellsAShiftTowardsTheLightFromADisplacedRim) {
+    constexpr int seeds = 20;
+    double square = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const Vec2 shift{-2.2, -2.2};
+        TrackedVideo lit = discs_at_the_wall(std::uint64_t(seed), shift), dim = lit;
+        VideoSurvey survey;
+        survey.shading = {0.65, 0.65};  // the sign is arbitrary
+        find_wall(survey, lit);
+        const Vec2 off = lit.shading_shift - shift;
+        EXPECT_LT(length(off), 0.8) << seed;  // four errors
+        EXPECT_EQ(length(lit.rim_shift), 0.0) << seed;
+        square += 0.5 * dot(off, off) / std::pow(lit.shading_shift_error, 2) / seeds;
+        survey.shading = {0.2, 0.2};
+        find_wall(survey, dim);
+        EXPECT_LT(length(dim.shading_shift), 0.1) << seed;
+        EXPECT_LT(length(dim.path.centre - Vec2{320.0, 240.0} - shift), 0.8) << seed;
+    }
+    // Without discs at the wall, the expected shift is in the error.
+    TrackedVideo inside = discs_at_the_wall(1, {0.0, 0.0});
+    for (auto& seen : inside.seen) seen.assign(16, 0);
+    VideoSurvey survey;
+    survey.shading = {0.65, 0.65};
+    find_wall(survey, inside);
+    EXPECT_EQ(length(inside.shading_shift), 0.0);
+    EXPECT_GT(inside.shading_shift_error, 1.0);
+    // The errors are those of the shifts: of 40 coordinates the mean square has an error of 22 %.
+    EXPECT_GT(square, 0.4);
+    EXPECT_LT(square, 2.0);
+}
+
+double exponential(Random& random, double mean) { return -mean * std::log(1.0 - random.uniform()); }
+
+TEST(ContactDistance, IsFoundFromNoisyDistances) {
+    Random random(5);
+    for (const double error : {0.004, 0.012, 0.02})
+        for (const double decay : {0.03, 0.1}) {
+            std::vector<double> distances;
+            for (int n = 0; n < 6000; ++n)
+                distances.push_back(1.003 + exponential(random, decay) + error * deviate(random));
+            const auto contact = contact_of(distances, 0.9, 1.1);
+            ASSERT_TRUE(contact);
+            // A bin is 0.0025 wide.
+            EXPECT_NEAR(contact->at, 1.003, 0.002) << error << " " << decay;
+            EXPECT_NEAR(contact->error, error, 0.3 * error + 0.0005) << error << " " << decay;
+        }
+    EXPECT_FALSE(contact_of({1.0, 1.01, 0.99}, 0.9, 1.1));
+}
+
+// A dilute crowd with a few wrong positions. The wall may confirm a contact that is not sharp.
+TEST(ContactDistance, IgnoresWrongPositionsAndBelievesTheWall) {
+    Random random(1);
+    std::vector<double> near{0.83, 0.88, 0.89, 0.9, 0.91, 0.92, 0.93, 0.94}, far;
+    for (int n = 0; n < 1500; ++n) {
+        near.push_back(0.99 + exponential(random, 0.5) + 0.01 * deviate(random));
+        far.push_back(1.16 + exponential(random, 0.6) + 0.05 * deviate(random));
+    }
+    EXPECT_NEAR(contact_of_discs(near).value().error, 0.01,
+                0.006);  // half of it: few are in contact
+    EXPECT_FALSE(contact_of_discs(far, 1.0));
+    EXPECT_NEAR(contact_of_discs(far, 1.17).value().at, 1.16, 0.02);  // two bins
+}
+
+// Pairs in contact all over a container, seen through a lens.
+TEST(ContactDistance, DeterminesTheLensDistortion) {
+    constexpr Vec2 middle{319.5, 239.5};
+    Random random(4);
+    for (const double k : {0.0, 0.03, -0.02}) {
+        Lens lens{middle, 240.0};
+        lens.k = k;
+        std::vector<DiscPair> pairs;
+        for (int n = 0; n < 8000; ++n) {
+            const Vec2 p = middle + random.in_disc(190.0);
+            const double apart = 42.0 + exponential(random, 1.5);
+            const Vec2 d = 0.5 * apart * unit_circle(random.uniform());
+            const Vec2 noise{0.3 * deviate(random), 0.3 * deviate(random)};
+            pairs.push_back({lens.seen(p - d) + noise, lens.seen(p + d), 42.0});
+        }
+        const auto found = distortion_of(pairs, middle, 240.0);
+        ASSERT_TRUE(found);
+        EXPECT_LT(found->error, 0.006);
+        EXPECT_NEAR(found->k, k, 2.0 * found->error) << k;
     }
 }
 
