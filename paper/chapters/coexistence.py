@@ -127,7 +127,8 @@ def row_of(cells, runs):
 
 def table(points, settings):
     rows, histogram, findings, dishes = [], [], [], {}
-    for p in (p for p in points if p.work is windows_of and p.runs):
+    lasting, turning = ([p for p in points if p.tasks[0].work is work and p.runs] for work in (windows_of, axis_of))
+    for p in lasting:
         dishes.setdefault(tuple(p.cells.items())[:-1], []).extend({**run, "prepared": p.cells["prepared"]} for run in p.runs)
     for cells, runs in dishes.items():
         rows.append(row_of(dict(cells), runs))
@@ -141,12 +142,11 @@ def table(points, settings):
             f"lifetimes are equal at A/R = {with_error(*equal[0])}, {with_error(*equal[1])} periods." if equal else
             "no certain line of equal lifetimes."))
     axes = [{**p.cells, "seeds": len(p.runs), **means(p.runs, p.runs[0]), "share_elongated":
-             sum(run["elongation"] > ELONGATED for run in p.runs) / len(p.runs)}
-            for p in points if p.work is axis_of and p.runs]
+             sum(run["elongation"] > ELONGATED for run in p.runs) / len(p.runs)} for p in turning]
     return {"": rows, "_histogram": histogram, "_axis": axes}, findings + [
-        f"R/r = {row['container_radius']:g}, A/R = {row['amplitude_ratio']:g}, prepared {row['prepared']}: the longest axis turns "
-        f"with {with_error(row['axis_rate'], row['axis_rate_error'])} Ω, and scatters by {row['axis_scatter']:.0f}° in a period."
-        for row in axes]
+        f"R/r = {row['container_radius']:g}, A/R = {row['amplitude_ratio']:g}, prepared {row['prepared']}: the longest axis "
+        f"turns with {with_error(row['axis_rate'], row['axis_rate_error'])} Ω, and scatters by {row['axis_scatter']:.0f}° in a "
+        "period." for row in axes]
 
 
 def draw(table):

@@ -41,7 +41,7 @@ def points(settings):
 
 def row_of(point):
     """The correlation of contacts in no triangle and in triangles, the share of the latter, and the slip."""
-    given, cells = point.parameters, point.cells
+    given, cells = point.tasks[0].parameters, point.cells
     ratio = AMPLITUDES[cells["setting"]] / EXPERIMENT_DISH[0] if "preset" in given else (
         given.get("amplitude", AMPLITUDE) / CONTAINER_RADIUS)
     return {"particles": "spheres" if "preset" in given else "discs", "setting": cells.get("setting", "more"),

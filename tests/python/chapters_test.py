@@ -10,8 +10,10 @@ import pytest
 import swirl
 
 sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
+import catalogue  # noqa: E402
 import cluster_axis  # noqa: E402
 import curves  # noqa: E402
+import study  # noqa: E402
 from chapters import coexistence, cooling, gear_order, lifetimes, local_speed  # noqa: E402
 from chapters.critical import power_law, scaling_tables, verdict_on  # noqa: E402
 from coarse_zero import last_zero, zero_of_curve  # noqa: E402
@@ -22,6 +24,15 @@ from micropolar import RELATIONS, Relation, fit_relation  # noqa: E402
 from swirled_state import densities, fit_hypotrochoids  # noqa: E402
 
 EXACT = 1e-12  # rounding errors of sums of a few hundred terms
+
+
+@pytest.mark.parametrize("figure", catalogue.named(["chapters"]), ids=lambda figure: figure.name)
+def test_every_chapter_makes_its_table_from_runs(figure, tmp_path):
+    """With the shortest runs that each allows: their means are worthless, but no step from points to the table fails."""
+    settings = study.Settings(quick=True, events=1, out=str(tmp_path), threads=1)
+    points = figure.points(settings)
+    study.make(points, settings)
+    assert figure.table(points, settings)[0][""]
 
 
 def curve(function, numbers, error=1e-6):
@@ -295,8 +306,8 @@ def test_contacts_have_the_amplitude_and_the_friction_of_their_setting():
                 "slip": {"resident": {"mean": 0.9, "error": 0.01}}}
 
     def row(parameters, cells):
-        return gear_order.row_of(types.SimpleNamespace(parameters=parameters, cells=cells | {"discs": 24}, runs=[{}] * 8,
-                                                       result={"measured": measured}))
+        return gear_order.row_of(types.SimpleNamespace(tasks=[types.SimpleNamespace(parameters=parameters)], runs=[{}] * 8,
+                                                       cells=cells | {"discs": 24}, result={"measured": measured}))
     wide = row({"amplitude": 0.44 * 8.6}, {"mu": 1})
     half = row({"preset": "experiment-half"}, {"setting": "half", "mu_disc": 0.33})
     columns = ("particles", "mu", "amplitude_ratio", "seeds", "triangles", "slip")
