@@ -30,6 +30,7 @@ USUAL = {
     # The camera.
     "noise": 2.0, "blur": 0.8, "gamma": 1.0, "exposure": 0.2, "flicker": 0.0, "grey": False,
     "shake": 0.0,              # of the camera, rms of a coordinate, pixels
+    "sway": 0.0,               # of what is seen on the table, as of the shadows of leaves, pixels
     # The file.
     "fps": "30", "codec": ("libx264", "-crf", "18"), "pixels": "yuv420p", "filter": None,
     "drop": (), "double": (),
@@ -302,11 +303,12 @@ def painted(s, radii):
         shake = s["shake"] * rng.normal(size=2)
         between = [(course(s, k + o) - course(s, k), o) for o in
                    (numpy.array([-0.33, 0.0, 0.33]) * s["exposure"] if s["exposure"] > 0 else [0.0])]
+        sway = s["sway"] * numpy.array([math.sin(0.11 * k), math.cos(0.17 * k)])
         middle, sum_of = path_centre(s) + shake, 0.0
         for shift, o in between:
             v = positions[min(k + 1, s["frames"] - 1)] - positions[max(k - 1, 0)]
             sum_of = sum_of + painter.paint(middle + course(s, k) + shift, positions[k] + 0.5 * o * v + middle,
-                                            rotations[k], shake)
+                                            rotations[k], shake + sway)
         frames.append((painter.finished(sum_of / len(between), k).tobytes(), positions[k] + middle))
     return frames
 

@@ -212,7 +212,17 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
             "hint: a higher contrast and less compression help.");
 }
 
+/// The typical distance of the rim from its path, pixels.
+double off_path(const std::vector<PreparedFrame>& frames, const ContainerRim& path) {
+    std::vector<double> off{0.0};
+    for (const PreparedFrame& frame : frames)
+        if (const CircleFit rim = find_container_rim(frame, path); rim.good)
+            off.push_back(std::abs(length(rim.centre - path.path_centre) - path.amplitude));
+    return quantile(off, 0.5);
+}
+
 /// If the background shows that the camera moves, stabilises the images and surveys the rim again.
+/// A shadow that moves does not; without it, the rim is nearer to its path.
 void remove_camera_motion(const TrackingSettings& settings, double reduction,
                           std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
                           VideoSurvey& survey) {
@@ -247,7 +257,9 @@ void remove_camera_motion(const TrackingSettings& settings, double reduction,
         return;
     std::vector<PreparedFrame> again = prepare_all(stable, reduction, settings);
     const std::optional<ContainerRim> rim = find_moving_rim(again, false);
-    if (!rim || rim->amplitude < min_amplitude * survey.rim.amplitude) return;
+    if (!rim || rim->amplitude < min_amplitude * survey.rim.amplitude ||
+        (!survey.rim.rough && off_path(again, *rim) > off_path(frames, survey.rim)))
+        return;
     survey.rim = *rim;
     survey.background = background;
     images = std::move(stable);
