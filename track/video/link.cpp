@@ -56,8 +56,9 @@ class Linker {
     }
 
     std::vector<int> step(const std::vector<DetectedDisc>& discs, double time);
+    /// After the first frame: follows its discs towards earlier ones. `next` is a step ahead.
+    void turn_back(const Linker& next);
     std::vector<Track> tracks;
-    std::uint64_t rejected = 0;
 
   private:
     Vec2 flow_at(const Vec2& position, double time_from, double time_to) const;
@@ -70,24 +71,22 @@ class Linker {
                      std::vector<int>& of);
     /// True if there are as many sure detections as discs; then the others are not discs.
     bool all_are_sure(const std::vector<DetectedDisc>& discs, std::size_t species) const {
-        if (settings_.numbers.empty()) return false;
-        const auto sure = static_cast<std::size_t>(
-            std::count_if(discs.begin(), discs.end(),
-                          [&](const DetectedDisc& d) { return d.sure && d.species == species; }));
-        return sure >= settings_.numbers[species];
+        const auto counts = [&](const auto& d) { return d.sure && d.species == species; };
+        return !settings_.numbers.empty() &&
+               std::size_t(std::count_if(discs.begin(), discs.end(), counts)) >=
+                   settings_.numbers[species];
     }
     bool may_start_track(std::size_t species) const {
-        if (settings_.numbers.empty()) return true;
-        const auto there = static_cast<std::size_t>(std::count_if(
-            tracks.begin(), tracks.end(), [&](const Track& t) { return t.species == species; }));
-        return there < settings_.numbers[species];
+        const auto counts = [&](const Track& t) { return t.species == species; };
+        return settings_.numbers.empty() ||
+               std::size_t(std::count_if(tracks.begin(), tracks.end(), counts)) <
+                   settings_.numbers[species];
     }
 
     const TrackedPath& path_;
     const LinkSettings& settings_;
     double last_time_ = 0.0;
     int steps_ = 0;
-    double turn_ = 0.0;  // turn of all discs about the container's centre in the first step
 };
 
 /// A time in steps of the track's latest one. That is almost zero while the container rests
@@ -267,13 +266,13 @@ void Linker::resume_lost(const std::vector<DetectedDisc>& discs, const std::vect
 std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double time) {
     std::vector<int> of(discs.size(), -1);
     const bool second = steps_ == 1;
-    if (second) turn_ = first_turn(discs, time);
+    const double turn = second ? first_turn(discs, time) : 0.0;
     std::vector<Vec2> expected(tracks.size());
     for (std::size_t t = 0; t < tracks.size(); ++t) {
         expected[t] = expect(tracks[t], time);
         if (second) {
             expected[t] =
-                to_lab(1, rotated(to_frame(1, tracks[t].position, tracks[t].time), turn_), time);
+                to_lab(1, rotated(to_frame(1, tracks[t].position, tracks[t].time), turn), time);
             tracks[t].expected.fill(expected[t]);
         }
     }
@@ -310,10 +309,7 @@ std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double tim
     }
     for (std::size_t d = 0; d < discs.size(); ++d) {
         if (of[d] >= 0 || !discs[d].sure) continue;
-        if (!may_start_track(discs[d].species)) {
-            ++rejected;
-            continue;
-        }
+        if (!may_start_track(discs[d].species)) continue;
         of[d] = static_cast<int>(tracks.size());
         Track track;
         track.species = discs[d].species;
@@ -325,6 +321,32 @@ std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double tim
     last_time_ = time;
     ++steps_;
     return of;
+}
+
+void Linker::turn_back(const Linker& next) {
+    steps_ = 2;  // the first step, of an unknown turn, is over
+    for (std::size_t t = 0; t < tracks.size(); ++t) {
+        if (next.tracks[t].missed > 0) continue;
+        tracks[t].before = next.tracks[t].position;
+        tracks[t].time_before = next.tracks[t].time;
+        tracks[t].seen = 2;
+    }
+}
+
+/// The frame from which discs are followed to both ends, in the middle of the longest run of frames
+/// with all discs and nothing else: no circle on a hand at the beginning becomes a track.
+std::size_t start_of_links(const std::vector<std::vector<DetectedDisc>>& frames,
+                           const std::vector<std::size_t>& numbers) {
+    std::size_t begin = 0, longest = 0, start = 0;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        std::vector<std::size_t> sure(numbers.size(), 0);
+        for (const DetectedDisc& d : frames[k])
+            if (d.sure && d.species < sure.size()) ++sure[d.species];
+        if (sure != numbers) begin = k + 1;
+        if (const std::size_t run = k + 1 - begin; run > longest)
+            longest = run, start = begin == 0 ? 0 : begin + run / 2;
+    }
+    return start;
 }
 
 }  // namespace
@@ -401,16 +423,27 @@ Links link_discs(const std::vector<std::vector<DetectedDisc>>& frames,
             throw std::invalid_argument(
                 fmt::format("the times of frames must be finite and ascend, but frame {} has {}.",
                             k, times[k]));
-    Linker linker(path, settings);
     Links links;
-    for (std::size_t k = 0; k < frames.size(); ++k) {
+    links.track.resize(frames.size());
+    const auto link = [&](Linker& linker, std::size_t k) {
         if (settings.throw_if_stopped) settings.throw_if_stopped();
-        const std::uint64_t rejected = linker.rejected;
-        links.track.push_back(linker.step(frames[k], times[k]));
-        if (linker.rejected > rejected) ++links.crowded;
+        links.track[k] = linker.step(frames[k], times[k]);
+        const auto sure = std::size_t(std::count_if(frames[k].begin(), frames[k].end(),
+                                                    [](const auto& d) { return d.sure; }));
+        if (sure <= linker.tracks.size()) return;
+        ++links.crowded;
+        links.rejected += sure - linker.tracks.size();
+    };
+    const std::size_t start = start_of_links(frames, settings.numbers);
+    Linker forward(path, settings);
+    if (start < frames.size()) link(forward, start);
+    Linker backward = forward;
+    for (std::size_t k = start + 1; k < frames.size(); ++k) {
+        link(forward, k);
+        if (k == start + 1) backward.turn_back(forward);
     }
-    for (const Track& t : linker.tracks) links.species.push_back(t.species);
-    links.rejected = linker.rejected;
+    for (std::size_t k = start; k-- > 0;) link(backward, k);
+    for (const Track& t : forward.tracks) links.species.push_back(t.species);
     return links;
 }
 

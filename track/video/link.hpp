@@ -3,16 +3,15 @@
 // The whole field turns by ΩΔt between two frames, so if frames are few the nearest disc is often
 // the wrong one. The expected position of a disc is a mean over several predictions, each weighted
 // by its past accuracy for that disc: uniform motion in the lab (in flight), relative to the
-// container, or in the co-rotating M-frame (a cluster that turns with the swirl); rest in one of
-// the latter two; and the mean motion of the neighbours (if discs collide more often than they are
-// seen, their own velocities predict little). A disc that was seen once moves like its neighbours.
-// In the first step all discs turn about the container's centre by one angle, the one that fits
-// best.
+// container, or in the co-rotating M-frame; rest in one of the latter two; and the mean motion of
+// the neighbours, as of a disc that was seen once. In the first step all discs turn about the
+// container's centre by one angle, the one that fits best.
 //
 // Expected and detected positions are then assigned such that the sum of squared distances is
 // minimal (assignment problem; Kuhn 1955, in the form of Jonker & Volgenant 1987), within a gate.
-// The number of tracks is limited to the number of discs. A lost track resumes at a detection that
-// no other track explains.
+// The number of tracks is limited to the number of discs. They start where exactly as many are
+// detected, and are followed from there to the end and to the beginning. A lost track resumes at a
+// detection that no other track explains.
 //
 // Pixels, y down.
 #pragma once

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "swirl/math/unit_circle.hpp"
+#include "track/video/robust_statistics.hpp"
 #include "track/video/tracking_steps.hpp"
 
 namespace swirl::tracking {
@@ -29,27 +30,33 @@ void drop_overlapping(const Detections& all, const std::vector<double>& radii, d
 }
 
 /// Removes positions of a single frame far from the mean of those before and after. A disc that is
-/// hit twice in between, at up to about twice the container's speed, can do that; a sure detection
-/// is believed at larger distances.
+/// hit twice in between can do that, at up to about twice the container's speed or that of the
+/// fastest discs; only a sure detection is believed at such distances.
 void drop_outliers(const Detections& all, const TrackedVideo& tracked, Links& links) {
     constexpr double min_radii = 0.2;                   // errors of positions stay below it
     constexpr double max_sure = 2.4, max_unsure = 1.2;  // steps of the container
+    constexpr double nearly_all = 0.95;                 // of the moves between two frames
     struct Point {
         std::size_t frame, index;
         Vec2 relative;  // to the container
     };
     std::vector<std::vector<Point>> points(links.species.size());
+    std::vector<double> moves{0.0};
     for_each_linked(links, [&](std::size_t k, std::size_t track, std::size_t d) {
-        points[track].push_back({k, d, all[k].particles[d].centre - tracked.container(k)});
+        const Vec2 here = all[k].particles[d].centre - tracked.container(k);
+        if (!points[track].empty() && points[track].back().frame + 1 == k)
+            moves.push_back(length(here - points[track].back().relative));
+        points[track].push_back({k, d, here});
     });
     const double step = tracked.path.amplitude * tracked.path.omega * tracked.step();
+    const double fast = std::max(max_sure * step, quantile(moves, nearly_all));
     for (std::size_t t = 0; t < points.size(); ++t)
         for (std::size_t j = 1; j + 1 < points[t].size(); ++j) {
             const Point &before = points[t][j - 1], &now = points[t][j], &after = points[t][j + 1];
             if (after.frame - before.frame != 2) continue;
             const bool sure = all[now.frame].particles[now.index].sure;
             const double maximum = std::max(min_radii * tracked.species[links.species[t]].radius,
-                                            (sure ? max_sure : max_unsure) * step);
+                                            sure ? fast : max_unsure * step);
             if (length(now.relative - 0.5 * (before.relative + after.relative)) > maximum)
                 links.track[now.frame][now.index] = -1;
         }
@@ -96,20 +103,6 @@ bool all_detected(const Links& links) {
     });
 }
 
-/// The sure particle without a track that may be this disc, although it is no continuation of its
-/// track: a disc that is hit twice between two frames. −1 if there is none.
-int unlinked_near(const MissingDisc& disc, const std::vector<DetectedParticle>& particles,
-                  const std::vector<int>& tracks, double radius) {
-    int nearest = -1;
-    double distance = 1.2 * radius;
-    for (std::size_t d = 0; d < tracks.size(); ++d) {
-        if (tracks[d] >= 0 || !particles[d].sure || particles[d].species != disc.species) continue;
-        const double far = length(particles[d].centre - disc.position);
-        if (far < distance) distance = far, nearest = static_cast<int>(d);
-    }
-    return nearest;
-}
-
 /// Reads the video again, and searches every frame where discs are missing. A disc that is missing
 /// to the end is searched at its last position relative to the container.
 void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& survey,
@@ -148,21 +141,9 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
         CircleFit rim = all[k].rim;
         rim.centre = tracked.lens.seen(rim.good ? rim.centre : container);
         for (const MissingDisc& disc : here) {
-            constexpr double clearer = 1.5;  // times the support of a particle found by search
             const double radius = survey.appearance.species[disc.species].radius;
             auto found = find_particle_near(frame, rim, survey.appearance,
                                             tracked.lens.seen(disc.position), disc.species, others);
-            if (const int d = unlinked_near(disc, particles, tracks, radius);
-                d >= 0 && !survey.appearance.appearance_template) {
-                const DetectedParticle& sure = particles[std::size_t(d)];
-                if (!found || sure.support > clearer * found->support) {
-                    tracks[std::size_t(d)] = static_cast<int>(disc.track);
-                    others.push_back(sure);
-                    others.back().centre = tracked.lens.seen(sure.centre);
-                    last[disc.track] = sure.centre - container;
-                    continue;
-                }
-            }
             if (!found) continue;
             found->sure = true;
             others.push_back(*found);

@@ -273,6 +273,20 @@ TEST(Linking, NumberOfTracksIsLimitedToTheNumberOfDiscs) {
               scene.frames.front().size() + 2);
 }
 
+TEST(Linking, CirclesOnAHandAtTheBeginningBecomeNoTracks) {
+    // As many detections as discs, but discs 5 to 7 are elsewhere. Then the last one is hidden.
+    Scene scene(0.4, 40);
+    for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t d = 5; d < 8; ++d)
+            scene.frames[k][d].position = {370.0, 40.0 * double(d + k % 2)};
+    for (std::size_t k = 4; k < 7; ++k) scene.frames[k].pop_back();
+    const Links links = link_discs(scene.frames, scene.times, scene.path, scene.settings());
+    EXPECT_EQ(links.species.size(), scene.frames[39].size());
+    for (std::size_t k = 4; k < 7; ++k)
+        for (std::size_t d = 0; d < scene.frames[k].size(); ++d)
+            EXPECT_EQ(links.track[k][d], links.track[39][d]) << k << ", " << d;
+}
+
 TEST(Linking, TimesThatDoNotAscendAreRejected) {
     for (const double wrong : {19.0, 18.0, std::numeric_limits<double>::quiet_NaN(),
                                std::numeric_limits<double>::infinity()}) {
