@@ -67,6 +67,7 @@ KINDS = [
      "complete"),
     ("camera tilted by 8 degrees", [*ROUGH, "--length", 2, "--tilt", 8, "--tilt-towards", 250, "--quality", 14],
      "complete"),
+    ("three fast discs", ["--camera", "student", "--discs", 3, "--seed", 4, "--quality", 23, "--length", 2], "complete"),
     ("light from one side", [*ROUGH, "--length", 6, "--quality", 14, *LIGHT, "--gloss", 60], "complete"),
     ("contrast 1.3:1", [*ROUGH, "--length", 2.5, "--floor-level", 100, "--contrast", 1.3, "--rim-level", 110, "--gloss",
                         10, "--texture", 0.2, "--light-elevation", 45, "--noise", 3, "--quality", 29], "complete"),

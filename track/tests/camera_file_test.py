@@ -65,13 +65,10 @@ class CameraFile(InFolder):
     def test_missing_and_repeated_fields_are_rejected(self):
         for name in CAMERA:
             with self.subTest(name=name):
-                self.rejected({key: value for key, value in CAMERA.items() if key != name},
-                              f"{name} is missing")
+                self.rejected({key: value for key, value in CAMERA.items() if key != name}, f"{name} is missing")
                 text = json.dumps({"camera": CAMERA})
-                self.rejected(text.replace(f'"{name}"', f'"{name}": 1.0, "{name}"'),
-                              f"'{name}' appears twice")
-        self.rejected(json.dumps({"camera": CAMERA})[:-1] + ', "camera": {}}',
-                      "'camera' appears twice")
+                self.rejected(text.replace(f'"{name}"', f'"{name}": 1.0, "{name}"'), f"'{name}' appears twice")
+        self.rejected(json.dumps({"camera": CAMERA})[:-1] + ', "camera": {}}', "'camera' appears twice")
 
     def test_other_json_is_rejected(self):
         for text in ("", "{}", "[]", "null", '{"camera": []}', '{"camera": {', "{\"camera\": 1e999}"):
@@ -80,8 +77,7 @@ class CameraFile(InFolder):
 
     def test_a_table_with_a_column_twice_is_rejected(self):
         with open(self.path("tracks.csv"), "r+", encoding="utf-8") as table:
-            lines = [line.rstrip("\n") + (",x" if k == 0 else ",1.0") + "\n"
-                     for k, line in enumerate(table)]
+            lines = [line.rstrip("\n") + (",x" if k == 0 else ",1.0") + "\n" for k, line in enumerate(table)]
             table.seek(0)
             table.writelines(lines)
         done = self.measured(CAMERA)

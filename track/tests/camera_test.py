@@ -27,8 +27,7 @@ RING = (0x7F, 0xA6, 0xCC)     # colour of discs in the dark theme
 def write_png(path, rows, width):
     """Write a grey image; rows are bytes objects with one byte per pixel."""
     def chunk(kind, data):
-        return (struct.pack(">I", len(data)) + kind + data
-                + struct.pack(">I", zlib.crc32(kind + data)))
+        return (struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)))
     with open(path, "wb") as file:
         file.write(b"\x89PNG\r\n\x1a\n"
                    + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 0, 0, 0, 0))
@@ -186,8 +185,7 @@ class CameraTest(InFolder):
         made = []
         for images in ("seen/%04d.png", "seen.avi"):
             folder = self.path("made-" + images[-3:])
-            self.assert_good(self.call("movie", "--over", self.path(images), "--frame-files", folder,
-                                       over=False))
+            self.assert_good(self.call("movie", "--over", self.path(images), "--frame-files", folder, over=False))
             frames = []
             for name in sorted(os.listdir(folder)):
                 with open(os.path.join(folder, name), "rb") as file:
@@ -197,8 +195,7 @@ class CameraTest(InFolder):
         self.assertTrue(made[0] == made[1])
         subprocess.run(["ffmpeg", "-v", "error", "-i", self.path("seen.avi"), "-frames:v", "4",
                         "-c", "copy", self.path("short.avi")], check=True)
-        short = self.call("movie", "--over", self.path("short.avi"), "--out", self.path("x.mp4"),
-                          over=False)
+        short = self.call("movie", "--over", self.path("short.avi"), "--out", self.path("x.mp4"), over=False)
         self.assertEqual(short.returncode, 1)
         self.assertIn("there are no more images", short.stderr)
 
@@ -209,15 +206,13 @@ class CameraTest(InFolder):
         self.assert_good(self.call("image", "--start", 0.05, "--no-annotations", "--over",
                                    self.path("seen/%04d.jpg"), "--out", self.path("x.png"),
                                    over=False))
-        self.assertGreater(sum(red > 220 for _, _, red, _, _ in
-                               read_png(self.path("x.png"), SIDE)), 2000)
+        self.assertGreater(sum(red > 220 for _, _, red, _, _ in read_png(self.path("x.png"), SIDE)), 2000)
 
     def test_tracks_may_begin_and_end(self):
         self.record(14, lose=9)
         out = self.path("x.png")
         self.assert_good(self.call("image", "--trails", "--start", 0.3, "--out", out))
-        self.assert_good(self.call("movie", "--trails", "--color", "id", "--plot", "--out",
-                                   self.path("x.mp4")))
+        self.assert_good(self.call("movie", "--trails", "--color", "id", "--plot", "--out", self.path("x.mp4")))
         every = self.call("image", "--color", "pinned", "--start", 0.1, "--out", out)
         self.assert_usage_error(every, "the same discs in every frame")
         self.record(14)
@@ -237,8 +232,7 @@ class CameraTest(InFolder):
         wrong(self.call("image", "--start", 5, "--out", out), "5")
         wrong(swirl("image", "--over", "%d.png", "--out", out), "--over", "no FILE")
         wrong(swirl("image", self.path("tracks.csv"), "--out", out), "--omega")
-        wrong(swirl("image", self.path("tracks.csv"), "--omega", 1, "--out", out),
-              "--container-radius")
+        wrong(swirl("image", self.path("tracks.csv"), "--omega", 1, "--out", out), "--container-radius")
         missing = self.call("movie", "--over-first", 7, "--out", self.path("x.mp4"))
         self.assertEqual(missing.returncode, 1)
         self.assertIn("0007.png", missing.stderr)

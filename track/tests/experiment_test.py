@@ -71,8 +71,7 @@ class Experiment(InFolder):
         self.assertFalse(os.path.exists(os.path.join(out, "figure_4a.png")))
         for name in ("1b", "2_N16", "2_N22", "3a", "3b"):
             for kind in ("png", "pdf"):
-                self.assertGreater(os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")),
-                                   4000)
+                self.assertGreater(os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")), 4000)
         with open(os.path.join(out, "report.html"), encoding="utf-8") as file:
             page = file.read()
         self.assertNotRegex(page, r'(src|href)="(?!data:)')  # self-contained

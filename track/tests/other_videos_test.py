@@ -60,7 +60,8 @@ class OtherVideos(InFolder):
     # Edges give positions to 1/100 of a radius; patches of texture double the error.
     def test_bright_spheres_with_clutter(self):
         # What moves on the table, as the shadows of leaves do, is no motion of the camera: 1.6 pixels if it were.
-        camera, _ = self.check_tracks(0.3, clutter=50, sway=2.0, label=True, vignette=0.5, codec=("libx264", "-crf", "24"))
+        camera, _ = self.check_tracks(0.3, clutter=50, sway=2.0, label=True, vignette=0.5,
+                                      codec=("libx264", "-crf", "24"))
         self.assertIsNone(camera["camera_motion"]["source"])
 
     @slow("dark discs are in track_test.py too")
@@ -135,8 +136,7 @@ class OtherVideos(InFolder):
             with open(self.path("tracks.csv"), encoding="utf-8") as file:
                 off = []
                 for row in csv.DictReader(file):
-                    d = video.positions[int(row["frame"])] - numpy.array([float(row["x_seen"]),
-                                                                          float(row["y_seen"])])
+                    d = video.positions[int(row["frame"])] - numpy.array([float(row["x_seen"]), float(row["y_seen"])])
                     off.append(d[numpy.hypot(d[:, 0], d[:, 1]).argmin()])
             self.assertLess(math.sqrt(numpy.mean(numpy.square(off))), 0.3)
             if source == "background":
@@ -166,8 +166,7 @@ class OtherVideos(InFolder):
             off = []
             with open(self.path("tracks.csv"), encoding="utf-8") as file:
                 for row in csv.DictReader(file):
-                    d = numpy.array(true[int(row["frame"])]) - [float(row["x_seen"]),
-                                                                float(row["y_seen"])]
+                    d = numpy.array(true[int(row["frame"])]) - [float(row["x_seen"]), float(row["y_seen"])]
                     off.append(d[numpy.hypot(d[:, 0], d[:, 1]).argmin()])
             rms = math.sqrt(numpy.mean(numpy.square(off)))
             self.assertLess(rms, max_rms)

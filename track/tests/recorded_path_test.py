@@ -76,8 +76,7 @@ class RecordedPath(InFolder):
         self.assertIn(f"swirl run --path {self.path('path.csv')} --container-radius R", done.stdout)
         options = "--path", self.path("path.csv"), "--container-radius", 6.5
         ours, circle = self.rotation(*options), self.rotation("--path", "circle", "--container-radius", 6.5)
-        self.assertLess(abs(ours[0] - circle[0]),
-                        3 * math.hypot(ours[1], circle[1]) + 0.4 * 8.4 * radius_error)
+        self.assertLess(abs(ours[0] - circle[0]), 3 * math.hypot(ours[1], circle[1]) + 0.4 * 8.4 * radius_error)
         # The tracks of the same video have the same motion.
         both, done = self.record(self.path("shaker.mp4"), "--out", self.path("tracks.csv"), name="both.csv")
         self.assertIn("both.csv: motion of the container", done.stdout)

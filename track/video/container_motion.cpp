@@ -77,6 +77,7 @@ void fit_container_motion(const TrackingSettings& settings, bool uneven_times, D
     } else if (uneven_times) {
         reject_time_gaps(settings, rims, tracked);
     }
+    tracked.rims = rims;
     fit_path(rims, tracked);
     if (!uneven_times && check_frame_jumps(settings, rims, all, tracked)) {
         rims = rim_centres(all, tracked);

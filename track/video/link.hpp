@@ -11,9 +11,7 @@
 // minimal (assignment problem; Kuhn 1955, in the form of Jonker & Volgenant 1987), within a gate.
 // The number of tracks is limited to the number of discs. They start where exactly as many are
 // detected, and are followed from there to the end and to the beginning. A lost track resumes at a
-// detection that no other track explains.
-//
-// Pixels, y down.
+// detection that no other track explains. Pixels, y down.
 #pragma once
 
 #include <cstdint>

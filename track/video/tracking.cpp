@@ -56,21 +56,16 @@ namespace {
 template <typename Counts>
 std::size_t count_discs(const Detections& all, Counts&& counts) {
     constexpr std::size_t one_in = 7;
-    std::map<std::size_t, std::size_t, std::greater<>> frames_with;
-    std::size_t frames = 0;
-    for (const FrameDetections& found : all) {
-        if (!found.rim.good) continue;
-        ++frames;
-        ++frames_with[static_cast<std::size_t>(
-            std::count_if(found.particles.begin(), found.particles.end(),
-                          [&](const DetectedParticle& p) { return p.sure && counts(p.species); }))];
-    }
-    std::size_t so_far = 0;
-    for (const auto& [number, count] : frames_with) {
-        so_far += count;
-        if (so_far * one_in > frames) return number;
-    }
-    return 0;
+    std::vector<std::size_t> numbers;
+    for (const FrameDetections& found : all)
+        if (found.rim.good)
+            numbers.push_back(std::size_t(
+                std::count_if(found.particles.begin(), found.particles.end(),
+                              [&](const auto& p) { return p.sure && counts(p.species); })));
+    if (numbers.empty()) return 0;
+    const auto at = numbers.begin() + std::ptrdiff_t(numbers.size() / one_in);
+    std::nth_element(numbers.begin(), at, numbers.end(), std::greater<>());
+    return *at;
 }
 
 /// Numbers of the two species that are most common among frames with `total` sure discs.
@@ -165,7 +160,7 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     find_wall(survey, tracked);
     find_contacts(tracked);
     measure_quality(all, tracked);
-    reject_contradicted_discs(tracked, survey.floor != nullptr);
+    reject_contradicted_discs(tracked);
     set_radii(tracked);
     if (survey.floor && !tracked.mixed)
         tracked.warnings.emplace_back(
@@ -238,7 +233,7 @@ TrackedVideo detect_and_link(TrackingSettings settings) {
         std::string cause;
         if (!tracked.damage.empty())
             cause = fmt::format("; the video is damaged, ffmpeg reports: {}", tracked.damage);
-        else if (tracked.path.amplitude > 0.0 && share_outside(tracked) > complete_rim)
+        else if (share_outside(tracked) > complete_rim)
             cause = fmt::format("; {:.0f} % of the container's rim lies outside the frame",
                                 100.0 * share_outside(tracked));
         if (cause.empty()) throw;

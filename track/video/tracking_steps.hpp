@@ -130,12 +130,11 @@ void find_contacts(TrackedVideo& tracked);
 void measure_quality(const Detections& all, TrackedVideo& tracked);
 /// Sets the container's radius from the rim and the discs; corrects the radii of discs in contact.
 void set_radii(TrackedVideo& tracked);
-/// Share of the rim, averaged over a period, that lies outside the frame.
+/// Share of the rim outside the frame: the mean over a period, or over the frames without a path.
 double share_outside(const TrackedVideo& tracked);
 inline constexpr double complete_rim = 0.005;  // share outside that is no warning
-/// Throws UncertainDiscs if most frames contradict the discs that were found, or if discs at rest
-/// were removed with the pattern of the floor.
-void reject_contradicted_discs(const TrackedVideo& tracked, bool floor_is_learned);
+/// Throws UncertainDiscs if the frames contradict the discs that were found, or their number.
+void reject_contradicted_discs(const TrackedVideo& tracked);
 /// Adds warnings about what looks wrong, with the likely cause.
 void add_warnings(TrackedVideo& tracked);
 

@@ -13,20 +13,25 @@ namespace swirl::tracking {
 
 double share_outside(const TrackedVideo& tracked) {
     constexpr int steps = 36;  // steps of the period and of the rim: 10 degrees
-    int out = 0;
-    for (int a = 0; a < steps; ++a)
+    std::vector<Vec2> centres = tracked.rims.centres;
+    if (tracked.path.amplitude > 0.0) centres.resize(steps);
+    for (int a = 0; a < steps && tracked.path.amplitude > 0.0; ++a)
+        centres[std::size_t(a)] = tracked.path.centre - tracked.rim_shift +
+                                  tracked.path.amplitude * unit_circle(double(a) / steps);
+    double out = 0.0;
+    for (const Vec2& centre : centres)
         for (int b = 0; b < steps; ++b) {
             const Vec2 p =
-                tracked.lens.seen(tracked.path.centre - tracked.rim_shift +
-                                  tracked.path.amplitude * unit_circle(double(a) / steps) +
-                                  tracked.rim_radius * unit_circle(double(b) / steps));
+                tracked.lens.seen(centre + tracked.rim_radius * unit_circle(double(b) / steps));
             if (p.x < 0.0 || p.y < 0.0 || p.x > tracked.width - 1.0 || p.y > tracked.height - 1.0)
                 ++out;
         }
-    return double(out) / (steps * steps);
+    return out / std::max(1.0, double(steps * centres.size()));
 }
 
 namespace {
+
+constexpr double min_complete = 0.9, max_crowded = 0.05;  // share of the frames
 
 /// Successive frames in each of which many discs are missing.
 struct Occlusion {
@@ -147,8 +152,7 @@ void warn_about_wall(TrackedVideo& tracked) {
 }
 
 void warn_about_discs(double outside, TrackedVideo& tracked) {
-    constexpr std::size_t min_occlusion = 4;                  // frames
-    constexpr double min_complete = 0.9, max_crowded = 0.05;  // share of the frames
+    constexpr std::size_t min_occlusion = 4;  // frames
     const Occlusion occlusion = longest_occlusion(tracked);
     const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
     const bool hidden = occlusion.size() >= min_occlusion && outside <= complete_rim;
@@ -163,84 +167,66 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
         warn(tracked,
              "dark and bright discs are tracked together: light from one side shifts them in "
              "opposite directions, so discs of one brightness give more accurate positions");
-    if (tracked.complete_share < min_complete && !hidden)
+    const double crowded = double(tracked.crowded) / double(tracked.frame_count);
+    if ((tracked.complete_share < min_complete && !hidden) || crowded > max_crowded)
         warn(tracked,
-             "all {} discs are detected in only {:.1f} % of the frames: more even light, less "
-             "glare, a sharper image or a shorter exposure would help{}",
-             tracked.number, 100.0 * tracked.complete_share,
-             tracked.species.size() == 1 && !tracked.number_given ? "; --discs sets their number"
-                                                                  : "");
-    if (double(tracked.crowded) > max_crowded * double(tracked.frame_count))
-        warn(
-            tracked,
-            "in {:.0f} % of the frames there are more discs than the {} {}, on average {:.1f} more",
-            100.0 * double(tracked.crowded) / double(tracked.frame_count), tracked.number,
-            tracked.number_given ? "of --discs" : "that were counted (--discs sets their number)",
-            double(tracked.rejected) / double(tracked.crowded));
-}
-
-/// The largest number of discs that are detected in more than a seventh of the frames.
-std::size_t detected_at_once(const TrackedVideo& tracked) {
-    std::vector<double> numbers;
-    for (const auto& seen : tracked.seen)
-        numbers.push_back(double(std::count(seen.begin(), seen.end(), 1)));
-    return std::size_t(quantile(numbers, 6.0 / 7.0));
+             "all {} discs are detected in {:.1f} % of the frames, and {:.0f} % have more circles: "
+             "more even light, less glare, a sharper image or a shorter exposure would help",
+             tracked.number, 100.0 * tracked.complete_share, 100.0 * crowded);
 }
 
 /// Throws UncertainDiscs if the video contradicts the number that the user gave.
 void reject_contradicted_number(const TrackedVideo& tracked) {
-    constexpr double most = 0.5;         // share of the frames
-    constexpr double max_excess = 0.05;  // share of the discs: phantoms are rejected
-    const std::size_t found = detected_at_once(tracked), given = *tracked.number_given;
-    if (found < given)
+    constexpr double most = 0.5, few = 1.0 / 7.0;  // share of the frames
+    constexpr double max_excess = 0.05;            // share of the discs: phantoms are rejected
+    std::vector<double> numbers;
+    for (const auto& seen : tracked.seen)
+        numbers.push_back(double(std::count(seen.begin(), seen.end(), 1)));
+    const double given = double(*tracked.number_given), crowded = double(tracked.crowded),
+                 excess = double(tracked.rejected) / std::max(crowded, 1.0),
+                 found = quantile(numbers, 1.0 - few);
+    const bool fewer = found < given, more = crowded >= most * double(tracked.frame_count) &&
+                                             excess > std::max(1.0, max_excess * given);
+    if (fewer || more)
         throw UncertainDiscs(fmt::format(
-            "--discs is {}, but the video shows {}: hardly any frame has more.\n"
-            "hint: omit --discs, or give the number of discs in the container. Discs that are "
-            "hidden or blurred need a better view.",
-            given, found));
-    const double crowded = double(tracked.crowded), frames = double(tracked.frame_count);
-    if (crowded < most * frames) return;
-    const double excess = double(tracked.rejected) / crowded;
-    if (excess > std::max(1.0, max_excess * double(given)))
-        throw UncertainDiscs(
-            fmt::format("--discs is {}, but most frames show {:.0f} discs.\n"
-                        "hint: omit --discs, or give the number of discs in the container.",
-                        given, double(given) + excess));
+            "--discs is {}, but the video shows {:.0f}.\nhint: omit --discs, or give the number of "
+            "discs in the container. Discs that are hidden or blurred need a better view.",
+            given, fewer ? std::floor(found) : given + excess));
 }
 
-/// The floor is what most frames show. Where the container rests in most of them, so do its discs.
-void reject_discs_learned_as_floor(const TrackedVideo& tracked) {
+/// Throws UncertainDiscs if a third of the video shows no disc. A floor learned from all frames
+/// contains the discs that rest in most of them; a change of the light hides dark and bright discs.
+void reject_hidden_discs(const TrackedVideo& tracked) {
     constexpr double most = 1.0 / 3.0, all = 0.9;  // share of the frames, of the discs
     const Occlusion missing = longest_occlusion(tracked);
     if (double(missing.size()) < most * double(tracked.seen.size()) || missing.share < all) return;
     const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
-    throw UncertainDiscs(
-        fmt::format("in frames {} to {} no disc is visible against the floor, which was learned "
-                    "from all frames: discs that rest for long look like a part of it.\n"
-                    "hint: --from and --to limit the video to frames in which the container moves.",
-                    first + missing.begin, first + missing.end - 1));
+    throw UncertainDiscs(fmt::format(
+        "in frames {} to {} no disc is visible: they are covered, the light changes, or they rest "
+        "for so long that they look like the floor.\nhint: --from and --to limit the video to "
+        "frames in which the container moves.",
+        first + missing.begin, first + missing.end - 1));
 }
 
 }  // namespace
 
-void reject_contradicted_discs(const TrackedVideo& tracked, bool floor_is_learned) {
-    if (floor_is_learned) reject_discs_learned_as_floor(tracked);
+void reject_contradicted_discs(const TrackedVideo& tracked) {
+    reject_hidden_discs(tracked);
     if (tracked.number_given) return reject_contradicted_number(tracked);
-    constexpr double most = 0.5;         // share of the frames
-    constexpr double max_excess = 0.05;  // share of the discs
-    constexpr double max_incomplete = 0.3;
-    const double crowded = double(tracked.crowded), frames = double(tracked.frame_count);
-    if (crowded < most * frames || 1.0 - tracked.complete_share < max_incomplete) return;
-    const double excess = double(tracked.rejected) / crowded;
-    if (excess < max_excess * double(tracked.number)) return;
+    const double crowded = double(tracked.crowded), frames = double(tracked.frame_count),
+                 hidden = double(longest_occlusion(tracked).size());
+    // Discs outside the frame and under a hand are missing, but say nothing against the number.
+    if (tracked.complete_share + hidden / frames >= min_complete ||
+        share_outside(tracked) > complete_rim)
+        return;
     throw UncertainDiscs(fmt::format(
-        "{} discs with a radius of {:.1f} pixels were counted, but most frames contradict that: "
-        "{:.0f} % have more, on average {:.0f} more, and all {} are found in only {:.0f} %. These "
-        "circles may be texture or noise.\nhint: give --discs, or --disc-diameter and "
-        "--container-diameter. "
-        "A plain floor, a higher contrast and less compression also help.",
-        tracked.number, tracked.radius, std::min(100.0, 100.0 * crowded / frames), excess,
-        tracked.number, 100.0 * tracked.complete_share));
+        "{} discs with a radius of {:.1f} pixels were counted, but the frames contradict that: all "
+        "of them are found in only {:.0f} %, and {:.0f} % have more, on average {:.0f} more. Some "
+        "of these circles may be texture or noise.\nhint: count the discs, and give --discs; or "
+        "give --disc-diameter and --container-diameter. A plain floor, a higher contrast and less "
+        "compression also help.",
+        tracked.number, tracked.radius, 100.0 * tracked.complete_share, 100.0 * crowded / frames,
+        double(tracked.rejected) / std::max(crowded, 1.0)));
 }
 
 void add_warnings(TrackedVideo& tracked) {
