@@ -175,8 +175,7 @@ class Rotation(HandMadeTables):
     def test_drop_of_the_transient_is_reported(self):
         self.rotation("5b", "no-disc", [(30, 1.0), (40, 1.0), (48, 0.9)])
         self.rotation("5b-steady", "no-disc", [(40, 1.0), (48, 0.998)])
-        self.assertIn("after a long warm-up ϖ/Ω = 0.998 ± 0.010",
-                      rotation.no_disc_drop(self.study)[1])
+        self.assertIn("after a long warm-up ϖ/Ω = 0.998 ± 0.010", rotation.no_disc_drop(self.study)[1])
 
     def test_steady_runs_are_counted(self):
         def judged(*points):

@@ -50,8 +50,7 @@ class Figures(InFolder):
             self.assertLessEqual(columns, set(rows[0]), name)
             self.assertGreater(len(rows), 1)
             for kind in ("png", "pdf"):
-                self.assertGreater(os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")),
-                                   5000)
+                self.assertGreater(os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")), 5000)
 
 if __name__ == "__main__":
     unittest.main()

@@ -241,8 +241,7 @@ class Launcher(InFolder):
         self.stand_in("id", "echo 1000\n")
         done = self.call_with_stand_ins()
         self.assertEqual(done.returncode, 1)
-        self.assertIn("sudo apt-get install --no-install-recommends swirl-no-such-package\n",
-                      done.stderr)
+        self.assertIn("sudo apt-get install --no-install-recommends swirl-no-such-package\n", done.stderr)
 
     def test_as_root_it_can_be_forbidden_to_install(self):
         self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
@@ -250,8 +249,7 @@ class Launcher(InFolder):
         self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\nexit 1\n')
         done = self.call_with_stand_ins(SWIRL_INSTALL="no")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("\n    apt-get install --no-install-recommends swirl-no-such-package\n",
-                      done.stderr)
+        self.assertIn("\n    apt-get install --no-install-recommends swirl-no-such-package\n", done.stderr)
         self.assertFalse(os.path.exists(self.path("asked")))
         done = self.call_with_stand_ins()
         self.assertEqual(done.returncode, 1)

@@ -100,8 +100,7 @@ class MovieTest(InFolder):
             result = swirl("--discs", "12", "--seconds", "0.1", "--fps", "20", "--start", "1",
                            "--size", size, "--theme", theme, "--out", out, *more)
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertEqual(probe(out, "stream=width,height,nb_read_frames"),
-                             size.replace("x", ",") + ",2")
+            self.assertEqual(probe(out, "stream=width,height,nb_read_frames"), size.replace("x", ",") + ",2")
 
     def test_animation_of_the_readme_is_made_by_the_documented_command(self):
         call, = [words[1:] for words in commands_in_the_documents()

@@ -82,8 +82,7 @@ class Figure5b(InFolder):
             self.assertNotIn("figure_5b.csv", os.listdir(self.path("cut")))
         printed = self.make("cut", **on_one_core).stdout
         self.assertIn("from an earlier call", printed)
-        self.assertEqual(self.bytes_of("whole", "figure_5b.csv"),
-                         self.bytes_of("cut", "figure_5b.csv"))
+        self.assertEqual(self.bytes_of("whole", "figure_5b.csv"), self.bytes_of("cut", "figure_5b.csv"))
 
     def test_script_alone_draws_the_same_bytes(self):
         self.whole()
@@ -91,8 +90,7 @@ class Figure5b(InFolder):
         subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "paper", "draw.py"),
                         self.path("figure_5b.csv")], check=True, timeout=150)
         for kind in ("png", "pdf"):
-            self.assertEqual(self.bytes_of("whole", f"figure_5b.{kind}"),
-                             self.bytes_of(f"figure_5b.{kind}"))
+            self.assertEqual(self.bytes_of("whole", f"figure_5b.{kind}"), self.bytes_of(f"figure_5b.{kind}"))
 
     def test_folder_that_cannot_be_created(self):
         open(self.path("file"), "w").close()

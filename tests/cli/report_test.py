@@ -157,8 +157,7 @@ class Figures(HandMadeTables):
         names = [name for name, *_ in catalogue.entries()]
         self.assertGreater(len(names), 50)
         for name in names:
-            self.assertTrue(captions.caption_of({"name": name}) or captions.question_of({"name": name}),
-                            name)
+            self.assertTrue(captions.caption_of({"name": name}) or captions.question_of({"name": name}), name)
 
     def test_findings_are_not_repeated(self):
         a = self.figure("3a", ["Residences begin at 194°.", "Steady state not verified: 1 of 2 runs."])

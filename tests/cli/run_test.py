@@ -108,8 +108,7 @@ class Report(ProgramTest):
         self.assertNotIn("ϖ/Ω", done.stdout)
         result = result_of("--events", 300, "--measure", "slip")
         for estimator in result["rotation"].values():
-            self.assertEqual((estimator["mean"], estimator["error"], estimator["blocks"]),
-                             (None, None, 0))
+            self.assertEqual((estimator["mean"], estimator["error"], estimator["blocks"]), (None, None, 0))
         self.assertIsNone(result["measured"]["slip"]["cluster"]["mean"])
         self.assertIn("averages are over whole periods", " ".join(result["warnings"]))
 
@@ -124,8 +123,7 @@ class Report(ProgramTest):
     def test_the_report_has_four_lines_and_more_with_verbose(self):
         call = ("run", "--discs", 48, "--events", 20000)
         short, full = swirl(*call).stdout.splitlines(), swirl(*call, "--verbose").stdout.splitlines()
-        self.assertEqual([line.split()[0] for line in short],
-                         ["48", "average", "steady", "repeat"])
+        self.assertEqual([line.split()[0] for line in short], ["48", "average", "steady", "repeat"])
         self.assertEqual([line.split()[0] for line in full if line not in short],
                          ["by", "by", "errors", "events", "periods", "energy", "overlap", "time"])
 

@@ -106,8 +106,7 @@ class Sweep(InFolder):
         least = max(abs(means[0] - means[1]) / 2, (errors[0]**2 + errors[1]**2)**0.5 / 2)
         self.assertGreaterEqual(float(rows[2][column + 1]), least)
         self.assertLess(float(rows[2][column + 1]), 2 * least)
-        self.assertIn(rows[2][rows[0].index("steady_state")],
-                      ("steady", "drifting", "too short to tell"))
+        self.assertIn(rows[2][rows[0].index("steady_state")], ("steady", "drifting", "too short to tell"))
         float(rows[2][rows[0].index("scatter")])
         self.assertEqual(sorted(os.listdir(self.path("a/trajectories"))),
                          [f"{point:06}.h5" for point in range(4)])
@@ -319,8 +318,7 @@ class Sweep(InFolder):
             self.assertAlmostEqual(value, 37.0 if "rigid" in name else 38.0, delta=2.0, msg=name)
         self.assert_works("sweep", "--mu", "0.5,1", "--events", 3000, "--discs", 5, "--out", self.path("b"), "--quiet")
         os.remove(self.path("N_c.csv"))
-        self.assertEqual(swirl("collect", self.path("b"), "--crossings", "-", "--csv", "-").returncode,
-                         2)
+        self.assertEqual(swirl("collect", self.path("b"), "--crossings", "-", "--csv", "-").returncode, 2)
 
     def at_once(self, calls):
         """Exit codes and errors of calls that start at the same time."""

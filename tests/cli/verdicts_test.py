@@ -236,8 +236,7 @@ class FalseDecisions(unittest.TestCase):
         # decide 2.4 % with 8 seeds and 9 % with 3.
         for counts in ((8, 16, 32), (3, 6, 12)):
             for between in (0, 2, 20):
-                self.assertLessEqual(share_decided(between, counts, 4000, source), 0.01,
-                                     (counts, between))
+                self.assertLessEqual(share_decided(between, counts, 4000, source), 0.01, (counts, between))
 
 
 if __name__ == "__main__":

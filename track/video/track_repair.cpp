@@ -29,9 +29,8 @@ void drop_overlapping(const Detections& all, const std::vector<double>& radii, d
     }
 }
 
-/// Removes positions of a single frame far from the mean of those before and after. A disc that is
-/// hit twice in between can do that, at up to about twice the container's speed or that of the
-/// fastest discs; only a sure detection is believed at such distances.
+/// Removes positions of a single frame far from the mean of those before and after. At distances
+/// that a disc reaches which is hit twice in between, only a sure detection is believed.
 void drop_outliers(const Detections& all, const TrackedVideo& tracked, Links& links) {
     constexpr double min_radii = 0.2;                   // errors of positions stay below it
     constexpr double max_sure = 2.4, max_unsure = 1.2;  // steps of the container

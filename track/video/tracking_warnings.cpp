@@ -194,8 +194,7 @@ void reject_contradicted_number(const TrackedVideo& tracked) {
             given, fewer ? std::floor(found) : given + excess));
 }
 
-/// Throws UncertainDiscs if a third of the video shows no disc. A floor learned from all frames
-/// contains the discs that rest in most of them; a change of the light hides dark and bright discs.
+/// Throws UncertainDiscs if a third of the video shows no disc. Resting discs look like the floor.
 void reject_hidden_discs(const TrackedVideo& tracked) {
     constexpr double most = 1.0 / 3.0, all = 0.9;  // share of the frames, of the discs
     const Occlusion missing = longest_occlusion(tracked);
@@ -215,7 +214,7 @@ void reject_contradicted_discs(const TrackedVideo& tracked) {
     if (tracked.number_given) return reject_contradicted_number(tracked);
     const double crowded = double(tracked.crowded), frames = double(tracked.frame_count),
                  hidden = double(longest_occlusion(tracked).size());
-    // Discs outside the frame and under a hand are missing, but say nothing against the number.
+    // Discs outside the frame or under a hand contradict no number.
     if (tracked.complete_share + hidden / frames >= min_complete ||
         share_outside(tracked) > complete_rim)
         return;

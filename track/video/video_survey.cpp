@@ -212,7 +212,7 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
             "hint: a higher contrast and less compression help.");
 }
 
-/// The typical distance of the rim from its path, pixels.
+/// The typical distance of the rim from its path, pixels. Removing a mere shadow increases it.
 double off_path(const std::vector<PreparedFrame>& frames, const ContainerRim& path) {
     std::vector<double> off{0.0};
     for (const PreparedFrame& frame : frames)
@@ -222,7 +222,6 @@ double off_path(const std::vector<PreparedFrame>& frames, const ContainerRim& pa
 }
 
 /// If the background shows that the camera moves, stabilises the images and surveys the rim again.
-/// A shadow that moves does not; without it, the rim is nearer to its path.
 void remove_camera_motion(const TrackingSettings& settings, double reduction,
                           std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
                           VideoSurvey& survey) {

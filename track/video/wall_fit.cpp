@@ -143,14 +143,14 @@ std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::s
     return WallFit{radius * model.value, radius * radius * *variance};
 }
 
-/// What the appearance of discs implies about their shift, as a covariance: a shift along the
-/// gradient of the brightness, which grows steeply until the shaded edge is as dark as the floor.
-/// Shifts are 0.16 and 0.006 radii at gradients of 0.92 and 0.45. A template without edges does not
-/// define a centre, so its shift has any direction.
+/// The covariance of the shift by what discs look like: along the gradient of the brightness, it
+/// grows steeply until the shaded edge is as dark as the floor (0.16 and 0.006 radii at gradients
+/// of 0.92 and 0.45; no larger one is known). A template defines no centre: any direction.
 cv::Matx22d expected_shift(const VideoSurvey& survey) {
-    constexpr double unknown_shift = 0.1, steepness = 0.2;  // radii: rms of a coordinate
+    constexpr double unknown_shift = 0.1, steepness = 0.2, largest = 0.16;  // radii
     if (survey.appearance.shading) return unknown_shift * unknown_shift * cv::Matx22d::eye();
-    const Vec2 along = steepness * std::pow(length(survey.shading), 3.0) * survey.shading;
+    Vec2 along = steepness * std::pow(length(survey.shading), 3.0) * survey.shading;
+    if (length(along) > largest) along = (largest / length(along)) * along;
     return cv::Vec2d(along.x, along.y) * cv::Vec2d(along.x, along.y).t();
 }
 
@@ -158,8 +158,7 @@ cv::Matx22d expected_shift(const VideoSurvey& survey) {
 Vec2 remove_shading_shift(const VideoSurvey& survey, const std::optional<WallFit>& found,
                           TrackedVideo& tracked) {
     cv::Matx22d left = tracked.radius * tracked.radius * expected_shift(survey);
-    cv::Vec2d displaced(0.0, 0.0), shift = displaced;
-    if (found) displaced = {found->value[1], found->value[2]};
+    cv::Vec2d shift, displaced = found ? cv::Vec2d(found->value[1], found->value[2]) : shift;
     // A tilted rim is displaced, too. Dark and bright discs are shifted in opposite directions.
     if (found && !tracked.lens.tilted() && !tracked.mixed) {
         const cv::Matx22d sum = left + found->covariance.get_minor<2, 2>(1, 1);
