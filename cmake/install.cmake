@@ -43,8 +43,10 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
   PATTERN conf.py EXCLUDE PATTERN site.css EXCLUDE)
 if(SKBUILD)
-  # Component of the Python wheel: the module and the program with its figure scripts.
-  install(TARGETS swirl_python LIBRARY DESTINATION swirl COMPONENT wheel)
+  # Component of the Python wheel: the module, the program with its figure scripts, and the library of both.
+  set_target_properties(swirl_python PROPERTIES INSTALL_RPATH $ORIGIN)
+  set_target_properties(swirl PROPERTIES INSTALL_RPATH $ORIGIN/../..)
+  install(TARGETS swirl_python swirl_shared LIBRARY DESTINATION swirl COMPONENT wheel)
   install(TARGETS swirl RUNTIME DESTINATION swirl/_program/bin COMPONENT wheel)
   install(DIRECTORY paper DESTINATION swirl/_program/share/swirl COMPONENT wheel
           FILES_MATCHING PATTERN *.py PATTERN *.j2)

@@ -9,8 +9,12 @@ add_compile_options(
 # The Python module is a shared object made of the same libraries. Hidden functions are called directly,
 # as in a program, so these flags do not slow the event loop down (docs/tutorials/python.md).
 if(SWIRL_PROGRAM)
-  add_compile_options(-fPIC
-    "$<$<COMPILE_LANGUAGE:CXX>:-fvisibility=hidden;-fvisibility-inlines-hidden>")
+  set(visibility -fvisibility=hidden)
+  if(SKBUILD)
+    # A wheel has these libraries once, in a shared object of the program and the module.
+    set(visibility -fno-semantic-interposition)
+  endif()
+  add_compile_options(-fPIC "$<$<COMPILE_LANGUAGE:CXX>:${visibility};-fvisibility-inlines-hidden>")
 endif()
 if(SWIRL_WERROR)
   add_compile_options(-Werror)

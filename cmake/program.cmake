@@ -90,6 +90,21 @@ if(SWIRL_CAMERA)
   target_include_directories(swirl_track_video SYSTEM PUBLIC ${opencv_include})
 endif()
 
+# The module and the program of a wheel share one copy of the layers that both need. It is the first library that
+# they are linked with, so the static ones add nothing. HDF5 is not exported: another module may contain another one.
+set(shared_layers)
+if(SKBUILD)
+  set(shared_layers swirl_shared)
+  set(layers engine statistics measure io run study track_tables)
+  list(TRANSFORM layers REPLACE "(.+)" "$<TARGET_OBJECTS:swirl_\\1>" OUTPUT_VARIABLE objects)
+  add_library(swirl_shared SHARED ${objects})
+  target_link_libraries(swirl_shared PRIVATE swirl_study swirl_track_tables)
+  set(exported_symbols ${PROJECT_SOURCE_DIR}/packaging/wheels/exported_symbols)
+  target_link_options(swirl_shared PRIVATE -Wl,--exclude-libs,ALL -Wl,-Bsymbolic -Wl,--gc-sections
+    -Wl,--version-script=${exported_symbols})
+  set_target_properties(swirl_shared PROPERTIES OUTPUT_NAME swirl LINK_DEPENDS ${exported_symbols})
+endif()
+
 # Every result contains the version (version.inc), the compiler and its flags.
 add_dependencies(swirl_run swirl_version_stamp)
 target_include_directories(swirl_run PRIVATE ${PROJECT_BINARY_DIR}/generated)
@@ -120,7 +135,7 @@ swirl_commands(drawing SWIRL_DRAWING swirl_track_synthetic
   "appearance_options|source_options|command_(image|movie|synthetic_video)")
 swirl_commands(experiment SWIRL_EXPERIMENT swirl_track_experiment "command_experiment")
 add_executable(swirl ${app_sources})
-target_link_libraries(swirl PRIVATE swirl_track_tables swirl_study_commands swirl_drawing_commands
+target_link_libraries(swirl PRIVATE ${shared_layers} swirl_track_tables swirl_study_commands swirl_drawing_commands
   swirl_experiment_commands CLI11::CLI11)
 if(SWIRL_CAMERA)
   foreach(target swirl swirl_experiment_commands)

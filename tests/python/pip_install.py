@@ -129,8 +129,11 @@ def test_repaired_wheel_runs_where_its_libraries_are_missing(environment, librar
     (repaired,) = tmp_path.glob("swirl-*manylinux*.whl")
     with zipfile.ZipFile(repaired) as archive:
         names = archive.namelist()
-    bundled = {re.sub(r"-[0-9a-f]{8}\.so.*", "", os.path.basename(name)) for name in names if ".libs/" in name}
-    # Libraries of drawing, of the fonts in drawings, and of texts. HDF5 is part of the module and the program.
+        large = [name for name in names if name.startswith("swirl/") and archive.getinfo(name).compress_size > 1.2e6]
+    bundled = {re.sub(r"-[0-9a-f]{8}\.so.*", "", os.path.basename(name)) for name in names if ".libs/lib" in name}
+    # The module and the program share one copy of everything that both need.
+    assert large == ["swirl/libswirl.so"] and repaired.stat().st_size <= 8e6
+    # Libraries of drawing, of the fonts in drawings, and of texts. HDF5 is part of the shared library.
     assert "libcairo" in bundled
     assert bundled <= {"libcairo", "libpixman-1", "libfreetype", "libfontconfig", "libexpat", "libpng16", "libfmt",
                        "libtomlplusplus", "libbrotlicommon", "libbrotlidec", "libbz2", "libuuid"}
