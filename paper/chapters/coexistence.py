@@ -31,7 +31,7 @@ ELONGATED, ROUND = 1.25, 1.15  # the elongation above, below which a window is c
 DISHES = {24.0: ((0.2, 0.209, 0.2137), 0.19, 1), 28.0: ((0.2, 0.2055), 0.19, 1),
           34.4: ((0.206, 0.209, 0.211, 0.2137, 0.217), 0.19, 1), 48.0: ((0.1425, 0.145, 0.2, 0.238, 0.24), 0.1, 1),
           60.0: ((0.1425, 0.145, 0.2, 0.265, 0.27), 0.1, 0.25)}
-BISTABLE = 0.2137  # where both states last long at R/r = 34.4
+BISTABLE, EQUAL = 0.2137, 0.211  # A/R where both states last long, and about equally long, at R/r = 34.4
 # R/r and A/R of axes: of the rotating wave, one that turns with the swirl, one that stands still, and one in between.
 AXES = ((34.4, BISTABLE), (24.0, 0.33), (48.0, 0.145), (48.0, 0.2))
 
@@ -161,7 +161,7 @@ def draw(table):
             bounds = [row for row in here if not row[f"exits_{name}"] and row[f"periods_{name}"]]
             left.plot(style.column(bounds, "amplitude_ratio"), style.column(bounds, f"lifetime_{name}"), "^",
                       color=look["color"], markerfacecolor=filled)
-        ratio = min(style.distinct(here, "amplitude_ratio"), key=lambda value: abs(value - BISTABLE))
+        ratio = min(style.distinct(here, "amplitude_ratio"), key=lambda value: abs(value - EQUAL))
         found = style.select(histogram, container_radius=radius, amplitude_ratio=ratio)
         total = sum(style.column(found, "windows")) * RATE_STEP
         right.step(style.column(found, "rotation"), [row["windows"] / total for row in found], where="mid",
@@ -170,7 +170,7 @@ def draw(table):
     left.locator_params(axis="x", nbins=5)
     right.set(xlabel=r"rotation $\varpi/\Omega$ in five periods", ylabel="probability density")
     for axes in (left, right):
-        style.legend(axes, ncol=1)
+        style.legend(axes, ncol=2)
     style.save(drawing, table)
 
 
