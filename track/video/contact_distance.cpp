@@ -22,6 +22,7 @@ constexpr std::size_t bins = 80;
 struct Histogram {
     double from = 0.0, width = 1.0;
     std::array<double, bins> number{};
+    double outliers = 0.0;  // share of wrong positions in each bin
     double middle(std::size_t k) const { return from + width * (double(k) + 0.5); }
 };
 
@@ -32,9 +33,6 @@ struct Spread {
 
 /// Log likelihood of a histogram, up to a constant.
 double log_likelihood(const Histogram& seen, const Spread& spread) {
-    // Share of wrong positions in each bin. Without it, a few distances far below the contact
-    // decide the error of all others.
-    constexpr double outliers = 3e-4;
     std::array<double, bins> near{};
     double sum = 0.0, beyond = 0.0;
     for (std::size_t k = 0; k < bins; ++k) {
@@ -46,7 +44,7 @@ double log_likelihood(const Histogram& seen, const Spread& spread) {
     for (std::size_t k = 0; k < bins; ++k) {
         const double far = double(k) + 0.5 > spread.contact ? 1.0 / std::max(beyond, 1.0) : 0.0;
         const double share = spread.share * near[k] / std::max(sum, 1e-300);
-        log_of_all += seen.number[k] * std::log(share + (1.0 - spread.share) * far + outliers);
+        log_of_all += seen.number[k] * std::log(share + (1.0 - spread.share) * far + seen.outliers);
     }
     return log_of_all;
 }
@@ -65,11 +63,9 @@ Spread most_likely(const Histogram& seen, Spread spread) {
 }  // namespace
 
 std::optional<Contact> contact_of(const std::vector<double>& distances, double nearest,
-                                  double farthest) {
+                                  double farthest, double outliers) {
     constexpr std::size_t minimum = 400;
-    Histogram seen;
-    seen.from = nearest;
-    seen.width = (farthest - nearest) / double(bins);
+    Histogram seen{nearest, (farthest - nearest) / double(bins), {}, outliers};
     std::size_t used = 0;
     for (const double d : distances) {
         if (!(d >= nearest && d < farthest)) continue;
@@ -77,8 +73,7 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
         ++used;
     }
     if (used < minimum) return std::nullopt;
-    // The search starts on the rise: in a dilute crowd the most frequent distance may be anywhere
-    // beyond.
+    // The search starts on the rise: in a dilute crowd the most frequent distance is beyond.
     const double half = 0.5 * *std::max_element(seen.number.begin(), seen.number.end());
     const auto rise = std::find_if(seen.number.begin(), seen.number.end(),
                                    [&](double number) { return number >= half; });
@@ -91,17 +86,18 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
                    log_likelihood(seen, spread) / double(used)};
 }
 
-std::optional<Contact> contact_of_discs(const std::vector<double>& ratios, double at_wall) {
+std::optional<Contact> contact_of_discs(const std::vector<double>& ratios, double at_wall,
+                                        double outliers) {
     constexpr double range = 0.1, soft_range = 0.2;  // range from 1
     constexpr double max_soft_off = 0.15;            // more is no contact of soft edges
-    if (const auto found = contact_of(ratios, 1.0 - range, 1.0 + range);
+    if (const auto found = contact_of(ratios, 1.0 - range, 1.0 + range, outliers);
         found && std::abs(found->at - 1.0) < max_contact_off)
         return found;
-    const auto soft = contact_of(ratios, 1.0 - soft_range, 1.0 + soft_range);
+    const auto soft = contact_of(ratios, 1.0 - soft_range, 1.0 + soft_range, outliers);
     if (soft && std::abs(soft->at - 1.0) < max_soft_off) return soft;
     // The edge of a transparent ball is within the ball. Discs that never touch have no sharp onset.
     constexpr double max_error = 0.04;
-    const auto inside = contact_of(ratios, 1.0 - soft_range, 1.0 + contact_range);
+    const auto inside = contact_of(ratios, 1.0 - soft_range, 1.0 + contact_range, outliers);
     if (!inside || inside->at < 1.0 + max_contact_off ||
         (inside->error > max_error && std::abs(inside->at - at_wall) > max_error))
         return std::nullopt;

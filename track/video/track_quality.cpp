@@ -149,7 +149,8 @@ void find_contacts(TrackedVideo& tracked) {
                     distances.push_back(ratio);
             }
     }
-    const auto found = contact_of_discs(distances, tracked.contact_at_wall / tracked.spacing);
+    // Without outliers, a few distances far below the contact decide the error of all others.
+    const auto found = contact_of_discs(distances, tracked.contact_at_wall / tracked.spacing, 3e-4);
     if (!found) return;
     tracked.contact_ratio = found->at * tracked.spacing;
     tracked.contact_fitted = true;

@@ -31,7 +31,7 @@ double share_outside(const TrackedVideo& tracked) {
 
 namespace {
 
-constexpr double min_complete = 0.9, max_crowded = 0.05;  // share of the frames
+constexpr double min_complete = 0.9, min_folded = 0.7, max_crowded = 0.05;  // share of the frames
 
 /// Successive frames in each of which many discs are missing.
 struct Occlusion {
@@ -214,9 +214,9 @@ void reject_contradicted_discs(const TrackedVideo& tracked) {
     if (tracked.number_given) return reject_contradicted_number(tracked);
     const double crowded = double(tracked.crowded), frames = double(tracked.frame_count),
                  hidden = double(longest_occlusion(tracked).size());
-    // Discs outside the frame or under a hand contradict no number.
-    if (tracked.complete_share + hidden / frames >= min_complete ||
-        share_outside(tracked) > complete_rim)
+    // Discs outside the frame or under a hand contradict no number; a folded floor hides some.
+    const double least = tracked.mixed ? min_folded : min_complete;
+    if (tracked.complete_share + hidden / frames >= least || share_outside(tracked) > complete_rim)
         return;
     throw UncertainDiscs(fmt::format(
         "{} discs with a radius of {:.1f} pixels were counted, but the frames contradict that: all "

@@ -157,7 +157,11 @@ cv::Matx22d expected_shift(const VideoSurvey& survey) {
 /// Removes the shift by light from all positions. Returns what is left of the wall's displacement.
 Vec2 remove_shading_shift(const VideoSurvey& survey, const std::optional<WallFit>& found,
                           TrackedVideo& tracked) {
-    cv::Matx22d left = tracked.radius * tracked.radius * expected_shift(survey);
+    // The gradients of dark and bright discs cancel: what is left in videos of both, lit and unlit.
+    constexpr double mixed_shift = 0.03;  // radii
+    cv::Matx22d left =
+        tracked.radius * tracked.radius *
+        (tracked.mixed ? mixed_shift * mixed_shift * cv::Matx22d::eye() : expected_shift(survey));
     cv::Vec2d shift, displaced = found ? cv::Vec2d(found->value[1], found->value[2]) : shift;
     // A tilted rim is displaced, too. Dark and bright discs are shifted in opposite directions.
     if (found && !tracked.lens.tilted() && !tracked.mixed) {
@@ -192,11 +196,9 @@ void find_wall(const VideoSurvey& survey, TrackedVideo& tracked) {
             const double distance = length(d), size = f.radius[i] / tracked.radius;
             if (!tracked.seen[k][i] || !(distance > 0.0)) continue;
             const Vec2 n = (1.0 / distance) * d;
+            const double nearer = tracked.lens.tilted() ? -dot(out, n) : 0.0;
             rows.push_back(
-                {{1.0, size * n.x, size * n.y, tracked.lens.tilted() ? -dot(out, n) : 0.0},
-                 distance + f.radius[i],
-                 k,
-                 f.id[i]});
+                {{1.0, size * n.x, size * n.y, nearer}, distance + f.radius[i], k, f.id[i]});
         }
     }
     const auto found = fit_wall(std::move(rows), tracked.spacing * tracked.radius, tracked.number);
@@ -205,7 +207,7 @@ void find_wall(const VideoSurvey& survey, TrackedVideo& tracked) {
     tracked.contact_at_wall = 1.0 + (tracked.rim_radius - found->value[0]) / tracked.radius;
     const double error = std::sqrt(std::max(found->covariance(1, 1), found->covariance(2, 2))),
                  least = tracked.lens.tilted() ? 0.0 : least_shift * tracked.radius;
-    if (length(residual) < std::max(stands_out * error, least)) return;
+    if (tracked.mixed || length(residual) < std::max(stands_out * error, least)) return;
     tracked.rim_shift = residual;
     tracked.path.centre = tracked.path.centre + residual;
     tracked.path.centre_error = std::hypot(tracked.path.centre_error, error);
