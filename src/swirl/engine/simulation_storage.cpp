@@ -10,7 +10,7 @@
 namespace swirl {
 namespace {
 
-const EventLoops& event_loops_of(Width width) {
+const EventLoops& event_loops_of([[maybe_unused]] Width width) {
 #if defined(SWIRL_HAS_AVX512)
     if (width == Width::avx512) return event_loops_avx512;
 #endif
