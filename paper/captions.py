@@ -179,8 +179,8 @@ CAPTIONS = {
         "at A/R = 0.22 and μ = 1. Right: the sign of the rotation at each point (the area of a disc grows with |ϖ|), and "
         "the packing fractions at which the direction changes.",
     "critical": "Slope, fluctuations (the variance of the rotation multiplied by N and by its correlation time τ) and "
-        "correlation time at each change of direction against the size of the container, with power laws (dashed) if "
-        "there are three sizes, and laws with a limit (solid) if there are four and they bend. On logarithmic axes, bars are the errors of the logarithm.",
+        "correlation time at each change of direction against the size of the container, with power laws (dashed, "
+        "from three sizes on) and laws with a limit (solid, if it is certain). Bars are the errors of the logarithm.",
     "hysteresis": "Rotation during a ramp of a parameter up (full) and down (open), each as a mean over an eighth of the "
         "ramp, for two ramp rates.",
     "lifetimes": "Mean lifetimes of the states at two points: time spent in the state divided by the number of exits.",

@@ -32,7 +32,7 @@ DISHES = {24.0: ((0.2, 0.209, 0.2137), 0.19, 1), 28.0: ((0.2, 0.2055), 0.19, 1),
           34.4: ((0.206, 0.209, 0.211, 0.2137, 0.217), 0.19, 1), 48.0: ((0.1425, 0.145, 0.2, 0.238, 0.24), 0.1, 1),
           60.0: ((0.1425, 0.145, 0.2, 0.265, 0.27), 0.1, 0.25)}
 BISTABLE, EQUAL = 0.2137, 0.211  # A/R where both states last long, and about equally long, at R/r = 34.4
-# R/r and A/R of axes: of the rotating wave, one that turns with the swirl, one that stands still, and one in between.
+# R/r and A/R at which the axis is followed. It turns as a wave, with the swirl, hardly, and irregularly.
 AXES = ((34.4, BISTABLE), (24.0, 0.33), (48.0, 0.145), (48.0, 0.2))
 
 

@@ -147,7 +147,7 @@ KINDS = {"free": "free", "wall": "at the wall", "elongated": "elongated", "back"
 
 
 def against_size(axes, changes, scaling, quantity, label):
-    """One curve for each transition, with its power law."""
+    """One curve for each transition, with its laws."""
     groups = sorted({(row["amplitude_ratio"], row["kind"]) for row in changes})
     for k, (amplitude, kind) in enumerate(groups):
         here = tables.select(changes, amplitude_ratio=amplitude, kind=kind)

@@ -28,6 +28,7 @@ struct Contact {
     double log_likelihood = 0.0;  // mean per distance
 };
 /// Uses distances between `nearest` and `farthest`; none if they do not determine the contact.
+/// `outliers`: the share of wrong distances in each bin of their histogram.
 std::optional<Contact> contact_of(const std::vector<double>& distances, double nearest,
                                   double farthest, double outliers = 1e-9);
 

@@ -145,10 +145,12 @@ std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::s
 
 /// The covariance of the shift by what discs look like: along the gradient of the brightness, it
 /// grows steeply until the shaded edge is as dark as the floor (0.16 and 0.006 radii at gradients
-/// of 0.92 and 0.45; no larger one is known). A template defines no centre: any direction.
-cv::Matx22d expected_shift(const VideoSurvey& survey) {
-    constexpr double unknown_shift = 0.1, steepness = 0.2, largest = 0.16;  // radii
-    if (survey.appearance.shading) return unknown_shift * unknown_shift * cv::Matx22d::eye();
+/// of 0.92 and 0.45; no larger one is known). The direction is unknown for a template, which defines
+/// no centre, and for discs of both brightnesses, whose shifts are opposite.
+cv::Matx22d expected_shift(const VideoSurvey& survey, bool mixed) {
+    constexpr double steepness = 0.2, largest = 0.16;  // radii
+    const double any = mixed ? 0.03 : 0.1;             // radii: rms of a coordinate
+    if (mixed || survey.appearance.shading) return any * any * cv::Matx22d::eye();
     Vec2 along = steepness * std::pow(length(survey.shading), 3.0) * survey.shading;
     if (length(along) > largest) along = (largest / length(along)) * along;
     return cv::Vec2d(along.x, along.y) * cv::Vec2d(along.x, along.y).t();
@@ -157,11 +159,7 @@ cv::Matx22d expected_shift(const VideoSurvey& survey) {
 /// Removes the shift by light from all positions. Returns what is left of the wall's displacement.
 Vec2 remove_shading_shift(const VideoSurvey& survey, const std::optional<WallFit>& found,
                           TrackedVideo& tracked) {
-    // The gradients of dark and bright discs cancel: what is left in videos of both, lit and unlit.
-    constexpr double mixed_shift = 0.03;  // radii
-    cv::Matx22d left =
-        tracked.radius * tracked.radius *
-        (tracked.mixed ? mixed_shift * mixed_shift * cv::Matx22d::eye() : expected_shift(survey));
+    cv::Matx22d left = tracked.radius * tracked.radius * expected_shift(survey, tracked.mixed);
     cv::Vec2d shift, displaced = found ? cv::Vec2d(found->value[1], found->value[2]) : shift;
     // A tilted rim is displaced, too. Dark and bright discs are shifted in opposite directions.
     if (found && !tracked.lens.tilted() && !tracked.mixed) {
