@@ -94,28 +94,15 @@ changed_since() {
     (cd "$home" && find "$@" "$git_folder/logs/HEAD" "$git_folder/HEAD" $libraries -cnewer "$stamp" 2>/dev/null)
 }
 
-# A lock is a symbolic link that names the process which has it: a link is created in one step or not at
-# all. is_locked works for a process of another user, too, and on Linux without ps.
-is_locked() {
-    owner=$(readlink "$1") && { kill -0 "$owner" || [ -d "/proc/$owner" ] || ps -p "$owner"; }
-} >/dev/null 2>&1
-
-# Waits for the lock $1 and takes it. Removes a lock whose process has ended, and an ordinary file with
-# this name, because it names no process.
-take_lock() {
-    failed=0
-    until ln -s $$ "$1" 2>/dev/null; do
-        if is_locked "$1"; then
-            sleep 1
-        elif { [ -n "$owner" ] || [ -f "$1" ]; } && mv "$1" "$1.$$" 2>/dev/null; then
-            # Another process may have replaced the lock in between.
-            if [ "$(readlink "$1.$$")" = "$owner" ]; then rm -f "$1.$$"; else mv "$1.$$" "$1"; fi
-        else
-            failed=$((failed + 1))
-            [ $failed -lt 100 ] || give_up "cannot create the lock '$1'."
-        fi
-    done
+# Waits until no other process holds the folder $1, and holds it until unlock or the end of this shell. With
+# `only_try` it fails instead of waiting. The kernel frees the folder of a killed process. Perl is part of
+# Debian and macOS; without it, two first calls at once are not protected from each other.
+lock() {
+    exec 9<"$1"
+    ! command -v perl >/dev/null || perl -MFcntl=:flock -e \
+        'open FOLDER, "<&=9" and flock FOLDER, @ARGV ? LOCK_EX | LOCK_NB : LOCK_EX or exit 1' -- ${2-}
 }
+unlock() { exec 9<&-; }
 
 # Renames a file or folder. Never moves it into an existing folder.
 rename() { ! [ -d "$2" ] && mv -f "$1" "$2"; }
@@ -165,11 +152,11 @@ build() {
     folder=$home/build/$1
     mkdir -p "$folder" 2>/dev/null || give_up "cannot write to $home/build, where the program is built."
     require_writable "$folder"
-    take_lock "$home/build/.building"
+    lock "$home/build"
     # Another process may have built it while this one waited.
     built=yes
     is_built "$1" "${3-}" "${4-}" || (build_now "$@") || built=no
-    rm -f "$home/build/.building"
+    unlock
     [ $built = yes ] || exit 1
 }
 build_now() {
@@ -184,7 +171,7 @@ build_now() {
     touch "$stamp.building"
     log=$folder/build.log
     : >"$log"
-    report_progress "$log" &
+    report_progress "$log" 9<&- &
     reporter=$!
     # A build made elsewhere cannot be continued in a tree that was moved, so it begins from scratch.
     (cd "$home" && { cmake --preset "$1" $settings || cmake --preset "$1" --fresh $settings; } &&

@@ -100,16 +100,9 @@ is_page_built() {
 }
 build_page() {
     mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to the build folder $home/build."
-    # A page that is up to date may belong to another user, so the lock is taken only for a build.
-    lock=$home/build/.lab.lock
-    while is_locked "$lock"; do sleep 1; done
-    ! is_page_built || return 0
+    lock "$home/build"
+    ! is_page_built || return 0 # by another process, or another user
     [ -w "$home/build" ] || give_up "cannot write to the build folder $home/build."
-    take_lock "$lock"
-    trap 'rm -f "$lock"' EXIT
-    trap 'exit 130' INT
-    trap 'exit 143' HUP TERM
-    ! is_page_built || return 0 # by another process
     require_writable "$home/build/lab.log" "$home/build/lab" "$home/build/wasm" "$home/web/generated"
     install_packages lab || exit 1
     command -v npm >/dev/null || install_packages npm || exit 1
@@ -129,8 +122,7 @@ build_page() {
     fi
 }
 build_page
-rm -f "${lock:-}"
-trap - EXIT INT HUP TERM
+unlock
 
 query=
 if [ -n "$given" ]; then

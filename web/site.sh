@@ -61,13 +61,12 @@ if [ -e "$out" ] && ! [ -e "$out/.swirl-site" ] && [ -n "$(ls -A "$out" 2>/dev/n
     usage_error "--out is '$out', which is neither empty nor a site." "choose another name."
 fi
 
-# The site is built in a temporary folder next to it, which is locked meanwhile. After a kill that folder
-# remains without a lock. If the kill came between the two renames at the end, the old site is in it and
+# The site is built in a temporary folder next to it, which is held meanwhile. After a kill that folder
+# remains, and nobody holds it. If the kill came between the two renames at the end, the old site is in it and
 # is moved back.
 out=${out%"${out##*[!/]}"} # without trailing slashes
-lock=lock.$(uname -n) # a process number is valid on its machine only
 for left in "$out".partial.??????; do
-    [ -h "$left/$lock" ] && ! is_locked "$left/$lock" || continue
+    [ -d "$left/notebooks" ] && (lock "$left" only_try) || continue
     [ -e "$out" ] || ! [ -e "$left/before" ] || rename "$left/before" "$out"
     rm -rf "$left"
 done
@@ -76,7 +75,7 @@ mkdir -p "$(dirname "$out")" 2>/dev/null &&
 trap 'rm -rf "$temporary"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' HUP TERM
-ln -s $$ "$temporary/$lock"
+lock "$temporary"
 site=$temporary/site
 source=$temporary/source
 log=$temporary/log

@@ -5,6 +5,7 @@ import os
 import shutil
 import signal
 import subprocess
+import time
 import unittest
 
 from program import SOURCE, InFolder, read_text, write_text
@@ -381,18 +382,25 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
             self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
             self.assertEqual("building" in done.stderr, builds)
 
-    def test_the_lock_of_a_killed_call_is_removed(self):
-        ended = subprocess.Popen(["true"])
-        ended.wait()
-        os.makedirs(self.path("build"))
-        os.symlink(str(ended.pid), self.path("build/.building"))
-        self.assertEqual(self.word(), "first")
-        self.assertFalse(os.path.lexists(self.path("build/.building")))
-
-    def test_a_file_in_place_of_the_lock_is_removed(self):
-        self.write("build/.building", "from another version\n")
-        self.assertEqual(self.word(), "first")
-        self.assertEqual([name for name in os.listdir(self.path("build")) if name.startswith(".building")], [])
+    def test_a_call_waits_for_the_build_of_a_killed_call(self):
+        self.write("wait.sh", "echo . >>begun\nuntil [ -e end ]; do sleep 0.05; done\n")
+        self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT waited.txt VERBATIM
+  COMMAND sh ${PROJECT_SOURCE_DIR}/wait.sh COMMAND ${CMAKE_COMMAND} -E touch waited.txt)
+add_custom_target(waits ALL DEPENDS waited.txt)
+""")
+        killed = subprocess.Popen([self.path("swirl")], stderr=subprocess.DEVNULL)
+        begun = self.path("build/release/begun")
+        while killed.poll() is None and not os.path.exists(begun):
+            time.sleep(0.05)
+        killed.kill()
+        killed.wait()
+        second = subprocess.Popen([self.path("swirl")], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        with self.assertRaises(subprocess.TimeoutExpired):
+            second.wait(1)
+        self.write("build/release/end", "")
+        self.assertEqual(second.communicate(timeout=100)[0].split()[0], "first")
+        with open(begun) as file:
+            self.assertEqual(len(file.readlines()), 1)
 
     def test_packages_of_a_subcommand_are_installed_once(self):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")

@@ -13,7 +13,7 @@ SCRIPTS = ("swirl", "check", "cmake/launcher.sh", "web/lab.sh", "web/site.sh", "
            "bench/run")
 # Commands and options that only GNU or Linux has, and their replacements.
 NOT_PORTABLE = {
-    r"\bflock\b": "take_lock of cmake/launcher.sh",
+    r"(?<!:)\bflock\b(?! FOLDER,)": "lock of cmake/launcher.sh, which calls that of perl",
     r"\bnproc\b": "getconf _NPROCESSORS_ONLN",
     r"\bmktemp\b[^|;&]*--": "a template that ends with X",
     r"\bmv -T\b|\bcp -T\b|\bln -T\b": "rename of cmake/launcher.sh",
