@@ -18,7 +18,7 @@ void write_frames(TrajectoryWriter& writer, std::uint64_t from, std::uint64_t to
 }
 
 template <class Action>
-std::string rejection(Action&& action) {
+std::string rejection_of(Action&& action) {
     try {
         action();
     } catch (const FileError& error) {
@@ -37,10 +37,10 @@ TEST(Recording, FinishedFileOfAnotherRunIsNeitherContinuedNorChanged) {
         b.finish();
     }
     const std::string before = read_whole_file(path);
-    EXPECT_NE(rejection([&] { TrajectoryWriter::resume(path, 10, "a"); }).find("by another run"),
+    EXPECT_NE(rejection_of([&] { TrajectoryWriter::resume(path, 10, "a"); }).find("by another run"),
               std::string::npos);
     EXPECT_EQ(read_whole_file(path), before);
-    EXPECT_EQ(rejection([&] { TrajectoryWriter::resume(path, 10, "b").finish(); }), "");
+    EXPECT_EQ(rejection_of([&] { TrajectoryWriter::resume(path, 10, "b").finish(); }), "");
     EXPECT_EQ(TrajectoryReader(path).frames(), 10u);
 }
 
@@ -52,13 +52,13 @@ TEST(Recording, UnfinishedFileOfAnotherRunIsNotOverwritten) {
         write_frames(a, 0, 20);
         a.flush();
     }
-    EXPECT_NE(rejection([&] { reject_foreign_recording(path, "b"); }).find("--overwrite"),
+    EXPECT_NE(rejection_of([&] { reject_foreign_recording(path, "b"); }).find("--overwrite"),
               std::string::npos);
-    EXPECT_EQ(rejection([&] { reject_foreign_recording(path, "a"); }), "");
-    EXPECT_EQ(rejection([&] { reject_foreign_recording(scratch / "absent.h5", "b"); }), "");
+    EXPECT_EQ(rejection_of([&] { reject_foreign_recording(path, "a"); }), "");
+    EXPECT_EQ(rejection_of([&] { reject_foreign_recording(scratch / "absent.h5", "b"); }), "");
     // An empty file was left by a run that was killed before its first commit.
     write_quickly(scratch / "new.h5.partial", "");
-    EXPECT_EQ(rejection([&] { reject_foreign_recording(scratch / "new.h5", "b"); }), "");
+    EXPECT_EQ(rejection_of([&] { reject_foreign_recording(scratch / "new.h5", "b"); }), "");
 }
 
 TEST(Recording, EventLogOfAnotherRunIsRejected) {
@@ -69,8 +69,8 @@ TEST(Recording, EventLogOfAnotherRunIsRejected) {
         for (int k = 0; k < 100; ++k) log.write(simulation.step());
         log.flush();
     }
-    EXPECT_NE(rejection([&] { EventLogWriter::resume(scratch / "e.h5", 50, "b"); }), "");
-    EXPECT_EQ(rejection([&] { EventLogWriter::resume(scratch / "e.h5", 50, "a"); }), "");
+    EXPECT_NE(rejection_of([&] { EventLogWriter::resume(scratch / "e.h5", 50, "b"); }), "");
+    EXPECT_EQ(rejection_of([&] { EventLogWriter::resume(scratch / "e.h5", 50, "a"); }), "");
 }
 
 /// A trajectory of 5 discs, with dataset `name` replaced by a list of `count` numbers.
@@ -95,7 +95,7 @@ TEST(Recording, ColumnsOfDifferentLengthAreRejected) {
                 with_column_of(scratch, std::string("particles/trajectory/") + name, count);
             if (!std::filesystem::exists(hostile)) GTEST_SKIP() << "h5py is not installed.";
             EXPECT_NE(
-                rejection([&] { TrajectoryReader reader(hostile); }).find("columns differ in"),
+                rejection_of([&] { TrajectoryReader reader(hostile); }).find("columns differ in"),
                 std::string::npos)
                 << name << " " << count;
         }
@@ -109,7 +109,7 @@ TEST(Recording, ColumnLargerThanTheFileIsRejectedBeforeAllocation) {
         file.finish(scratch / "f");
     }
     const Hdf5File file(scratch / "f", JournaledFile::Mode::read);
-    EXPECT_NE(rejection([&] { file.column("/long").read<double>(); }).find("is damaged"),
+    EXPECT_NE(rejection_of([&] { file.column("/long").read<double>(); }).find("is damaged"),
               std::string::npos);
 }
 
@@ -119,9 +119,10 @@ TEST(Recording, LinksAndPipesWithThePartialNameAreRejected) {
     std::filesystem::create_symlink(scratch / "precious", scratch / "t.h5.partial");
     ASSERT_EQ(::mkfifo((scratch / "pipe.h5.partial").c_str(), 0600), 0);
     for (const char* name : {"t.h5", "pipe.h5"})
-        EXPECT_NE(rejection([&] { TrajectoryWriter(scratch / name, known_frame(5, 0), {}); }), "");
+        EXPECT_NE(rejection_of([&] { TrajectoryWriter(scratch / name, known_frame(5, 0), {}); }),
+                  "");
     EXPECT_EQ(read_whole_file(scratch / "precious"), "precious");
-    EXPECT_NE(rejection([&] { read_regular_file(scratch / "pipe.h5.partial"); }).find("regular"),
+    EXPECT_NE(rejection_of([&] { read_regular_file(scratch / "pipe.h5.partial"); }).find("regular"),
               std::string::npos);
 }
 

@@ -51,7 +51,6 @@ TEST(AngularProfile, ResolvesTheWallAboutAnOffCentreClusterAtRest) {
     profile.close_block();
     EXPECT_NEAR(profile.plain(0).mean, 0.0, 1e-12);
     // θ = 0: p = (R, 0), d = (R, h), d·p = R², so −R²/(R² + h²).
-    const double R = paper_container_radius;
     EXPECT_NEAR(profile.wall(0).mean, -R * R / (R * R + h * h), 1e-9);
     EXPECT_NEAR(profile.theta(0), pi / 4.0, 1e-15);
     EXPECT_TRUE(std::isnan(profile.plain(1).mean));
@@ -84,14 +83,13 @@ TEST(AngularProfile, UsesTheVelocityOfTheCentreOfMass) {
     AngularProfile profile(2);
     profile.sample(discs_at({{{3.0, 1e-9}, {0.5, 0.2}}, {{-2.0, -1e-9}, {0.5, 0.2}}}));
     profile.close_block();
-    const double omega = 2.0 * pi / paper_period, R = paper_container_radius;
     for (const std::size_t k : {0u, 1u}) {
         const double sign = k == 0 ? 1.0 : -1.0;
         EXPECT_NEAR(profile.plain(k).mean, -1.0, 1e-12);
         // The positions are 10⁻⁹ off the axis.
-        EXPECT_NEAR(profile.wall(k).mean, -sign * 0.2 / (R - sign * 0.5) / omega - 1.0, 1e-8);
+        EXPECT_NEAR(profile.wall(k).mean, -sign * 0.2 / (R - sign * 0.5) / Omega - 1.0, 1e-8);
         EXPECT_NEAR(profile.distance(k).mean, 2.5, 1e-8);
-        EXPECT_NEAR(profile.speed(k).mean, 2.5 * omega, 1e-8);
+        EXPECT_NEAR(profile.speed(k).mean, 2.5 * Omega, 1e-8);
     }
 }
 

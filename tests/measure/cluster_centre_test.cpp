@@ -44,11 +44,10 @@ TEST(ClusterCentre, ElongationIsTheRatioOfTheAxes) {
 
 TEST(ClusterCentre, ForcesAtMAndOnADiscThatMovesWithTheWall) {
     Snapshot s = resting_at({{0.0, -7.6}});
-    const double omega = 2.0 * pi / s.period;
     ClusterCentre at_M(1);
     at_M.sample(s);
     at_M.close_block();
-    EXPECT_NEAR(row_of(at_M, "centrifugal").mean, omega * omega * (7.6 + paper_amplitude), 1e-9);
+    EXPECT_NEAR(row_of(at_M, "centrifugal").mean, Omega * Omega * (7.6 + paper_amplitude), 1e-9);
     EXPECT_NEAR(row_of(at_M, "coriolis").mean, 0.0, 1e-9);
     // A disc at rest relative to the container: in the M-frame it rotates with the wall, at −Ω
     // about C.
@@ -57,7 +56,7 @@ TEST(ClusterCentre, ForcesAtMAndOnADiscThatMovesWithTheWall) {
     ClusterCentre with_wall(1);
     with_wall.sample(dragged);
     with_wall.close_block();
-    EXPECT_NEAR(row_of(with_wall, "coriolis").mean, 2.0 * omega * omega * 5.0, 1e-9);
+    EXPECT_NEAR(row_of(with_wall, "coriolis").mean, 2.0 * Omega * Omega * 5.0, 1e-9);
 }
 
 TEST(ClusterCentre, UsesEveryEighthSample) {

@@ -9,8 +9,6 @@
 namespace swirl {
 namespace {
 
-const double omega = 2.0 * pi / paper_period;
-
 /// N discs that rotate rigidly at `rate` about a moving point.
 Snapshot rigid_cluster(std::size_t n, double rate, std::uint64_t seed) {
     Snapshot s = random_discs(n, seed);
@@ -49,10 +47,10 @@ const Event collision{0, 0.0, EventKind::disc_disc, 0, 1, {1.0, 0.0}, {}, 0.0};
 
 TEST(ClusterRotation, RigidRotationGivesItsRate) {
     for (const std::size_t n : {2u, 3u, 7u, 8u, 9u, 28u, 48u, 55u}) {
-        const RotationSample sample = cluster_rotation(rigid_cluster(n, omega, n));
+        const RotationSample sample = cluster_rotation(rigid_cluster(n, Omega, n));
         // Rounding of positions of size 10 at distances of order 0.1 from the centre of mass.
-        EXPECT_NEAR(sample.individual, omega, 1e-13) << n;
-        EXPECT_NEAR(sample.rigid, omega, 1e-14) << n;
+        EXPECT_NEAR(sample.individual, Omega, 1e-13) << n;
+        EXPECT_NEAR(sample.rigid, Omega, 1e-14) << n;
     }
 }
 
@@ -327,9 +325,9 @@ TEST(ClusterRotation, IsNaNForANaNState) {
 TEST(ClusterRotation, MeansByEventAndByTimeAreSeparateAndInUnitsOfOmega) {
     ClusterRotation rotation;
     for (int block = 0; block < 4; ++block) {
-        rotation.sample(rigid_cluster(9, omega, 1), anything);
-        rotation.sample(rigid_cluster(9, 3.0 * omega, 2), anything);
-        rotation.sample_by_time(rigid_cluster(9, -0.5 * omega, 3));
+        rotation.sample(rigid_cluster(9, Omega, 1), anything);
+        rotation.sample(rigid_cluster(9, 3.0 * Omega, 2), anything);
+        rotation.sample_by_time(rigid_cluster(9, -0.5 * Omega, 3));
         rotation.close_block();
     }
     const RotationEstimates e = rotation.estimates();
@@ -351,9 +349,9 @@ TEST(ClusterRotation, HasNoMeanWithoutSamples) {
 
 TEST(ClusterRotation, OpenBlockDoesNotCount) {
     ClusterRotation rotation;
-    rotation.sample(rigid_cluster(9, omega, 1), anything);
+    rotation.sample(rigid_cluster(9, Omega, 1), anything);
     rotation.close_block();
-    rotation.sample(rigid_cluster(9, 5.0 * omega, 1), anything);
+    rotation.sample(rigid_cluster(9, 5.0 * Omega, 1), anything);
     EXPECT_NEAR(rotation.estimates().mean_by_event.mean, 1.0, 1e-12);
 }
 

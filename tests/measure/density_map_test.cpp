@@ -9,8 +9,6 @@
 namespace swirl {
 namespace {
 
-constexpr double R = paper_container_radius;
-
 TEST(DensityMap, UniformPointsGiveAFlatMap) {
     DensityMap map(R, 10);
     // A lattice of points, 5 × 5 in every cell, sampled at many phases of the period.

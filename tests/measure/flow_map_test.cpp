@@ -9,8 +9,6 @@
 namespace swirl {
 namespace {
 
-constexpr double R = paper_container_radius;
-
 TEST(FlowMap, DiscsCarriedByTheContainerHaveNoFlow) {
     FlowMap map(R);
     for (int k = 0; k < 6; ++k) {

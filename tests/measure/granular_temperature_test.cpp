@@ -9,8 +9,6 @@
 namespace swirl {
 namespace {
 
-constexpr double R = paper_container_radius;
-
 /// Discs on the cells' centres that move with the rigid flow plus ±(a, b).
 Snapshot jiggling(const SquareGrid& grid, double u, double sign, double mass = 2.0) {
     Snapshot s = empty_container(u);

@@ -7,17 +7,16 @@
 #include <vector>
 
 #include "measure/snapshots.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/measure/wall_residence.hpp"
 
 namespace swirl {
 namespace {
 
-constexpr int samples = 511;  // samples per period
-
 /// One disc, in the wall's layer or inside, at the k-th sample.
 MFrameView at_sample(int k, bool at_wall, std::size_t discs = 1) {
-    Snapshot s = empty_container(double(k % samples) / samples);
-    s.periods = k / samples;
+    Snapshot s = empty_container(double(k % samples_per_period) / samples_per_period);
+    s.periods = k / samples_per_period;
     for (std::size_t i = 0; i < discs; ++i)
         add_disc(s, s.container_centre + (at_wall ? 7.5 : 5.0) * unit_circle(0.3 * double(i)), {});
     return MFrameView(s);

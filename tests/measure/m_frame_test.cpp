@@ -10,8 +10,6 @@
 namespace swirl {
 namespace {
 
-const double omega = 2.0 * pi / paper_period;
-
 TEST(TurnsOf, IsTheInverseOfTheUnitCircle) {
     for (int k = 0; k < 4096; ++k) {
         const double u = k / 4096.0;
@@ -68,7 +66,7 @@ TEST(MFrame, ADiscCarriedByTheContainerMovesLikeItsWall) {
     const Vec2 p = f.position(s.position(0)), v = f.velocity(s.position(0), s.velocity(0));
     EXPECT_NEAR(v.x, f.wall_velocity(p).x, 1e-15);
     EXPECT_NEAR(v.y, f.wall_velocity(p).y, 1e-15);
-    EXPECT_NEAR(cross(p, v), -omega * 25.0, 1e-13);  // clockwise
+    EXPECT_NEAR(cross(p, v), -Omega * 25.0, 1e-13);  // clockwise
 }
 
 TEST(MFrame, DiscAtRestInItKeepsItsPosition) {
@@ -96,8 +94,8 @@ TEST(MFrame, RotationIsThatInTheLabMinusOmega) {
         s.container_velocity = {noise(), noise()};  // any path
         const RotationSample lab = cluster_rotation(s);
         const RotationSample there = cluster_rotation(seen_from(m_frame(s), s));
-        EXPECT_NEAR(there.individual, lab.individual - omega, 1e-12);
-        EXPECT_NEAR(there.rigid, lab.rigid - omega, 1e-14);
+        EXPECT_NEAR(there.individual, lab.individual - Omega, 1e-12);
+        EXPECT_NEAR(there.rigid, lab.rigid - Omega, 1e-14);
     }
 }
 

@@ -9,8 +9,6 @@
 namespace swirl {
 namespace {
 
-constexpr double R = paper_container_radius;
-
 // The mean distance of two points in a circle of radius 1 is 128/(45π): ∫ (1 − F) ds.
 TEST(PairCorrelation, DistancesInACircleHaveTheirMean) {
     double mean = 0.0;

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int frames = 511;
 constexpr double degree = pi / 180.0;
-const double omega = 2.0 * pi / paper_period;
 
 /// The container at frame `k`, with discs at path(k) in the M-frame.
 template <class Path>

@@ -14,10 +14,11 @@ namespace {
 /// Five discs that rotate rigidly with the angular velocity `rate`, in units of Ω.
 Snapshot rotating(double rate) {
     Snapshot s = empty_container(0.3);
-    const double omega = rate * 2.0 * pi / s.period;
+    const double angular_velocity = rate * 2.0 * pi / s.period;
     for (int k = 0; k < 5; ++k) {
         const Vec2 r = (1.0 + 0.5 * k) * unit_circle(0.2 * k + 0.01);
-        add_disc(s, s.container_centre + r, s.container_velocity + omega * perpendicular(r));
+        add_disc(s, s.container_centre + r,
+                 s.container_velocity + angular_velocity * perpendicular(r));
     }
     return s;
 }

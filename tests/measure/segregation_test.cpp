@@ -59,17 +59,11 @@ TEST(LargeClass, IsAboveTheMedian) {
     EXPECT_EQ(large_class({}), Flags{});
 }
 
-/// A triangular lattice of `rings` rings about C. Radii are nearly equal, so that all inner discs
-/// have six neighbours.
-Snapshot lattice(int rings) {
-    Snapshot s = empty_container(0.15);
-    s.container_radius = 2.0 * rings + 2.0;
-    for (int a = -rings; a <= rings; ++a)
-        for (int b = -rings; b <= rings; ++b) {
-            if (a + b < -rings || a + b > rings) continue;
-            add_disc(s, s.container_centre + Vec2{2.0 * a + b, std::sqrt(3.0) * b}, {0.0, 0.0}, 0.0,
-                     1.0 - 1e-9);
-        }
+/// Radii are nearly equal, so that all inner discs have six neighbours.
+Snapshot small_discs(int rings) {
+    Snapshot s = triangular_lattice(rings);
+    s.container_radius += 1.0;
+    for (double& radius : s.radius) radius = 1.0 - 1e-9;
     return s;
 }
 template <class IsLarge>
@@ -90,7 +84,7 @@ Segregation measured(const Snapshot& s) {
 double mean_of(const Segregation& s, const char* row) { return row_of(s, row).mean; }
 
 TEST(Segregation, OfARandomMixtureIsZero) {
-    const Snapshot s = lattice(5);
+    const Snapshot s = small_discs(5);
     Random random(4);
     double radial = 0.0, neighbours = 0.0, squares = 0.0;
     constexpr int trials = 400;
@@ -109,7 +103,7 @@ TEST(Segregation, OfARandomMixtureIsZero) {
 }
 
 TEST(Segregation, OfLargeDiscsOutsideIsOne) {
-    const Snapshot s = lattice(6);
+    const Snapshot s = small_discs(6);
     const Segregation outside =
         measured(with_large(s, [](const Vec2& p, std::size_t) { return dot(p, p) > 5.5 * 5.5; }));
     EXPECT_EQ(mean_of(outside, "radial"), 1.0);
@@ -126,7 +120,7 @@ TEST(Segregation, OfHalfDiscsIsSeenAmongNeighboursOnly) {
     double last = 0.0;
     for (const int rings : {4, 8, 16}) {
         const Segregation halves = measured(with_large(
-            lattice(rings), [](const Vec2& p, std::size_t) { return p.y + 0.1 * p.x > 0.2; }));
+            small_discs(rings), [](const Vec2& p, std::size_t) { return p.y + 0.1 * p.x > 0.2; }));
         EXPECT_NEAR(mean_of(halves, "radial"), 0.0, 0.1) << rings;
         const double S = mean_of(halves, "neighbours");
         EXPECT_GT(S, last);  // 1 is the limit as the interface becomes a smaller part
@@ -136,7 +130,7 @@ TEST(Segregation, OfHalfDiscsIsSeenAmongNeighboursOnly) {
 }
 
 TEST(Segregation, OfAlternatingRowsIsNegative) {
-    const Segregation rows = measured(with_large(lattice(8), [](const Vec2& p, std::size_t) {
+    const Segregation rows = measured(with_large(small_discs(8), [](const Vec2& p, std::size_t) {
         return static_cast<int>(std::lround(p.y / std::sqrt(3.0))) % 2 != 0;
     }));
     // Of six neighbours four are unlike, of two random ones one in two: S = 1 − (2/3)/(1/2).
@@ -144,13 +138,13 @@ TEST(Segregation, OfAlternatingRowsIsNegative) {
 }
 
 TEST(Segregation, OfEqualDiscsIsNotAvailable) {
-    const Segregation equal = measured(lattice(3));
+    const Segregation equal = measured(small_discs(3));
     for (const char* row : {"radial", "neighbours", "small_distance", "large_distance"})
         EXPECT_TRUE(std::isnan(mean_of(equal, row))) << row;
 }
 
 TEST(Segregation, UsesMassesIfRadiiAreEqual) {
-    Snapshot s = lattice(6);
+    Snapshot s = small_discs(6);
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Vec2 p = s.position(i) - s.container_centre;
         s.mass[i] = dot(p, p) > 5.5 * 5.5 ? 2.0 : 1.0;

@@ -10,9 +10,6 @@
 namespace swirl {
 namespace {
 
-const double omega = 2.0 * pi / paper_period;
-constexpr double R = paper_container_radius;
-
 /// A full rim of discs along the wall that follows the wall with the fraction `grip` of its speed.
 Snapshot rim(double u, double grip, int discs = 23) {
     Snapshot s = empty_container(u);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -13,6 +14,9 @@
 #include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
+
+inline constexpr double R = paper_container_radius;
+inline const double Omega = 2.0 * pi / paper_period;
 
 /// A row of the report of a measurement.
 template <class Measurement>
@@ -44,9 +48,8 @@ class Noise {
 inline Snapshot empty_container(double u = 0.0) {
     Snapshot s;
     s.period = paper_period;
-    const double omega = 2.0 * pi / s.period;
     s.container_centre = paper_amplitude * unit_circle(u);
-    s.container_velocity = omega * perpendicular(s.container_centre);
+    s.container_velocity = Omega * perpendicular(s.container_centre);
     s.container_radius = paper_container_radius;
     s.clock = u * s.period;
     return s;
@@ -80,6 +83,18 @@ inline Snapshot random_discs(std::size_t n, std::uint64_t seed, double u = 0.0) 
         if (dot(p, p) > 7.6 * 7.6) continue;
         add_disc(s, s.container_centre + p, {noise(), noise()}, noise());
     }
+    return s;
+}
+
+/// A triangular lattice of touching discs, `rings` rings about C.
+inline Snapshot triangular_lattice(int rings) {
+    Snapshot s = empty_container(0.15);
+    s.container_radius = 2.0 * rings + 1.0;
+    for (int a = -rings; a <= rings; ++a)
+        for (int b = -rings; b <= rings; ++b) {
+            if (a + b < -rings || a + b > rings) continue;
+            add_disc(s, s.container_centre + Vec2{2.0 * a + b, std::sqrt(3.0) * b}, {0.0, 0.0});
+        }
     return s;
 }
 

@@ -10,8 +10,6 @@
 namespace swirl {
 namespace {
 
-const double omega = 2.0 * pi / paper_period;
-
 /// A square lattice whose discs spin like gears.
 Snapshot gears(double sign = -1.0) {
     Snapshot s = empty_container(0.2);
@@ -83,9 +81,9 @@ TEST(SpinFrustration, IsZeroForIndependentSpins) {
 
 TEST(SpinFrustration, WallSpinIsOfTheDiscsAtTheWallAndOfThePinnedOnes) {
     Snapshot s = empty_container(0.7);
-    add_disc(s, s.container_centre + 7.6 * unit_circle(0.1), {0.0, 0.0}, -2.0 * omega);
+    add_disc(s, s.container_centre + 7.6 * unit_circle(0.1), {0.0, 0.0}, -2.0 * Omega);
     add_disc(s, s.container_centre + 7.55 * unit_circle(0.4), {0.0, 0.0}, 0.0);
-    add_disc(s, s.container_centre + Vec2{1.0, 0.0}, {0.0, 0.0}, 9.0 * omega);
+    add_disc(s, s.container_centre + Vec2{1.0, 0.0}, {0.0, 0.0}, 9.0 * Omega);
     const std::vector<std::uint8_t> pinned{0, 1, 1};
     SpinFrustration frustration(0.1, 1);
     frustration.sample(s, pinned);
@@ -183,10 +181,10 @@ Snapshot along_the_wall(int k) {
         add_disc(s, f.lab_position(p), f.lab_velocity(p, {}), spin);
     };
     const double step = 2.0 * std::asin(2.02 / (2.0 * 7.55));  // two centres 2.02 apart
-    add(7.55, 0.0, 0.5 * omega);
-    add(7.55, step, -0.5 * omega);
-    add(7.55, 2.0 * step, 0.5 * omega);
-    add(5.53, 2.0 * step, 0.5 * omega);
+    add(7.55, 0.0, 0.5 * Omega);
+    add(7.55, step, -0.5 * Omega);
+    add(7.55, 2.0 * step, 0.5 * Omega);
+    add(5.53, 2.0 * step, 0.5 * Omega);
     return s;
 }
 

@@ -9,8 +9,6 @@
 namespace swirl {
 namespace {
 
-constexpr double R = paper_container_radius;
-
 // The velocities relative to the centre of mass sum to 0, so Σ over pairs δu_i · δu_j is
 // −½ Σ δu_i², for each component: −1/(N − 1) of its mean square, at every distance.
 TEST(VelocityCorrelation, IndependentVelocitiesHaveTheValueOfTheirSumRule) {

@@ -11,20 +11,6 @@
 namespace swirl {
 namespace {
 
-constexpr double R = paper_container_radius;
-
-/// A triangular lattice of touching discs, `rings` rings about C.
-Snapshot lattice(int rings) {
-    Snapshot s = empty_container(0.15);
-    s.container_radius = 2.0 * rings + 1.0;
-    for (int a = -rings; a <= rings; ++a)
-        for (int b = -rings; b <= rings; ++b) {
-            if (a + b < -rings || a + b > rings) continue;
-            add_disc(s, s.container_centre + Vec2{2.0 * a + b, std::sqrt(3.0) * b}, {0.0, 0.0});
-        }
-    return s;
-}
-
 /// Index of the disc nearest to C.
 std::size_t centre_of(const MFrameView& view) {
     std::size_t best = 0;
@@ -111,7 +97,7 @@ TEST(Voronoi, OneDiscHasTheWholeContainer) {
 }
 
 TEST(HexaticOrder, IsOneForAPerfectHexagon) {
-    const Snapshot s = lattice(1);
+    const Snapshot s = triangular_lattice(1);
     const MFrameView view(s);
     Voronoi cells;
     cells.find(view);
@@ -166,14 +152,14 @@ TEST(HexaticOrder, SixNeighboursAreCountedAwayFromTheWallAlone) {
         order.close_block();
         return std::pair{order.six().mean, order.six_pinned().mean};
     };
-    EXPECT_EQ(share(lattice(2)).first, 1.0);
+    EXPECT_EQ(share(triangular_lattice(2)).first, 1.0);
     // A disc whose centre is within two radii of the wall is at the wall, however large it is.
-    Snapshot wide = lattice(2);
+    Snapshot wide = triangular_lattice(2);
     for (double& radius : wide.radius) radius = 1.5;
     EXPECT_EQ(share(wide).first, 1.0);
     for (double& radius : wide.radius) radius = 2.6;
     EXPECT_TRUE(std::isnan(share(wide).first));
-    EXPECT_TRUE(std::isnan(share(lattice(2)).second));  // pinned flags are missing
+    EXPECT_TRUE(std::isnan(share(triangular_lattice(2)).second));  // pinned flags are missing
     // In a ring of five, one disc has five neighbours and five have three.
     Snapshot five = empty_container(0.15);
     add_disc(five, five.container_centre, {0.0, 0.0});
@@ -182,12 +168,12 @@ TEST(HexaticOrder, SixNeighboursAreCountedAwayFromTheWallAlone) {
     EXPECT_EQ(share(five).first, 0.0);
     // Pinned: the centre, and a disc at the wall, which does not count.
     std::vector<std::uint8_t> pinned(19, 0);
-    pinned[centre_of(MFrameView(lattice(2)))] = pinned[0] = 1;
-    EXPECT_EQ(share(lattice(2), pinned).second, 1.0);
+    pinned[centre_of(MFrameView(triangular_lattice(2)))] = pinned[0] = 1;
+    EXPECT_EQ(share(triangular_lattice(2), pinned).second, 1.0);
 }
 
 TEST(LocalPacking, IsPiOverRootTwelveForTheTriangularLattice) {
-    const Snapshot s = lattice(2);
+    const Snapshot s = triangular_lattice(2);
     const MFrameView view(s);
     Voronoi cells;
     cells.find(view);
@@ -208,7 +194,7 @@ TEST(LocalStructure, ResidentValuesAreThoseAtTheTimeOfTheSample) {
     LocalPacking packing;
     LongResidences residences;
     const auto seen = [](double time) {
-        Snapshot s = lattice(1);
+        Snapshot s = triangular_lattice(1);
         s.container_radius = 3.1;
         s.x[0] += time < 0.5 * long_residence ? -0.05 : 2.0;
         s.clock = time * s.period;

@@ -3,16 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "measure/snapshots.hpp"
+#include "swirl/measure/strided.hpp"
 
 namespace swirl {
 namespace {
 
-constexpr int samples = 511;  // samples per period
-
 /// A disc at a position in the M-frame, at the k-th sample.
 Snapshot at_sample(int k, const std::vector<Vec2>& places) {
-    Snapshot s = empty_container(double(k % samples) / samples);
-    s.periods = k / samples;
+    Snapshot s = empty_container(double(k % samples_per_period) / samples_per_period);
+    s.periods = k / samples_per_period;
     const MFrame frame = m_frame(s);
     for (const Vec2& p : places) add_disc(s, frame.lab_position(p), frame.lab_velocity(p, {}));
     return s;
@@ -20,35 +19,36 @@ Snapshot at_sample(int k, const std::vector<Vec2>& places) {
 
 /// Moves around clockwise once per period, at the wall from 240° to 120° and inside otherwise.
 Vec2 rounds(int k, double from = 240.0, double to = 120.0) {
-    const double theta = std::fmod(3600.0 - 360.0 * (k % samples) / samples, 360.0);
+    const double theta =
+        std::fmod(3600.0 - 360.0 * (k % samples_per_period) / samples_per_period, 360.0);
     const bool at_wall = theta <= from && theta >= to;
     return (at_wall ? 7.55 : 4.0) * unit_circle(theta / 360.0);
 }
 
 TEST(WallResidences, BeginAndEndWhereTheDiscEntersAndLeaves) {
     WallResidences residences;
-    for (int k = 0; k < 10 * samples; ++k) {
+    for (int k = 0; k < 10 * samples_per_period; ++k) {
         residences.sample(at_sample(k, {rounds(k)}));
-        if (k % samples == samples - 1) residences.close_block();
+        if (k % samples_per_period == samples_per_period - 1) residences.close_block();
     }
-    const double a_sample = 360.0 / samples;
+    const double a_sample = 360.0 / samples_per_period;
     EXPECT_NEAR(residences.pinning().angle().mean * degrees_per_radian, 240.0, a_sample);
     EXPECT_NEAR(residences.depinning().angle().mean * degrees_per_radian, 120.0, a_sample);
     EXPECT_NEAR(residences.depinning().concentration(), 1.0, 1e-9);
     EXPECT_EQ(residences.depinning().count(), 10.0);
     // The whole residence counts, from its first sample on; it covers 120° of 360°.
-    EXPECT_NEAR(residences.share().mean, 1.0 / 3.0, 1.0 / samples);
-    EXPECT_NEAR(residences.length().mean, 1.0 / 3.0, 2.0 / samples);
+    EXPECT_NEAR(residences.share().mean, 1.0 / 3.0, 1.0 / samples_per_period);
+    EXPECT_NEAR(residences.length().mean, 1.0 / 3.0, 2.0 / samples_per_period);
 }
 
 // Two of three residences are of 120°, a third of a period; one is of 20°, 0.056 periods.
 TEST(WallResidences, LengthsHaveADistribution) {
     WallResidences residences;
-    for (int k = 0; k < 9 * samples; ++k) {
-        const bool is_short = k / samples % 3 == 2;
+    for (int k = 0; k < 9 * samples_per_period; ++k) {
+        const bool is_short = k / samples_per_period % 3 == 2;
         residences.sample(
             at_sample(k, {is_short ? rounds(k, 200.0, 180.0) : rounds(k, 240.0, 120.0)}));
-        if (k % samples == samples - 1) residences.close_block();
+        if (k % samples_per_period == samples_per_period - 1) residences.close_block();
     }
     EXPECT_NEAR(residences.length_share(6).mean, 2.0 / 3.0, 1e-12);  // 0.30 to 0.35
     EXPECT_NEAR(residences.length_share(1).mean, 1.0 / 3.0, 1e-12);  // 0.05 to 0.10
@@ -64,7 +64,7 @@ TEST(WallResidences, LayersAre13And15And17RadiiWide) {
     const std::vector<std::size_t> layers{3, 2, 2, 1, 1, 0};  // that contain the disc
     for (std::size_t d = 0; d < distances.size(); ++d) {
         WallResidences residences;
-        for (int k = 0; k < samples; ++k)
+        for (int k = 0; k < samples_per_period; ++k)
             residences.sample(at_sample(k, {{0.0, paper_container_radius - distances[d]}}));
         residences.close_block();
         for (std::size_t layer = 0; layer < 3; ++layer)
@@ -92,8 +92,9 @@ TEST(WallResidences, MinimumLengthsAre20And40And80Steps) {
 
 TEST(WallResidences, LongOnesAreInTheLastBinOfTheLengths) {
     WallResidences residences;
-    for (int k = 0; k < 4 * samples; ++k)  // 3 periods; the last bin begins at 2
-        residences.sample(at_sample(k, {{0.0, k >= 50 && k < 50 + 3 * samples ? 7.6 : 3.0}}));
+    for (int k = 0; k < 4 * samples_per_period; ++k)  // 3 periods; the last bin begins at 2
+        residences.sample(
+            at_sample(k, {{0.0, k >= 50 && k < 50 + 3 * samples_per_period ? 7.6 : 3.0}}));
     residences.close_block();
     EXPECT_EQ(residences.length_share(WallResidences::length_bins - 1).mean, 1.0);
     EXPECT_EQ(residences.length_share(0).mean, 0.0);

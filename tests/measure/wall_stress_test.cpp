@@ -9,8 +9,6 @@
 namespace swirl {
 namespace {
 
-constexpr double R = paper_container_radius;
-
 /// A disc hits the wall at the angle 2πu_M in the M-frame, at phase u of the period.
 void hit(WallStress& stress, double u, double u_M, const Impulse& J) {
     Snapshot s = empty_container(u);

@@ -8,7 +8,7 @@ namespace swirl {
 namespace {
 
 // Positions of order 1 after a few roundings.
-constexpr double rounding = 1e-14;
+constexpr double path_rounding = 1e-14;
 
 double length(const Vec2& v) { return std::hypot(v.x, v.y); }
 
@@ -29,7 +29,7 @@ TEST(ContainerPath, SegmentsAreContiguousAndClosed) {
             const Segment& segment = path.segments[k];
             const Segment& next = path.segments[(k + 1) % path.segments.size()];
             EXPECT_EQ(segment.end, k + 1 < path.segments.size() ? next.begin : path.period);
-            EXPECT_LT(length(segment.position_at(segment.end) - next.start), rounding)
+            EXPECT_LT(length(segment.position_at(segment.end) - next.start), path_rounding)
                 << "side " << k;
         }
     }
@@ -40,7 +40,7 @@ TEST(ContainerPath, VerticesLieOnTheCircleCounterClockwiseFromPlusX) {
     EXPECT_EQ(path.segments[0].start.x, 2.0);
     EXPECT_EQ(path.segments[0].start.y, 0.0);
     for (const Segment& segment : path.segments) {
-        EXPECT_NEAR(length(segment.start), 2.0, rounding);
+        EXPECT_NEAR(length(segment.start), 2.0, path_rounding);
         EXPECT_GT(cross(segment.start, segment.velocity), 0.0);
     }
 }
@@ -62,10 +62,10 @@ TEST(ContainerPath, ExactCircleIsOneArc) {
     for (int k = 0; k <= 100; ++k) {
         const double t = path.period * k / 100;
         const Vec2 C = segment.position_at(t), V = segment.velocity_at(t);
-        EXPECT_NEAR(C.x, 1.892 * std::cos(path.omega() * t), rounding);
-        EXPECT_NEAR(C.y, 1.892 * std::sin(path.omega() * t), rounding);
+        EXPECT_NEAR(C.x, 1.892 * std::cos(path.omega() * t), path_rounding);
+        EXPECT_NEAR(C.y, 1.892 * std::sin(path.omega() * t), path_rounding);
         const Vec2 expected = path.omega() * perpendicular(C);
-        EXPECT_LT(length(V - expected), rounding);
+        EXPECT_LT(length(V - expected), path_rounding);
     }
 }
 

@@ -12,7 +12,7 @@ namespace swirl {
 namespace {
 
 // A dozen roundings of numbers of order 10.
-constexpr double rounding = 1e-13;
+constexpr double floor_rounding = 1e-13;
 
 Disc sphere(const Vec2& velocity, const Vec2& rolling_spin = {0.0, 0.0}) {
     return {{0, 0}, velocity, 0, 0, 0, 1.0, 1.0, solid_sphere_inertia(1.0, 1.0), rolling_spin};
@@ -37,11 +37,11 @@ TEST(Floor, SlidingSphereRollsAtFiveSeventhsOfItsSpeed) {
     const Disc start = sphere({v, 0.0});
     const Floor floor{deceleration};
     const FloorMotion motion = floor_motion(start, floor, {0.0, 0.0});
-    EXPECT_NEAR(motion.begins_to_roll, 2.0 * v / (7.0 * deceleration), rounding);
+    EXPECT_NEAR(motion.begins_to_roll, 2.0 * v / (7.0 * deceleration), floor_rounding);
     const Disc rolls = set_rolling(start, motion, floor, {0.0, 0.0});
-    EXPECT_NEAR(rolls.velocity.x, 5.0 / 7.0 * v, rounding);
-    EXPECT_NEAR(rolls.position.x, 12.0 * v * v / (49.0 * deceleration), rounding);
-    EXPECT_NEAR(rolls.rolling_spin.y, 5.0 / 7.0 * v, rounding);
+    EXPECT_NEAR(rolls.velocity.x, 5.0 / 7.0 * v, floor_rounding);
+    EXPECT_NEAR(rolls.position.x, 12.0 * v * v / (49.0 * deceleration), floor_rounding);
+    EXPECT_NEAR(rolls.rolling_spin.y, 5.0 / 7.0 * v, floor_rounding);
 }
 
 TEST(Floor, RollingSphereContinuesToRoll) {
@@ -62,8 +62,8 @@ TEST(Floor, RollingSphereGainsTwoSeventhsOfAVelocityJumpOfTheFloor) {
         const Disc before = d;
         d = settled(moved_to(d, {}, path.segments[k].begin), {1.92}, path.segments[k].velocity);
         EXPECT_LT(d.time, path.segments[k].end);
-        EXPECT_NEAR(d.velocity.x, before.velocity.x + 2.0 / 7.0 * jump.x, rounding);
-        EXPECT_NEAR(d.velocity.y, before.velocity.y + 2.0 / 7.0 * jump.y, rounding);
+        EXPECT_NEAR(d.velocity.x, before.velocity.x + 2.0 / 7.0 * jump.x, floor_rounding);
+        EXPECT_NEAR(d.velocity.y, before.velocity.y + 2.0 / 7.0 * jump.y, floor_rounding);
     }
 }
 
@@ -74,8 +74,10 @@ TEST(Floor, RollingSphereGivesARestingOneFiveSeventhsOfItsSpeed) {
     SphereBody i{{moving.velocity, 0.0, 1.0, 1.0, 1.0 / moving.inertia}, moving.rolling_spin};
     SphereBody j{{resting.velocity, 0.0, 1.0, 1.0, 1.0 / resting.inertia}, resting.rolling_spin};
     collide(i, j, {2.0, 0.0}, {0.0});
-    EXPECT_NEAR(settled(sphere(i.velocity, i.rolling_spin), floor).velocity.x, 2.0 / 7.0, rounding);
-    EXPECT_NEAR(settled(sphere(j.velocity, j.rolling_spin), floor).velocity.x, 5.0 / 7.0, rounding);
+    EXPECT_NEAR(settled(sphere(i.velocity, i.rolling_spin), floor).velocity.x, 2.0 / 7.0,
+                floor_rounding);
+    EXPECT_NEAR(settled(sphere(j.velocity, j.rolling_spin), floor).velocity.x, 5.0 / 7.0,
+                floor_rounding);
 }
 
 TEST(Floor, RollingSpheresHeadOnReturnWithFiveEMinusTwoSevenths) {
@@ -86,9 +88,9 @@ TEST(Floor, RollingSpheresHeadOnReturnWithFiveEMinusTwoSevenths) {
         SphereBody j{{left.velocity, 0.0, 1.0, 1.0, 1.0 / left.inertia}, left.rolling_spin};
         collide(i, j, {2.0, 0.0}, {0.0, e});
         EXPECT_NEAR(settled(sphere(i.velocity, i.rolling_spin), floor).velocity.x,
-                    -(5.0 * e - 2.0) / 7.0, rounding);
+                    -(5.0 * e - 2.0) / 7.0, floor_rounding);
         EXPECT_NEAR(settled(sphere(j.velocity, j.rolling_spin), floor).velocity.x,
-                    (5.0 * e - 2.0) / 7.0, rounding);
+                    (5.0 * e - 2.0) / 7.0, floor_rounding);
     }
 }
 
@@ -117,15 +119,15 @@ TEST(Floor, SlidingCoinStopsAndKeepsItsSpin) {
     start.spin = 0.7;
     const Floor floor{deceleration, true};
     const FloorMotion motion = floor_motion(start, floor, u);
-    EXPECT_NEAR(motion.begins_to_roll, v / deceleration, rounding);
+    EXPECT_NEAR(motion.begins_to_roll, v / deceleration, floor_rounding);
     const Disc rests = set_rolling(start, motion, floor, u);
     EXPECT_EQ(rests.velocity.x, u.x);
     EXPECT_EQ(rests.velocity.y, u.y);
     EXPECT_EQ(rests.spin, 0.7);
     EXPECT_EQ(dot(rests.rolling_spin, rests.rolling_spin), 0.0);
     const double time = motion.begins_to_roll;
-    EXPECT_NEAR(rests.position.x, u.x * time + v * v / (2.0 * deceleration), 20.0 * rounding);
-    EXPECT_NEAR(rests.position.y, u.y * time, 20.0 * rounding);
+    EXPECT_NEAR(rests.position.x, u.x * time + v * v / (2.0 * deceleration), 20.0 * floor_rounding);
+    EXPECT_NEAR(rests.position.y, u.y * time, 20.0 * floor_rounding);
     EXPECT_EQ(floor_motion(rests, floor, u).begins_to_roll, never);
 }
 
@@ -141,14 +143,14 @@ TEST(Floor, RollingResistanceStopsASphere) {
     Disc start = sphere({u.x + w, u.y}, spin_of_rolling({w, 0.0}, 1.0));
     start.spin = 0.7;
     const FloorMotion motion = floor_motion(start, floor, u);
-    EXPECT_NEAR(motion.begins_to_roll, w / a, 1e3 * rounding);  // 56
+    EXPECT_NEAR(motion.begins_to_roll, w / a, 1e3 * floor_rounding);  // 56
     const Disc rests = set_rolling(start, motion, floor, u);
     EXPECT_EQ(rests.velocity.x, u.x);
     EXPECT_EQ(rests.velocity.y, u.y);
     EXPECT_EQ(dot(rests.rolling_spin, rests.rolling_spin), 0.0);
     EXPECT_EQ(rests.spin, 0.7);
-    EXPECT_NEAR(rests.position.x, u.x * (w / a) + w * w / (2.0 * a), 1e3 * rounding);
-    EXPECT_NEAR(rests.position.y, u.y * (w / a), 1e3 * rounding);
+    EXPECT_NEAR(rests.position.x, u.x * (w / a) + w * w / (2.0 * a), 1e3 * floor_rounding);
+    EXPECT_NEAR(rests.position.y, u.y * (w / a), 1e3 * floor_rounding);
     EXPECT_EQ(floor_motion(rests, floor, u).begins_to_roll, never);
 }
 // I = 2/3 m r²: 3/5 μ_r g.
@@ -156,7 +158,7 @@ TEST(Floor, RollingResistanceStopsAShellLater) {
     Disc start = rolling_sphere({0.8, 0.0});
     start.inertia = shell_inertia(1.0, 1.0);
     EXPECT_NEAR(floor_motion(start, resisting_floor(0.02), {0.0, 0.0}).begins_to_roll,
-                0.8 / (3.0 / 5.0 * 0.02), 1e3 * rounding);
+                0.8 / (3.0 / 5.0 * 0.02), 1e3 * floor_rounding);
 }
 // It does not act on a sliding sphere, which slows down as soon as it rolls.
 TEST(Floor, RollingResistanceActsOnlyWhileASphereRolls) {
@@ -169,7 +171,8 @@ TEST(Floor, RollingResistanceActsOnlyWhileASphereRolls) {
     EXPECT_EQ(a.spin_rate.y, b.spin_rate.y);
     const Disc rolls = set_rolling(start, b, with, u);
     const FloorMotion slows = floor_motion(rolls, with, u);
-    EXPECT_NEAR(std::hypot(slows.acceleration.x, slows.acceleration.y), 5.0 / 7.0 * 0.05, rounding);
+    EXPECT_NEAR(std::hypot(slows.acceleration.x, slows.acceleration.y), 5.0 / 7.0 * 0.05,
+                floor_rounding);
     EXPECT_LT(dot(slows.acceleration, rolls.velocity - u), 0.0);
 }
 // While it slows down it rolls exactly. Its energy in the frame of the floor decreases by the work

@@ -12,7 +12,7 @@ namespace swirl {
 namespace {
 
 // A dozen roundings of numbers of order 10 (velocities up to 3, masses up to 5).
-constexpr double rounding = 1e-12;
+constexpr double sphere_rounding = 1e-12;
 
 struct Vec3 {
     double x, y, z;
@@ -22,7 +22,7 @@ Vec3 cross3(const Vec3& a, const Vec3& b) {
 }
 Vec3 spin_of(const SphereBody& b) { return {b.rolling_spin.x, b.rolling_spin.y, b.spin}; }
 
-struct Collision {
+struct SpherePair {
     SphereBody i, j;
     Vec2 separation;
     Surface surface;
@@ -59,7 +59,7 @@ struct Collision {
 /// state after the collision does not contain them.
 struct Lifted {
     double inverse_mass, slip, energy;
-    Lifted(const Collision& c, const Impulse& J)
+    Lifted(const SpherePair& c, const Impulse& J)
         : inverse_mass(J.vertical > 0.0 ? c.j.inverse_mass : c.i.inverse_mass),
           slip(J.vertical * inverse_mass),
           energy(0.5 * J.vertical * J.vertical * inverse_mass) {}
@@ -68,7 +68,7 @@ struct Lifted {
 /// The slip along r = (n_y, −n_x) and z, with the effective masses of the two.
 struct Slip {
     double t, z, m_t, m_z;
-    explicit Slip(const Collision& c) {
+    explicit Slip(const SpherePair& c) {
         const Vec2 n = c.normal();
         const Vec3 s = c.slip();
         t = s.x * n.y - s.y * n.x;
@@ -85,19 +85,19 @@ struct Slip {
     }
 };
 
-SphereBody draw_body() {
+SphereBody draw_sphere_body() {
     const Vec2 velocity = draw_vector(2.0);
     const double spin = draw(-2.0, 2.0), radius = draw(0.3, 2.0);
     const double mass = draw(0.2, 5.0), inertia = draw(0.05, 1.0) * mass * radius * radius;
     return {{velocity, spin, radius, 1.0 / mass, 1.0 / inertia}, draw_vector(2.0)};
 }
 /// Two spheres, or one and the wall, that touch and approach.
-Collision draw_collision(bool wall) {
-    const SphereBody i = draw_body(), j = draw_body();
-    Collision c{i,
-                wall ? wall_for_spheres(j.velocity) : j,
-                (i.radius + j.radius) * unit_circle(draw(0.0, 1.0)),
-                {draw(0.0, 1.5), draw(0.0, 1.0), draw(0.0, 1.0)}};
+SpherePair draw_sphere_collision(bool wall) {
+    const SphereBody i = draw_sphere_body(), j = draw_sphere_body();
+    SpherePair c{i,
+                 wall ? wall_for_spheres(j.velocity) : j,
+                 (i.radius + j.radius) * unit_circle(draw(0.0, 1.0)),
+                 {draw(0.0, 1.5), draw(0.0, 1.0), draw(0.0, 1.0)}};
     const double closing = -dot(c.separation, c.j.velocity - c.i.velocity);
     RC_PRE(std::abs(closing) > 1e-3);
     if (closing < 0.0) {
@@ -106,11 +106,11 @@ Collision draw_collision(bool wall) {
     }
     return c;
 }
-Collision draw_collision() { return draw_collision(*rc::gen::element(0, 1) == 1); }
+SpherePair draw_sphere_collision() { return draw_sphere_collision(*rc::gen::element(0, 1) == 1); }
 
 RC_GTEST_PROP(SphereCollision, ImpulsesActAtTheContact, ()) {
-    const Collision before = draw_collision(false);
-    Collision after = before;
+    const SpherePair before = draw_sphere_collision(false);
+    SpherePair after = before;
     const Impulse J = collide(after.i, after.j, after.separation, after.surface);
     const Vec2 n = before.normal();
     // On j: along n, along r = (n_y, −n_x), along z; at −R_j n. The floor takes J_z or −J_z.
@@ -118,17 +118,17 @@ RC_GTEST_PROP(SphereCollision, ImpulsesActAtTheContact, ()) {
                     J.vertical};
     const auto check = [&](const SphereBody& was, const SphereBody& is, double sign, double arm) {
         RC_ASSERT(std::abs(is.velocity.x - was.velocity.x - sign * on_j.x * was.inverse_mass) <
-                  rounding);
+                  sphere_rounding);
         RC_ASSERT(std::abs(is.velocity.y - was.velocity.y - sign * on_j.y * was.inverse_mass) <
-                  rounding);
+                  sphere_rounding);
         const Vec3 torque =
             cross3({arm * n.x, arm * n.y, 0.0}, {sign * on_j.x, sign * on_j.y, sign * on_j.z});
         const Vec3 a = spin_of(was), b = spin_of(is);
         const double k = was.inverse_inertia;
         // The inertia can be as small as 0.001, so spins can reach 1000.
-        RC_ASSERT(std::abs(b.x - a.x - k * torque.x) < 1e3 * rounding);
-        RC_ASSERT(std::abs(b.y - a.y - k * torque.y) < 1e3 * rounding);
-        RC_ASSERT(std::abs(b.z - a.z - k * torque.z) < 1e3 * rounding);
+        RC_ASSERT(std::abs(b.x - a.x - k * torque.x) < 1e3 * sphere_rounding);
+        RC_ASSERT(std::abs(b.y - a.y - k * torque.y) < 1e3 * sphere_rounding);
+        RC_ASSERT(std::abs(b.z - a.z - k * torque.z) < 1e3 * sphere_rounding);
     };
     check(before.i, after.i, -1.0, before.i.radius);
     check(before.j, after.j, 1.0, -before.j.radius);
@@ -136,7 +136,7 @@ RC_GTEST_PROP(SphereCollision, ImpulsesActAtTheContact, ()) {
 
 // About vertical axes only: about horizontal ones the floor's reaction to J_z has a torque.
 RC_GTEST_PROP(SphereCollision, ConservesMomentumAndVerticalAngularMomentum, ()) {
-    Collision c = draw_collision(false);
+    SpherePair c = draw_sphere_collision(false);
     const Vec2 position = draw_vector(5.0);  // position of i
     const auto momentum = [&] {
         return (1.0 / c.i.inverse_mass) * c.i.velocity + (1.0 / c.j.inverse_mass) * c.j.velocity;
@@ -150,32 +150,32 @@ RC_GTEST_PROP(SphereCollision, ConservesMomentumAndVerticalAngularMomentum, ()) 
     const double L = angular_momentum();
     collide(c.i, c.j, c.separation, c.surface);
     const Vec2 lost = momentum() - p;
-    RC_ASSERT(std::abs(lost.x) < 10.0 * rounding);
-    RC_ASSERT(std::abs(lost.y) < 10.0 * rounding);
+    RC_ASSERT(std::abs(lost.x) < 10.0 * sphere_rounding);
+    RC_ASSERT(std::abs(lost.y) < 10.0 * sphere_rounding);
     // Momenta of up to 10 at distances of up to 10.
-    RC_ASSERT(std::abs(angular_momentum() - L) < 100.0 * rounding);
+    RC_ASSERT(std::abs(angular_momentum() - L) < 100.0 * sphere_rounding);
 }
 
 // The energy includes the vertical energy of the lifted sphere.
 RC_GTEST_PROP(SphereCollision, EnergyNeverGrowsInTheFrameOfTheWall, ()) {
-    Collision c = draw_collision();
+    SpherePair c = draw_sphere_collision();
     const double before = c.energy();
     const Impulse J = collide(c.i, c.j, c.separation, c.surface);
-    RC_ASSERT(c.energy() + Lifted(c, J).energy <= before * (1.0 + rounding));
+    RC_ASSERT(c.energy() + Lifted(c, J).energy <= before * (1.0 + sphere_rounding));
 }
 
 RC_GTEST_PROP(SphereCollision, EnergyNeverGrowsWithLessVerticalFriction, ()) {
-    Collision c = draw_collision();
+    SpherePair c = draw_sphere_collision();
     c.surface.vertical_friction = draw(0.0, 1.0);
     const double before = c.energy();
     const Vec3 slip = c.slip();
     const Impulse J = collide(c.i, c.j, c.separation, c.surface);
-    RC_ASSERT(c.energy() <= before * (1.0 + rounding));
+    RC_ASSERT(c.energy() <= before * (1.0 + sphere_rounding));
     RC_ASSERT(J.vertical * slip.z <= 0.0);
 }
 
 RC_GTEST_PROP(SphereCollision, WithoutVerticalFrictionKeepsTheRollingSpin, ()) {
-    Collision c = draw_collision();
+    SpherePair c = draw_sphere_collision();
     c.surface.vertical_friction = 0.0;
     const Vec2 i = c.i.rolling_spin, j = c.j.rolling_spin;
     Body disc_i = c.i, disc_j = c.j;
@@ -188,15 +188,15 @@ RC_GTEST_PROP(SphereCollision, WithoutVerticalFrictionKeepsTheRollingSpin, ()) {
 }
 
 RC_GTEST_PROP(SphereCollision, ConservesEnergyIfElasticAndSmooth, ()) {
-    Collision c = draw_collision();
+    SpherePair c = draw_sphere_collision();
     c.surface = {0.0};
     const double before = c.energy();
     collide(c.i, c.j, c.separation, c.surface);
-    RC_ASSERT(std::abs(c.energy() - before) <= before * rounding);
+    RC_ASSERT(std::abs(c.energy() - before) <= before * sphere_rounding);
 }
 
 RC_GTEST_PROP(SphereCollision, FrictionDissipatesTheDerivedEnergy, ()) {
-    Collision c = draw_collision();
+    SpherePair c = draw_sphere_collision();
     const Slip slip(c);
     const double masses = c.i.inverse_mass + c.j.inverse_mass;
     const double u = dot(c.i.velocity - c.j.velocity, c.normal()), e = c.surface.restitution;
@@ -204,35 +204,36 @@ RC_GTEST_PROP(SphereCollision, FrictionDissipatesTheDerivedEnergy, ()) {
     const Impulse J = collide(c.i, c.j, c.separation, c.surface);
     const double loss = -slip.energy(J) + 0.5 * (1.0 - e * e) * u * u / masses;
     RC_ASSERT(std::abs(before - c.energy() - Lifted(c, J).energy - loss) <
-              rounding * (1.0 + before));
+              sphere_rounding * (1.0 + before));
 }
 
 RC_GTEST_PROP(SphereCollision, FrictionObeysCoulombsLawAndSticksIfItCan, ()) {
-    Collision c = draw_collision();
+    SpherePair c = draw_sphere_collision();
     const Vec3 before = c.slip();
     const Slip slip(c);
     const double beta = c.surface.tangential_restitution;
     const Impulse J = collide(c.i, c.j, c.separation, c.surface);
     const double coulomb = c.surface.mu * J.normal;
-    RC_ASSERT(std::hypot(J.tangential, J.vertical) <= coulomb * (1.0 + rounding) + rounding);
+    RC_ASSERT(std::hypot(J.tangential, J.vertical) <=
+              coulomb * (1.0 + sphere_rounding) + sphere_rounding);
     RC_ASSERT(J.sticks == ((1.0 + beta) * slip.sticking() <= coulomb));
     if (!J.sticks) return;
     const Vec3 after = c.slip();
     // Spins may be 1000, as above.
-    RC_ASSERT(std::abs(after.x + beta * before.x) < 1e3 * rounding);
-    RC_ASSERT(std::abs(after.y + beta * before.y) < 1e3 * rounding);
-    RC_ASSERT(std::abs(after.z + Lifted(c, J).slip + beta * before.z) < 1e3 * rounding);
+    RC_ASSERT(std::abs(after.x + beta * before.x) < 1e3 * sphere_rounding);
+    RC_ASSERT(std::abs(after.y + beta * before.y) < 1e3 * sphere_rounding);
+    RC_ASSERT(std::abs(after.z + Lifted(c, J).slip + beta * before.z) < 1e3 * sphere_rounding);
 }
 
 // The direction of the impulse is between the direction against the slip and that of J*. Weak
 // friction acts against the slip, up to k² = 10⁻⁸ of the angle between the two directions.
 RC_GTEST_PROP(SphereCollision, FrictionTurnsFromOpposingTheSlipToSticking, ()) {
-    Collision c = draw_collision();
+    SpherePair c = draw_sphere_collision();
     c.surface.tangential_restitution = 0.0;
     const Slip s(c);
     RC_PRE(s.sticking() > 1e-3);
     const auto friction = [&](double of_sticking) {
-        Collision after = c;
+        SpherePair after = c;
         after.surface.mu = 1.0;
         const double normal = collide(after.i, after.j, after.separation, after.surface).normal;
         after = c;
@@ -246,9 +247,10 @@ RC_GTEST_PROP(SphereCollision, FrictionTurnsFromOpposingTheSlipToSticking, ()) {
         return sine(-s.t, -s.z, J.tangential, J.vertical);
     };
     const double apart = sine(-s.t, -s.z, -s.m_t * s.t, -s.m_z * s.z);
-    RC_ASSERT(std::abs(against_slip(friction(1e-4))) <= 2e-8 * std::abs(apart) + rounding);
+    RC_ASSERT(std::abs(against_slip(friction(1e-4))) <= 2e-8 * std::abs(apart) + sphere_rounding);
     const double at_half = against_slip(friction(0.5)), at_most = against_slip(friction(0.9999));
-    RC_ASSERT(at_half * apart >= -rounding && std::abs(at_half) <= std::abs(apart) + rounding);
+    RC_ASSERT(at_half * apart >= -rounding &&
+              std::abs(at_half) <= std::abs(apart) + sphere_rounding);
     // The deviation is 1 − k² = 2·10⁻⁴ times an angle below 1. It may be larger, because m_s |s|
     // may be smaller than K.
     RC_ASSERT(std::abs(at_most - apart) < 1e-3);
@@ -288,11 +290,11 @@ TEST(SphereCollision, SlidingFrictionIsCloseToTheIntegralOverTheContact) {
                             {{0.0, 0.0}, spin, 1.0, 1.0 / mass, 1.0 / (inertia_factor * mass)},
                             {0.0, roll}};
                     };
-                    Collision c{sphere(1.0, turned.x, turned.y),
-                                other_mass == 0.0 ? wall_for_spheres({0.0, 0.0})
-                                                  : sphere(other_mass, 0.0, 0.0),
-                                {2.0, 0.0},
-                                {}};
+                    SpherePair c{sphere(1.0, turned.x, turned.y),
+                                 other_mass == 0.0 ? wall_for_spheres({0.0, 0.0})
+                                                   : sphere(other_mass, 0.0, 0.0),
+                                 {2.0, 0.0},
+                                 {}};
                     c.i.velocity.x = 1.0;
                     const Slip slip(c);
                     const double masses = c.i.inverse_mass + c.j.inverse_mass;
@@ -314,7 +316,7 @@ SphereBody rolling_along_x(double v) { return {{{v, 0.0}, 0.0, 1.0, 1.0, 2.5}, {
 TEST(SphereCollision, SphereRollingIntoTheWallIsLiftedAndKeepsTwoSeventhsOfItsSpin) {
     // Rolling along +x: ω_y = v. Head-on, so nothing slips horizontally.
     SphereBody i = rolling_along_x(0.8), wall = wall_for_spheres({0.0, 0.0});
-    const Collision c{i, wall, {7.6, 0.0}, {100.0}};
+    const SpherePair c{i, wall, {7.6, 0.0}, {100.0}};
     EXPECT_DOUBLE_EQ(c.slip().z, 0.8);
     const Impulse J = collide(i, wall, {7.6, 0.0}, {100.0});
     EXPECT_EQ(J.tangential, 0.0);
@@ -353,12 +355,12 @@ TEST(SphereCollision, EffectiveVerticalMassOfEqualSolidSpheresIsASixth) {
 // slip with the sum of the speeds.
 TEST(SphereCollision, RollingSpheresSlipWithTheSumOfTheirNormalVelocities) {
     const auto rolling = rolling_along_x;
-    EXPECT_EQ((Collision{rolling(1.0), rolling(-1.0), {2.0, 0.0}, {}}).slip().z, 0.0);
-    EXPECT_EQ(std::abs((Collision{rolling(1.0), rolling(0.5), {2.0, 0.0}, {}}).slip().z), 1.5);
+    EXPECT_EQ((SpherePair{rolling(1.0), rolling(-1.0), {2.0, 0.0}, {}}).slip().z, 0.0);
+    EXPECT_EQ(std::abs((SpherePair{rolling(1.0), rolling(0.5), {2.0, 0.0}, {}}).slip().z), 1.5);
 }
 
 RC_GTEST_PROP(SphereCollision, WithoutVerticalSlipEqualsThatOfDiscs, ()) {
-    Collision c = draw_collision();
+    SpherePair c = draw_sphere_collision();
     c.i.rolling_spin = c.j.rolling_spin = {0.0, 0.0};
     Body i = c.i, j = c.j;
     const Impulse of_discs = collide(i, j, c.separation, c.surface);

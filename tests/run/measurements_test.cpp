@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-RunConfig short_run() {
+RunConfig thirty_periods() {
     RunConfig config;
     config.discs = 30;
     config.periods = 30;
@@ -50,15 +50,15 @@ double sum(const nlohmann::ordered_json& column) {
 }
 
 TEST(Measurements, DoNotChangeTheRun) {
-    const RunResult alone = run(short_run());
-    const MeasuredRun measured = measured_run(short_run(), everything());
+    const RunResult alone = run(thirty_periods());
+    const MeasuredRun measured = measured_run(thirty_periods(), everything());
     EXPECT_EQ(measured.run.state_hash, alone.state_hash);
     EXPECT_EQ(measured.run.rotation.mean_by_event.mean, alone.rotation.mean_by_event.mean);
     EXPECT_EQ(measured.run.rotation.mean_by_time.mean, alone.rotation.mean_by_time.mean);
 }
 
 TEST(Measurements, DensityTimesAreaIsTheNumberOfDiscs) {
-    const auto density = measured_run(short_run(), {"density"}).measured["density"];
+    const auto density = measured_run(thirty_periods(), {"density"}).measured["density"];
     const double area = 4.0 * paper_container_radius * paper_container_radius / 10000.0;
     // Sums of 10^4 counts divided by one number: round-off only.
     EXPECT_NEAR(sum(density["by_time"]) * area, 30.0, 1e-9);
@@ -120,7 +120,8 @@ MeasurementReports reports_of(const InitialState& scene, const RunConfig& config
 
 // A number without its unit, such as a length that should be one of mean radii, changes here.
 TEST(Measurements, FollowTheirUnits) {
-    RunConfig discs = short_run(), spheres = resolve({{"preset", "experiment"}, {"discs", "30"}});
+    RunConfig discs = thirty_periods(),
+              spheres = resolve({{"preset", "experiment"}, {"discs", "30"}});
     discs.restitution = 0.95;
     spheres.periods = 12;
     for (const RunConfig& config : {discs, spheres}) {
@@ -165,14 +166,14 @@ TEST(Measurements, FollowTheirUnits) {
 }
 
 TEST(Measurements, Take511SamplesPerPeriodAfterTheWarmUp) {
-    const auto flow = measured_run(short_run(), {"flow"}).measured["flow"];
+    const auto flow = measured_run(thirty_periods(), {"flow"}).measured["flow"];
     EXPECT_EQ(sum(flow["visits"]), 30.0 * 511.0 * 25.0);
 }
 
 double mean_of(const nlohmann::ordered_json& number) { return number["mean"].get<double>(); }
 
 TEST(Measurements, RatesAreThoseOfTheEventsAfterTheWarmUp) {
-    const MeasuredRun done = measured_run(short_run(), {"collisions"});
+    const MeasuredRun done = measured_run(thirty_periods(), {"collisions"});
     const auto& rates = done.measured["collisions"];
     const EventCounts &all = done.run.events, &warm = done.run.warmup_events;
     const double per_disc = 30.0 * 25.0 * paper_period;
@@ -264,7 +265,7 @@ TEST(Measurements, NumbersThatDoNotExistAreMissingInEveryFile) {
 }
 
 TEST(Measurements, OrderAndPackingAreWithinTheirBounds) {
-    const auto measured = measured_run(short_run(), {"order", "packing"}).measured;
+    const auto measured = measured_run(thirty_periods(), {"order", "packing"}).measured;
     // The mean over discs of π/(area) is at least π over the mean area, by Jensen's inequality.
     const double over_the_container = 30.0 / (paper_container_radius * paper_container_radius);
     for (const char* whose : {"all", "pinned"}) {
@@ -276,7 +277,7 @@ TEST(Measurements, OrderAndPackingAreWithinTheirBounds) {
 }
 
 TEST(Measurements, DiffusionHasLagsBelowAPeriodAndOfWholePeriods) {
-    const auto table = measured_run(short_run(), {"diffusion"}).measured["diffusion"];
+    const auto table = measured_run(thirty_periods(), {"diffusion"}).measured["diffusion"];
     // Lags of 1, 2, 4, … 64 of 73 parts of a period, and, in 25 periods, lags of 1, 2, 4, 8 and 16
     // periods.
     ASSERT_EQ(table["lag"].size(), 12u);
@@ -301,7 +302,7 @@ TEST(Measurements, ListOfAllHasEveryMeasurement) {
 }
 
 TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {
-    RunConfig config = short_run();
+    RunConfig config = thirty_periods();
     config.discs = 1;
     const MeasuredRun done = measured_run(config, everything());
     EXPECT_EQ(mean_of(done.measured["collisions"]["disc_disc_rate"]), 0.0);
@@ -312,7 +313,7 @@ TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {
 }
 
 TEST(Measurements, FramesWithoutEventsGiveNoCollisionRates) {
-    Observation observation = observation_of(short_run(), everything());
+    Observation observation = observation_of(thirty_periods(), everything());
     for (int period = 0; period < 3; ++period) observation.close_block();
     for (const auto& [name, report] : observation.report())
         for (const ReportRow& row : report.rows)
@@ -344,10 +345,10 @@ TEST(Measurements, InvalidListsAreRejectedWithTheirCause) {
 TEST(Measurements, TablesAreWrittenWithTheirColumns) {
     const Scratch scratch;
     const fs::path& folder = scratch.folder();
-    Observation observation = observation_of(short_run(), {"profile", "slip"});
+    Observation observation = observation_of(thirty_periods(), {"profile", "slip"});
     RunControl control;
     control.observation = &observation;
-    run(short_run(), control);
+    run(thirty_periods(), control);
     const auto files = write_measured_tables(observation.report(), folder);
     EXPECT_THAT(files, ElementsAre(folder / "profile.csv", folder / "numbers.csv"));
     std::ifstream profile(files[0]), numbers(files[1]);
@@ -375,10 +376,10 @@ std::string line_of(const std::string& help, const std::string& name) {
 
 TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvAndInTheHelp) {
     const Scratch scratch;
-    Observation observation = observation_of(short_run(), everything());
+    Observation observation = observation_of(thirty_periods(), everything());
     RunControl control;
     control.observation = &observation;
-    run(short_run(), control);
+    run(thirty_periods(), control);
     const MeasurementReports reports = observation.report();
     write_measured_tables(reports, scratch.folder());
     const auto json = measured_json(reports);
@@ -414,7 +415,7 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvAndInTheHelp) {
 }
 
 TEST(Measurements, EveryRowOfEveryRunIsInTheJsonAndInTheHelp) {
-    const RunResult result = run(short_run());
+    const RunResult result = run(thirty_periods());
     const auto json = result_json(result);
     const std::string help = measurement_help_text();
     int rows = 0;

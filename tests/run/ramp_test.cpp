@@ -132,14 +132,14 @@ TEST(Ramp, TheReferenceImplementationAgreesForEveryVectorWidth) {
     }
 }
 
-struct ObservedRun {
+struct RampedRun {
     std::string result, measured;
     std::vector<double> series;
 };
 
-ObservedRun observed(const RunConfig& config, int parts) {
+RampedRun observed(const RunConfig& config, int parts) {
     const std::vector<std::string> names{"slip", "centre", "energy", "diffusion"};
-    ObservedRun observed;
+    RampedRun observed;
     std::optional<std::string> state;
     for (int part = 1; part <= parts; ++part) {
         Observation observation = observation_of(config, names);
@@ -165,7 +165,7 @@ ObservedRun observed(const RunConfig& config, int parts) {
 TEST(Ramp, AResumedRunAndItsSeriesAreBitwiseIdentical) {
     for (const RunConfig& config :
          {with_ramp(all_of_discs), with_ramp(all_of_spheres, spheres())}) {
-        const ObservedRun whole = observed(config, 1), resumed = observed(config, 6);
+        const RampedRun whole = observed(config, 1), resumed = observed(config, 6);
         EXPECT_EQ(whole.result, resumed.result);
         EXPECT_EQ(whole.measured, resumed.measured);
         ASSERT_EQ(whole.series.size(), resumed.series.size());
