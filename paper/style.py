@@ -323,10 +323,11 @@ def arrows(axes, rows, spacing, fastest, color, key=(0.9, 0.03)):
 def save(drawing, table):
     """Writes PNG and PDF next to the table, atomically. They contain no date: the same table gives the same bytes."""
     stem = os.path.splitext(table)[0]
-    drawing.canvas.draw()  # the layout of the first drawing has the sizes of labels that change in it
+    drawing.draw_without_rendering()  # the first layout has the sizes of labels that change in it
     for kind, about in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
         drawn = io.BytesIO()
         drawing.savefig(drawn, format=kind, metadata=about)
+        drawing.set_layout_engine("none")  # one layout for both files
         atomic_file.write_or_exit(f"{stem}.{kind}", drawn.getvalue())
 
 
