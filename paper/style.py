@@ -6,7 +6,6 @@ curve also has its own marker.
 
 import io
 import math
-import os
 import sys
 
 import numpy as np
@@ -322,13 +321,12 @@ def arrows(axes, rows, spacing, fastest, color, key=(0.9, 0.03)):
 
 def save(drawing, table):
     """Writes PNG and PDF next to the table, atomically. They contain no date: the same table gives the same bytes."""
-    stem = os.path.splitext(table)[0]
     drawing.draw_without_rendering()  # the first layout has the sizes of labels that change in it
     for kind, about in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
         drawn = io.BytesIO()
         drawing.savefig(drawn, format=kind, metadata=about)
         drawing.set_layout_engine("none")  # one layout for both files
-        atomic_file.write_or_exit(f"{stem}.{kind}", drawn.getvalue())
+        atomic_file.write_or_exit(table.removesuffix("csv") + kind, drawn.getvalue())
 
 
 def grid(rows, x, y, name):
