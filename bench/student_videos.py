@@ -4,6 +4,7 @@
     student_videos.py --baseline    with the tracker of opencv_tracker.py on the same videos; needs opencv and scipy
     student_videos.py --kind NAME   this kind only; may be repeated
     student_videos.py --periods N   length of the students' videos [4]
+    student_videos.py --seed N      of the discs and the camera, in place of that of each kind; may be repeated
 
 SWIRL is the program. A student's video has 28 discs and is made by `swirl synthetic-video --camera student` (30
 frames per second, 2 periods per second, 640x480 pixels) with the options of its kind.
@@ -14,6 +15,7 @@ hint is tracked again with the options of the hint.
 """
 
 import argparse
+import itertools
 import json
 import math
 import os
@@ -81,8 +83,9 @@ def ffmpeg(*arguments):
 class Video:
     """A video of one kind with its ground truth: {frame: {disc: (x, y)}} and the container's centres."""
 
-    def __init__(self, folder, kind, periods):
+    def __init__(self, folder, kind, periods, seed):
         self.name, options, after = kind
+        self.seed = seed
         made = os.path.join(folder, "made.mp4")
         self.complete = after == "complete"
         if after == "by hand":  # the true ϖ is that of the same periods at an even speed
@@ -113,8 +116,11 @@ class Video:
             self.turn_truth()
 
     def make(self, made, options, periods):
-        common = [] if self.complete else [*COMMON, "--length", periods]
-        done = swirl("synthetic-video", *common, *options, "--out", made, "--quiet", "--overwrite", timeout=3000)
+        call = [*([] if self.complete else [*COMMON, "--length", periods]), *options]
+        if self.seed is not None:
+            at = call.index("--seed") if "--seed" in call else len(call)
+            call[at:at + 2] = ["--seed", self.seed]
+        done = swirl("synthetic-video", *call, "--out", made, "--quiet", "--overwrite", timeout=3000)
         if done.returncode != 0:
             sys.exit(done.stderr)
         self.about = track_test.Truth(made).about
@@ -260,14 +266,15 @@ def main():
     parser.add_argument("--baseline", action="store_true")
     parser.add_argument("--kind", action="append")
     parser.add_argument("--periods", type=int, default=4)
+    parser.add_argument("--seed", type=int, action="append")
     call = parser.parse_args()
     head = ["kind", "ϖ/Ω, true", "claimed/true", *HEAD, *(f"baseline: {name}" for name in HEAD if call.baseline)]
     print("| " + " | ".join(head) + " |\n|" + len(head) * "---|", flush=True)
     with tempfile.TemporaryDirectory(prefix="swirl-students-") as folder:
-        for kind in KINDS:
+        for kind, seed in itertools.product(KINDS, call.seed or [None]):
             if call.kind and kind[0] not in call.kind:
                 continue
-            video = Video(folder, kind, call.periods)
+            video = Video(folder, kind, call.periods, seed)
             used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
             result, claimed, message = track(folder, video)
             seconds = (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - used) * 1000.0 / len(video.truth)

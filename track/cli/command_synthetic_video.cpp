@@ -123,10 +123,8 @@ CameraSettings camera_settings(const SyntheticVideoCall& call, const RunConfig& 
     apply("width", call.width, camera.size.width, 64.0, 4096.0);
     apply("height", call.height, camera.size.height, 64.0, 4096.0);
     set_light(call, apply, camera);
-    camera.rolls = call.rolls;
-    camera.flat = call.flat;
-    camera.interlaced = call.interlaced;
-    camera.mirrored = call.mirrored;
+    camera.rolls = call.rolls, camera.flat = call.flat;
+    camera.interlaced = call.interlaced, camera.mirrored = call.mirrored;
     camera.seed = static_cast<std::uint64_t>(config.seed);
     if (const auto wrong = movie_problem(MovieFormat::mp4, camera.size, call.fps))
         throw UsageError(*wrong);
@@ -296,15 +294,19 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     for (std::int64_t k = 0; k < frames; ++k) {
         if (stopped.load())
             throw Interrupted("stopped before the last frame; no video was written.");
-        const double time = double(k) / double(camera.frames_per_period);
-        Snapshot s = playback(call.start + periods_at(call, length, time));
-        if (by_hand)
-            slow_down(s, 0.5 / instant *
-                             (periods_at(call, length, time + instant) -
-                              periods_at(call, length, time - instant)));
-        if (call.still) bring_container_to_rest(s);
-        writer.write(planes.of(view.render(s)));
-        truth.add(k, s, view, camera);
+        std::vector<Snapshot> states;
+        for (const double delay : view.delays()) {
+            const double time = (double(k) + delay) / double(camera.frames_per_period);
+            Snapshot s = playback(call.start + periods_at(call, length, time));
+            if (by_hand)
+                slow_down(s, 0.5 / instant *
+                                 (periods_at(call, length, time + instant) -
+                                  periods_at(call, length, time - instant)));
+            if (call.still) bring_container_to_rest(s);
+            states.push_back(s);
+        }
+        writer.write(planes.of(view.render(states)));
+        truth.add(k, states[states.size() / 2], view, camera);
         line.show(double(k + 1) / double(frames), fmt::format("frame {}", k + 1));
     }
     line.clear();

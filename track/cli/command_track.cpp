@@ -195,7 +195,7 @@ std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
         with_error(video.path.omega, video.path.omega_error), unit,
         with_error(first_phase(video), video.path.phase_error * 180.0 / pi),
         with_error(video.lens.k, video.lens.k_error), video.lens.k != 0.0 ? ", corrected" : "",
-        tilt_text(video), camera_motion_text(video), light_text(video), video.filled,
+        camera_text(video), camera_motion_text(video), light_text(video), video.filled,
         video.position_error > video.overlap_error ? "edges" : "overlaps");
     if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm per pixel, from the discs\n",

@@ -84,6 +84,8 @@ Json lens_json(const TrackedVideo& video) {
     json["squeeze_error"] = tilt.squeeze_error;
     json["perspective"] = vector_json(video.lens.perspective);
     json["perspective_error"] = tilt.perspective_error;
+    json["readout"] = video.readout;
+    json["readout_error"] = video.readout > 0.0 ? Json(video.readout_error) : Json(nullptr);
     return json;
 }
 
@@ -181,11 +183,8 @@ std::vector<TrackColumn> extra_columns(const TrackedVideo& video, const VideoSpi
         }
         columns.push_back(std::move(column));
     };
-    const auto seen = [&](std::size_t k, std::size_t i) {
-        return video.in_image(k, video.tracks.frames[k].position[i]);
-    };
-    add("x_seen", [&](std::size_t k, std::size_t i) { return seen(k, i).x; });
-    add("y_seen", [&](std::size_t k, std::size_t i) { return seen(k, i).y; });
+    add("x_seen", [&](std::size_t k, std::size_t i) { return video.in_image(k, i).x; });
+    add("y_seen", [&](std::size_t k, std::size_t i) { return video.in_image(k, i).y; });
     add("radius", [&](std::size_t k, std::size_t i) { return video.tracks.frames[k].radius[i]; });
     add("error", [&](std::size_t k, std::size_t i) { return video.errors[k][i]; });
     add("seen", [&](std::size_t k, std::size_t i) { return video.seen[k][i] ? 1.0 : 0.0; });
@@ -284,6 +283,24 @@ Table discs_table(const TrackedVideo& video) {
     return table;
 }
 
+std::string tilt_text(const TrackedVideo& video) {
+    const Tilt& tilt = video.tilt;
+    if (!video.lens.tilted())
+        return tilt.squeeze_error > 0.0
+                   ? fmt::format("no tilt found, below {:.1f} degrees", degrees(tilt.below))
+                   : "no tilt";
+    if (tilt.angle > 0.0 && tilt.angle_error == 0.0)
+        return fmt::format("tilt {:g} degrees towards {:g} degrees, as given; corrected",
+                           degrees(tilt.angle), whole_turn(degrees(tilt.towards)));
+    std::string text =
+        tilt.angle > 0.0
+            ? "tilt " + with_error(degrees(tilt.angle), degrees(tilt.angle_error)) + " degrees"
+            : fmt::format("tilt below {:.1f} degrees", degrees(tilt.below));
+    text += " towards " +
+            with_error(whole_turn(degrees(tilt.towards)), degrees(tilt.towards_error)) + " degrees";
+    return text + "; corrected";
+}
+
 }  // namespace
 
 TrackingSettings tracking_settings(const std::string& video, const std::optional<double>& fps,
@@ -330,7 +347,7 @@ std::filesystem::path write_video_report(const TrackedVideo& video, const VideoS
     discs_table(video).write(folder / "discs.csv");
     Json about = found;
     about["command"] = command_line();
-    about["lens"]["camera"] = tilt_text(video);
+    about["lens"]["camera"] = camera_text(video);
     write_output(folder / "found.json", about.dump(2) + "\n");
     draw_found(video, source.video, std::filesystem::path(source.video).filename().string(),
                folder / "video.png");
@@ -338,22 +355,10 @@ std::filesystem::path write_video_report(const TrackedVideo& video, const VideoS
     return folder / "report.html";
 }
 
-std::string tilt_text(const TrackedVideo& video) {
-    const Tilt& tilt = video.tilt;
-    if (!video.lens.tilted())
-        return tilt.squeeze_error > 0.0
-                   ? fmt::format("no tilt found, below {:.1f} degrees", degrees(tilt.below))
-                   : "no tilt";
-    if (tilt.angle > 0.0 && tilt.angle_error == 0.0)
-        return fmt::format("tilt {:g} degrees towards {:g} degrees, as given; corrected",
-                           degrees(tilt.angle), whole_turn(degrees(tilt.towards)));
-    std::string text =
-        tilt.angle > 0.0
-            ? "tilt " + with_error(degrees(tilt.angle), degrees(tilt.angle_error)) + " degrees"
-            : fmt::format("tilt below {:.1f} degrees", degrees(tilt.below));
-    text += " towards " +
-            with_error(whole_turn(degrees(tilt.towards)), degrees(tilt.towards_error)) + " degrees";
-    return text + "; corrected";
+std::string camera_text(const TrackedVideo& video) {
+    if (!(video.readout > 0.0)) return tilt_text(video);
+    return tilt_text(video) + "; reads a frame in " +
+           with_error(video.readout, video.readout_error) + " of a frame interval; corrected";
 }
 
 double first_phase(const TrackedVideo& video) {

@@ -50,7 +50,7 @@ std::filesystem::path write_video_report(const tracking::TrackedVideo& video,
                                          const std::filesystem::path& folder);
 
 /// Tilt of the camera with its error, or its upper bound.
-std::string tilt_text(const tracking::TrackedVideo& video);
+std::string camera_text(const tracking::TrackedVideo& video);
 
 /// Phase of the container in the first frame: 0 to 360 degrees, counter-clockwise from +x.
 double first_phase(const tracking::TrackedVideo& video);

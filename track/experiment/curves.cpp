@@ -15,18 +15,13 @@ RotationPoint rotation_point(double x, const Json& r, const char* average) {
             number(at(r, {"rotation", average, "error"}))};
 }
 
-const RotationPoint* lowest_of(std::span<const RotationPoint> curve) {
-    const RotationPoint* lowest = nullptr;
+static const RotationPoint* extreme_of(std::span<const RotationPoint> curve, bool highest) {
+    const RotationPoint* found = nullptr;
     for (const RotationPoint& p : curve)
-        if (std::isfinite(p.mean) && (!lowest || p.mean < lowest->mean)) lowest = &p;
-    return lowest;
-}
-
-const RotationPoint* highest_of(std::span<const RotationPoint> curve) {
-    const RotationPoint* highest = nullptr;
-    for (const RotationPoint& p : curve)
-        if (std::isfinite(p.mean) && (!highest || p.mean > highest->mean)) highest = &p;
-    return highest;
+        if (std::isfinite(p.mean) &&
+            (!found || (highest ? p.mean > found->mean : p.mean < found->mean)))
+            found = &p;
+    return found;
 }
 
 // --- Crossings ------------------------------------------------------------------------------
@@ -45,8 +40,7 @@ static std::string crossing_of_rate(const NamedCurve& curve, const Crossing& cro
     }
     // The point that is nearest to the other direction.
     const bool counterrotates = crossing.verdict == Crossing::Verdict::always_counterrotates;
-    const RotationPoint* const next =
-        counterrotates ? highest_of(curve.points()) : lowest_of(curve.points());
+    const RotationPoint* const next = extreme_of(curve.points(), counterrotates);
     if (!next) return "has no points";
     const std::string undetermined =
         crossing.undetermined.empty()
@@ -81,21 +75,16 @@ void write_crossings(const std::vector<NamedCurve>& curves, const fs::path& file
     for (const NamedCurve& curve : curves) {
         const Crossings all = find_crossings(curve.curves);
         const Crossing& c = all[curve.rate];
-        const RotationPoint* const found = lowest_of(curve.points());
+        const RotationPoint* const found = extreme_of(curve.points(), false);
         const RotationPoint lowest =
             found ? *found : RotationPoint{not_available, not_available, not_available};
-        std::vector<Table::Cell> row{curve.name,
-                                     std::string(rotation_rates[curve.rate].name),
-                                     std::string(verdict_word(c.verdict)),
-                                     c.discs,
-                                     c.error,
-                                     c.lower,
-                                     c.upper,
-                                     std::int64_t(c.changes.size()),
-                                     spaced(c.undetermined),
-                                     lowest.mean,
-                                     lowest.error,
-                                     lowest.discs};
+        std::vector<Table::Cell> row{curve.name, std::string(rotation_rates[curve.rate].name),
+                                     std::string(verdict_word(c.verdict))};
+        for (const double value : {c.discs, c.error, c.lower, c.upper}) row.emplace_back(value);
+        row.emplace_back(std::int64_t(c.changes.size()));
+        row.emplace_back(spaced(c.undetermined));
+        for (const double value : {lowest.mean, lowest.error, lowest.discs})
+            row.emplace_back(value);
         for (const Crossing& by_rate : all)
             for (const double value : {by_rate.discs, by_rate.error, by_rate.lower, by_rate.upper})
                 row.emplace_back(value);

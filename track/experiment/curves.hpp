@@ -14,10 +14,6 @@ namespace swirl {
 /// crossings ignore.
 RotationPoint rotation_point(double x, const Json& result, const char* average);
 
-/// The point with the lowest (highest) mean; null if no point has a mean.
-const RotationPoint* lowest_of(std::span<const RotationPoint> curve);
-const RotationPoint* highest_of(std::span<const RotationPoint> curve);
-
 /// ϖ(N) by each of rotation_rates; `rate` is the one that the figure shows.
 struct NamedCurve {
     std::string name;

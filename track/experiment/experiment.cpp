@@ -278,34 +278,18 @@ std::vector<NamedCurve> Experiment::curves() const {
 }
 
 fs::path Experiment::write_videos() const {
-    Table table({"video",
-                 "surface",
-                 "discs",
-                 "frames",
-                 "periods",
-                 "frames_per_period",
-                 "radius",
-                 "container_radius",
-                 "amplitude",
-                 "omega",
-                 "omega_error",
-                 "complete_share",
-                 "position_error",
-                 "mean_by_time",
-                 "mean_by_time_error",
-                 "rigid_by_time",
-                 "rigid_by_time_error",
-                 "simulated",
-                 "simulated_error",
-                 "failed"});
+    Table table(
+        joined({"video", "surface", "discs", "frames", "periods", "frames_per_period", "radius",
+                "container_radius", "amplitude", "omega", "omega_error", "complete_share"},
+               {"position_error", "mean_by_time", "mean_by_time_error", "rigid_by_time",
+                "rigid_by_time_error", "simulated", "simulated_error", "failed"}));
     for (std::size_t k = 0; k < videos_.size(); ++k) {
         const ContainerVideo& video = videos_[k];
-        std::vector<Table::Cell> row{video.name,
-                                     std::string(kind_of(video.smooth)),
-                                     whole(at(video.found, {"discs"})),
-                                     whole(at(video.found, {"frames"})),
-                                     number(at(video.result, {"periods"})),
-                                     frames_per_period(video)};
+        std::vector<Table::Cell> row{video.name, std::string(kind_of(video.smooth))};
+        for (const char* name : {"discs", "frames"})
+            row.emplace_back(whole(at(video.found, {name})));
+        row.emplace_back(number(at(video.result, {"periods"})));
+        row.emplace_back(frames_per_period(video));
         for (const char* name : {"scale", "container-radius", "amplitude"})
             row.emplace_back(of_camera(video, name));
         for (const auto& [part, name] :

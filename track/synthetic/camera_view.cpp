@@ -18,58 +18,22 @@ struct Preset {
 };
 
 std::vector<Preset> presets() {
-    CameraSettings phone;
-    phone.size = {568, 520};
-    phone.scale = 21.0;
-    phone.frames_per_period = 128;
-    phone.glare = 70.0;
-    phone.distortion = 0.03;
-    phone.noise = 4.0;
-    phone.blur = 1.0;
-    phone.exposure = 0.25;
-    phone.flicker = 0.03;
-    phone.table = 150.0;
-    CameraSettings bad;
-    bad.size = {400, 400};
-    bad.scale = 15.0;
-    bad.frames_per_period = 32;
-    bad.disc = 125.0;
-    bad.floor = 70.0;
-    bad.rim = 105.0;
-    bad.gloss = 50.0;
-    bad.texture = 0.2;
-    bad.ambient = 0.7;
-    bad.diffuse = 0.3;
-    bad.noise = 5.0;
-    bad.blur = 1.3;
-    bad.exposure = 0.35;
+    CameraSettings phone, bad, steel, student;
+    phone.size = {568, 520}, phone.scale = 21.0, phone.frames_per_period = 128;
+    phone.glare = 70.0, phone.distortion = 0.03, phone.noise = 4.0, phone.blur = 1.0;
+    phone.exposure = 0.25, phone.flicker = 0.03, phone.table = 150.0;
+    bad.size = {400, 400}, bad.scale = 15.0, bad.frames_per_period = 32;
+    bad.disc = 125.0, bad.floor = 70.0, bad.rim = 105.0, bad.gloss = 50.0, bad.texture = 0.2;
+    bad.ambient = 0.7, bad.diffuse = 0.3, bad.noise = 5.0, bad.blur = 1.3, bad.exposure = 0.35;
     bad.flicker = 0.04;
-    CameraSettings steel;
-    steel.size = {600, 600};
-    steel.scale = 21.0;
-    steel.frames_per_period = 128;
-    steel.table = 170.0;
-    steel.floor = 215.0;
-    steel.rim = 90.0;
-    steel.disc = 55.0;
-    steel.gloss = 200.0;
-    steel.shininess = 25.0;
-    steel.texture = 0.2;
-    steel.glare = 20.0;
-    steel.noise = 3.0;
-    steel.blur = 0.9;
-    steel.exposure = 0.2;
+    steel.size = {600, 600}, steel.scale = 21.0, steel.frames_per_period = 128;
+    steel.table = 170.0, steel.floor = 215.0, steel.rim = 90.0, steel.disc = 55.0;
+    steel.gloss = 200.0, steel.shininess = 25.0, steel.texture = 0.2, steel.glare = 20.0;
+    steel.noise = 3.0, steel.blur = 0.9, steel.exposure = 0.2;
     // 30 frames per second at 2 periods per second.
-    CameraSettings student;
-    student.size = {640, 480};
-    student.scale = 20.0;
-    student.frames_per_period = 15;
-    student.noise = 3.0;
-    student.blur = 0.9;
-    student.exposure = 0.15;
-    student.flicker = 0.01;
-    student.table = 150.0;
-    student.gloss = 60.0;
+    student.size = {640, 480}, student.scale = 20.0, student.frames_per_period = 15;
+    student.noise = 3.0, student.blur = 0.9, student.exposure = 0.15, student.flicker = 0.01;
+    student.table = 150.0, student.gloss = 60.0;
     return {
         {"laboratory", {}}, {"phone", phone}, {"bad", bad}, {"steel", steel}, {"student", student}};
 }
@@ -102,7 +66,7 @@ Rotation product(const Rotation& a, const Rotation& b) {
 double nearly_normal(Random& random) {
     const std::uint64_t bits = random.bits();
     double sum = 0.0;
-    for (int k = 0; k < 4; ++k) sum += static_cast<double>((bits >> (16 * k)) & 0xffff);
+    for (int k = 0; k < 4; ++k) sum += double((bits >> (16 * k)) & 0xffff);
     constexpr double root_3 = 1.7320508;  // 1 over the standard deviation of the sum
     return (sum / 65536.0 - 2.0) * root_3;
 }
@@ -134,10 +98,9 @@ CameraView::CameraView(const CameraSettings& settings)
     const Vec2 side = unit_circle(settings.towards / 360.0);
     side_ = {side.x, -side.y};
     nearness_ = std::tan(settings.view_angle * pi / 360.0) / (0.5 * settings.size.height);
-    const std::size_t pixels = static_cast<std::size_t>(settings.size.width) *
-                               static_cast<std::size_t>(settings.size.height);
+    const std::size_t pixels = std::size_t(settings.size.width) * std::size_t(settings.size.height);
     grain_.resize(pixels);
-    for (float& g : grain_) g = static_cast<float>(nearly_normal(random_));
+    for (float& g : grain_) g = float(nearly_normal(random_));
     exposed_ = grain_;
     blur(exposed_);  // unblurred grain of one pixel would be noise
     grain_ = exposed_;
@@ -196,7 +159,7 @@ void CameraView::rotate_discs(const Snapshot& s) {
         textures_.push_back(waves);
     }
     if (known == 0) return;
-    const double step = s.period / static_cast<double>(settings_.frames_per_period);
+    const double step = s.period / double(settings_.frames_per_period);
     for (std::size_t i = 0; i < s.size(); ++i) {
         std::array<double, 3> w{0.0, 0.0, s.orientation(i) - last_angle_[i]};
         last_angle_[i] = s.orientation(i);
@@ -213,9 +176,21 @@ void CameraView::rotate_discs(const Snapshot& s) {
     }
 }
 
-double CameraView::row_delay(int row) const {
-    const double rolled = settings_.rolling_shutter * (double(row) / settings_.size.height - 0.5);
-    return rolled + (!settings_.interlaced ? 0.0 : row % 2 == 0 ? -0.25 : 0.25);
+std::vector<double> CameraView::delays() const {
+    constexpr int steps = 16;  // of a rolling shutter: discs hardly turn in between
+    if (settings_.interlaced) return {-0.25, 0.0, 0.25};
+    std::vector<double> all;
+    for (int k = 0; k <= steps; ++k)
+        all.push_back(settings_.rolling_shutter * (double(k) / steps - 0.5));
+    return settings_.rolling_shutter > 0.0 ? all : std::vector<double>{0.0};
+}
+
+Vec2 CameraView::at_row(const std::vector<Vec2>& way, int row) const {
+    const double last = double(way.size() - 1);
+    if (settings_.interlaced) return row % 2 == 0 ? way.front() : way.back();
+    const double at = last * row / settings_.size.height;
+    const auto k = std::size_t(at);
+    return k + 1 < way.size() ? way[k] + (at - double(k)) * (way[k + 1] - way[k]) : way[k];
 }
 
 double CameraView::floor_level(const Vec2& from_container) const {
@@ -226,14 +201,13 @@ double CameraView::floor_level(const Vec2& from_container) const {
     return settings_.floor + (odd ? 0.5 : -0.5) * settings_.floor_pattern;
 }
 
-void CameraView::draw_background(const Vec2& container, const Vec2& step, double radius,
+void CameraView::draw_background(const std::vector<Vec2>& container, double radius,
                                  std::vector<float>& light) const {
     const double inner = radius * settings_.scale, outer = inner + rim_width * settings_.scale;
     const double height = settings_.rim_height * settings_.scale;
     for (std::size_t k = 0; k < light.size(); ++k) {
-        const int row = static_cast<int>(k / static_cast<std::size_t>(settings_.size.width));
-        const Vec2 d =
-            positions_[k] + height * lean(positions_[k]) - container - row_delay(row) * step;
+        const int row = int(k / std::size_t(settings_.size.width));
+        const Vec2 d = positions_[k] + height * lean(positions_[k]) - at_row(container, row);
         const double distance = std::sqrt(dot(d, d));
         double level = floor_level(d);
         if (distance > inner - 1.0) {
@@ -243,22 +217,21 @@ void CameraView::draw_background(const Vec2& container, const Vec2& step, double
             const double out = std::clamp(distance - outer + 0.5, 0.0, 1.0);
             level = (1.0 - in) * level + (in - out) * wall + out * settings_.table;
         }
-        light[k] = static_cast<float>(level + settings_.clutter * grain_[k]);
+        light[k] = float(level + settings_.clutter * grain_[k]);
     }
 }
 
-void CameraView::draw_disc(const Vec2& centre, const Vec2& step, double radius,
-                           const Rotation& orientation, std::size_t i,
-                           std::vector<float>& light) const {
+void CameraView::draw_disc(const std::vector<Vec2>& way, double radius, const Rotation& orientation,
+                           std::size_t i, std::vector<float>& light) const {
     const double a = radius * settings_.scale;
-    const Vec2 around = seen(centre);
-    const int reach = static_cast<int>(std::ceil(a * 1.4 + std::abs(row_delay(0) * step.x) +
-                                                 std::abs(row_delay(0) * step.y))) +
-                      2;
-    const int left = std::max(0, static_cast<int>(around.x) - reach);
-    const int right = std::min(settings_.size.width - 1, static_cast<int>(around.x) + reach);
-    const int top = std::max(0, static_cast<int>(around.y) - reach);
-    const int bottom = std::min(settings_.size.height - 1, static_cast<int>(around.y) + reach);
+    const Vec2 centre = way[way.size() / 2], around = seen(centre);
+    double farthest = 0.0;
+    for (const Vec2& p : way) farthest = std::max(farthest, std::sqrt(dot(p - centre, p - centre)));
+    const int reach = int(std::ceil(a * 1.4 + farthest)) + 2;
+    const int left = std::max(0, int(around.x) - reach);
+    const int right = std::min(settings_.size.width - 1, int(around.x) + reach);
+    const int top = std::max(0, int(around.y) - reach);
+    const int bottom = std::min(settings_.size.height - 1, int(around.y) + reach);
     // y points up here, and down in the image.
     const auto [lx, ly, lz] = settings_.light;
     const Vec2 leaning = lean(centre);
@@ -273,9 +246,8 @@ void CameraView::draw_disc(const Vec2& centre, const Vec2& step, double radius,
     for (int row = top; row <= bottom; ++row)
         for (int column = left; column <= right; ++column) {
             const std::size_t k =
-                static_cast<std::size_t>(row) * static_cast<std::size_t>(settings_.size.width) +
-                static_cast<std::size_t>(column);
-            const Vec2 d = positions_[k] - centre - row_delay(row) * step;
+                std::size_t(row) * std::size_t(settings_.size.width) + std::size_t(column);
+            const Vec2 d = positions_[k] - at_row(way, row);
             // Distance of the line of sight from the disc's centre.
             const double along = d.x * ex - d.y * ey;
             const double distance = std::sqrt(std::max(0.0, dot(d, d) - along * along));
@@ -291,8 +263,8 @@ void CameraView::draw_disc(const Vec2& centre, const Vec2& step, double radius,
             double pattern = 0.0;
             if (settings_.texture > 0.0) {
                 for (const Wave& wave : textures_[i])
-                    pattern += static_cast<double>(std::cos(static_cast<float>(
-                        wave.k[0] * ox + wave.k[1] * oy + wave.k[2] * oz + wave.phase)));
+                    pattern += double(std::cos(
+                        float(wave.k[0] * ox + wave.k[1] * oy + wave.k[2] * oz + wave.phase)));
                 pattern *= std::sqrt(2.0 / waves_per_texture);
             }
             const double albedo = own * (1.0 + settings_.texture * 0.6 * pattern);
@@ -306,7 +278,7 @@ void CameraView::draw_disc(const Vec2& centre, const Vec2& step, double radius,
                 level += settings_.transparency * (seen_through(light[k], distance / a) - level);
             if (mirror > 0.7 && !settings_.flat)
                 level += settings_.gloss * std::pow(mirror, 4.0 * settings_.shininess);
-            light[k] = static_cast<float>((1.0 - cover) * light[k] + cover * level);
+            light[k] = float((1.0 - cover) * light[k] + cover * level);
         }
 }
 
@@ -323,9 +295,8 @@ void CameraView::draw_hand() {
         for (int column = 0; column < settings_.size.width; ++column) {
             const Vec2 d{std::min(0.0, column - tip - thick), row - 1.1 * half_height};
             if (dot(d, d) < thick * thick)
-                exposed_[static_cast<std::size_t>(row) *
-                             static_cast<std::size_t>(settings_.size.width) +
-                         static_cast<std::size_t>(column)] = static_cast<float>(skin);
+                exposed_[std::size_t(row) * std::size_t(settings_.size.width) +
+                         std::size_t(column)] = float(skin);
         }
 }
 
@@ -338,8 +309,7 @@ void CameraView::draw_shadow() {
                       0.95 * settings_.size.height};
     for (std::size_t k = 0; k < exposed_.size(); ++k) {
         const Vec2 d = positions_[k] - centre;
-        exposed_[k] -=
-            static_cast<float>(settings_.shadow * std::exp(-dot(d, d) / (2.0 * wide * wide)));
+        exposed_[k] -= float(settings_.shadow * std::exp(-dot(d, d) / (2.0 * wide * wide)));
     }
 }
 
@@ -367,61 +337,56 @@ void CameraView::sort_by_distance(const Snapshot& s) {
 /// Convolves with a Gaussian, first along rows, then along columns.
 void CameraView::blur(std::vector<float>& light) const {
     if (!(settings_.blur > 0.05)) return;
-    const int reach = static_cast<int>(std::ceil(3.0 * settings_.blur));
-    std::vector<float> weights(static_cast<std::size_t>(2 * reach + 1));
+    const int reach = int(std::ceil(3.0 * settings_.blur));
+    std::vector<float> weights(std::size_t(2 * reach + 1));
     float sum = 0.0f;
     for (int k = -reach; k <= reach; ++k)
-        sum += weights[static_cast<std::size_t>(k + reach)] =
-            static_cast<float>(std::exp(-0.5 * k * k / (settings_.blur * settings_.blur)));
+        sum += weights[std::size_t(k + reach)] =
+            float(std::exp(-0.5 * k * k / (settings_.blur * settings_.blur)));
     const int width = settings_.size.width, height = settings_.size.height;
-    const auto at = [width](int row, int column) {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-               static_cast<std::size_t>(column);
+    const auto pass = [&](const std::vector<float>& from, std::vector<float>& into, int x, int y) {
+        for (int row = 0; row < height; ++row)
+            for (int k = -reach; k <= reach; ++k) {
+                const float weight = weights[std::size_t(k + reach)] / sum;
+                const int at = row * width, of = std::clamp(row + k * y, 0, height - 1) * width;
+                for (int column = 0; column < width; ++column)
+                    into[std::size_t(at + column)] +=
+                        weight * from[std::size_t(of + std::clamp(column + k * x, 0, width - 1))];
+            }
     };
     std::vector<float> blurred_rows(light.size(), 0.0f);
-    for (int row = 0; row < height; ++row)
-        for (int k = -reach; k <= reach; ++k) {
-            const float weight = weights[static_cast<std::size_t>(k + reach)] / sum;
-            for (int column = 0; column < width; ++column)
-                blurred_rows[at(row, column)] +=
-                    weight * light[at(row, std::clamp(column + k, 0, width - 1))];
-        }
+    pass(light, blurred_rows, 1, 0);
     std::fill(light.begin(), light.end(), 0.0f);
-    for (int row = 0; row < height; ++row)
-        for (int k = -reach; k <= reach; ++k) {
-            const float weight = weights[static_cast<std::size_t>(k + reach)] / sum;
-            const int from = std::clamp(row + k, 0, height - 1);
-            for (int column = 0; column < width; ++column)
-                light[at(row, column)] += weight * blurred_rows[at(from, column)];
-        }
+    pass(blurred_rows, light, 0, 1);
 }
 
-const std::vector<std::uint8_t>& CameraView::render(const Snapshot& s) {
+const std::vector<std::uint8_t>& CameraView::render(const std::vector<Snapshot>& states) {
+    const Snapshot& s = states[states.size() / 2];
     rotate_discs(s);
     sort_by_distance(s);
     // Discs move on straight lines during the exposure: one sample per pixel of their way.
-    const double open =
-        settings_.exposure * s.period / static_cast<double>(settings_.frames_per_period);
+    const double open = settings_.exposure * s.period / double(settings_.frames_per_period);
     double fastest = 0.0;
     for (std::size_t i = 0; i < s.size(); ++i)
         fastest = std::max(fastest, dot(s.velocity(i), s.velocity(i)));
-    const int exposures =
-        std::clamp(static_cast<int>(std::sqrt(fastest) * open * settings_.scale + 0.8), 1, 9);
-    const double interval = s.period / static_cast<double>(settings_.frames_per_period);
-    const auto moved = [&](const Vec2& velocity) {  // in pixels per frame interval
-        return ideal(interval * velocity) - ideal({0.0, 0.0});
-    };
+    const int exposures = std::clamp(int(std::sqrt(fastest) * open * settings_.scale + 0.8), 1, 9);
+    std::vector<Vec2> way(states.size());
     exposed_.assign(image_.size(), 0.0f);
     light_.resize(image_.size());
     for (int e = 0; e < exposures; ++e) {
         const double after = open * ((e + 0.5) / exposures - 0.5);
-        draw_background(ideal(s.container_centre + after * s.container_velocity),
-                        moved(s.container_velocity), s.container_radius, light_);
-        for (const std::size_t i : order_)
-            draw_disc(ideal(s.position(i) + after * s.velocity(i)), moved(s.velocity(i)),
-                      s.radius[i], orientations_[i], i, light_);
-        for (std::size_t k = 0; k < light_.size(); ++k)
-            exposed_[k] += light_[k] / static_cast<float>(exposures);
+        const auto set_way = [&](const auto& position) {
+            for (std::size_t n = 0; n < way.size(); ++n) way[n] = ideal(position(states[n]));
+        };
+        set_way([&](const Snapshot& at) {
+            return at.container_centre + after * at.container_velocity;
+        });
+        draw_background(way, s.container_radius, light_);
+        for (const std::size_t i : order_) {
+            set_way([&](const Snapshot& at) { return at.position(i) + after * at.velocity(i); });
+            draw_disc(way, s.radius[i], orientations_[i], i, light_);
+        }
+        for (std::size_t k = 0; k < light_.size(); ++k) exposed_[k] += light_[k] / float(exposures);
     }
     if (settings_.glare > 0.0) {
         const Vec2 spot{0.62 * settings_.size.width, 0.33 * settings_.size.height};
@@ -429,7 +394,7 @@ const std::vector<std::uint8_t>& CameraView::render(const Snapshot& s) {
         for (std::size_t k = 0; k < exposed_.size(); ++k) {
             const Vec2 d = positions_[k] - spot;
             const double far = dot(d, d) / (2.0 * wide * wide);
-            if (far < 12.0) exposed_[k] += static_cast<float>(settings_.glare * std::exp(-far));
+            if (far < 12.0) exposed_[k] += float(settings_.glare * std::exp(-far));
         }
     }
     if (settings_.shadow > 0.0) draw_shadow();
@@ -438,9 +403,9 @@ const std::vector<std::uint8_t>& CameraView::render(const Snapshot& s) {
     const double illumination = brightness();
     ++frame_;
     for (std::size_t k = 0; k < exposed_.size(); ++k) {
-        const double level = illumination * static_cast<double>(exposed_[k]) +
-                             settings_.noise * nearly_normal(random_);
-        image_[k] = static_cast<std::uint8_t>(std::clamp(level + 0.5, 0.0, 255.0));
+        const double level =
+            illumination * double(exposed_[k]) + settings_.noise * nearly_normal(random_);
+        image_[k] = std::uint8_t(std::clamp(level + 0.5, 0.0, 255.0));
     }
     return image_;
 }

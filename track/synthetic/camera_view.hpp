@@ -93,8 +93,11 @@ class CameraView {
   public:
     explicit CameraView(const CameraSettings& settings);
 
-    /// The next frame, of this state: rows from the top, one byte per pixel.
-    const std::vector<std::uint8_t>& render(const Snapshot& s);
+    /// Times of the states that a frame shows, in frame intervals after its own, ascending. The one
+    /// in the middle is 0.
+    std::vector<double> delays() const;
+    /// The next frame, of these states: rows from the top, one byte per pixel.
+    const std::vector<std::uint8_t>& render(const std::vector<Snapshot>& states);
 
     /// The pixel position that an ideal lens shows, and the one that this lens shows.
     Vec2 ideal(const Vec2& lab) const;
@@ -117,13 +120,12 @@ class CameraView {
     Vec2 lean(const Vec2& ideal) const;
     void sort_by_distance(const Snapshot& s);
     void rotate_discs(const Snapshot& s);
-    /// Time at which a row is seen, relative to the frame, in frame intervals.
-    double row_delay(int row) const;
+    /// Of positions in all states, that at the time of a row.
+    Vec2 at_row(const std::vector<Vec2>& way, int row) const;
     double floor_level(const Vec2& from_container) const;
-    /// `step`: motion in pixels per frame interval.
-    void draw_background(const Vec2& container, const Vec2& step, double radius,
+    void draw_background(const std::vector<Vec2>& container, double radius,
                          std::vector<float>& light) const;
-    void draw_disc(const Vec2& centre, const Vec2& step, double radius, const Rotation& orientation,
+    void draw_disc(const std::vector<Vec2>& way, double radius, const Rotation& orientation,
                    std::size_t i, std::vector<float>& light) const;
     void draw_hand();
     void draw_shadow();

@@ -272,12 +272,10 @@ TrackSmoothing smooth(Tracks& tracks, const TrackScale& scale) {
         }
     }
     const double unit = rate / (scale.pixels_per_radius * scale.camera_time());
-    found.done = true;
-    found.noise = std::sqrt(measured);
-    found.bend = turn * std::sqrt(coordinate);
+    found.done = true, found.kicks = kicks.share;
+    found.noise = std::sqrt(measured), found.bend = turn * std::sqrt(coordinate);
     found.position_error = std::sqrt(position_square / samples);
     found.window = noise / (position_square / samples);
-    found.kicks = kicks.share;
     found.missing_energy = unit * unit * velocity_square / samples;
     return found;
 }

@@ -48,10 +48,9 @@ struct TrackSmoothing {
     /// Deviation of paths from a straight line between two frames, pixels. A lower noise estimate
     /// is replaced by this value.
     double bend = 0.0;
-    double window = 1.0;  // frames whose mean would be as accurate as a smoothed position
-    double kicks = 0.0;   // detected kicks per disc and frame
-    double missing_energy =
-        0.0;  // excess of ½⟨u²⟩ over that of the velocities, units of the result
+    double window = 1.0;          // frames whose mean would be as accurate as a smoothed position
+    double kicks = 0.0;           // detected kicks per disc and frame
+    double missing_energy = 0.0;  // excess of ½⟨u²⟩ over that of the velocities
 
     /// Standard error per coordinate, relative to the container's speed.
     double velocity_error() const { return std::sqrt(missing_energy); }

@@ -105,6 +105,46 @@ class TrackSeries {
     double period_;      // unit: that of the result
 };
 
+/// Reads the atoms after an "ITEM: ATOMS" line into `frame`, sorted by ID.
+void read_atoms(TextLines& lines, std::string_view names, std::int64_t atoms, TrackFrame& frame) {
+    NumberTable table(lines, names);
+    const auto wrapped_or_not = [&](std::string_view wrapped, std::string_view unwrapped) {
+        const auto index = table.find({wrapped});
+        return index ? index : table.find({unwrapped});
+    };
+    const auto id = table.find({"id"}), x = wrapped_or_not("x", "xu"),
+               y = wrapped_or_not("y", "yu"), vx = table.find({"vx"}), vy = table.find({"vy"}),
+               radius = table.find({"radius"}), mass = table.find({"mass"}),
+               omega = table.find({"omegaz"});
+    if (!id || !x || !y) lines.fail("the atoms must have the columns id, x and y (or xu and yu)");
+    const auto value = [&](const std::optional<std::size_t>& column, double otherwise) {
+        return column ? table.number(*column) : otherwise;
+    };
+    struct Atom {
+        Vec2 position, velocity;
+        double radius, mass, spin;
+    };
+    std::map<std::int64_t, Atom> by_id;
+    for (std::int64_t k = 0; k < atoms; ++k) {
+        if (!table.next()) lines.fail_at_end("an atom");
+        const Atom atom{{table.number(*x), table.number(*y)},
+                        {value(vx, 0.0), value(vy, 0.0)},
+                        value(radius, 1.0),
+                        value(mass, 1.0),
+                        value(omega, 0.0)};
+        if (const std::int64_t number = table.integer(*id); !by_id.emplace(number, atom).second)
+            lines.fail(fmt::format("atom {} appears twice", number));
+    }
+    for (const auto& [number, atom] : by_id) {
+        frame.id.push_back(number);
+        frame.position.push_back(atom.position);
+        if (vx && vy) frame.velocity.push_back(atom.velocity);
+        if (radius) frame.radius.push_back(atom.radius);
+        if (mass) frame.mass.push_back(atom.mass);
+        if (omega) frame.spin.push_back(atom.spin);
+    }
+}
+
 }  // namespace
 
 Tracks read_trackpy_csv(const std::filesystem::path& path) {
@@ -156,50 +196,6 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     for (auto& [number, f] : frames) result.frames.push_back(std::move(f));
     return result;
 }
-
-namespace {
-
-/// Reads the atoms after an "ITEM: ATOMS" line into `frame`, sorted by ID.
-void read_atoms(TextLines& lines, std::string_view names, std::int64_t atoms, TrackFrame& frame) {
-    NumberTable table(lines, names);
-    const auto wrapped_or_not = [&](std::string_view wrapped, std::string_view unwrapped) {
-        const auto index = table.find({wrapped});
-        return index ? index : table.find({unwrapped});
-    };
-    const auto id = table.find({"id"}), x = wrapped_or_not("x", "xu"),
-               y = wrapped_or_not("y", "yu"), vx = table.find({"vx"}), vy = table.find({"vy"}),
-               radius = table.find({"radius"}), mass = table.find({"mass"}),
-               omega = table.find({"omegaz"});
-    if (!id || !x || !y) lines.fail("the atoms must have the columns id, x and y (or xu and yu)");
-    const auto value = [&](const std::optional<std::size_t>& column, double otherwise) {
-        return column ? table.number(*column) : otherwise;
-    };
-    struct Atom {
-        Vec2 position, velocity;
-        double radius, mass, spin;
-    };
-    std::map<std::int64_t, Atom> by_id;
-    for (std::int64_t k = 0; k < atoms; ++k) {
-        if (!table.next()) lines.fail_at_end("an atom");
-        const Atom atom{{table.number(*x), table.number(*y)},
-                        {value(vx, 0.0), value(vy, 0.0)},
-                        value(radius, 1.0),
-                        value(mass, 1.0),
-                        value(omega, 0.0)};
-        if (const std::int64_t number = table.integer(*id); !by_id.emplace(number, atom).second)
-            lines.fail(fmt::format("atom {} appears twice", number));
-    }
-    for (const auto& [number, atom] : by_id) {
-        frame.id.push_back(number);
-        frame.position.push_back(atom.position);
-        if (vx && vy) frame.velocity.push_back(atom.velocity);
-        if (radius) frame.radius.push_back(atom.radius);
-        if (mass) frame.mass.push_back(atom.mass);
-        if (omega) frame.spin.push_back(atom.spin);
-    }
-}
-
-}  // namespace
 
 Tracks read_lammps_dump(const std::filesystem::path& path) {
     constexpr std::string_view atoms_item = "ITEM: ATOMS";

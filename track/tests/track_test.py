@@ -2,8 +2,6 @@
 
     track_test.py            tests with small videos, a sample of them
     track_test.py --all      all of them
-    track_test.py --table    table of the four videos of docs/results/tracking_accuracy.md (minutes)
-    track_test.py --spin     bias of measured spins against spin, noise and compression (minutes)
 """
 
 import csv
@@ -13,7 +11,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 
 from program import ALL, InFolder, main, slow, some, swirl
 
@@ -399,6 +396,24 @@ class TrackTest(InFolder):
         # Fewer contacts than in a longer video, and outlines that err by the shading: within 8 %.
         self.assertLess(abs(found["species"][0]["radius"] / 15.0 - 1.0), 0.08)
 
+    def test_rolling_shutter_is_measured_and_removed(self):
+        # 32 frames per period: discs move by up to 2 pixels while the frame is read.
+        of = list(LARGER)
+        of[of.index("--frames-per-period") + 1] = 32
+        for readout, seed in some(((0.8, 3), (0.4, 5)), 1):
+            with self.subTest(readout=readout):
+                video = self.video("--rolling-shutter", readout, of=[*of[:-1], seed], length=2, name=f"{seed}.mp4")
+                tracks, said = self.track(video, name=f"{seed}.csv")
+                self.assertRegex(said, r"reads a frame in 0\.\d+ ± 0\.\d+ of a frame interval; corrected")
+                result = Comparison(video, tracks)
+                lens = result.found["lens"]
+                self.assertLess(abs(lens["readout"] - readout), 4.0 * lens["readout_error"])
+                self.assertLess(lens["readout_error"], 0.05)
+                self.assertEqual((result.complete, result.swaps, lens["tilt"]), (1.0, 0, 0.0))
+                self.assertLess(result.rms, 0.4)  # pixels, the limit of test_rotation_from_a_video
+                self.assertLess(abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.01)
+                self.assert_true_rotation(video, tracks, result.truth)
+
     def test_pattern_of_the_floor_is_removed(self):
         # As a student's video: 15 frames per period; two periods show all of the floor.
         video = self.video("--floor-pattern", 60, "--disc-variation", 0.25, length=2,
@@ -757,53 +772,5 @@ exec '{shutil.which("ffmpeg")}' "$@"
         self.assertEqual(self.left_behind(), [])
 
 
-VIDEOS = (("laboratory", ["--discs", 36, "--length", 1.5]),
-         ("phone", ["--discs", 48, "--length", 4, "--quality", 26]),
-         ("bad", ["--discs", 28, "--length", 12, "--quality", 26]),
-         ("steel", ["--discs", 32, "--mixture", "10:1.35", "--length", 4, "--quality", 24]))
-
-
-def print_table(folder):
-    print("| video | frames with all discs | identity swaps per 1000 | rms, pixels | Ω | centre, pixels "
-          "| amplitude, pixels | radius |")
-    print("|---|---|---|---|---|---|---|---|")
-    for name, options in VIDEOS:
-        video, tracks = (os.path.join(folder, name + end) for end in (".mp4", ".csv"))
-        for call in (["synthetic-video", "--camera", name, *options, "--out", video, "--overwrite"],
-                     ["track", video, "--out", tracks, "--overwrite"]):
-            done = swirl(*call, "--quiet", timeout=1200)
-            if done.returncode != 0:
-                print(done.stderr)
-                return 1
-        c = Comparison(video, tracks)
-        print(f"| {name} | {100 * c.complete:.1f} % | {c.swaps_per_thousand:.1f} | {c.rms:.2f} "
-              f"| {c.omega:+.0e} | {c.centre:.2f} | {c.amplitude:+.2f} | {100 * c.radius:+.1f} % |",
-              flush=True)
-    return 0
-
-
-def print_spins(folder):
-    print("| noise, levels | compression | slope, 0–0.3 Ω | 0.3–0.6 | above | rms, Ω |")
-    print("|---|---|---|---|---|---|")
-    video, tracks = os.path.join(folder, "video.mp4"), os.path.join(folder, "tracks.csv")
-    for noise, quality in ((0, 0), (2, 0), (4, 0), (8, 0), (2, 10), (2, 18), (2, 26)):
-        for call in (["synthetic-video", "--discs", 36, "--frames-per-period", 64, "--max-frames", 80,
-                      "--noise", noise, "--quality", quality, "--out", video, "--overwrite"],
-                     ["track", video, "--spin", "--out", tracks, "--overwrite"]):
-            done = swirl(*call, "--quiet", timeout=1200)
-            if done.returncode != 0:
-                print(done.stderr)
-                return 1
-        spins = SpinComparison(video, tracks)
-        cells = [f"{noise}", f"{quality}"]
-        cells += [f"{spins.slope(*bounds):.3f}" for bounds in ((0, 0.3), (0.3, 0.6), (0.6,))] + [f"{spins.rms():.3f}"]
-        print("| " + " | ".join(cells) + " |", flush=True)
-    return 0
-
-
 if __name__ == "__main__":
-    if sys.argv[1:2] in (["--table"], ["--spin"]):
-        import tempfile
-        with tempfile.TemporaryDirectory(prefix="swirl-videos-") as folder:
-            sys.exit((print_table if sys.argv[1] == "--table" else print_spins)(folder))
     main()

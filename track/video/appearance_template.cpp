@@ -21,7 +21,7 @@ constexpr std::size_t min_particles = 150;  // particles of each species, in all
 /// Texture and compression correlate the residuals of about this many neighbouring pixels.
 constexpr double pixels_of_a_patch = 4.0;
 
-int half_of(double radius) { return static_cast<int>((radius + beyond + 1.5) / step) + 1; }
+int half_of(double radius) { return int((radius + beyond + 1.5) / step) + 1; }
 
 /// T, ∂ₓT, ∂ᵧT and 0 at a grid point, in one vector register.
 typedef float OnGrid __attribute__((vector_size(16)));
@@ -36,19 +36,18 @@ OnGrid four_at(const float* from) {
 class GridRow {
   public:
     GridRow(const cv::Mat& grid, double y)
-        : half_(0.5f * static_cast<float>(grid.cols - 1)),
-          last_(static_cast<float>(grid.cols) - 1.001f) {
+        : half_(0.5f * float(grid.cols - 1)), last_(float(grid.cols) - 1.001f) {
         const double v = std::clamp(y / step + 0.5 * (grid.rows - 1), 0.0, grid.rows - 1.001);
-        const int row = static_cast<int>(v);
-        q_ = static_cast<float>(v - row);
+        const int row = int(v);
+        q_ = float(v - row);
         above_ = grid.ptr<float>(row);
         below_ = grid.ptr<float>(row + 1);
     }
     OnGrid at(float x) const {
-        constexpr auto per_pixel = static_cast<float>(1.0 / step);
+        constexpr auto per_pixel = float(1.0 / step);
         const float u = std::min(std::max(x * per_pixel + half_, 0.0f), last_);
-        const int column = static_cast<int>(u);
-        const float p = u - static_cast<float>(column);
+        const int column = int(u);
+        const float p = u - float(column);
         const float a = (1.0f - q_) * (1.0f - p), b = (1.0f - q_) * p, c = q_ * (1.0f - p),
                     d = q_ * p;
         const float *above = above_ + 4 * column, *below = below_ + 4 * column;
@@ -130,8 +129,7 @@ cv::Mat AppearanceTemplate::free_floor(const cv::Size& size, const CircleFit& ri
                                        const std::vector<DetectedParticle>& particles) const {
     cv::Mat mask = cv::Mat::zeros(size, CV_8U);
     const auto fill = [&](const Vec2& centre, double radius, int level) {
-        cv::circle(mask, {cvRound(centre.x), cvRound(centre.y)}, static_cast<int>(radius), level,
-                   cv::FILLED);
+        cv::circle(mask, {cvRound(centre.x), cvRound(centre.y)}, int(radius), level, cv::FILLED);
     };
     fill(rim.centre, reach_ - 3.0, 255);
     for (const DetectedParticle& b : particles)
@@ -163,8 +161,7 @@ cv::Mat AppearanceTemplate::median_floor(const std::vector<Example>& examples, u
     std::vector<float> of_illumination;
     std::vector<cv::Mat> is_free;
     for (const Example& e : examples) {
-        of_illumination.push_back(
-            static_cast<float>(1.0 / illumination(e.sharp, e.rim, e.particles)));
+        of_illumination.push_back(float(1.0 / illumination(e.sharp, e.rim, e.particles)));
         is_free.push_back(free_floor(size, e.rim, e.particles));
     }
     cv::Mat sum = cv::Mat::zeros(size, CV_32F);
@@ -172,7 +169,7 @@ cv::Mat AppearanceTemplate::median_floor(const std::vector<Example>& examples, u
     constexpr int rows_per_task = 16;
     const auto median_of_rows = [&](std::size_t part) {
         std::vector<float> levels;
-        const int begin = rows_per_task * static_cast<int>(part);
+        const int begin = rows_per_task * int(part);
         for (int row = begin; row < std::min(begin + rows_per_task, size.height); ++row)
             for (int column = 0; column < size.width; ++column) {
                 levels.clear();
@@ -181,14 +178,14 @@ cv::Mat AppearanceTemplate::median_floor(const std::vector<Example>& examples, u
                         levels.push_back(examples[k].sharp.at<float>(row, column) *
                                          of_illumination[k]);
                 if (levels.empty()) continue;
-                const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
+                const auto middle = levels.begin() + std::ptrdiff_t(levels.size() / 2);
                 std::nth_element(levels.begin(), middle, levels.end());
                 sum.at<float>(row, column) = *middle;
                 known.at<float>(row, column) = 1.0f;
             }
     };
-    parallel_for(static_cast<std::size_t>((size.height + rows_per_task - 1) / rows_per_task),
-                 median_of_rows, threads);
+    parallel_for(std::size_t((size.height + rows_per_task - 1) / rows_per_task), median_of_rows,
+                 threads);
     return sum;
 }
 
@@ -206,16 +203,9 @@ void AppearanceTemplate::learn_floor(const std::vector<Example>& examples, unsig
         cv::GaussianBlur(known, narrow, {}, narrow_width);
         cv::GaussianBlur(sum, wide_sum, {}, wide_width);
         cv::GaussianBlur(known, wide, {}, wide_width);
-        cv::Mat floor = cv::Mat::zeros(size, CV_32F);
-        for (int row = 0; row < size.height; ++row)
-            for (int column = 0; column < size.width; ++column) {
-                const float n = narrow.at<float>(row, column), w = wide.at<float>(row, column);
-                if (n > min_narrow)
-                    floor.at<float>(row, column) = narrow_sum.at<float>(row, column) / n;
-                else if (w > min_wide)
-                    floor.at<float>(row, column) = wide_sum.at<float>(row, column) / w;
-            }
-        floor_ = floor;
+        floor_ = cv::Mat::zeros(size, CV_32F);
+        cv::Mat(wide_sum / wide).copyTo(floor_, wide > min_wide);
+        cv::Mat(narrow_sum / narrow).copyTo(floor_, narrow > min_narrow);
     }
 }
 
@@ -225,16 +215,16 @@ AppearanceTemplate::Excess AppearanceTemplate::excess(
     Excess result;
     result.container = rim.centre;
     result.level = cv::Mat(sharp.size(), CV_32F, cv::Scalar(double(nowhere)));
-    const auto of_illumination = static_cast<float>(1.0 / illumination(sharp, rim, particles));
-    const auto soft = static_cast<float>(soft_);
-    const auto steep = static_cast<float>(appearance_.polarity / soft_);
+    const auto of_illumination = float(1.0 / illumination(sharp, rim, particles));
+    const auto soft = float(soft_);
+    const auto steep = float(appearance_.polarity / soft_);
     const double reach = reach_ - 0.5;
     for (int row = 0; row < sharp.rows; ++row) {
         const double y = double(row) - rim.centre.y;
         if (std::abs(y) > reach) continue;
         const double half = std::sqrt(reach * reach - y * y);
-        const int from = std::max(0, static_cast<int>(std::ceil(rim.centre.x - half)));
-        const int to = std::min(sharp.cols - 1, static_cast<int>(rim.centre.x + half));
+        const int from = std::max(0, int(std::ceil(rim.centre.x - half)));
+        const int to = std::min(sharp.cols - 1, int(rim.centre.x + half));
         const float* in = sharp.ptr<float>(row);
         const float* floor = floor_.ptr<float>(row);
         float* out = result.level.ptr<float>(row);
@@ -254,27 +244,27 @@ void AppearanceTemplate::each_row(const Excess& excess, const Vec2& centre, std:
     const double radius = templates_[species].radius;
     const double scale = appearance_.lens.seen_radius(centre, radius) / radius;
     const double reach = scale * radius + beyond;
-    const int top = std::max(0, static_cast<int>(std::ceil(centre.y - reach))),
-              bottom = std::min(excess.level.rows - 1, static_cast<int>(centre.y + reach));
+    const int top = std::max(0, int(std::ceil(centre.y - reach))),
+              bottom = std::min(excess.level.rows - 1, int(centre.y + reach));
     std::vector<char> hidden;  // pixels of a row that others cover
     for (int row = top; row <= bottom; row += stride) {
         const double y = double(row) - centre.y;
         const double half = std::sqrt(std::max(0.0, reach * reach - y * y));
-        const int from = std::max(0, static_cast<int>(std::ceil(centre.x - half))),
-                  to = std::min(excess.level.cols - 1, static_cast<int>(centre.x + half));
+        const int from = std::max(0, int(std::ceil(centre.x - half))),
+                  to = std::min(excess.level.cols - 1, int(centre.x + half));
         if (to < from) continue;
-        hidden.assign(static_cast<std::size_t>(to - from + 1), 0);
+        hidden.assign(std::size_t(to - from + 1), 0);
         for (const NearCircle& o : others) {
             const double reach_of = o.radius + near_others, up = double(row) - o.centre.y;
             if (std::abs(up) >= reach_of) continue;
             const double wide = std::sqrt(reach_of * reach_of - up * up);
-            const int first = std::max(from, static_cast<int>(std::ceil(o.centre.x - wide))),
-                      last = std::min(to, static_cast<int>(std::floor(o.centre.x + wide)));
-            for (int c = first; c <= last; ++c) hidden[static_cast<std::size_t>(c - from)] = 1;
+            const int first = std::max(from, int(std::ceil(o.centre.x - wide))),
+                      last = std::min(to, int(std::floor(o.centre.x + wide)));
+            for (int c = first; c <= last; ++c) hidden[std::size_t(c - from)] = 1;
         }
         const float* level = excess.level.ptr<float>(row);
         for (int column = from; column <= to; column += stride) {
-            char& is_hidden = hidden[static_cast<std::size_t>(column - from)];
+            char& is_hidden = hidden[std::size_t(column - from)];
             is_hidden = static_cast<char>(is_hidden | (level[column] == nowhere ? 1 : 0));
         }
         use(Row{row, from, to, level, hidden.data(), scale});
@@ -298,12 +288,11 @@ double AppearanceTemplate::score(const Excess& excess, const Vec2& centre, std::
     double residual = 0.0, all = 0.0, scaled = 1.0;
     each_row(excess, centre, species, others, stride, [&](const Row& r) {
         const GridRow grid(templates_[species].grid, (r.row - centre.y) / r.scale);
-        const auto shrink = static_cast<float>(1.0 / r.scale),
-                   begin = static_cast<float>(r.from - centre.x);
+        const auto shrink = float(1.0 / r.scale), begin = float(r.from - centre.x);
         float row_residual = 0.0f, row_all = 0.0f;
         for (int column = 0; column <= r.to - r.from; column += stride) {
             if (r.hidden[column]) continue;
-            const float t = grid.at(shrink * (begin + static_cast<float>(column)))[0];
+            const float t = grid.at(shrink * (begin + float(column)))[0];
             const float e = r.level[r.from + column];
             row_residual += (e - t) * (e - t);
             row_all += t * t;
@@ -344,13 +333,12 @@ AppearanceTemplate::Normal AppearanceTemplate::normal(const Excess& excess, cons
     Normal sum;
     each_row(excess, centre, species, others, stride, [&](const Row& r) {
         const GridRow grid(templates_[species].grid, (r.row - centre.y) / r.scale);
-        const auto shrink = static_cast<float>(1.0 / r.scale),
-                   begin = static_cast<float>(r.from - centre.x);
+        const auto shrink = float(1.0 / r.scale), begin = float(r.from - centre.x);
         OnGrid level{}, across{}, seen{};  // sums of T, ∂ₓT and e times T, ∂ₓT and ∂ᵧT
         float down = 0.0f;                 // sum of (∂ᵧT)²
         for (int column = 0; column <= r.to - r.from; column += stride) {
             if (r.hidden[column]) continue;
-            const OnGrid t = grid.at(shrink * (begin + static_cast<float>(column)));
+            const OnGrid t = grid.at(shrink * (begin + float(column)));
             level += t[0] * t;
             across += t[1] * t;
             down += t[2] * t[2];
@@ -358,15 +346,13 @@ AppearanceTemplate::Normal AppearanceTemplate::normal(const Excess& excess, cons
             ++sum.pixels;
         }
         const double slope = -gain / r.scale;
-        sum.a(0, 0) += double(level[0]);
-        sum.a(0, 1) += slope * double(level[1]);
-        sum.a(0, 2) += slope * double(level[2]);
-        sum.a(1, 1) += slope * slope * double(across[1]);
-        sum.a(1, 2) += slope * slope * double(across[2]);
+        sum.a(0, 0) += double(level[0]), sum.b[0] += double(seen[0]);
+        for (int n = 1; n < 3; ++n) {
+            sum.a(0, n) += slope * double(level[n]);
+            sum.a(1, n) += slope * slope * double(across[n]);
+            sum.b[n] += slope * double(seen[n]);
+        }
         sum.a(2, 2) += slope * slope * double(down);
-        sum.b[0] += double(seen[0]);
-        sum.b[1] += slope * double(seen[1]);
-        sum.b[2] += slope * double(seen[2]);
     });
     for (int r = 0; r < 3; ++r)
         for (int k = 0; k < r; ++k) sum.a(r, k) = sum.a(k, r);
@@ -430,11 +416,10 @@ void AppearanceTemplate::learn_template(const std::vector<Example>& examples,
                        [&](const Vec2& x, float level, double scale) {
                            const double u = (x.x - centre.x) / (scale * step) + half,
                                         v = (x.y - centre.y) / (scale * step) + half;
-                           const int column = static_cast<int>(u), row = static_cast<int>(v);
+                           const int column = int(u), row = int(v);
                            if (column < 0 || row < 0 || column + 1 >= side || row + 1 >= side)
                                return;
-                           const auto p = static_cast<float>(u - column),
-                                      q = static_cast<float>(v - row);
+                           const auto p = float(u - column), q = float(v - row);
                            for (int r = 0; r < 2; ++r)
                                for (int c = 0; c < 2; ++c) {
                                    const float w = (r ? q : 1.0f - q) * (c ? p : 1.0f - p);
@@ -452,11 +437,7 @@ void AppearanceTemplate::learn_template(const std::vector<Example>& examples,
     cv::GaussianBlur(sum, sum, {}, blur);
     cv::GaussianBlur(weight, weight, {}, blur);
     cv::Mat level = cv::Mat::zeros(side, side, CV_32F), along_x, along_y;
-    for (int row = 0; row < side; ++row)
-        for (int column = 0; column < side; ++column)
-            if (weight.at<float>(row, column) > min_weight)
-                level.at<float>(row, column) =
-                    sum.at<float>(row, column) / weight.at<float>(row, column);
+    cv::Mat(sum / weight).copyTo(level, weight > min_weight);
     model.squares = std::max(cv::norm(level, cv::NORM_L2SQR) * step * step, 1e-9);
     cv::Scharr(level, along_x, CV_32F, 1, 0, 1.0 / (32.0 * step));
     cv::Scharr(level, along_y, CV_32F, 0, 1, 1.0 / (32.0 * step));
@@ -485,7 +466,7 @@ AppearanceTemplate::Moved AppearanceTemplate::moved(const Example& example, cons
                    [&](const Vec2& x, float level, double scale) {
                        const Vec2 d = (1.0 / scale) * (x - fitted.centre);
                        const GridRow grid(templates_[particles[i].species].grid, d.y);
-                       const auto residual = double(level - grid.at(static_cast<float>(d.x))[0]);
+                       const auto residual = double(level - grid.at(float(d.x))[0]);
                        square += residual * residual;
                        ++pixels;
                    });
@@ -525,7 +506,7 @@ bool AppearanceTemplate::learn_contrast(const std::vector<Example>& examples) {
         for (const DetectedParticle& b : e.particles) {
             if (!b.sure) continue;
             const int column = cvRound(b.centre.x), row = cvRound(b.centre.y);
-            const int near = static_cast<int>(inner * appearance_.species[b.species].radius);
+            const int near = int(inner * appearance_.species[b.species].radius);
             for (int y = row - near; y <= row + near; y += 2)
                 for (int x = column - near; x <= column + near; x += 2) {
                     if (x < 0 || y < 0 || x >= e.sharp.cols || y >= e.sharp.rows) continue;

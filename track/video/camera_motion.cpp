@@ -77,6 +77,38 @@ Peak best_correlation(const cv::Mat& image, const cv::Mat& patch, cv::Rect windo
     return peak;
 }
 
+/// (x, y) → shift + (a x − b y, b x + a y).
+struct Similarity {
+    Vec2 shift{0.0, 0.0};
+    double a = 1.0, b = 0.0;
+    Vec2 at(const Vec2& p) const { return shift + Vec2{a * p.x - b * p.y, b * p.x + a * p.y}; }
+    bool plausible() const {
+        constexpr double max_zoom = 0.15, max_turn = 0.1;  // relative; radians
+        return std::abs(std::hypot(a, b) - 1.0) < max_zoom && std::abs(b) < max_turn;
+    }
+};
+
+/// Least squares; a pure shift if the positions hardly differ.
+template <typename Match>
+Similarity similarity_of(const std::vector<Match>& matches) {
+    constexpr double min_spread = 20.0;  // pixels
+    Vec2 from{0.0, 0.0}, to{0.0, 0.0};
+    const double share = 1.0 / double(matches.size());
+    for (const Match& m : matches) from = from + share * m.from, to = to + share * m.to;
+    double square = 0.0, along = 0.0, across = 0.0;
+    for (const Match& m : matches) {
+        const Vec2 p = m.from - from, q = m.to - to;
+        square += dot(p, p);
+        along += dot(p, q);
+        across += p.x * q.y - p.y * q.x;
+    }
+    Similarity fit;
+    if (square > min_spread * min_spread * double(matches.size()))
+        fit.a = along / square, fit.b = across / square;
+    fit.shift = to - (fit.at(from) - fit.shift);
+    return fit;
+}
+
 }  // namespace
 
 StaticBackground::StaticBackground(const cv::Mat& reference, const Vec2& centre, double swept)
@@ -137,42 +169,6 @@ std::optional<Vec2> StaticBackground::find(const Patch& patch, const cv::Mat& co
     return peak.position - Vec2{double(patch.corner.x), double(patch.corner.y)};
 }
 
-namespace {
-
-/// (x, y) → shift + (a x − b y, b x + a y).
-struct Similarity {
-    Vec2 shift{0.0, 0.0};
-    double a = 1.0, b = 0.0;
-    Vec2 at(const Vec2& p) const { return shift + Vec2{a * p.x - b * p.y, b * p.x + a * p.y}; }
-    bool plausible() const {
-        constexpr double max_zoom = 0.15, max_turn = 0.1;  // relative; radians
-        return std::abs(std::hypot(a, b) - 1.0) < max_zoom && std::abs(b) < max_turn;
-    }
-};
-
-/// Least squares; a pure shift if the positions hardly differ.
-template <typename Match>
-Similarity similarity_of(const std::vector<Match>& matches) {
-    constexpr double min_spread = 20.0;  // pixels
-    Vec2 from{0.0, 0.0}, to{0.0, 0.0};
-    const double share = 1.0 / double(matches.size());
-    for (const Match& m : matches) from = from + share * m.from, to = to + share * m.to;
-    double square = 0.0, along = 0.0, across = 0.0;
-    for (const Match& m : matches) {
-        const Vec2 p = m.from - from, q = m.to - to;
-        square += dot(p, p);
-        along += dot(p, q);
-        across += p.x * q.y - p.y * q.x;
-    }
-    Similarity fit;
-    if (square > min_spread * min_spread * double(matches.size()))
-        fit.a = along / square, fit.b = across / square;
-    fit.shift = to - (fit.at(from) - fit.shift);
-    return fit;
-}
-
-}  // namespace
-
 std::optional<CameraPose> StaticBackground::pose(const cv::Mat& grey) const {
     constexpr double tolerance = 1.0;  // pixels
     constexpr double min_share = 0.4;  // share of the patches
@@ -200,8 +196,7 @@ std::optional<CameraPose> StaticBackground::pose(const cv::Mat& grey) const {
             std::vector<Match> part = agreeing(s);
             if (part.size() > best.size()) best = std::move(part);
         }
-    const auto enough =
-        std::max(min_patches - 1, static_cast<std::size_t>(min_share * double(patches_.size())));
+    const auto enough = std::max(min_patches - 1, std::size_t(min_share * double(patches_.size())));
     if (best.size() < enough) return std::nullopt;
     const std::vector<Match> refined = agreeing(similarity_of(best));
     if (refined.size() < enough) return std::nullopt;

@@ -39,23 +39,22 @@ void sample_ray(const cv::Mat& image, const Vec2& first, const Vec2& step, int s
     constexpr int block = 32;
     std::array<int, block> at;
     std::array<float, block> u, v;
-    const auto stride = static_cast<int>(image.step1());
+    const auto stride = int(image.step1());
     const float* const pixels = image.ptr<float>();
-    const auto x0 = static_cast<float>(first.x), y0 = static_cast<float>(first.y),
-               dx = static_cast<float>(step.x), dy = static_cast<float>(step.y);
+    const auto x0 = float(first.x), y0 = float(first.y), dx = float(step.x), dy = float(step.y);
     for (int done = 0; done < samples; done += block) {
         const int now = std::min(block, samples - done);
         for (int j = 0; j < now; ++j) {
-            const auto k = static_cast<float>(done + j);
+            const auto k = float(done + j);
             const float x = x0 + k * dx, y = y0 + k * dy;
-            const int column = static_cast<int>(x), row = static_cast<int>(y);
-            const auto n = static_cast<std::size_t>(j);
-            u[n] = x - static_cast<float>(column);
-            v[n] = y - static_cast<float>(row);
+            const int column = int(x), row = int(y);
+            const auto n = std::size_t(j);
+            u[n] = x - float(column);
+            v[n] = y - float(row);
             at[n] = row * stride + column;
         }
         for (int j = 0; j < now; ++j) {
-            const auto n = static_cast<std::size_t>(j);
+            const auto n = std::size_t(j);
             const float* above = pixels + at[n];
             const float* below = above + stride;
             const float a = above[0] + u[n] * (above[1] - above[0]),
@@ -68,7 +67,7 @@ void sample_ray(const cv::Mat& image, const Vec2& first, const Vec2& step, int s
 /// The median; reorders `values`.
 double median_in_place(std::vector<double>& values) {
     if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
@@ -113,8 +112,7 @@ class RayCircleFit {
             find_profile_edges(fit);
         else
             find_steepest_edges(fit, window);
-        if (edges_.size() < static_cast<std::size_t>(settings_.rays) / rays_per_edge + 3)
-            return std::nullopt;
+        if (edges_.size() < std::size_t(settings_.rays) / rays_per_edge + 3) return std::nullopt;
         if (by_profile) weigh_by_sharpness();
         const std::optional<Step> step = solve_reweighted(fit, window);
         if (!step) return std::nullopt;
@@ -145,14 +143,13 @@ class RayCircleFit {
     };
 
     void find_steepest_edges(const CircleFit& fit, double window) {
-        const int samples = 2 * static_cast<int>(std::ceil(window / sample_step)) + 5;
-        profile_.resize(static_cast<std::size_t>(samples));
+        const int samples = 2 * int(std::ceil(window / sample_step)) + 5;
+        profile_.resize(std::size_t(samples));
         const double begin = fit.radius - 0.5 * sample_step * (samples - 1);
         // Over two pixels; a circle that is bright inside descends outwards.
         const auto slope = [&](int j) {
-            return static_cast<float>(-polarity_) * 0.5f *
-                   (profile_[static_cast<std::size_t>(j + 2)] -
-                    profile_[static_cast<std::size_t>(j - 2)]);
+            return float(-polarity_) * 0.5f *
+                   (profile_[std::size_t(j + 2)] - profile_[std::size_t(j - 2)]);
         };
         for (const Vec2& u : directions(settings_.rays)) {
             const Vec2 first = fit.centre + begin * u,
@@ -174,7 +171,7 @@ class RayCircleFit {
     void find_profile_edges(const CircleFit& fit) {
         const EdgeProfile& edge_profile = *settings_.edge_profile;
         const int samples = edge_profile.inside() + edge_profile.outside() + 1;
-        profile_.resize(static_cast<std::size_t>(samples));
+        profile_.resize(std::size_t(samples));
         for (const Vec2& u : directions(settings_.rays)) {
             const Vec2 first = fit.centre +
                                (fit.radius - EdgeProfile::step * edge_profile.inside()) * u,
@@ -289,24 +286,24 @@ class Votes {
   public:
     Votes(cv::Size size, double radius, Polarity polarity)
         : radius_(radius), polarity_(polarity), scatter_(least_scatter + scatter_share * radius) {
-        cell_ = std::max(1, static_cast<int>(scatter_ / cells_in_scatter));
+        cell_ = std::max(1, int(scatter_ / cells_in_scatter));
         spread_ = scatter_ / cell_;
         // The centre of the first cell is (cell − 1)/2 pixels from that of the first pixel.
-        origin_ = 0.5f * static_cast<float>(cell_ - 1);
+        origin_ = 0.5f * float(cell_ - 1);
         const cv::Size cells((size.width + cell_ - 1) / cell_, (size.height + cell_ - 1) / cell_);
         votes_ = cv::Mat::zeros(cells, CV_32F);
     }
 
     void count(const std::vector<EdgePixel>& edges) {
-        const auto step = static_cast<float>(polarity_ * radius_);
-        const auto scale = 1.0f / static_cast<float>(cell_);
+        const auto step = float(polarity_ * radius_);
+        const auto scale = 1.0f / float(cell_);
         for (const EdgePixel& e : edges) {
             const float x = scale * (e.x + step * e.gx - origin_),
                         y = scale * (e.y + step * e.gy - origin_);
             if (!(x >= 0.0f && y >= 0.0f)) continue;
-            const int column = static_cast<int>(x), row = static_cast<int>(y);
+            const int column = int(x), row = int(y);
             if (column + 1 >= votes_.cols || row + 1 >= votes_.rows) continue;
-            const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
+            const float u = x - float(column), v = y - float(row);
             float* above = votes_.ptr<float>(row) + column;
             float* below = votes_.ptr<float>(row + 1) + column;
             above[0] += e.weight * (1.0f - u) * (1.0f - v);
@@ -314,7 +311,7 @@ class Votes {
             below[0] += e.weight * (1.0f - u) * v;
             below[1] += e.weight * u * v;
         }
-        const int side = 2 * static_cast<int>(std::ceil(kernel_reach * spread_)) + 1;
+        const int side = 2 * int(std::ceil(kernel_reach * spread_)) + 1;
         cv::GaussianBlur(votes_, votes_, cv::Size(side, side), spread_, spread_,
                          cv::BORDER_CONSTANT);
     }
@@ -324,7 +321,7 @@ class Votes {
         const double own = own_spread + own_spread_share * radius_;
         const double whole = ridge_share * 2.0 * pi * radius_ /
                              (2.0 * pi * (spread_ * spread_ + own * own / (cell_ * cell_)));
-        const auto threshold = static_cast<float>(min_support * whole);
+        const auto threshold = float(min_support * whole);
         std::vector<CircleCandidate> found;
         for (int row = 1; row + 1 < votes_.rows; ++row) {
             const float* v = votes_.ptr<float>(row);
@@ -364,7 +361,47 @@ class Votes {
     cv::Mat votes_;
 };
 
+/// The least slope of an edge: an edge may be faint if it is above the noise.
+float min_edge_slope(const cv::Mat& steepness) {
+    constexpr int row_stride = 5, column_stride = 3;  // a sample of 1/15 of the pixels is enough
+    constexpr double length_median = 1.18;            // of a vector of two standard normal deviates
+    constexpr std::size_t high_percent = 97;
+    // Lower bounds of the slope: in standard deviations of the noise, relative to the slope at the
+    // high percentile, and in grey levels/pixel.
+    constexpr double above_noise = 3.5, of_high = 0.12, absolute = 0.25;
+    std::vector<double> sample;
+    for (int row = 1; row < steepness.rows; row += row_stride) {
+        const float* s = steepness.ptr<float>(row);
+        for (int column = 1; column < steepness.cols; column += column_stride)
+            sample.push_back(double(s[column]));
+    }
+    if (sample.empty()) return float(absolute);
+    const double noise = median(sample) / length_median;
+    const auto high = sample.begin() + std::ptrdiff_t(sample.size() * high_percent / 100);
+    std::nth_element(sample.begin(), high, sample.end());
+    return float(std::max({above_noise * noise, of_high * *high, absolute}));
+}
+
+constexpr double kernel_reach = 2.5;  // standard deviations; OpenCV's default for floats is 4
+constexpr double full_size = 0.999;   // from this reduction on, `small` has the size of the frame
+constexpr int min_side = 8;           // side of `small`, pixels: less has no edges to vote
+constexpr double reduced_blur = 1.0;  // blur of `small`, pixels: averaging has smoothed it already
+constexpr double unreduced_blur = 1.4;  // the same at full size: nothing was averaged
+
+void smooth(const cv::Mat& from, cv::Mat& to, double deviation) {
+    const int side = 2 * int(std::ceil(kernel_reach * deviation)) + 1;
+    cv::GaussianBlur(from, to, cv::Size(side, side), deviation, deviation, cv::BORDER_REPLICATE);
+}
+
 }  // namespace
+
+float level_at(const cv::Mat& image, const Vec2& p) {
+    const int column = std::clamp(int(p.x), 0, image.cols - 2),
+              row = std::clamp(int(p.y), 0, image.rows - 2);
+    const auto u = float(p.x - column), v = float(p.y - row);
+    const float *above = image.ptr<float>(row) + column, *below = above + image.step1();
+    return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
+}
 
 double onset(const std::vector<double>& values, double width) {
     std::vector<double> sorted = values;
@@ -397,32 +434,6 @@ double gradient_noise(const cv::Mat& image) {
     return median(slopes) / normal_median;
 }
 
-namespace {
-
-/// The least slope of an edge: an edge may be faint if it is above the noise.
-float min_edge_slope(const cv::Mat& steepness) {
-    constexpr int row_stride = 5, column_stride = 3;  // a sample of 1/15 of the pixels is enough
-    constexpr double length_median = 1.18;            // of a vector of two standard normal deviates
-    constexpr std::size_t high_percent = 97;
-    // Lower bounds of the slope: in standard deviations of the noise, relative to the slope at the
-    // high percentile, and in grey levels/pixel.
-    constexpr double above_noise = 3.5, of_high = 0.12, absolute = 0.25;
-    std::vector<double> sample;
-    for (int row = 1; row < steepness.rows; row += row_stride) {
-        const float* s = steepness.ptr<float>(row);
-        for (int column = 1; column < steepness.cols; column += column_stride)
-            sample.push_back(double(s[column]));
-    }
-    if (sample.empty()) return static_cast<float>(absolute);
-    const double noise = median(sample) / length_median;
-    const auto high =
-        sample.begin() + static_cast<std::ptrdiff_t>(sample.size() * high_percent / 100);
-    std::nth_element(sample.begin(), high, sample.end());
-    return static_cast<float>(std::max({above_noise * noise, of_high * *high, absolute}));
-}
-
-}  // namespace
-
 std::vector<EdgePixel> edge_pixels(const cv::Mat& image) {
     constexpr double scharr = 1.0 / 32.0;  // makes the Scharr kernel a derivative per pixel
     constexpr float diagonal = 2.414f;     // tan 67.5°: within it the gradient is along an axis
@@ -446,8 +457,8 @@ std::vector<EdgePixel> edge_pixels(const cv::Mat& image) {
             const float one = steepness.ptr<float>(row - rows)[column - columns],
                         other = steepness.ptr<float>(row + rows)[column + columns];
             if (here < one || here <= other) continue;
-            edges.push_back({static_cast<float>(column), static_cast<float>(row), gx / here,
-                             gy / here, std::min(1.0f, here / (2.0f * minimum))});
+            edges.push_back({float(column), float(row), gx / here, gy / here,
+                             std::min(1.0f, here / (2.0f * minimum))});
         }
     }
     return edges;
@@ -463,7 +474,7 @@ std::vector<CircleCandidate> vote(const std::vector<EdgePixel>& edges, cv::Size 
                : a.centre.y != b.centre.y ? a.centre.y < b.centre.y
                                           : a.centre.x < b.centre.x;
     });
-    const double near = std::max(1, static_cast<int>(0.5 * radius));
+    const double near = std::max(1, int(0.5 * radius));
     std::vector<CircleCandidate> separate;
     for (const CircleCandidate& c : found) {
         if (separate.size() == max_count) break;
@@ -502,7 +513,7 @@ CircleFit fit_circle(const cv::Mat& image, Vec2 centre, double radius, Polarity 
 EdgeProfile::Columns EdgeProfile::terms(double e, bool bent) const {
     constexpr double kernel_step = 0.05;  // pixels: resolves the cusp of the square root
     constexpr double kernel_reach = 3.5;  // standard deviations
-    const int half = static_cast<int>(std::ceil(kernel_reach * blur_ / kernel_step));
+    const int half = int(std::ceil(kernel_reach * blur_ / kernel_step));
     std::vector<double> kernel;
     double sum = 0.0;
     for (int k = -half; k <= half; ++k) {
@@ -516,7 +527,7 @@ EdgeProfile::Columns EdgeProfile::terms(double e, bool bent) const {
         for (int k = -half; k <= half; ++k) {
             const double depth = e - (x + k * kernel_step);
             if (depth <= 0.0) break;  // this and all further points lie outside the edge
-            const double w = kernel[static_cast<std::size_t>(k + half)] / sum;
+            const double w = kernel[std::size_t(k + half)] / sum;
             value[1] += w;
             value[2] += w * std::sqrt(depth);
             if (bent) value[3] += w * depth;
@@ -528,14 +539,13 @@ EdgeProfile::Columns EdgeProfile::terms(double e, bool bent) const {
 
 EdgeProfile::EdgeProfile(double blur, int inside, int outside, double reach, bool bent)
     : blur_(blur), inside_(inside), outside_(outside), first_(-reach) {
-    constexpr std::size_t lanes = 8;    // candidates are padded to whole vector registers
-    constexpr double vanishing = 1e-6;  // norm of a term that is zero within the window
-    constexpr double contrast_depth =
-        3.0;  // pixels inside the edge that the contrast averages over
-    candidates_ = static_cast<std::size_t>(2.0 * reach / spacing + 1.5);
+    constexpr std::size_t lanes = 8;        // candidates are padded to whole vector registers
+    constexpr double vanishing = 1e-6;      // norm of a term that is zero within the window
+    constexpr double contrast_depth = 3.0;  // pixels inside the edge, for the contrast
+    candidates_ = std::size_t(2.0 * reach / spacing + 1.5);
     stride_ = (candidates_ + lanes - 1) / lanes * lanes;
     for (std::size_t c = 0; c < columns; ++c) {
-        q_[c].assign(stride_ * static_cast<std::size_t>(inside + outside + 1), 0.0f);
+        q_[c].assign(stride_ * std::size_t(inside + outside + 1), 0.0f);
         contrast_[c].assign(candidates_, 0.0);
     }
     for (std::size_t candidate = 0; candidate < candidates_; ++candidate) {
@@ -559,7 +569,7 @@ EdgeProfile::EdgeProfile(double blur, int inside, int outside, double reach, boo
             for (double& m : made[c]) m *= scale;
             for (std::size_t j = 0; j < q[c].size(); ++j) {
                 q[c][j] *= scale;
-                q_[c][j * stride_ + candidate] = static_cast<float>(q[c][j]);
+                q_[c][j * stride_ + candidate] = float(q[c][j]);
             }
         }
         // The mean of h + s √d + t d over the depth: its integrals are 1, 2/3 √depth and depth/2.
@@ -572,7 +582,7 @@ EdgeProfile::EdgeProfile(double blur, int inside, int outside, double reach, boo
 
 EdgeProfile::Edge EdgeProfile::find(const float* profile) const {
     constexpr std::size_t max_candidates = 64;  // enough for a reach of 7 pixels
-    const auto samples = static_cast<std::size_t>(inside_ + outside_ + 1);
+    const auto samples = std::size_t(inside_ + outside_ + 1);
     std::array<std::array<float, max_candidates>, columns> products;
     const std::size_t stride = std::min(stride_, max_candidates);
     for (std::size_t c = 0; c < columns; ++c) {
@@ -604,23 +614,6 @@ EdgeProfile::Edge EdgeProfile::find(const float* profile) const {
     edge.found = true;
     return edge;
 }
-
-namespace {
-
-constexpr double kernel_reach = 2.5;  // standard deviations; OpenCV's default for floats is 4
-constexpr double full_size =
-    0.999;                   // sizes from this reduction on, `small` has the size of the frame
-constexpr int min_side = 8;  // side of `small`, pixels: less has no edges to vote
-constexpr double reduced_blur = 1.0;  // blur of `small`, pixels: averaging has smoothed it already
-constexpr double unreduced_blur =
-    1.4;  // blur of `small` at full size, pixels: nothing was averaged
-
-void smooth(const cv::Mat& from, cv::Mat& to, double deviation) {
-    const int side = 2 * static_cast<int>(std::ceil(kernel_reach * deviation)) + 1;
-    cv::GaussianBlur(from, to, cv::Size(side, side), deviation, deviation, cv::BORDER_REPLICATE);
-}
-
-}  // namespace
 
 PreparedFrame::PreparedFrame(const cv::Mat& grey, double reduction, double blur)
     : shrink(reduction) {

@@ -25,6 +25,8 @@
 namespace swirl::tracking {
 
 inline double length(const Vec2& v) { return std::sqrt(dot(v, v)); }
+/// The brightness at p, interpolated linearly between pixels.
+float level_at(const cv::Mat& image, const Vec2& p);
 /// The value at which `values` become dense, counted in windows of twice `width`.
 double onset(const std::vector<double>& values, double width);
 
@@ -72,13 +74,12 @@ struct RaySettings {
 struct CircleFit {
     Vec2 centre;
     double radius;
-    double support = 0.0;   // share of rays whose edge lies on the circle
-    double contrast = 0.0;  // median slope of those edges
-    double residual = 0.0;  // standard deviation of those edges from the circle, pixels
-    double profile_residual =
-        0.0;             // mean square residual of the edge profiles, squared grey levels
-    double error = 0.0;  // standard error of each coordinate of the centre
-    bool good = false;   // there were enough rays for a fit
+    double support = 0.0;           // share of rays whose edge lies on the circle
+    double contrast = 0.0;          // median slope of those edges
+    double residual = 0.0;          // standard deviation of those edges from the circle, pixels
+    double profile_residual = 0.0;  // mean square of the edge profiles, squared grey levels
+    double error = 0.0;             // standard error of each coordinate of the centre
+    bool good = false;              // there were enough rays for a fit
 };
 /// If the edge profiles cannot be fitted, the result is the fit to the steepest slopes.
 CircleFit fit_circle(const cv::Mat& image, Vec2 centre, double radius, Polarity polarity,

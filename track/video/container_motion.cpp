@@ -41,6 +41,79 @@ void add_lens_error(const RimCentres& rims, TrackedVideo& tracked) {
     found.phase_error = std::hypot(found.phase_error, turned);
 }
 
+/// Moves all positions to the times of their frames if the shutter rolls. True if it did.
+bool remove_rolling_shutter(Detections& all, TrackedVideo& tracked) {
+    constexpr double longest = 1.0, stands_out = 4.0;  // frame intervals; standard errors
+    const Lens& lens = tracked.lens;
+    if (!lens.rolls()) return false;
+    const double pixels = lens.shutter.x != 0.0 ? tracked.width : tracked.height,
+                 turn = tracked.path.omega * tracked.step();
+    tracked.readout = pixels * length(lens.shutter) / turn;
+    tracked.readout_error = pixels * lens.shutter_error / turn;
+    if (tracked.readout > longest + stands_out * tracked.readout_error)
+        return tracked.readout = 0.0, false;
+    tracked.shutter =
+        (1.0 / (tracked.path.clockwise ? tracked.path.omega : -tracked.path.omega)) * lens.shutter;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        remove_delay(tracked, k, all[k].rim.centre);
+        for (DetectedParticle& p : all[k].particles) p.delay = remove_delay(tracked, k, p.centre);
+    }
+    return true;
+}
+
+void fit_path(const RimCentres& rims, TrackedVideo& tracked) {
+    const auto path = fit_container_path(rims.centres, rims.times);
+    if (!path)
+        throw Failure(
+            fmt::format("the container was found, but its centre does not move along a circle\n{}",
+                        no_circle_hint));
+    tracked.path = *path;
+    add_lens_error(rims, tracked);
+}
+
+/// Second difference of the centres of frames k − 1, k and k + 1, and the mean one of the discs. A
+/// disc is the nearest one, after a motion with the container.
+struct Bend {
+    Vec2 rim, discs;
+};
+
+std::optional<Bend> bend_at(const Detections& all, std::size_t k) {
+    constexpr double max_distance = 0.4;  // share of the distance to the nearest other disc
+    const FrameDetections &before = all[k - 1], &now = all[k], &after = all[k + 1];
+    if (!before.rim.good || !now.rim.good || !after.rim.good) return std::nullopt;
+    const auto nearest = [](const FrameDetections& found, const Vec2& to, double closest) {
+        const DetectedParticle* best = nullptr;
+        for (const DetectedParticle& p : found.particles)
+            if (p.sure && length(p.centre - to) < closest) {
+                best = &p;
+                closest = length(p.centre - to);
+            }
+        return best;
+    };
+    std::vector<double> x, y;
+    for (const DetectedParticle& p : now.particles) {
+        if (!p.sure) continue;
+        double spacing = 1e300;
+        for (const DetectedParticle& other : now.particles)
+            if (&other != &p && other.sure)
+                spacing = std::min(spacing, length(other.centre - p.centre));
+        if (spacing == 1e300) continue;
+        const Vec2 relative = p.centre - now.rim.centre;
+        const DetectedParticle* one =
+            nearest(before, before.rim.centre + relative, max_distance * spacing);
+        const DetectedParticle* other =
+            nearest(after, after.rim.centre + relative, max_distance * spacing);
+        if (!one || !other) continue;
+        const Vec2 bend = one->centre - 2.0 * p.centre + other->centre;
+        x.push_back(bend.x);
+        y.push_back(bend.y);
+    }
+    constexpr std::size_t min_discs = 3;
+    if (x.size() < min_discs) return std::nullopt;
+    return Bend{before.rim.centre - 2.0 * now.rim.centre + after.rim.centre,
+                {median(x), median(y)}};
+}
+
 }  // namespace
 
 RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked) {
@@ -54,19 +127,30 @@ RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked) {
     return rims;
 }
 
-namespace {
-
-void fit_path(const RimCentres& rims, TrackedVideo& tracked) {
-    const auto path = fit_container_path(rims.centres, rims.times);
-    if (!path)
-        throw Failure(
-            fmt::format("the container was found, but its centre does not move along a circle\n{}",
-                        no_circle_hint));
-    tracked.path = *path;
-    add_lens_error(rims, tracked);
+double remove_delay(const TrackedVideo& tracked, std::size_t frame, Vec2& position) {
+    if (!(tracked.readout > 0.0)) return 0.0;
+    double delay = dot(tracked.shutter, tracked.lens.seen(position) - tracked.lens.image_centre);
+    // A time by the phase stands still while the container rests.
+    if (tracked.by_phase) {
+        const std::size_t before = frame > 0 ? frame - 1 : 0,
+                          after = std::min(frame + 1, tracked.times.size() - 1);
+        delay *= (tracked.times[after] - tracked.times[before]) /
+                 (double(after - before) * tracked.step());
+    }
+    position = position + tracked.container(frame) - tracked.path.at(tracked.times[frame] + delay);
+    return delay;
 }
 
-}  // namespace
+Vec2 put_back(const TrackedVideo& tracked, std::size_t frame, const Vec2& position) {
+    constexpr int passes = 3;  // of a fixed-point iteration; the row changes by a few pixels
+    Vec2 seen = position;
+    for (int pass = 0; pass < passes && tracked.readout > 0.0; ++pass) {
+        Vec2 back = seen;
+        remove_delay(tracked, frame, back);
+        seen = seen + position - back;
+    }
+    return seen;
+}
 
 void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
                           TrackedVideo& tracked) {
@@ -80,6 +164,10 @@ void fit_container_motion(const TrackingSettings& settings, bool uneven_times, D
     tracked.rims = rims;
     fit_path(rims, tracked);
     if (!uneven_times && check_frame_jumps(settings, rims, all, tracked)) {
+        rims = rim_centres(all, tracked);
+        fit_path(rims, tracked);
+    }
+    if (remove_rolling_shutter(all, tracked)) {
         rims = rim_centres(all, tracked);
         fit_path(rims, tracked);
     }
@@ -145,54 +233,6 @@ void collect_camera_motion(Detections& all, TrackedVideo& tracked) {
     }
     measure_camera_motion(tracked.camera);
 }
-
-namespace {
-
-/// Second difference of the centres of frames k − 1, k and k + 1, and the mean one of the discs. A
-/// disc is the nearest one, after a motion with the container.
-struct Bend {
-    Vec2 rim, discs;
-};
-
-std::optional<Bend> bend_at(const Detections& all, std::size_t k) {
-    constexpr double max_distance =
-        0.4;  // share of the distance to the nearest other disc of the frame
-    const FrameDetections &before = all[k - 1], &now = all[k], &after = all[k + 1];
-    if (!before.rim.good || !now.rim.good || !after.rim.good) return std::nullopt;
-    const auto nearest = [](const FrameDetections& found, const Vec2& to, double closest) {
-        const DetectedParticle* best = nullptr;
-        for (const DetectedParticle& p : found.particles)
-            if (p.sure && length(p.centre - to) < closest) {
-                best = &p;
-                closest = length(p.centre - to);
-            }
-        return best;
-    };
-    std::vector<double> x, y;
-    for (const DetectedParticle& p : now.particles) {
-        if (!p.sure) continue;
-        double spacing = 1e300;
-        for (const DetectedParticle& other : now.particles)
-            if (&other != &p && other.sure)
-                spacing = std::min(spacing, length(other.centre - p.centre));
-        if (spacing == 1e300) continue;
-        const Vec2 relative = p.centre - now.rim.centre;
-        const DetectedParticle* one =
-            nearest(before, before.rim.centre + relative, max_distance * spacing);
-        const DetectedParticle* other =
-            nearest(after, after.rim.centre + relative, max_distance * spacing);
-        if (!one || !other) continue;
-        const Vec2 bend = one->centre - 2.0 * p.centre + other->centre;
-        x.push_back(bend.x);
-        y.push_back(bend.y);
-    }
-    constexpr std::size_t min_discs = 3;
-    if (x.size() < min_discs) return std::nullopt;
-    return Bend{before.rim.centre - 2.0 * now.rim.centre + after.rim.centre,
-                {median(x), median(y)}};
-}
-
-}  // namespace
 
 bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked) {
     constexpr double min_shake = 0.5;  // pixels: below, the rim itself errs

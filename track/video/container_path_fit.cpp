@@ -92,105 +92,77 @@ std::optional<TrackedPath> initial_path(const std::vector<Vec2>& centres,
     const double rate = (m * sta - st * sa) / (m * stt - st * st);
     if (!(std::abs(rate) > 0.0)) return std::nullopt;
     TrackedPath path;
-    path.centre = circle.centre;
-    path.amplitude = circle.radius;
-    path.clockwise = rate < 0.0;
-    path.omega = std::abs(rate);
+    path.centre = circle.centre, path.amplitude = circle.radius;
+    path.clockwise = rate < 0.0, path.omega = std::abs(rate);
     path.phase = (sa - rate * st) / m;
     path.residual = circle.scatter;
     return path;
 }
 
-/// Gauss–Newton for S, A, φ and Ω together.
-class PathRefinement {
-  public:
-    PathRefinement(const std::vector<Vec2>& centres, const std::vector<double>& times,
-                   const TrackedPath& start)
-        : centres_(centres),
-          times_(times),
-          path_(start),
-          sign_(start.clockwise ? -1.0 : 1.0),
-          origin_(times.front()),
-          span_(std::max(times.back() - times.front(), min_span)),
-          scale_(std::max(start.residual, first_scale)) {}
-
-    /// Nothing if the fit fails or is too poor.
-    std::optional<TrackedPath> run() {
-        for (int pass = 0; pass < max_passes; ++pass) {
-            const std::optional<double> moved = improve();
-            if (!moved) return std::nullopt;
-            if (pass > min_passes && *moved < settled) break;
-        }
-        const auto error = [&](int k) {
-            return path_.residual * std::sqrt(std::max(0.0, inverse_(k, k)));
-        };
-        path_.centre_error = std::max(error(0), error(1));
-        path_.amplitude_error = error(2);
-        path_.phase_error = error(3);
-        path_.omega_error = error(4) / span_;
-        path_.phase = std::remainder(path_.phase, 2.0 * pi);
-        if (path_.used < min_used || path_.amplitude_error > max_error * path_.amplitude)
-            return std::nullopt;
-        return path_;
-    }
-
-  private:
-    static constexpr double min_span = 1e-12;   // keeps the scaled time finite
-    static constexpr double first_scale = 0.5;  // pixels: start with all but gross outliers
-    static constexpr double min_scale = 0.05;   // pixels: exact centres would give 0
-    static constexpr double cutoff = 4.7;       // standard deviations, 95 % efficient
-    static constexpr int max_passes = 25, min_passes = 5;
-    static constexpr double settled = 1e-7;    // pixels, centre and amplitude together
-    static constexpr double min_weight = 5.0;  // the sum of weights: one for each parameter
-    static constexpr double min_used = 0.5;    // share of the frames: fewer may be another motion
-    static constexpr double max_error = 0.05;  // share of the amplitude
+/// Gauss–Newton for S, A, φ and Ω together. Nothing if the fit fails or is too poor.
+std::optional<TrackedPath> refined(TrackedPath path, const std::vector<Vec2>& centres,
+                                   const std::vector<double>& times) {
+    constexpr double min_span = 1e-12;  // keeps the scaled time finite
+    // Pixels: start with all but gross outliers; exact centres would give 0.
+    constexpr double first_scale = 0.5, min_scale = 0.05;
+    constexpr double cutoff = 4.7;  // standard deviations, 95 % efficient
+    constexpr int max_passes = 25, min_passes = 5;
+    constexpr double settled = 1e-7;    // pixels, centre and amplitude together
+    constexpr double min_weight = 5.0;  // the sum of weights: one for each parameter
+    constexpr double min_used = 0.5;    // share of the frames: fewer may be another motion
+    constexpr double max_error = 0.05;  // share of the amplitude
     using Matrix = cv::Matx<double, 5, 5>;
     using Vector = cv::Vec<double, 5>;
-
-    /// One step; how far the centre and the amplitude moved, or nothing if no frames are left.
-    std::optional<double> improve() {
+    const double sign = path.clockwise ? -1.0 : 1.0, origin = times.front(),
+                 span = std::max(times.back() - times.front(), min_span);
+    double scale = std::max(path.residual, first_scale), moved = settled;
+    Matrix inverse = Matrix::zeros();
+    for (int pass = 0; pass < max_passes && !(pass > min_passes + 1 && moved < settled); ++pass) {
         Matrix normal = Matrix::zeros();
         Vector right = Vector::all(0.0);
         std::vector<double> off;
         double weight_sum = 0.0;
-        for (std::size_t k = 0; k < centres_.size(); ++k) {
-            const double turn = path_.angle(times_[k]);
+        for (std::size_t k = 0; k < centres.size(); ++k) {
+            const double turn = path.angle(times[k]);
             const Vec2 u{std::cos(turn), -std::sin(turn)};   // radial, y down
             const Vec2 v{-std::sin(turn), -std::cos(turn)};  // derivative of u
-            const Vec2 residual = centres_[k] - path_.at(times_[k]);
+            const Vec2 residual = centres[k] - path.at(times[k]);
             off.push_back(length(residual));
-            const double w = tukey_weight(off.back() / (cutoff * scale_));
+            const double w = tukey_weight(off.back() / (cutoff * scale));
             if (w == 0.0) continue;
             weight_sum += w;
-            const double t = sign_ * (times_[k] - origin_) / span_;
-            const Vector jx(1.0, 0.0, u.x, path_.amplitude * v.x, path_.amplitude * v.x * t);
-            const Vector jy(0.0, 1.0, u.y, path_.amplitude * v.y, path_.amplitude * v.y * t);
+            const double t = sign * (times[k] - origin) / span;
+            const Vector jx(1.0, 0.0, u.x, path.amplitude * v.x, path.amplitude * v.x * t);
+            const Vector jy(0.0, 1.0, u.y, path.amplitude * v.y, path.amplitude * v.y * t);
             normal += w * (jx * jx.t() + jy * jy.t());
             right += w * (residual.x * jx + residual.y * jy);
         }
         if (weight_sum < min_weight) return std::nullopt;
-        inverse_ = normal.inv(cv::DECOMP_SVD);
-        const Vector d = inverse_ * right;
-        path_.centre = path_.centre + Vec2{d[0], d[1]};
-        path_.amplitude += d[2];
-        path_.omega += d[4] / span_;
+        inverse = normal.inv(cv::DECOMP_SVD);
+        const Vector d = inverse * right;
+        path.centre = path.centre + Vec2{d[0], d[1]};
+        path.amplitude += d[2];
+        path.omega += d[4] / span;
         // The angle at the origin of the times changes by d[3], and the slope about it by d[4].
-        path_.phase += d[3] - sign_ * d[4] / span_ * origin_;
+        path.phase += d[3] - sign * d[4] / span * origin;
         // Weighted squares would give too small a value, since the weights favour small residuals.
-        path_.residual = median(off) / length_median;
-        scale_ = std::max(path_.residual, min_scale);
+        path.residual = median(off) / length_median;
+        scale = std::max(path.residual, min_scale);
         const auto used =
-            std::count_if(off.begin(), off.end(), [&](double o) { return o < cutoff * scale_; });
-        path_.used = double(used) / double(centres_.size());
-        return std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
+            std::count_if(off.begin(), off.end(), [&](double o) { return o < cutoff * scale; });
+        path.used = double(used) / double(centres.size());
+        moved = std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]);
     }
-
-    const std::vector<Vec2>& centres_;
-    const std::vector<double>& times_;
-    TrackedPath path_;
-    double sign_, origin_, span_, scale_;
-    Matrix inverse_ = Matrix::zeros();
-};
+    const auto error = [&](int k) {
+        return path.residual * std::sqrt(std::max(0.0, inverse(k, k)));
+    };
+    path.centre_error = std::max(error(0), error(1)), path.amplitude_error = error(2);
+    path.phase_error = error(3), path.omega_error = error(4) / span;
+    path.phase = std::remainder(path.phase, 2.0 * pi);
+    if (path.used < min_used || path.amplitude_error > max_error * path.amplitude)
+        return std::nullopt;
+    return path;
+}
 
 }  // namespace
 
@@ -198,7 +170,7 @@ std::optional<TrackedPath> fit_container_path(const std::vector<Vec2>& centres,
                                               const std::vector<double>& times) {
     if (centres.size() < min_path_centres) return std::nullopt;
     const std::optional<TrackedPath> start = initial_path(centres, times);
-    return start ? PathRefinement(centres, times, *start).run() : std::nullopt;
+    return start ? refined(*start, centres, times) : std::nullopt;
 }
 
 }  // namespace swirl::tracking

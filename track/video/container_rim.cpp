@@ -245,7 +245,9 @@ CircleFit fit_rim(const PreparedFrame& frame, const ContainerRim& rim, const Vec
     const double window = rim_window(frame, small_window), minimum = rim_noise_factor * frame.noise;
     if (rim.lens) {
         const Lens::Circle circle{rim.lens->ideal(Lens::Circle{centre, radius}).centre, rim.radius};
-        return fit_outline(frame.sharp, *rim.lens, circle, {rim.polarity, window, minimum});
+        const Vec2 middle = rim.lens->ideal(Lens::Circle{rim.path_centre, radius}).centre;
+        return fit_outline(frame.sharp, rim.lens->in_frame(centre, circle.centre - middle), circle,
+                           {rim.polarity, window, minimum});
     }
     RaySettings settings;
     settings.rays = rays;
@@ -253,6 +255,32 @@ CircleFit fit_rim(const PreparedFrame& frame, const ContainerRim& rim, const Vec
     settings.minimum = minimum;
     settings.tolerance = tolerance;
     return fit_circle(frame.sharp, centre, radius, rim.polarity, settings);
+}
+
+constexpr int outline_rays = 360;
+
+/// The steepest point on the line through `at` along `u`; `profile` is memory for the samples.
+std::optional<Vec2> steepest_point(const cv::Mat& image, const Vec2& at, const Vec2& u,
+                                   const OutlineSettings& settings, std::vector<float>& profile) {
+    constexpr double spacing = 0.5;  // spacing between samples, pixels
+    const int reach = static_cast<int>(std::ceil(settings.window / spacing)) + 2;
+    const auto inside = [&](const Vec2& p) {
+        return p.x >= 0.0 && p.y >= 0.0 && p.x < image.cols - 1 && p.y < image.rows - 1;
+    };
+    if (!inside(at - reach * spacing * u) || !inside(at + reach * spacing * u)) return {};
+    profile.clear();
+    for (int j = -reach; j <= reach; ++j)
+        profile.push_back(level_at(image, at + (spacing * j) * u));
+    const auto slope = [&](std::size_t j) {
+        return -0.5 * settings.polarity * double(profile[j + 2] - profile[j - 2]);
+    };
+    std::size_t best = 0;
+    double maximum = settings.minimum;
+    for (std::size_t j = 2; j + 2 < profile.size(); ++j)
+        if (slope(j) > maximum) maximum = slope(j), best = j;
+    if (best < 3 || best + 3 >= profile.size()) return {};
+    const double shift = vertex_offset(slope(best - 1), maximum, slope(best + 1));
+    return at + (spacing * (double(best) - reach + std::clamp(shift, -1.0, 1.0))) * u;
 }
 
 }  // namespace
@@ -280,8 +308,7 @@ CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim
     constexpr std::size_t max_circles = 6;
     // How far from the path a rim may be: pixels of the small frame, and a share of the amplitude.
     constexpr double off_path = 6.0, off_path_share = 0.35;
-    constexpr double min_found =
-        0.5;  // share as a fraction of the support that the survey requires
+    constexpr double min_found = 0.5;  // share of the support that the survey requires
     double radius = rim.radius;
     if (rim.lens) radius = rim.lens->image({rim.lens->ideal(rim.path_centre), rim.radius}).radius;
     CircleFit best{rim.path_centre, radius};
@@ -298,46 +325,6 @@ CircleFit find_container_rim(const PreparedFrame& frame, const ContainerRim& rim
     if (best.support < min_found * min_rim_support) best.good = false;
     return best;
 }
-
-namespace {
-
-constexpr int outline_rays = 360;
-
-/// The brightness at p, interpolated linearly between pixels.
-float level_at(const cv::Mat& image, const Vec2& p) {
-    const int column = static_cast<int>(p.x), row = static_cast<int>(p.y);
-    const auto u = static_cast<float>(p.x - column), v = static_cast<float>(p.y - row);
-    const float *above = image.ptr<float>(row) + column,
-                *below = image.ptr<float>(row + 1) + column;
-    return (1.0f - v) * ((1.0f - u) * above[0] + u * above[1]) +
-           v * ((1.0f - u) * below[0] + u * below[1]);
-}
-
-/// The steepest point on the line through `at` along `u`; `profile` is memory for the samples.
-std::optional<Vec2> steepest_point(const cv::Mat& image, const Vec2& at, const Vec2& u,
-                                   const OutlineSettings& settings, std::vector<float>& profile) {
-    constexpr double spacing = 0.5;  // spacing between samples, pixels
-    const int reach = static_cast<int>(std::ceil(settings.window / spacing)) + 2;
-    const auto inside = [&](const Vec2& p) {
-        return p.x >= 0.0 && p.y >= 0.0 && p.x < image.cols - 1 && p.y < image.rows - 1;
-    };
-    if (!inside(at - reach * spacing * u) || !inside(at + reach * spacing * u)) return {};
-    profile.clear();
-    for (int j = -reach; j <= reach; ++j)
-        profile.push_back(level_at(image, at + (spacing * j) * u));
-    const auto slope = [&](std::size_t j) {
-        return -0.5 * settings.polarity * double(profile[j + 2] - profile[j - 2]);
-    };
-    std::size_t best = 0;
-    double maximum = settings.minimum;
-    for (std::size_t j = 2; j + 2 < profile.size(); ++j)
-        if (slope(j) > maximum) maximum = slope(j), best = j;
-    if (best < 3 || best + 3 >= profile.size()) return {};
-    const double shift = vertex_offset(slope(best - 1), maximum, slope(best + 1));
-    return at + (spacing * (double(best) - reach + std::clamp(shift, -1.0, 1.0))) * u;
-}
-
-}  // namespace
 
 std::vector<Vec2> outline_edge(const cv::Mat& image, const Lens& lens, const Lens::Circle& circle,
                                const OutlineSettings& settings) {
@@ -391,7 +378,7 @@ CircleFit fit_outline(const cv::Mat& image, const Lens& lens, Lens::Circle circl
             fit.error = fit.residual * std::sqrt(0.5 * (inverse(0, 0) + inverse(1, 1)));
         }
     }
-    const Lens::Circle image_circle = lens.image(circle);
+    const Lens::Circle image_circle = lens.in_frame({}, {}).image(circle);
     fit.centre = image_circle.centre;
     fit.radius = image_circle.radius;
     fit.good = true;

@@ -30,7 +30,7 @@ struct ContainerRim {
     double amplitude = 0.0;         // amplitude of the path, approximately; 0: it is not a circle
     bool rough = false;             // its centres are far from a circle, as if the camera shook
     bool second_container = false;  // another circle of this size moves as well
-    std::optional<Lens> lens;       // set if the camera is tilted
+    std::optional<Lens> lens;       // set if the camera is tilted, or its shutter rolls
 };
 
 /// `frames` spread over the video. Throws Failure with the likely cause if no rim is found.

@@ -115,7 +115,7 @@ void FloorPattern::learn(const std::vector<cv::Mat>& patches, unsigned threads) 
     level_ = cv::Mat::zeros(size, CV_32F);
     known_ = cv::Mat::zeros(size, CV_8U);
     parallel_for(
-        static_cast<std::size_t>(size.height),
+        std::size_t(size.height),
         [&](std::size_t r) {
             const int row = int(r);
             std::vector<std::uint8_t> values(patches.size());
@@ -166,12 +166,11 @@ void FloorPattern::leave_out_wall() {
             return std::sqrt(std::max(0.0, square / number - mean * mean));
         }
     };
-    std::vector<std::array<Arc, arcs>> rings(static_cast<std::size_t>(half) + 2);
+    std::vector<std::array<Arc, arcs>> rings(std::size_t(half) + 2);
     for_each_known([&](int row, int column) {
         const double turns = turns_of({column - half, row - half}),
                      level = level_.at<float>(row, column);
-        Arc& arc = rings[static_cast<std::size_t>(distance(row, column))]
-                        [static_cast<std::size_t>(arcs * turns)];
+        Arc& arc = rings[std::size_t(distance(row, column))][std::size_t(arcs * turns)];
         arc.number += 1.0, arc.sum += level, arc.square += level * level;
     });
     std::vector<double> variation;  // variation of each ring: the second smallest of its arcs
@@ -182,14 +181,13 @@ void FloorPattern::leave_out_wall() {
         std::nth_element(deviations.begin(), deviations.begin() + 1, deviations.end());
         variation.push_back(deviations[1]);
     }
-    const auto certain = static_cast<std::ptrdiff_t>(inside * rim_.radius);
+    const auto certain = std::ptrdiff_t(inside * rim_.radius);
     const double typical =
         median(std::vector<double>(variation.begin() + certain / 2, variation.begin() + certain));
-    auto wall = static_cast<std::size_t>(certain);
+    auto wall = std::size_t(certain);
     while (wall < variation.size() && variation[wall] > less * typical) ++wall;
     for_each_known([&](int row, int column) {
-        if (static_cast<std::size_t>(distance(row, column)) >= wall)
-            known_.at<std::uint8_t>(row, column) = 0;
+        if (std::size_t(distance(row, column)) >= wall) known_.at<std::uint8_t>(row, column) = 0;
     });
 }
 

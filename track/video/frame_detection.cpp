@@ -61,6 +61,34 @@ FrameDetections detect_frame(const TrackingSettings& settings, const VideoSurvey
     return found;
 }
 
+/// Combines the distortion by sizes with that by discs in contact. Not for a tilted camera: its
+/// tilt was fitted with the distortion by sizes.
+void add_contact_distortion(const Detections& all, const ParticleAppearance& appearance,
+                            Lens& lens) {
+    constexpr double near = 1.4;         // sums of radii: includes contacts, whatever the lens
+    constexpr std::size_t enough = 400;  // frames
+    if (lens.tilted()) return;
+    std::vector<DiscPair> pairs;
+    const std::size_t stride = all.size() / enough + 1;
+    for (std::size_t k = 0; k < all.size(); k += stride) {
+        const std::vector<DetectedParticle>& particles = all[k].particles;
+        for (std::size_t a = 0; a < particles.size(); ++a)
+            for (std::size_t b = a + 1; b < particles.size(); ++b) {
+                if (!particles[a].sure || !particles[b].sure) continue;
+                const double radii =
+                    appearance.spacing * (appearance.species[particles[a].species].radius +
+                                          appearance.species[particles[b].species].radius);
+                if (length(particles[a].centre - particles[b].centre) < near * radii)
+                    pairs.push_back({particles[a].centre, particles[b].centre, radii});
+            }
+    }
+    const auto found = distortion_of(pairs, lens.image_centre, lens.half_height);
+    if (!found) return;
+    lens.contact_k = found->k;
+    lens.contact_k_error = found->error;
+    lens.combine_distortions();
+}
+
 }  // namespace
 
 // A batch of frames is shared between the threads while the next one is read.
@@ -116,38 +144,6 @@ Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& su
                         expected, all.size()));
     return all;
 }
-
-namespace {
-
-/// Combines the distortion by sizes with that by discs in contact. Not for a tilted camera: its
-/// tilt was fitted with the distortion by sizes.
-void add_contact_distortion(const Detections& all, const ParticleAppearance& appearance,
-                            Lens& lens) {
-    constexpr double near = 1.4;         // sums of radii: includes contacts, whatever the lens
-    constexpr std::size_t enough = 400;  // frames
-    if (lens.tilted()) return;
-    std::vector<DiscPair> pairs;
-    const std::size_t stride = all.size() / enough + 1;
-    for (std::size_t k = 0; k < all.size(); k += stride) {
-        const std::vector<DetectedParticle>& particles = all[k].particles;
-        for (std::size_t a = 0; a < particles.size(); ++a)
-            for (std::size_t b = a + 1; b < particles.size(); ++b) {
-                if (!particles[a].sure || !particles[b].sure) continue;
-                const double radii =
-                    appearance.spacing * (appearance.species[particles[a].species].radius +
-                                          appearance.species[particles[b].species].radius);
-                if (length(particles[a].centre - particles[b].centre) < near * radii)
-                    pairs.push_back({particles[a].centre, particles[b].centre, radii});
-            }
-    }
-    const auto found = distortion_of(pairs, lens.image_centre, lens.half_height);
-    if (!found) return;
-    lens.contact_k = found->k;
-    lens.contact_k_error = found->error;
-    lens.combine_distortions();
-}
-
-}  // namespace
 
 void correct_lens(const VideoSurvey& survey, Detections& all, TrackedVideo& tracked) {
     tracked.lens = survey.appearance.lens;

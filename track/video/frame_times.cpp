@@ -159,8 +159,7 @@ void correct_times(const std::vector<FrameJump>& jumps, TrackedVideo& tracked) {
 
 bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims, Detections& all,
                        TrackedVideo& tracked) {
-    constexpr double max_share =
-        0.003;  // share of the video: the error of Ω that a warning may leave
+    constexpr double max_share = 0.003;  // of the video: the error of Ω that a warning may leave
     std::vector<double> changes;
     for (const FrameDetections& found : all) changes.push_back(found.change);
     const std::vector<FrameJump> jumps =
@@ -222,8 +221,7 @@ struct AngleSteps {
 
 AngleSteps angle_steps(const std::vector<Vec2>& centres, const std::vector<std::size_t>& frames,
                        const TrackedPath& path) {
-    constexpr double max_off =
-        0.2;  // share of the amplitude: farther from the path, the rim is wrong
+    constexpr double max_off = 0.2;  // of the amplitude: farther from the path, the rim is wrong
     AngleSteps steps;
     for (std::size_t k = 0; k + 1 < centres.size(); ++k) {
         const Vec2 a = centres[k] - path.centre, b = centres[k + 1] - path.centre;

@@ -28,8 +28,21 @@ struct Squeeze {
 
 }  // namespace
 
+Lens Lens::in_frame(const Vec2& centre, const Vec2& way) const {
+    Lens lens = *this;
+    lens.pivot = centre;
+    lens.arm = way;
+    return lens;
+}
+
+Vec2 Lens::rolled(const Vec2& seen) const {
+    if (!(dot(arm, arm) > 0.0)) return {0.0, 0.0};
+    const double angle = dot(shutter, seen - pivot);
+    return (std::cos(angle) - 1.0) * arm + std::sin(angle) * perpendicular(arm);
+}
+
 Vec2 Lens::ideal(const Vec2& seen) const {
-    const Vec2 q = seen - image_centre;
+    const Vec2 q = seen - rolled(seen) - image_centre;
     const Vec2 straight = (1.0 + k * dot(q, q) / (half_height * half_height)) * q;
     if (!tilted()) return image_centre + straight;
     const Vec2 p = Squeeze(squeeze).invert(straight);
@@ -40,7 +53,7 @@ Vec2 Lens::seen(const Vec2& ideal) const {
     constexpr int max_steps = 8;        // steps of Newton's method, which doubles the digits
     constexpr double min_slope = 0.2;   // slope at 0 the distortion folds the image over
     constexpr double precision = 1e-9;  // relative
-    if (k == 0.0 && !tilted()) return ideal;
+    if (k == 0.0 && !tilted() && !rolls()) return ideal;
     Vec2 p = ideal - image_centre;
     if (tilted()) p = (1.0 / (1.0 + dot(perspective, p))) * Squeeze(squeeze).apply(p);
     // Newton's method for |q| (1 + k |q|²/h²) = |p|; q has the direction of p.
@@ -54,7 +67,10 @@ Vec2 Lens::seen(const Vec2& ideal) const {
         r -= step;
         if (std::abs(step) < precision * length) break;
     }
-    return image_centre + (r / length) * p;
+    const Vec2 q = image_centre + (r / length) * p;
+    Vec2 way = rolled(q);
+    for (int n = 0; n < max_steps && dot(arm, arm) > 0.0; ++n) way = rolled(q + way);
+    return q + way;
 }
 
 Lens::Circle Lens::image(const Circle& ideal) const {
@@ -138,9 +154,8 @@ Lens fit_lens(const std::vector<ApparentSize>& sizes, const Vec2& image_centre,
               double half_height) {
     constexpr std::size_t min_sizes = 60;  // fewer do not cover the container
     constexpr int passes = 12;             // passes of reweighting
-    constexpr double cutoff =
-        4.7 * 1.48;                     // cutoff of Tukey's weights, in median absolute deviations
-    constexpr double min_scale = 1e-6;  // scale of exact sizes, relative
+    constexpr double cutoff = 4.7 * 1.48;  // of Tukey's weights, median absolute deviations
+    constexpr double min_scale = 1e-6;     // scale of exact sizes, relative
     Lens lens{image_centre, half_height};
     if (sizes.size() < min_sizes) return lens;
     // size = α + β q² + γ·q, reweighted. Then k = −β/2α, and γ is that of a tilt.

@@ -25,6 +25,13 @@
 // with S a squeeze by e = 1 − cos θ along the tilt and p of length sin θ / F along it, F the focal
 // length in pixels (tilt.hpp finds both).
 //
+// Rolling shutter: while rows are read, the container moves on. In one frame it shows a point at
+//
+//     q + a (cos α − 1) + b sin α,   α = s·(q − c)
+//
+// with c the container's centre, a the way to it from the path's centre, b this arm turned by 90
+// degrees clockwise in the image, and s the angle per pixel by which it goes round meanwhile.
+//
 // The centre of a circle's image is not the image of its centre: for the rim of a container of
 // radius R they differ by 2kR² times its distance from the image centre, and by pR².
 // ideal(Circle) corrects that, too.
@@ -49,8 +56,16 @@ struct Lens {
     double contact_k = 0.0, contact_k_error = 0.0;
     Vec2 squeeze{0.0, 0.0};      // e (cos 2ε, sin 2ε), ε its direction, y down
     Vec2 perspective{0.0, 0.0};  // p, per pixel
+    Vec2 shutter{0.0, 0.0};      // s, rad per pixel; 0: all rows are read at once
+    double shutter_error = 0.0;
+    Vec2 arm{0.0, 0.0}, pivot{0.0, 0.0};  // a and c; set for one frame
 
     bool tilted() const { return dot(squeeze, squeeze) + dot(perspective, perspective) > 0.0; }
+    bool rolls() const { return dot(shutter, shutter) > 0.0; }
+    /// For the frame with the container at `centre`, `way` from the path's centre.
+    Lens in_frame(const Vec2& centre, const Vec2& way) const;
+    /// By how much the shutter displaces what it shows at `seen`.
+    Vec2 rolled(const Vec2& seen) const;
     /// Position in the image of an ideal camera that looks straight down.
     Vec2 ideal(const Vec2& seen) const;
     Vec2 seen(const Vec2& ideal) const;

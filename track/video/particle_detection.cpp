@@ -36,7 +36,7 @@ std::vector<EdgePixel> edges_inside(const PreparedFrame& frame, const CircleFit&
 
 RaySettings rays_for(const PreparedFrame& frame, double radius) {
     RaySettings rays;
-    rays.rays = std::clamp(static_cast<int>(pi * radius), 28, 96);
+    rays.rays = std::clamp(int(pi * radius), 28, 96);
     rays.window = std::max(3.0, 0.17 * radius);
     rays.minimum = 2.5 * frame.noise;
     rays.tolerance = std::max(1.2, 0.06 * radius);
@@ -49,8 +49,8 @@ constexpr double small_discs = 18.0;
 /// Window of 0.22 radii inside the edge and 0.16 outside; at most four pixels outside, because of
 /// neighbours.
 EdgeProfile edge_profile_for(double radius, double blur) {
-    const int inside = std::clamp(static_cast<int>(0.22 * radius / EdgeProfile::step), 5, 14);
-    const int outside = std::clamp(static_cast<int>(0.16 * radius / EdgeProfile::step), 5, 8);
+    const int inside = std::clamp(int(0.22 * radius / EdgeProfile::step), 5, 14);
+    const int outside = std::clamp(int(0.16 * radius / EdgeProfile::step), 5, 8);
     return EdgeProfile(blur, inside, outside, std::clamp(0.1 * radius, 1.5, 3.0),
                        radius > small_discs);
 }
@@ -59,8 +59,8 @@ EdgeProfile edge_profile_for(double radius, double blur) {
 std::vector<ParticleSpecies> species_of(std::vector<double> radii) {
     std::sort(radii.begin(), radii.end());
     const auto species = [&](std::size_t from, std::size_t to) {
-        const std::vector<double> part(radii.begin() + static_cast<std::ptrdiff_t>(from),
-                                       radii.begin() + static_cast<std::ptrdiff_t>(to));
+        const std::vector<double> part(radii.begin() + std::ptrdiff_t(from),
+                                       radii.begin() + std::ptrdiff_t(to));
         ParticleSpecies result;
         result.radius = median(part);
         std::vector<double> off;
@@ -160,8 +160,7 @@ double find_blur(const std::vector<PreparedFrame>& frames, const std::vector<Fou
                        ? 1e300
                        : std::log(std::max(median(residuals), 1e-6)) + off * off;
     }
-    const auto best =
-        static_cast<std::size_t>(std::min_element(score.begin(), score.end()) - score.begin());
+    const auto best = std::size_t(std::min_element(score.begin(), score.end()) - score.begin());
     if (best == 0 || best + 1 == trials.size() || score[best] == 1e300) return trials[best];
     constexpr double trial_ratio = 1.26;  // ratio of neighbouring trials, on average
     const double bend = score[best - 1] - 2.0 * score[best] + score[best + 1];
@@ -272,84 +271,11 @@ void set_numbers(const std::vector<std::vector<double>>& radii_by_frame,
     if (species.size() < 2) return;
     const double border = 0.5 * (species[0].radius + species[1].radius);
     species[1].number = most_common([&](const std::vector<double>& radii) {
-        return static_cast<std::size_t>(
+        return std::size_t(
             std::count_if(radii.begin(), radii.end(), [&](double r) { return r > border; }));
     });
     species[0].number -= std::min(appearance.number, species[1].number);
 }
-
-}  // namespace
-
-ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
-                                    const std::vector<CircleFit>& rims, const KnownDiscs& known,
-                                    unsigned threads) {
-    ParticleSurvey survey{frames, rims};
-    for (std::size_t k = 0; k < frames.size(); ++k)
-        survey.edges.push_back(edges_inside(frames[k], rims[k]));
-    const CommonCircle common = find_common_circle(survey, known);
-    if (!(common.score > 0.0))
-        throw Failure(
-            "the container was found, but no discs: no circles stand out from its floor.");
-    std::vector<FoundCircle> circles;
-    for (std::size_t k = 0; k < frames.size(); ++k) {
-        if (!rims[k].good) continue;
-        for (const CircleFit& fit : fit_free_circles(survey, k, common))
-            circles.push_back({k, fit.centre, fit.radius});
-    }
-    const double blur = find_blur(frames, circles, common, threads);
-    const std::vector<CircleFit> fits =
-        exact_fits(frames, circles, common.radius, common.polarity, blur, threads);
-    std::vector<double> radii;
-    std::vector<std::vector<double>> radii_by_frame(frames.size());
-    for (std::size_t k = 0; k < circles.size(); ++k) {
-        if (!fits[k].good) continue;
-        radii.push_back(fits[k].radius);
-        radii_by_frame[circles[k].frame].push_back(fits[k].radius);
-    }
-    if (radii.empty())
-        throw Failure(
-            "the container was found, but no discs: its circles have no sharp edges.\n"
-            "hint: the video may be out of focus, or discs and floor too similar in brightness.");
-    ParticleAppearance appearance;
-    appearance.polarity = common.polarity;
-    appearance.spacing = common.spacing;
-    appearance.species = species_of(radii);
-    set_edge_parameters(survey, circles, fits, blur, appearance);
-    set_lens(frames.front().sharp.size(), fits, appearance);
-    set_numbers(radii_by_frame, appearance);
-    return appearance;
-}
-
-std::size_t count_opposite_discs(const std::vector<PreparedFrame>& frames,
-                                 const std::vector<CircleFit>& rims,
-                                 const ParticleAppearance& appearance) {
-    constexpr double clear_support = 0.6;  // a gap between six discs has less
-    constexpr double max_off = 0.25;       // share of the radius
-    ParticleSurvey survey{frames, rims};
-    const double radius = appearance.radius();
-    CommonCircle same{1.0, radius * frames.front().shrink, appearance.polarity, appearance.spacing};
-    CommonCircle opposite = same;
-    opposite.polarity = -same.polarity;
-    std::vector<double> numbers;
-    for (std::size_t k = 0; k < frames.size(); ++k) {
-        survey.edges.push_back(edges_inside(frames[k], rims[k]));
-        if (!rims[k].good) continue;
-        const std::vector<CircleFit> discs = fit_free_circles(survey, k, same);
-        const std::vector<CircleFit> others = fit_free_circles(survey, k, opposite);
-        numbers.push_back(
-            double(std::count_if(others.begin(), others.end(), [&](const CircleFit& other) {
-                return other.support > clear_support &&
-                       std::abs(other.radius - radius) < max_off * radius &&
-                       std::none_of(discs.begin(), discs.end(), [&](const CircleFit& disc) {
-                           return length(disc.centre - other.centre) <
-                                  min_distance * (disc.radius + other.radius);
-                       });
-            })));
-    }
-    return numbers.empty() ? 0 : static_cast<std::size_t>(median(numbers));
-}
-
-namespace {
 
 /// Refines the position of a disc that is known to a pixel or two.
 void refine_position(DetectedParticle& particle, const std::vector<DetectedParticle>& all,
@@ -480,7 +406,7 @@ class TemplateSearch {
     void accept(std::size_t k) {
         Candidate c = open_[k];
         fit_and_score(c);
-        open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(k));
+        open_.erase(open_.begin() + std::ptrdiff_t(k));
         c.particle.sure = true;
         c.particle.support = c.score;
         accepted_.push_back(c.particle);
@@ -567,7 +493,100 @@ std::optional<DetectedParticle> find_near_with_template(
     return best;
 }
 
+/// Repeats a fit of low support from several starting points around it. Patches of the texture
+/// mislead votes, and a fit that starts there may end on the patch.
+DetectedParticle refit_from_around(const DetectedParticle& particle, const PreparedFrame& frame,
+                                   const ParticleAppearance& appearance) {
+    constexpr double distance = 0.2;  // radii
+    constexpr int starts = 8;
+    const double radius = appearance.steepest * appearance.species[particle.species].radius;
+    RaySettings rays = rays_for(frame, radius);
+    DetectedParticle best = particle;
+    for (int k = 0; k < starts; ++k) {
+        const Vec2 seed = particle.centre + distance * radius * unit_circle(double(k) / starts);
+        const CircleFit fit =
+            fit_circle(frame.sharp, seed, appearance.lens.seen_radius(seed, radius),
+                       appearance.polarity, rays);
+        if (!fit.good || fit.support <= best.support ||
+            length(fit.centre - particle.centre) > 2.0 * distance * radius)
+            continue;
+        best.centre = fit.centre;
+        best.support = fit.support;
+        best.error = fit.error;
+    }
+    return best;
+}
+
 }  // namespace
+
+ParticleAppearance survey_particles(const std::vector<PreparedFrame>& frames,
+                                    const std::vector<CircleFit>& rims, const KnownDiscs& known,
+                                    unsigned threads) {
+    ParticleSurvey survey{frames, rims};
+    for (std::size_t k = 0; k < frames.size(); ++k)
+        survey.edges.push_back(edges_inside(frames[k], rims[k]));
+    const CommonCircle common = find_common_circle(survey, known);
+    if (!(common.score > 0.0))
+        throw Failure(
+            "the container was found, but no discs: no circles stand out from its floor.");
+    std::vector<FoundCircle> circles;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        if (!rims[k].good) continue;
+        for (const CircleFit& fit : fit_free_circles(survey, k, common))
+            circles.push_back({k, fit.centre, fit.radius});
+    }
+    const double blur = find_blur(frames, circles, common, threads);
+    const std::vector<CircleFit> fits =
+        exact_fits(frames, circles, common.radius, common.polarity, blur, threads);
+    std::vector<double> radii;
+    std::vector<std::vector<double>> radii_by_frame(frames.size());
+    for (std::size_t k = 0; k < circles.size(); ++k) {
+        if (!fits[k].good) continue;
+        radii.push_back(fits[k].radius);
+        radii_by_frame[circles[k].frame].push_back(fits[k].radius);
+    }
+    if (radii.empty())
+        throw Failure(
+            "the container was found, but no discs: its circles have no sharp edges.\n"
+            "hint: the video may be out of focus, or discs and floor too similar in brightness.");
+    ParticleAppearance appearance;
+    appearance.polarity = common.polarity;
+    appearance.spacing = common.spacing;
+    appearance.species = species_of(radii);
+    set_edge_parameters(survey, circles, fits, blur, appearance);
+    set_lens(frames.front().sharp.size(), fits, appearance);
+    set_numbers(radii_by_frame, appearance);
+    return appearance;
+}
+
+std::size_t count_opposite_discs(const std::vector<PreparedFrame>& frames,
+                                 const std::vector<CircleFit>& rims,
+                                 const ParticleAppearance& appearance) {
+    constexpr double clear_support = 0.6;  // a gap between six discs has less
+    constexpr double max_off = 0.25;       // share of the radius
+    ParticleSurvey survey{frames, rims};
+    const double radius = appearance.radius();
+    CommonCircle same{1.0, radius * frames.front().shrink, appearance.polarity, appearance.spacing};
+    CommonCircle opposite = same;
+    opposite.polarity = -same.polarity;
+    std::vector<double> numbers;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        survey.edges.push_back(edges_inside(frames[k], rims[k]));
+        if (!rims[k].good) continue;
+        const std::vector<CircleFit> discs = fit_free_circles(survey, k, same);
+        const std::vector<CircleFit> others = fit_free_circles(survey, k, opposite);
+        numbers.push_back(
+            double(std::count_if(others.begin(), others.end(), [&](const CircleFit& other) {
+                return other.support > clear_support &&
+                       std::abs(other.radius - radius) < max_off * radius &&
+                       std::none_of(discs.begin(), discs.end(), [&](const CircleFit& disc) {
+                           return length(disc.centre - other.centre) <
+                                  min_distance * (disc.radius + other.radius);
+                       });
+            })));
+    }
+    return numbers.empty() ? 0 : std::size_t(median(numbers));
+}
 
 std::optional<DetectedParticle> find_particle_near(const PreparedFrame& frame, const CircleFit& rim,
                                                    const ParticleAppearance& appearance,
@@ -596,34 +615,6 @@ std::optional<DetectedParticle> find_particle_near(const PreparedFrame& frame, c
     return best;
 }
 
-namespace {
-
-/// Repeats a fit of low support from several starting points around it. Patches of the texture
-/// mislead votes, and a fit that starts there may end on the patch.
-DetectedParticle refit_from_around(const DetectedParticle& particle, const PreparedFrame& frame,
-                                   const ParticleAppearance& appearance) {
-    constexpr double distance = 0.2;  // radii
-    constexpr int starts = 8;
-    const double radius = appearance.steepest * appearance.species[particle.species].radius;
-    RaySettings rays = rays_for(frame, radius);
-    DetectedParticle best = particle;
-    for (int k = 0; k < starts; ++k) {
-        const Vec2 seed = particle.centre + distance * radius * unit_circle(double(k) / starts);
-        const CircleFit fit =
-            fit_circle(frame.sharp, seed, appearance.lens.seen_radius(seed, radius),
-                       appearance.polarity, rays);
-        if (!fit.good || fit.support <= best.support ||
-            length(fit.centre - particle.centre) > 2.0 * distance * radius)
-            continue;
-        best.centre = fit.centre;
-        best.support = fit.support;
-        best.error = fit.error;
-    }
-    return best;
-}
-
-}  // namespace
-
 std::vector<DetectedParticle> find_particles(const PreparedFrame& frame, const CircleFit& rim,
                                              const ParticleAppearance& appearance) {
     if (appearance.shading) {
@@ -639,7 +630,7 @@ std::vector<DetectedParticle> find_particles(const PreparedFrame& frame, const C
         const double area = rim.radius * rim.radius / (radius * radius);
         const auto candidates =
             vote(edges, frame.small.size(), radius * frame.shrink, appearance.polarity, 0.18,
-                 std::min(static_cast<std::size_t>(1.3 * area) + 4, 3 * appearance.number + 8));
+                 std::min(std::size_t(1.3 * area) + 4, 3 * appearance.number + 8));
         RaySettings rays = rays_for(frame, radius);
         rays.rays = std::max(28, rays.rays / 2);  // positions are refined later
         for (const CircleCandidate& c : candidates) {

@@ -66,6 +66,7 @@ struct DetectedParticle {
     std::size_t species = 0;
     double support = 0.0, error = 0.0;
     bool sure = false;
+    double delay = 0.0;  // its time after that of the frame, by a rolling shutter
 };
 
 /// Circles are found, but the frames contradict that they are discs.

@@ -118,9 +118,8 @@ struct Scores {
 };
 
 Scores score_sizes(const ParticleSurvey& survey, const KnownDiscs& known) {
-    constexpr double growth = 0.04;  // growth from one radius to the next
-    constexpr double known_error =
-        0.2;  // share of a given radius: the rim may be the wall's outer edge
+    constexpr double growth = 0.04;      // growth from one radius to the next
+    constexpr double known_error = 0.2;  // of a given radius: the rim may be the outer edge
     const std::size_t stride = std::max<std::size_t>(1, survey.frames.size() / frames_used);
     const double container = container_radius(survey);
     double first = std::max(3.0, container / 25.0), last = container / 2.5;

@@ -218,8 +218,7 @@ double scatter_of_periods(MotionFit& fit, const std::vector<double>& times, int 
         std::size_t end = begin;
         while (end < times.size() && times[end] < until) ++end;
         const bool whole = end < times.size() || motion.periods >= double(counted_periods + 1);
-        if (!whole || end - begin < per_unknown * static_cast<std::size_t>(2 * harmonics + 1))
-            break;
+        if (!whole || end - begin < per_unknown * std::size_t(2 * harmonics + 1)) break;
         fit.fit(motion.omega, harmonics, begin, end);
         RecordedMotion one = motion;
         fit.set_result(harmonics, one);
@@ -286,7 +285,7 @@ int significant_harmonics(const RecordedMotion& motion, std::size_t frames) {
     for (std::size_t n = 0; n < motion.cosine.size(); ++n) {
         const double square =
             dot(motion.cosine[n], motion.cosine[n]) + dot(motion.sine[n], motion.sine[n]);
-        if (std::sqrt(square) > stands_out * error) highest = static_cast<int>(n) + 1;
+        if (std::sqrt(square) > stands_out * error) highest = int(n) + 1;
     }
     return highest;
 }
@@ -327,7 +326,7 @@ RecordedMotion average_motion(const std::vector<Vec2>& centres, const std::vecto
                 : std::string("the container's motion does not repeat: no period was found\nhint: "
                               "record at least two periods of a periodic motion, with at least six "
                               "frames per period, and fix the camera"));
-    const auto per_period = static_cast<int>(motion.period() / step);
+    const auto per_period = int(motion.period() / step);
     const int limit = std::clamp(per_period / frames_per_harmonic, 1, max_harmonics);
     const double width = 0.25 * pi / (times.back() - times.front());  // a quarter of the peak
     const auto refit = [&](int harmonics) {

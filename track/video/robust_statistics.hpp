@@ -33,8 +33,7 @@ double vertex_offset(Real before, Real here, Real after) {
 /// The value below which this share of `values` lies; 0 if there are none.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0.0;
-    const auto at = values.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }

@@ -188,8 +188,7 @@ std::optional<ParticleAppearance> survey_shading(const std::vector<PreparedFrame
                                                  const KnownDiscs& known, unsigned threads) {
     constexpr double growth = 1.1, smallest = 1.0 / 25.0, largest = 1.0 / 3.0;  // share of the rim
     constexpr double min_radius = 5.0;                                          // pixels
-    constexpr double known_error =
-        0.2;  // share of a given radius: the rim may be the wall's outer edge
+    constexpr double known_error = 0.2;  // of a given radius: the rim may be the outer edge
     constexpr double max_spread = 0.06;  // share of the number, plus half a ball
     constexpr double max_number_error = 0.15;
     constexpr double min_skewness = 0.3;  // skewness of noise: 0; of low contrast in the tests: 0.5

@@ -22,8 +22,7 @@ constexpr double smoothing = 0.8;       // pixels: reduces noise and aliasing of
 constexpr double patch_reach = 0.9;     // radii: half width of a patch
 constexpr double usable_radius = 0.75;  // radii: foreshortening limits the texture beyond
 constexpr double min_match = 0.5;       // correlation
-constexpr double min_error =
-    0.2;  // value of a centre, pixels; added to the error of the fit, a lower bound
+constexpr double min_error = 0.2;       // of a centre, pixels, in addition to that of the fit
 
 using Vector = std::array<double, 3>;
 
@@ -34,13 +33,13 @@ Vector turned(const Rotation& r, const Vector& p) {
 
 /// The part of an image around `centre`, resampled so that `centre` is its middle pixel.
 cv::Mat patch_of(const cv::Mat& image, const Vec2& centre, double radius) {
-    const int reach = static_cast<int>(std::ceil(patch_reach * radius)) + 1;
+    const int reach = int(std::ceil(patch_reach * radius)) + 1;
     const int side = 2 * reach + 1;
     cv::Mat across(side, side, CV_32FC2), patch;
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column)
-            across.at<cv::Vec2f>(row, column) = {static_cast<float>(centre.x + column - reach),
-                                                 static_cast<float>(centre.y + row - reach)};
+            across.at<cv::Vec2f>(row, column) = {float(centre.x + column - reach),
+                                                 float(centre.y + row - reach)};
     cv::remap(image, patch, across, cv::noArray(), cv::INTER_LANCZOS4, cv::BORDER_REPLICATE);
     return patch;
 }
@@ -69,17 +68,8 @@ cv::Mat texture_of(const cv::Mat& patch, const MeanDisc& mean) {
     return patch - (all > 0.0 ? own / all : 0.0) * mean.mean;
 }
 
-/// Bilinear interpolation, which is accurate enough because textures are smoothed.
-float at(const cv::Mat& m, double x, double y) {
-    const int column = std::clamp(static_cast<int>(x), 0, m.cols - 2),
-              row = std::clamp(static_cast<int>(y), 0, m.rows - 2);
-    const auto u = static_cast<float>(x - column), v = static_cast<float>(y - row);
-    const float *above = m.ptr<float>(row) + column, *below = m.ptr<float>(row + 1) + column;
-    return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
-}
-
 bool is_unmasked(const cv::Mat& mask, double x, double y) {
-    const int column = static_cast<int>(x + 0.5), row = static_cast<int>(y + 0.5);
+    const int column = int(x + 0.5), row = int(y + 0.5);
     return column >= 0 && row >= 0 && column < mask.cols && row < mask.rows &&
            mask.ptr<std::uint8_t>(row)[column] != 0;
 }
@@ -98,7 +88,7 @@ DiscSpin register_turn(const cv::Mat& first, const cv::Mat& second, const cv::Ma
                        double centre_error) {
     constexpr int unknowns = 5, rounds = 10;
     const double middle = 0.5 * (first.cols - 1);
-    const int reach = static_cast<int>(usable_radius * radius);
+    const int reach = int(usable_radius * radius);
     Vector w = initial_estimate;
     double shift_x = 0.0, shift_y = 0.0;
     DiscSpin best;
@@ -117,12 +107,11 @@ DiscSpin register_turn(const cv::Mat& first, const cv::Mat& second, const cv::Ma
                 if (!is_unmasked(mask, middle + u, middle + v) ||
                     !is_unmasked(mask, middle + radius * p[0], middle - radius * p[1]))
                     continue;
-                const double x = middle + radius * p[0] + shift_x,
-                             y = middle - radius * p[1] + shift_y;
-                const double one = double(
-                    first.ptr<float>(v + static_cast<int>(middle))[u + static_cast<int>(middle)]);
-                const double other = double(at(second, x, y));
-                const double gx = double(at(slope.x, x, y)), gy = double(at(slope.y, x, y));
+                // Linear between pixels, which is accurate enough because textures are smoothed.
+                const Vec2 to{middle + radius * p[0] + shift_x, middle - radius * p[1] + shift_y};
+                const double one = double(first.ptr<float>(v + int(middle))[u + int(middle)]);
+                const double other = double(level_at(second, to));
+                const double gx = double(level_at(slope.x, to)), gy = double(level_at(slope.y, to));
                 // d(x, y) for a further rotation about x, y, z (ω × p), y down.
                 const double rows[unknowns] = {
                     gy * radius * p[2],                        // p about x: p moves by (0, −z)
@@ -146,7 +135,7 @@ DiscSpin register_turn(const cv::Mat& first, const cv::Mat& second, const cv::Ma
         b(3) -= weight * shift_x, b(4) -= weight * shift_y;
         cv::Matx<double, unknowns, 1> d;
         if (!cv::solve(m, b, d, cv::DECOMP_CHOLESKY)) return best;
-        for (std::size_t i = 0; i < 3; ++i) w[i] += d(static_cast<int>(i));
+        for (std::size_t i = 0; i < 3; ++i) w[i] += d(int(i));
         shift_x += d(3), shift_y += d(4);
         if (std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]) > 2.0) return best;
         const double moved = std::abs(d(0)) + std::abs(d(1)) + std::abs(d(2));
@@ -179,7 +168,7 @@ void mask_uniform_pixels(double radius, MeanDisc& all) {
             const double m = double(all.mean.at<float>(row, column));
             const double v = double(all.square.at<float>(row, column)) - m * m;
             const double share = std::sqrt(std::max(v, 0.0)) / std::max(m, 1.0);
-            variation.at<float>(row, column) = static_cast<float>(share);
+            variation.at<float>(row, column) = float(share);
             common.push_back(share);
         }
     all.mask = variation > minimum * median(common);
@@ -215,7 +204,7 @@ void smooth_shading(double radius, MeanDisc& all) {
             const Row r = row_at(column - middle, row - middle);
             double level = 0.0;
             for (int i = 0; i < terms; ++i) level += c(i) * r[i];
-            all.mean.at<float>(row, column) = static_cast<float>(level);
+            all.mean.at<float>(row, column) = float(level);
         }
 }
 
@@ -225,7 +214,7 @@ void mask_highlights(double radius, const cv::Mat& original, MeanDisc& all) {
     constexpr double brighter = 1.08;  // exceeds what textures leave in the mean
     constexpr double margin = 0.12;    // radii
     const cv::Mat highlights = original > brighter * all.mean;
-    const int reach = std::max(1, static_cast<int>(std::lround(margin * radius)));
+    const int reach = std::max(1, int(std::lround(margin * radius)));
     const cv::Mat disc =
         cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1});
     cv::Mat wide;
@@ -242,11 +231,12 @@ MeanDiscs mean_discs(const TrackedVideo& tracked, const TrackingSettings& settin
     MeanDiscs means;
     cv::Mat grey;
     for (std::int64_t k = 0; k < tracked.frame_count && video.next(grey); k += every) {
-        tracked.stabilise(static_cast<std::size_t>(k), grey);
+        tracked.stabilise(std::size_t(k), grey);
         const cv::Mat image = smoothed(grey);
-        const TrackFrame& f = tracked.tracks.frames[static_cast<std::size_t>(k)];
+        const TrackFrame& f = tracked.tracks.frames[std::size_t(k)];
         for (std::size_t i = 0; i < f.id.size(); ++i) {
-            const cv::Mat patch = patch_of(image, tracked.lens.seen(f.position[i]), f.radius[i]);
+            const cv::Mat patch =
+                patch_of(image, tracked.seen_by_lens(std::size_t(k), i), f.radius[i]);
             MeanDisc& all = means[f.radius[i]];
             if (all.number == 0) {
                 all.mean = cv::Mat::zeros(patch.size(), CV_32F);
@@ -275,7 +265,7 @@ std::vector<DiscPatch> disc_patches(const cv::Mat& image, const TrackedVideo& tr
     for (std::size_t i = 0; i < f.id.size(); ++i) {
         const auto mean = means.find(f.radius[i]);
         if (mean == means.end()) continue;
-        const cv::Mat patch = patch_of(image, tracked.lens.seen(f.position[i]), f.radius[i]);
+        const cv::Mat patch = patch_of(image, tracked.seen_by_lens(k, i), f.radius[i]);
         patches.push_back({f.id[i], f.radius[i], tracked.errors[k][i],
                            texture_of(patch, mean->second), mean->second.mask});
     }
@@ -302,7 +292,7 @@ Steps measure_steps(const TrackedVideo& tracked, const TrackingSettings& setting
     const MeanDiscs means = mean_discs(tracked, settings);
     Video video(settings.video, 1, settings.first_frame, tracked.fields);
     Steps steps(tracked.tracks.frames.size());
-    std::vector<std::vector<DiscPatch>> recent(static_cast<std::size_t>(step) + 1);
+    std::vector<std::vector<DiscPatch>> recent(std::size_t(step) + 1);
     cv::Mat grey;
     for (std::size_t k = 0; k < steps.size() && video.next(grey); ++k) {
         settings.throw_if_stopped();
@@ -311,8 +301,8 @@ Steps measure_steps(const TrackedVideo& tracked, const TrackingSettings& setting
         tracked.stabilise(k, grey);
         std::vector<DiscPatch>& now = recent[k % recent.size()];
         now = disc_patches(smoothed(grey), tracked, k, means);
-        if (k < static_cast<std::size_t>(step)) continue;
-        const std::size_t begin = k - static_cast<std::size_t>(step);
+        if (k < std::size_t(step)) continue;
+        const std::size_t begin = k - std::size_t(step);
         const std::vector<DiscPatch>& before = recent[begin % recent.size()];
         std::vector<std::pair<const DiscPatch*, const DiscPatch*>> pairs;
         for (const DiscPatch& a : before)
@@ -341,7 +331,7 @@ DiscSpin spin_at(const Steps& steps, std::size_t k, std::int64_t id, int step) {
         spin.match += s.match;
         number += 1.0;
     };
-    if (k >= static_cast<std::size_t>(step)) add(k - static_cast<std::size_t>(step));
+    if (k >= std::size_t(step)) add(k - std::size_t(step));
     add(k);
     if (number == 0.0) return spin;
     for (double& w : spin.turn) w /= number;
@@ -385,7 +375,7 @@ VideoSpins measure_spins(const TrackedVideo& tracked, const TrackingSettings& se
     constexpr double steps_per_period = 32.0;
     const double frames_per_period = 2.0 * pi / tracked.path.omega / tracked.step();
     VideoSpins spins;
-    spins.step = std::max(1, static_cast<int>(std::lround(frames_per_period / steps_per_period)));
+    spins.step = std::max(1, int(std::lround(frames_per_period / steps_per_period)));
     const Steps steps = measure_steps(tracked, settings, spins.step);
     std::vector<double> matches;
     std::size_t all = 0, known = 0;

@@ -19,22 +19,21 @@ constexpr double tilt_stands_out = 4.0;  // standard errors
 /// The rim in one frame.
 struct RimOutline {
     const PreparedFrame* frame;
-    Vec2 centre;             // centre without lens and tilt
+    Vec2 seen, centre;       // centre in the image, and without lens and tilt
     std::vector<Vec2> edge;  // edge as seen
 };
 
-/// Squeeze and perspective that fit all outlines best, with the radius and the centre of each.
+/// Squeeze, perspective and rolling shutter that fit all outlines best, with the radius and the
+/// centre of each.
 class TiltFit {
   public:
-    TiltFit(std::vector<RimOutline> outlines, const Lens& lens, const Vec2& path_centre,
-            double amplitude, double radius, bool squeeze_known)
-        : outlines_(std::move(outlines)),
-          lens_(lens),
-          path_centre_(path_centre),
-          amplitude_(amplitude),
-          radius_(radius),
-          unit_(radius),
-          squeeze_known_(squeeze_known) {}
+    TiltFit(std::vector<RimOutline> outlines, const Lens& lens, const ContainerRim& rim,
+            double radius, bool squeeze_known, bool rolls) {
+        outlines_ = std::move(outlines), lens_ = lens, amplitude_ = rim.amplitude;
+        radius_ = unit_ = radius, squeeze_known_ = squeeze_known, rolls_ = rolls;
+        path_centre_ = lens.ideal(Lens::Circle{rim.path_centre, rim.radius}).centre;
+        run(rim.polarity);
+    }
 
     void run(Polarity polarity) {
         constexpr int rounds = 3, passes = 12;  // edges, and steps of Gauss–Newton
@@ -43,7 +42,7 @@ class TiltFit {
         double window = std::max(known_window, first_window * radius_);
         for (int round = 0; round < rounds; ++round, window = known_window) {
             for (RimOutline& o : outlines_)
-                o.edge = outline_edge(o.frame->sharp, lens_, {o.centre, radius_},
+                o.edge = outline_edge(o.frame->sharp, lens_of(o), {o.centre, radius_},
                                       {polarity, window, noise_factor * o.frame->noise});
             scale_ = window;
             for (int pass = 0; pass < passes; ++pass) improve();
@@ -64,7 +63,7 @@ class TiltFit {
     }
 
     struct Errors {
-        double squeeze, perspective;
+        double squeeze, perspective, shutter;
     };
     Errors errors() {
         improve();  // call for the final normal equations
@@ -76,7 +75,11 @@ class TiltFit {
         const auto error = [&](int a) {
             return std::sqrt(0.5 * std::max(0.0, covariance(a, a) + covariance(a + 1, a + 1)));
         };
-        return {std::hypot(error(0), outline), std::hypot(error(2) / unit_, outline / way)};
+        // The arm of the shutter is that of the rim as seen: an error of second order.
+        const double arm = amplitude_ * length(lens_.shutter);
+        return {std::hypot(error(0), outline, arm * arm),
+                std::hypot(error(2) / unit_, outline / way),
+                std::hypot(error(7) / unit_, outline / way)};
     }
 
   private:
@@ -85,8 +88,9 @@ class TiltFit {
     static constexpr double cutoff = 4.7;        // cutoff of Tukey's weights, standard deviations
 
     /// Squeeze (2), perspective (2, times `unit_`), radius, and a squeeze that goes round with the
-    /// container (2): discs at the wall cause it, and so does an error of the distortion.
-    static constexpr int unknowns = 7;
+    /// container (2): discs at the wall cause it, and so does an error of the distortion. Shutter
+    /// (2, times `unit_`).
+    static constexpr int unknowns = 9;
     using Global = cv::Matx<double, unknowns, unknowns>;
     using GlobalVector = cv::Vec<double, unknowns>;
     using Coupling = cv::Matx<double, unknowns, 2>;
@@ -97,21 +101,30 @@ class TiltFit {
         double residual, weight;
     };
 
+    Lens lens_of(const RimOutline& o) const {
+        return lens_.in_frame(o.seen, o.centre - path_centre_);
+    }
+
     Row row_of(const RimOutline& o, const Vec2& seen) const {
-        const Vec2 p = lens_.ideal(seen) - lens_.image_centre,
+        const Lens lens = lens_of(o);
+        const Vec2 p = lens.ideal(seen) - lens.image_centre,
                    d = p - (o.centre - lens_.image_centre);
         const double distance = length(d);
         const Vec2 n = (1.0 / distance) * d;
         Row row;
         const Vec2 way = o.centre - path_centre_;
         const double along = dot(n, way), across = dot(n, perpendicular(way)), w = dot(way, way);
+        const double along_path = rolls_ ? -dot(n, perpendicular(lens.arm)) / unit_ : 0.0;
+        const Vec2 later = along_path * (seen - lens.pivot);
         row.global = {0.5 * (n.x * p.x - n.y * p.y),
                       0.5 * (n.x * p.y + n.y * p.x),
                       dot(n, p) * p.x / unit_,
                       dot(n, p) * p.y / unit_,
                       -1.0,
                       (along * along - across * across) / w,
-                      2.0 * along * across / w};
+                      2.0 * along * across / w,
+                      later.x,
+                      later.y};
         if (squeeze_known_) row.global[0] = row.global[1] = 0.0;
         row.n = n;
         row.residual = distance - radius_ + rotating_squeeze_.x * row.global[5] +
@@ -158,12 +171,14 @@ class TiltFit {
         }
         if (off.empty()) return;
         if (squeeze_known_) normal(0, 0) = normal(1, 1) = 1.0;
+        if (!rolls_) normal(7, 7) = normal(8, 8) = 1.0;
         inverse_ = normal.inv(cv::DECOMP_SVD);
         const GlobalVector d = -(inverse_ * right);
         lens_.squeeze = lens_.squeeze + Vec2{d[0], d[1]};
         lens_.perspective = lens_.perspective + (1.0 / unit_) * Vec2{d[2], d[3]};
         radius_ += d[4];
         rotating_squeeze_ = rotating_squeeze_ + Vec2{d[5], d[6]};
+        lens_.shutter = lens_.shutter + (1.0 / unit_) * Vec2{d[7], d[8]};
         for (std::size_t k = 0; k < outlines_.size(); ++k) {
             const cv::Vec2d own =
                 -(centres[k].inverse * (centres[k].right + centres[k].coupling.t() * d));
@@ -199,7 +214,7 @@ class TiltFit {
     Lens lens_;
     Vec2 path_centre_, rotating_squeeze_{0.0, 0.0};
     double amplitude_, radius_, unit_;  // unit_: the initial radius
-    bool squeeze_known_;
+    bool squeeze_known_, rolls_;
     double scale_ = 1.0;
     Global inverse_ = Global::zeros();
     std::vector<GlobalVector> scores_;  // scores of each frame
@@ -249,11 +264,26 @@ std::vector<RimOutline> rim_outlines(const std::vector<PreparedFrame>& frames,
         const CircleFit seen = find_container_rim(frame, rim);
         if (!seen.good) continue;
         const Lens::Circle circle = lens.ideal(Lens::Circle{seen.centre, seen.radius});
-        outlines.push_back({&frame, circle.centre, {}});
+        outlines.push_back({&frame, seen.centre, circle.centre, {}});
         radii.push_back(circle.radius);
     }
     radius = median(radii);
     return outlines;
+}
+
+/// A shutter reads rows or columns of the image: sets the other component to 0. False if there is
+/// none: it does not stand out from its error, or has no such direction.
+bool set_shutter(double error, Lens& lens) {
+    constexpr double max_slant = 0.1;
+    Vec2& s = lens.shutter;
+    const bool rows = std::abs(s.y) > std::abs(s.x);
+    const double along = std::abs(rows ? s.y : s.x), across = std::abs(rows ? s.x : s.y);
+    if (along < tilt_stands_out * error ||
+        across > std::max(tilt_stands_out * error, max_slant * along))
+        return false;
+    (rows ? s.x : s.y) = 0.0;
+    lens.shutter_error = error;
+    return true;
 }
 
 /// The tilt with the present distortion and focal length of `lens`.
@@ -265,21 +295,24 @@ Tilt fit_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known
     double radius = 0.0;
     const auto outlines = rim_outlines(frames, rim, lens, radius);
     if (outlines.size() < min_frames) return {};
-    const Vec2 centre = lens.ideal(Lens::Circle{rim.path_centre, rim.radius}).centre;
-    const auto fit_from = [&](double start) {
-        TiltFit fit(outlines, lens, centre, rim.amplitude, start, known.tilt.has_value());
-        fit.run(rim.polarity);
+    const auto best_fit = [&](bool rolls) {
+        TiltFit fit(outlines, lens, rim, radius, known.tilt.has_value(), rolls);
+        // The circle that fits a tilted rim may lie between two edges of the wall.
+        for (const double ratio : {0.975, 1.025, 0.95, 1.05}) {
+            if (fit.support() > good_support) break;
+            TiltFit other(outlines, lens, rim, ratio * radius, known.tilt.has_value(), rolls);
+            if (other.support() > fit.support()) fit = std::move(other);
+        }
         return fit;
     };
-    TiltFit fit = fit_from(radius);
-    // The circle that fits a tilted rim may lie between two edges of the wall.
-    for (const double ratio : {0.975, 1.025, 0.95, 1.05}) {
-        if (fit.support() > good_support) break;
-        TiltFit other = fit_from(ratio * radius);
-        if (other.support() > fit.support()) fit = std::move(other);
-    }
-    const TiltFit::Errors errors = fit.errors();
+    TiltFit fit = best_fit(rim.amplitude > 0.0);
+    TiltFit::Errors errors = fit.errors();
     Lens found = fit.lens();
+    if (rim.amplitude > 0.0 && !set_shutter(errors.shutter, found)) {
+        fit = best_fit(false);
+        errors = fit.errors();
+        found = fit.lens();
+    }
     const bool perspective = length(found.perspective) > tilt_stands_out * errors.perspective;
     if (!perspective) found.perspective = {0.0, 0.0};
     Tilt tilt = tilt_by_squeeze(found, errors);
@@ -309,7 +342,7 @@ Tilt find_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& know
     const ContainerRim seen = rim;
     lens = start;
     const Tilt tilt = fit_tilt(frames, known, rim, lens);
-    if (lens.tilted())
+    if (lens.tilted() || lens.rolls())
         rim.lens = lens;
     else
         rim = seen;

@@ -130,7 +130,7 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
             if (tracks[d] < 0) continue;
             last[static_cast<std::size_t>(tracks[d])] = particles[d].centre - container;
             others.push_back(particles[d]);
-            others.back().centre = tracked.lens.seen(particles[d].centre);
+            others.back().centre = tracked.lens.seen(put_back(tracked, k, particles[d].centre));
             others.back().sure = true;
         }
         if (here.empty() || !all[k].used) continue;
@@ -138,15 +138,17 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
         if (survey.floor) survey.floor->remove(grey);
         const PreparedFrame frame(grey, survey.reduction(), survey.appearance.blur);
         CircleFit rim = all[k].rim;
-        rim.centre = tracked.lens.seen(rim.good ? rim.centre : container);
+        rim.centre = tracked.lens.seen(put_back(tracked, k, rim.good ? rim.centre : container));
         for (const MissingDisc& disc : here) {
             const double radius = survey.appearance.species[disc.species].radius;
             auto found = find_particle_near(frame, rim, survey.appearance,
-                                            tracked.lens.seen(disc.position), disc.species, others);
+                                            tracked.lens.seen(put_back(tracked, k, disc.position)),
+                                            disc.species, others);
             if (!found) continue;
             found->sure = true;
             others.push_back(*found);
             found->centre = tracked.lens.ideal({found->centre, radius}).centre;
+            found->delay = remove_delay(tracked, k, found->centre);
             last[disc.track] = found->centre - container;
             particles.push_back(*found);
             tracks.push_back(static_cast<int>(disc.track));

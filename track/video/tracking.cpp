@@ -203,26 +203,6 @@ DetectedVideo detect_video(TrackingSettings& settings, TrackedVideo& tracked) {
     return video;
 }
 
-}  // namespace
-
-TrackedVideo track_container(const TrackingSettings& given) {
-    TrackingSettings settings = given;
-    settings.motion_only = true;
-    TrackedVideo tracked;
-    auto [times, survey, all] = detect_video(settings, tracked);
-    collect_camera_motion(all, tracked);
-    correct_lens(survey, all, tracked);
-    tracked.frame_count = static_cast<std::int64_t>(all.size());
-    set_frame_times(settings, times, all, tracked);
-    tracked.rims = rim_centres(all, tracked);
-    tracked.tilt = survey.tilt;
-    tracked.radius = survey.appearance.spacing * survey.appearance.radius();
-    tracked.container_radius = tracked.rim_radius;
-    return tracked;
-}
-
-namespace {
-
 TrackedVideo detect_and_link(TrackingSettings settings) {
     TrackedVideo tracked;
     auto [times, survey, all] = detect_video(settings, tracked);
@@ -245,6 +225,22 @@ TrackedVideo detect_and_link(TrackingSettings settings) {
 }
 
 }  // namespace
+
+TrackedVideo track_container(const TrackingSettings& given) {
+    TrackingSettings settings = given;
+    settings.motion_only = true;
+    TrackedVideo tracked;
+    auto [times, survey, all] = detect_video(settings, tracked);
+    collect_camera_motion(all, tracked);
+    correct_lens(survey, all, tracked);
+    tracked.frame_count = static_cast<std::int64_t>(all.size());
+    set_frame_times(settings, times, all, tracked);
+    tracked.rims = rim_centres(all, tracked);
+    tracked.tilt = survey.tilt;
+    tracked.radius = survey.appearance.spacing * survey.appearance.radius();
+    tracked.container_radius = tracked.rim_radius;
+    return tracked;
+}
 
 TrackedVideo track_video(const TrackingSettings& settings) {
     try {

@@ -82,11 +82,14 @@ struct TrackedVideo {
 
     Lens lens;
     Tilt tilt;
-    TrackedPath path;               // per second, or per frame
-    RimCentres rims;                // without the camera's motion
-    double rim_radius = 0.0;        // median over the frames
-    double reach = 0.0;             // of the outermost disc, in most frames
-    double container_radius = 0.0;  // one of these two
+    Vec2 shutter{0.0,
+                 0.0};  // delay of a pixel's time against that of the image's centre, per pixel
+    double readout = 0.0, readout_error = 0.0;  // from the first to the last row, frame intervals
+    TrackedPath path;                           // per second, or per frame
+    RimCentres rims;                            // without the camera's motion
+    double rim_radius = 0.0;                    // median over the frames
+    double reach = 0.0;                         // of the outermost disc, in most frames
+    double container_radius = 0.0;              // one of these two
     double container_radius_error = 0.0;
     bool wall_reached = false;  // discs touch it at least three times per period
     std::size_t rims_missed = 0;
@@ -109,6 +112,7 @@ struct TrackedVideo {
     Tracks tracks;                                // ids from 0; radius for each disc
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
     std::vector<std::vector<std::uint8_t>> seen;  // 0: interpolated
+    std::vector<std::vector<Vec2>> rolled;        // ways until the disc's row was read; removed
     std::size_t number = 0;                       // of discs
     std::optional<std::size_t> number_given;      // by the user
     double spacing = 1.0;  // contact distance / sum of visible radii, if these are parts of discs
@@ -134,9 +138,12 @@ struct TrackedVideo {
     bool rests_in(std::size_t frame) const { return !rests.empty() && rests[frame]; }
     /// Centre of the container in this frame.
     Vec2 container(std::size_t frame) const { return path.at(times[frame]); }
-    /// The position in the frame as recorded.
-    Vec2 in_image(std::size_t frame, const Vec2& position) const {
-        const Vec2 p = lens.seen(position);
+    /// Position of disc `i` of a frame as the lens and the shutter show it, and as recorded.
+    Vec2 seen_by_lens(std::size_t frame, std::size_t i) const {
+        return lens.seen(tracks.frames[frame].position[i] + rolled[frame][i]);
+    }
+    Vec2 in_image(std::size_t frame, std::size_t i) const {
+        const Vec2 p = seen_by_lens(frame, i);
         return camera.poses.empty() ? p : camera.poses[frame].seen(p);
     }
     /// Removes the camera's motion from a frame as it was read.

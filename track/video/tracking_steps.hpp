@@ -98,6 +98,10 @@ bool set_times_by_phase(const TrackingSettings& settings, const RimCentres& rims
 // container_motion.cpp
 
 RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked);
+/// Moves a position from the time at which its row was read to that of the frame, with the
+/// container. Returns by how much later it was read. put_back() moves it back.
+double remove_delay(const TrackedVideo& tracked, std::size_t frame, Vec2& position);
+Vec2 put_back(const TrackedVideo& tracked, std::size_t frame, const Vec2& position);
 /// Sets all that the rim determines: path, shake. Throws Failure.
 void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
                           TrackedVideo& tracked);

@@ -146,8 +146,8 @@ void warn_about_wall(TrackedVideo& tracked) {
         warn(
             tracked,
             "the centre of the container is {:.2f} pixels off the circle that fits its path, as on "
-            "a polygon of few sides or with a rolling shutter; positions relative to the "
-            "container, and its radius, may be wrong by as much",
+            "a polygon of few sides; positions relative to the container, and its radius, may be "
+            "wrong by as much",
             tracked.path.residual);
 }
 

@@ -147,6 +147,15 @@ std::vector<double> framecrc_times(const std::string& text) {
     return seconds;
 }
 
+/// The size of a PGM image with 8 bits, from its first three lines; nothing if it is no such image.
+std::optional<cv::Size> pgm_size(const std::string& head) {
+    constexpr int max_side = 20000;  // pixels: larger is no frame
+    int width = 0, height = 0;
+    if (std::sscanf(head.c_str(), "P5 %d %d 255", &width, &height) != 2) return std::nullopt;
+    if (width < 1 || height < 1 || width > max_side || height > max_side) return std::nullopt;
+    return cv::Size(width, height);
+}
+
 }  // namespace
 
 VideoTimes video_times(const std::string& source) {
@@ -271,19 +280,6 @@ bool Video::read(std::uint8_t* into, std::size_t bytes) {
     }
     return true;
 }
-
-namespace {
-
-/// The size of a PGM image with 8 bits, from its first three lines; nothing if it is no such image.
-std::optional<cv::Size> pgm_size(const std::string& head) {
-    constexpr int max_side = 20000;  // pixels: larger is no frame
-    int width = 0, height = 0;
-    if (std::sscanf(head.c_str(), "P5 %d %d 255", &width, &height) != 2) return std::nullopt;
-    if (width < 1 || height < 1 || width > max_side || height > max_side) return std::nullopt;
-    return cv::Size(width, height);
-}
-
-}  // namespace
 
 /// A PGM image: "P5\nWIDTH HEIGHT\n255\n" and a byte a pixel.
 bool Video::read_frame(cv::Mat& grey) {

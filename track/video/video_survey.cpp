@@ -225,11 +225,10 @@ double off_path(const std::vector<PreparedFrame>& frames, const ContainerRim& pa
 void remove_camera_motion(const TrackingSettings& settings, double reduction,
                           std::vector<cv::Mat>& images, std::vector<PreparedFrame>& frames,
                           VideoSurvey& survey) {
-    constexpr double min_motion = 0.3;  // pixels, rms: about ten errors of a pose
-    constexpr double min_known = 0.7;   // share of the frames
-    constexpr double rim_width = 0.1;   // share of the radius: the outer edge of the wall
-    constexpr double min_amplitude =
-        0.5;  // share of the path: less if the background moves with it
+    constexpr double min_motion = 0.3;     // pixels, rms: about ten errors of a pose
+    constexpr double min_known = 0.7;      // share of the frames
+    constexpr double rim_width = 0.1;      // share of the radius: the outer edge of the wall
+    constexpr double min_amplitude = 0.5;  // of the path: less if the background moves with it
     const double reach = survey.rim.amplitude + (1.0 + rim_width) * survey.rim.radius;
     const auto background = std::make_shared<const StaticBackground>(images[images.size() / 2],
                                                                      survey.rim.path_centre, reach);

@@ -33,15 +33,19 @@ struct PinholeCamera {
     }
 };
 
-std::vector<PreparedFrame> video_of(const PinholeCamera& camera, double oval = 0.0) {
+/// `shutter`: by how much the container turns further, clockwise, per pixel; rad.
+std::vector<PreparedFrame> video_of(const PinholeCamera& camera, double oval = 0.0,
+                                    const Vec2& shutter = {0.0, 0.0}) {
     std::vector<PreparedFrame> frames;
     for (int k = 0; k < 24; ++k) {
-        const Vec2 u = unit_circle(k / 24.0);
-        const Vec2 centre = image_centre + Vec2{7.0, -4.0} + amplitude * Vec2{u.x, -u.y};
         cv::Mat grey(side, side, CV_8U);
         for (int row = 0; row < side; ++row)
             for (int column = 0; column < side; ++column) {
-                Vec2 d = camera.on_table({double(column), double(row)}) - centre;
+                const Vec2 pixel{double(column), double(row)};
+                const Vec2 u =
+                    unit_circle(k / 24.0 - dot(shutter, pixel - image_centre) / (2.0 * pi));
+                const Vec2 centre = image_centre + Vec2{7.0, -4.0} + amplitude * Vec2{u.x, -u.y};
+                Vec2 d = camera.on_table(pixel) - centre;
                 d.x *= 1.0 + oval;
                 const double out = std::clamp(length(d) - radius + 0.5, 0.0, 1.0);
                 grey.at<std::uint8_t>(row, column) =
@@ -83,6 +87,7 @@ TEST(Tilt, AngleAndSideAreFoundFromTheRim) {
                       4.0 * tilt.towards_error);
             EXPECT_LT(tilt.towards_error, 5.0 * radians);
             EXPECT_FALSE(tilt.oval);
+            EXPECT_FALSE(lens.rolls());
             // The error is below 0.1 pixels, a hundredth of a disc of ten pixels, everywhere in the
             // container.
             for (double x = 60.0; x < 260.0; x += 25.0) {
@@ -103,6 +108,21 @@ TEST(Tilt, StraightCameraHasNoTiltAndKeepsItsLens) {
     EXPECT_FALSE(lens.tilted());
     EXPECT_FALSE(rim.lens);
     EXPECT_EQ(rim.radius, radius);
+}
+
+TEST(Tilt, RollingShutterIsFoundWithAndWithoutATilt) {
+    // At 15 frames per period: reads rows in 0.8 of a frame interval, upwards in 0.3, and columns.
+    for (const Vec2& shutter : {Vec2{0.0, 1.05e-3}, Vec2{0.0, -3.9e-4}, Vec2{1.05e-3, 0.0}})
+        for (const double degrees : {0.0, 5.0}) {
+            const PinholeCamera camera{degrees * radians, 20.0 * radians, 700.0};
+            ContainerRim rim = survey_rim();
+            Lens lens = ideal_lens(camera);
+            const Tilt tilt = find_tilt(video_of(camera, 0.0, shutter), {}, rim, lens);
+            EXPECT_NEAR(tilt.angle, camera.tilt, 4.0 * tilt.angle_error + 1e-9) << degrees;
+            EXPECT_LT(length(lens.shutter - shutter), 4.0 * lens.shutter_error) << degrees;
+            EXPECT_LT(lens.shutter_error, 0.05 * length(shutter));
+            EXPECT_NEAR(rim.radius, radius, 0.1);  // pixels
+        }
 }
 
 TEST(Tilt, GivenTiltIsUsed) {
