@@ -107,7 +107,7 @@ build_page() {
     install_packages lab || exit 1
     command -v npm >/dev/null || install_packages npm || exit 1
     log=$home/build/lab.log
-    say "building the page; this takes about two minutes on two cores"
+    say "building the page; this takes about a minute on two cores"
     # Not npm ci, which requires the packages of all platforms: some mirrors of the registry lack those.
     # The versions are those of the lock file in both cases.
     if ! {
