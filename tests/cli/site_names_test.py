@@ -1,6 +1,7 @@
 """`swirl site` replaces a complete site by a complete site, even if it is interrupted between its two renames.
 The tests run web/site.sh in a small tree with stand-ins for its tools, among them an interrupted `mv`."""
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -97,12 +98,12 @@ class SiteNames(InFolder):
     def test_a_site_in_progress_of_another_call_is_not_touched(self):
         self.assertEqual(self.make("old").returncode, 0)
         other = self.site + ".partial.a1B2c3"
-        os.mkdir(other)
-        with subprocess.Popen(["sleep", "60"]) as holder:
-            os.symlink(str(holder.pid), os.path.join(other, "lock." + os.uname().nodename))
-            self.assertEqual(self.make("new").returncode, 0)
-            self.assertEqual(sorted(os.listdir(self.path("out"))), ["site", "site.partial.a1B2c3"])
-            holder.terminate()
+        os.makedirs(os.path.join(other, "notebooks"))
+        holder = os.open(other, os.O_RDONLY)
+        fcntl.flock(holder, fcntl.LOCK_EX)
+        self.assertEqual(self.make("new").returncode, 0)
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["site", "site.partial.a1B2c3"])
+        os.close(holder)
         self.assertEqual(self.make("new").returncode, 0)
         self.assertEqual(os.listdir(self.path("out")), ["site"])
 

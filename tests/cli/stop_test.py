@@ -105,7 +105,7 @@ class Stop(InFolder):
     def test_while_figures_are_drawn(self):
         shutil.copytree(os.path.join(SOURCE, "paper"), self.path("figures"))
         with open(self.path("figures/style.py"), "a", encoding="utf-8") as script:
-            script.write("\n\ndef save(*_):\n    import time\n"
+            script.write("\n\ndef save(*_):\n    import os, time\n"
                          f"    open(os.path.join({self.path('figures')!r}, str(os.getpid())), 'w').close()\n"
                          "    time.sleep(3600)\n")  # beyond the time limit of this test
         for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
