@@ -143,8 +143,7 @@ void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& 
     if (measured.frames_per_period < min_rate_of_pinned)
         container.remarks.push_back(
             fmt::format("The video has {:.0f} frames per period, but pinned discs need {:.0f}. The "
-                        "simulation is "
-                        "sampled at the same rate, so neither has them.",
+                        "simulation is sampled at the same rate, so neither has them.",
                         measured.frames_per_period, min_rate_of_pinned));
     container.result = {{"periods", measured.periods},
                         {"rotation",

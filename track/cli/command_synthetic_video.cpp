@@ -323,9 +323,8 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     writer.finish();
     if (call.quiet) return;
     print_all(fmt::format(
-        "{}: {} frames of {}x{} pixels, {} per period\n"
-        "ground truth: {} (discs; rotation since the previous frame in radians), {} (container), "
-        "{}\n",
+        "{}: {} frames of {}x{} pixels, {} per period\nground truth: {} (discs; rotation since the "
+        "previous frame in radians), {} (container), {}\n",
         call.out, frames, camera.size.width, camera.size.height, camera.frames_per_period,
         disc_file.string(), container_file.string(), json_file.string()));
 }

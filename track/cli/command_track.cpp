@@ -126,8 +126,7 @@ std::string light_text(const TrackedVideo& video) {
     if (!(shift > 2.0 * video.shading_shift_error)) return "";
     const double towards = 360.0 * turns_of({video.shading_shift.x, -video.shading_shift.y});
     return fmt::format(
-        "  light       from one side; shifts discs by {} pixels towards {:.0f} "
-        "degrees; removed\n",
+        "  light       from one side; shifts discs by {} pixels towards {:.0f} degrees; removed\n",
         with_error(shift, video.shading_shift_error),
         towards - 360.0 * std::floor(towards / 360.0));
 }
@@ -152,8 +151,9 @@ std::string summary(const TrackedVideo& video, const TrackCall& call) {
                            video.path.clockwise ? "clockwise" : "counter-clockwise")) +
            report_line("quality",
                        fmt::format("{:.2f} % of frames have all discs; error {:.3f} pixels per "
-                                   "position",
-                                   100.0 * video.complete_share, video.position_error)) +
+                                   "position{}",
+                                   100.0 * video.complete_share, video.position_error,
+                                   video.swaps.empty() ? "" : "; some IDs are uncertain")) +
            report_line("tracks", call.out);
 }
 
@@ -166,19 +166,11 @@ std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
                                                      double(video.times.size() - 1)
                                                : 1.0;
     std::string text = fmt::format(
-        "  video       {}x{} pixels\n"
-        "  discs       {}, {} floor\n"
-        "  container   radius {} pixels, {} disc radii\n"
-        "  path        {}\n"
-        "  centre      {}, {} pixels\n"
-        "  amplitude   {} pixels, {:.3f} disc radii\n"
-        "  period      {} {}, {:.1f} frames; Ω = {} rad/{}\n"
-        "  phase       {} degrees in the first frame\n"
-        "  lens        distortion {}{}\n"
-        "  camera      {}\n"
-        "{}{}"
-        "  filled in   {} positions\n"
-        "  error       from {}\n",
+        "  video       {}x{} pixels\n  discs       {}, {} floor\n  container   radius {} pixels, "
+        "{} disc radii\n  path        {}\n  centre      {}, {} pixels\n  amplitude   {} pixels, "
+        "{:.3f} disc radii\n  period      {} {}, {:.1f} frames; Ω = {} rad/{}\n  phase       {} "
+        "degrees in the first frame\n  lens        distortion {}{}\n  camera      {}\n{}{}  filled "
+        "in   {} positions\n  error       from {}\n",
         video.width, video.height, species_text(video),
         video.mixed    ? "dark and bright on the"
         : video.bright ? "bright on a dark"

@@ -56,11 +56,9 @@ std::string period_text(const TrackedVideo& video, const RecordedMotion& motion)
 void write_motion(const TrackedVideo& video, const RecordedMotion& motion,
                   const VideoSource& source, const std::filesystem::path& file) {
     std::string text = fmt::format(
-        "# motion of the container in {}: mean of {:.2f} periods, {}\n"
-        "# disc radius {:.3f} pixels, scale error {:.1f} %; {}\n"
-        "# amplitude {}; standard error of a coordinate {:.2g} disc radii\n"
-        "# period {}, here {} in the unit of time of swirl run\n"
-        "t,x,y\n",
+        "# motion of the container in {}: mean of {:.2f} periods, {}\n# disc radius {:.3f} pixels, "
+        "scale error {:.1f} %; {}\n# amplitude {}; standard error of a coordinate {:.2g} disc "
+        "radii\n# period {}, here {} in the unit of time of swirl run\nt,x,y\n",
         stored_path(source.video), motion.periods, harmonics_text(motion), video.radius,
         100.0 * scale_error(video, source), wall_text(video),
         in_radii(motion.amplitude(), motion.point_error, video), motion.point_error / video.radius,
@@ -76,11 +74,9 @@ void write_motion(const TrackedVideo& video, const RecordedMotion& motion,
 std::string motion_text(const TrackedVideo& video, const RecordedMotion& motion,
                         const VideoSource& source, const std::string& file) {
     return fmt::format(
-        "{}: motion of the container, mean of {:.2f} periods, {}\n"
-        "  amplitude   {}, {} pixels; a coordinate varies by {:.3f} pixels between periods\n"
-        "  period      {}\n"
-        "  scale       disc radius {} pixels; {}\n"
-        "  next        swirl run --path {} --container-radius {}\n",
+        "{}: motion of the container, mean of {:.2f} periods, {}\n  amplitude   {}, {} pixels; a "
+        "coordinate varies by {:.3f} pixels between periods\n  period      {}\n  scale       disc "
+        "radius {} pixels; {}\n  next        swirl run --path {} --container-radius {}\n",
         file, motion.periods, harmonics_text(motion),
         in_radii(motion.amplitude(), motion.point_error, video),
         with_error(motion.amplitude(), motion.point_error), motion.scatter,

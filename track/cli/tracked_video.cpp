@@ -96,6 +96,10 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
                            {"radius", one.radius},
                            {"radius_error", one.radius * video.radius_error / video.radius},
                            {"radius_scatter", one.scatter}});
+    Json swaps = Json::array();
+    for (const PossibleSwap& swap : video.swaps)
+        swaps.push_back({{"frame", video.tracks.frames[swap.frame].number},
+                         {"discs", {swap.first, swap.second}}});
     const TrackScale scale = video.scale();
     return {
         {"format", camera_format},
@@ -140,6 +144,7 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
           {"position_error", video.position_error},
           {"overlap_error", video.overlap_error},
           {"filled_positions", video.filled},
+          {"possible_swaps", swaps},
           {"excess_discs", video.rejected},
           {"frames_with_excess_discs", video.crowded}}},
         {"millimetres_per_pixel",

@@ -20,7 +20,6 @@ struct NamedCurve {
     std::size_t rate = default_rate;
     RotationCurves curves = {};
 
-    void add(double discs, const Json& result);
     const std::vector<RotationPoint>& points() const { return curves[rate]; }
 };
 

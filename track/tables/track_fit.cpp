@@ -78,8 +78,7 @@ std::string fit_text(const TrackFit& fit) {
     if (std::abs(fit.wall_gap) > loose_fit)
         text += fmt::format(
             "The median distance of the outermost disc from the wall is {:.2g} radii, but it "
-            "should be "
-            "0: check --container-radius and --scale.\n",
+            "should be 0: check --container-radius and --scale.\n",
             fit.wall_gap);
     if (fit.pairs_known && std::abs(fit.closest_pair - 1.0) > 0.5 * loose_fit)
         text += fmt::format(
@@ -107,8 +106,7 @@ std::string smoothing_text(const TrackSmoothing& s) {
                                     : "";
     return fmt::format(
         "Positions have a noise of {:.2g} pixels, {}. Between collisions, velocities are accurate "
-        "to "
-        "{:.2g} of the container's.{}\n",
+        "to {:.2g} of the container's.{}\n",
         s.noise, smoothed, s.velocity_error(), rounded);
 }
 
@@ -170,8 +168,7 @@ void reject_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
     if (fit.overlapping > share)
         throw Failure(
             fmt::format("discs overlap in {} of the frames: their centres are {:.3g} radii apart "
-                        "in the median, "
-                        "but at least 2 is possible; --scale {} is too large.{}",
+                        "in the median, but at least 2 is possible; --scale {} is too large.{}",
                         percent(fit.overlapping), 2.0 * fit.closest_pair, scale.pixels_per_radius,
                         misfit_hint(touching_scale, allow_frames)));
     if (fit.outside > share)
@@ -186,8 +183,7 @@ void reject_misfit(const TrackFit& fit, const TrackScale& scale, double share) {
         throw Failure(fmt::format(
             "discs hardly ever come near the wall: the outermost is {:.2g} radii from it in the "
             "median, but a swirl flings discs against it; --container-radius {} or --scale {} is "
-            "too "
-            "large.{}",
+            "too large.{}",
             fit.wall_gap, scale.container_radius, scale.pixels_per_radius,
             misfit_hint(advice, accept)));
     if (fit.never_touching)

@@ -2,7 +2,6 @@
 faults. Tracks match the ground truth, or the video is rejected with the cause."""
 
 import csv
-import json
 import math
 import os
 import sys
@@ -15,6 +14,7 @@ except ImportError:
     sys.exit(77)
 
 from program import InFolder, main, slow, some, swirl
+from track_test import calibration
 
 
 class OtherVideos(InFolder):
@@ -30,8 +30,7 @@ class OtherVideos(InFolder):
         """All spheres are tracked in all frames, without identity swaps, within max_rms pixels."""
         video, done = self.call(**faults)
         self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
-            camera = json.load(file)
+        camera = calibration(self.path("tracks.csv"))
         here = {}
         with open(self.path("tracks.csv"), encoding="utf-8") as file:
             for row in csv.DictReader(file):
@@ -99,8 +98,7 @@ class OtherVideos(InFolder):
             video, done = self.call("--correct-frames", word, **fault)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("accepted", done.stderr)
-            with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
-                camera = json.load(file)
+            camera = calibration(self.path("tracks.csv"))
             omega = 2.0 * math.pi / video.frames_per_period * camera["fps"]
             self.assertLess(abs(camera["path"]["omega"] / omega - 1.0), 1e-3)  # 3 % without
 
@@ -127,8 +125,7 @@ class OtherVideos(InFolder):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertNotIn("duplicated", done.stderr)
             self.assertIn(f"removed, from the {source}", done.stdout)
-            with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
-                camera = json.load(file)
+            camera = calibration(self.path("tracks.csv"))
             self.assertEqual(camera["camera_motion"]["source"], source)
             shake = faults["shake"]
             self.assertAlmostEqual(camera["camera_motion"]["shake"], shake, delta=0.3 * shake)
@@ -154,8 +151,7 @@ class OtherVideos(InFolder):
             video = os.path.join(folder, f"hybrid_{name}_36")
             done = swirl("track", video + ".mp4", "--out", self.path("tracks.csv"), "--overwrite")
             self.assertEqual(done.returncode, 0, done.stderr)
-            with open(self.path("tracks.camera.json"), encoding="utf-8") as file:
-                camera = json.load(file)
+            camera = calibration(self.path("tracks.csv"))
             self.assertEqual(camera["discs"], 36)
             self.assertLess(abs(camera["species"][0]["radius"] / radius - 1.0), 0.01)
             self.assertLess(abs(camera["container"]["radius"] / container - 1.0), 0.005)

@@ -19,8 +19,7 @@ namespace swirl::tracking {
 inline constexpr const char* no_circle_hint =
     "hint: check that the camera does not move, that the video lasts at least half a period, that "
     "nothing covers the container, and that its path is not a polygon of few sides; --path-out "
-    "without "
-    "--out records the motion on any path";
+    "without --out records the motion on any path";
 
 struct ContainerRim {
     double radius = 0.0;  // corrected by `lens`, if there is one

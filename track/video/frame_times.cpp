@@ -70,24 +70,20 @@ void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
         if (const double step = tracked.times[k] - tracked.times[k - 1]; step >= half_period)
             throw Failure(fmt::format(
                 "{:.3g} s pass between frames {} and {} of '{}', {:.3g} periods: discs cannot be "
-                "followed across half a period or more\n"
-                "hint: track the part before or after it (--to {}, --from {}), or give --fps if "
-                "frames are equally spaced in time",
+                "followed across half a period or more\nhint: track the part before or after it "
+                "(--to {}, --from {}), or give --fps if frames are equally spaced in time",
                 step, number(k - 1), number(k), settings.video, 0.5 * step / half_period,
                 number(k - 1), number(k)));
 }
 
 namespace {
 
-/// "40, 41, 60 and 12 more", as numbers of frames of the video.
+/// The numbers of frames of the video.
 std::string frame_list(const TrackingSettings& settings, const std::vector<std::size_t>& frames) {
-    constexpr std::size_t shown = 10;
-    std::string text;
-    for (std::size_t n = 0; n < std::min(shown, frames.size()); ++n)
-        text += fmt::format("{}{}", n == 0 ? "" : ", ",
-                            settings.first_frame + static_cast<std::int64_t>(frames[n]));
-    if (frames.size() > shown) text += fmt::format(" and {} more", frames.size() - shown);
-    return text;
+    std::vector<std::string> numbers;
+    for (const std::size_t k : frames)
+        numbers.push_back(std::to_string(settings.first_frame + static_cast<std::int64_t>(k)));
+    return first_of(numbers);
 }
 
 /// Frames that are duplicates, frames that follow dropped ones, and the longest part without any.
@@ -184,10 +180,9 @@ bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims,
         const std::int64_t begin =
             settings.first_frame + static_cast<std::int64_t>(found.longest_begin);
         throw Failure(fmt::format(
-            "the container moves unevenly: {}; times and Ω would be off by up to {:.1f} %\n"
-            "hint: swirl track --correct-frames {} corrects the times and leaves duplicates out; "
-            "--from {} "
-            "--to {} tracks the longest part without any; record with a constant frame rate",
+            "the container moves unevenly: {}; times and Ω would be off by up to {:.1f} %\nhint: "
+            "swirl track --correct-frames {} corrects the times and leaves duplicates out; --from "
+            "{} --to {} tracks the longest part without any; record with a constant frame rate",
             what, 100.0 * share, accept, begin,
             begin + static_cast<std::int64_t>(found.longest) - 1));
     }

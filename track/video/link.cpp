@@ -38,6 +38,13 @@ struct Track {
     std::array<Vec2, predictions> expected{};
 };
 
+/// Where a track was expected after `unsure` frames without a sure position, and where it was found.
+struct Expectation {
+    Vec2 position{0.0, 0.0};
+    int unsure = 0;
+    std::optional<Vec2> found;
+};
+
 class Linker {
   public:
     Linker(const TrackedPath& path, const LinkSettings& settings)
@@ -56,6 +63,8 @@ class Linker {
     }
 
     std::vector<int> step(const std::vector<DetectedDisc>& discs, double time);
+    /// For each track, what the last step expected and found.
+    std::vector<Expectation> last;
     /// After the first frame: follows its discs towards earlier ones. `next` is a step ahead.
     void turn_back(const Linker& next);
     std::vector<Track> tracks;
@@ -63,8 +72,6 @@ class Linker {
   private:
     Vec2 flow_at(const Vec2& position, double time_from, double time_to) const;
     Vec2 expect(Track& track, double time) const;
-    double cost_of_turn(const std::vector<DetectedDisc>& discs, double angle, double time) const;
-    double first_turn(const std::vector<DetectedDisc>& discs, double time) const;
     void assign(std::size_t species, const std::vector<DetectedDisc>& discs,
                 const std::vector<Vec2>& expected, std::vector<int>& of) const;
     void resume_lost(const std::vector<DetectedDisc>& discs, const std::vector<Vec2>& expected,
@@ -85,8 +92,6 @@ class Linker {
 
     const TrackedPath& path_;
     const LinkSettings& settings_;
-    double last_time_ = 0.0;
-    int steps_ = 0;
 };
 
 /// A time in steps of the track's latest one. That is almost zero while the container rests
@@ -139,53 +144,6 @@ Vec2 Linker::expect(Track& track, double time) const {
         weights += w;
     }
     return (1.0 / weights) * sum;
-}
-
-/// Sum of the squared distances, within a gate, of all discs turned by `angle` about the
-/// container's centre from the discs assigned to them.
-double Linker::cost_of_turn(const std::vector<DetectedDisc>& discs, double angle,
-                            double time) const {
-    double sum = 0.0;
-    for (std::size_t species = 0; species < settings_.radii.size(); ++species) {
-        const double gate = settings_.gate * settings_.radii[species];
-        std::vector<std::vector<double>> cost;
-        for (const Track& t : tracks) {
-            if (t.species != species) continue;
-            const Vec2 p = to_lab(1, rotated(to_frame(1, t.position, t.time), angle), time);
-            cost.emplace_back();
-            for (const DetectedDisc& d : discs)
-                if (d.sure && d.species == species)
-                    cost.back().push_back(std::min(1.0, square(d.position - p) / (gate * gate)));
-        }
-        const std::vector<int> column = best_assignment(cost, settings_.throw_if_stopped);
-        for (std::size_t r = 0; r < column.size(); ++r)
-            sum += column[r] < 0 ? 1.0 : cost[r][static_cast<std::size_t>(column[r])];
-    }
-    return sum;
-}
-
-/// The rotation about the container's centre, in its frame, that maps the discs of the first image
-/// to those of the second; 0 unless a rotation fits much better than none. At few frames per period
-/// discs that move independently are as far from where they were as from another disc. Among many
-/// rotations, one would then fit better than none by accident, and confuse all discs.
-double Linker::first_turn(const std::vector<DetectedDisc>& discs, double time) const {
-    constexpr int per_step = 50, coarse = 5, first = -40, last = 80;
-    constexpr std::size_t max_tracks = 600;  // more would take minutes
-    if (tracks.size() > max_tracks) return 0.0;
-    const double step =
-        (path_.clockwise ? 1.0 : -1.0) * path_.omega * (time - last_time_) / per_step;
-    int best = 0;
-    constexpr double much_better = 0.5;  // ratio of the costs
-    const double without = cost_of_turn(discs, 0.0, time);
-    double least = without;
-    const auto try_turn = [&](int k) {
-        const double cost = cost_of_turn(discs, step * k, time);
-        if (cost < least) least = cost, best = k;
-    };
-    for (int k = first; k <= last; k += coarse) try_turn(k);
-    const int around = best;
-    for (int k = around - coarse + 1; k < around + coarse; ++k) try_turn(k);
-    return least < much_better * without ? step * best : 0.0;
 }
 
 /// Assigns detections of one species to tracks with minimal cost. With as many sure detections as
@@ -265,25 +223,18 @@ void Linker::resume_lost(const std::vector<DetectedDisc>& discs, const std::vect
 
 std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double time) {
     std::vector<int> of(discs.size(), -1);
-    const bool second = steps_ == 1;
-    const double turn = second ? first_turn(discs, time) : 0.0;
     std::vector<Vec2> expected(tracks.size());
-    for (std::size_t t = 0; t < tracks.size(); ++t) {
-        expected[t] = expect(tracks[t], time);
-        if (second) {
-            expected[t] =
-                to_lab(1, rotated(to_frame(1, tracks[t].position, tracks[t].time), turn), time);
-            tracks[t].expected.fill(expected[t]);
-        }
-    }
+    for (std::size_t t = 0; t < tracks.size(); ++t) expected[t] = expect(tracks[t], time);
     for (std::size_t species = 0; species < settings_.radii.size(); ++species)
         assign(species, discs, expected, of);
     resume_lost(discs, expected, of);
-    std::vector<char> found(tracks.size(), 0);
+    last.clear();
+    for (const Track& t : tracks) last.push_back({expected[last.size()], t.doubted, {}});
     for (std::size_t d = 0; d < discs.size(); ++d) {
         if (of[d] < 0) continue;
         Track& t = tracks[static_cast<std::size_t>(of[d])];
-        found[static_cast<std::size_t>(of[d])] = 1;
+        last[std::size_t(of[d])].found = discs[d].position;
+        last[std::size_t(of[d])].unsure += discs[d].sure ? 0 : 1;
         if (t.seen == 2)
             for (std::size_t k = 0; k < predictions; ++k) {
                 const double radius = settings_.radii[t.species];
@@ -299,8 +250,8 @@ std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double tim
         t.missed = 0;
         t.doubted = discs[d].sure ? 0 : t.doubted + 1;
     }
-    for (std::size_t t = 0; t < found.size(); ++t) {
-        if (found[t]) continue;
+    for (std::size_t t = 0; t < last.size(); ++t) {
+        if (last[t].found) continue;
         // A missed disc is placed at its expected position, which also keeps its velocity.
         ++tracks[t].missed;
         ++tracks[t].doubted;
@@ -318,13 +269,10 @@ std::vector<int> Linker::step(const std::vector<DetectedDisc>& discs, double tim
         track.seen = 1;
         tracks.push_back(track);
     }
-    last_time_ = time;
-    ++steps_;
     return of;
 }
 
 void Linker::turn_back(const Linker& next) {
-    steps_ = 2;  // the first step, of an unknown turn, is over
     for (std::size_t t = 0; t < tracks.size(); ++t) {
         if (next.tracks[t].missed > 0) continue;
         tracks[t].before = next.tracks[t].position;
@@ -347,6 +295,37 @@ std::size_t start_of_links(const std::vector<std::vector<DetectedDisc>>& frames,
             longest = run, start = begin == 0 ? 0 : begin + run / 2;
     }
     return start;
+}
+
+/// The pairs of tracks for which the other assignment is hardly less likely. Errors of expected
+/// positions are those of all tracks, and grow with the number of frames in which one was missed.
+std::vector<PossibleSwap> possible_swaps(const std::vector<std::vector<Expectation>>& steps,
+                                         const std::vector<std::size_t>& species) {
+    constexpr double max_log_odds = 3.0;
+    double sum = 0.0, number = 0.0;
+    for (const auto& step : steps)
+        for (const Expectation& e : step)
+            if (e.found && e.unsure == 0) sum += square(*e.found - e.position), number += 1.0;
+    const double usual = sum / std::max(number, 1.0);
+    const auto log_of = [&](const Expectation& e, const Vec2& at, bool hidden) {
+        const double spread = std::max(usual * std::pow(1.0 + e.unsure, 2.0), 1e-12);
+        const double q = square(at - e.position) / spread;
+        return std::log(spread) + (hidden ? 2.0 * std::log1p(0.5 * q) : q);
+    };
+    std::vector<PossibleSwap> swaps;
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        for (std::size_t a = 0; a < steps[k].size(); ++a)
+            for (std::size_t b = 0; b < steps[k].size(); ++b) {
+                const Expectation &one = steps[k][a], &other = steps[k][b];
+                if (a == b || species[a] != species[b] || !one.found || (other.found && b < a))
+                    continue;
+                const bool hidden = one.unsure + other.unsure > 0 || !other.found;
+                double odds = log_of(other, *one.found, hidden) - log_of(one, *one.found, hidden);
+                if (other.found)
+                    odds += log_of(one, *other.found, hidden) - log_of(other, *other.found, hidden);
+                if (odds < max_log_odds) swaps.push_back({k, a, b});
+            }
+    return swaps;
 }
 
 }  // namespace
@@ -425,14 +404,19 @@ Links link_discs(const std::vector<std::vector<DetectedDisc>>& frames,
                             k, times[k]));
     Links links;
     links.track.resize(frames.size());
+    std::vector<std::vector<Expectation>> steps(frames.size());
     const auto link = [&](Linker& linker, std::size_t k) {
         if (settings.throw_if_stopped) settings.throw_if_stopped();
         links.track[k] = linker.step(frames[k], times[k]);
+        steps[k] = std::move(linker.last);
         const auto sure = std::size_t(std::count_if(frames[k].begin(), frames[k].end(),
                                                     [](const auto& d) { return d.sure; }));
         if (sure <= linker.tracks.size()) return;
         ++links.crowded;
         links.rejected += sure - linker.tracks.size();
+        for (std::size_t d = 0; d < frames[k].size() && !links.extra; ++d)
+            if (frames[k][d].sure && links.track[k][d] < 0)
+                links.extra = ExtraDisc{k, frames[k][d].position};
     };
     const std::size_t start = start_of_links(frames, settings.numbers);
     Linker forward(path, settings);
@@ -444,6 +428,7 @@ Links link_discs(const std::vector<std::vector<DetectedDisc>>& frames,
     }
     for (std::size_t k = start; k-- > 0;) link(backward, k);
     for (const Track& t : forward.tracks) links.species.push_back(t.species);
+    links.swaps = possible_swaps(steps, links.species);
     return links;
 }
 

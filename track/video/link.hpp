@@ -4,8 +4,7 @@
 // the wrong one. The expected position of a disc is a mean over several predictions, each weighted
 // by its past accuracy for that disc: uniform motion in the lab (in flight), relative to the
 // container, or in the co-rotating M-frame; rest in one of the latter two; and the mean motion of
-// the neighbours, as of a disc that was seen once. In the first step all discs turn about the
-// container's centre by one angle, the one that fits best.
+// the neighbours, as of a disc that was seen once. In the first step discs move with the container.
 //
 // Expected and detected positions are then assigned such that the sum of squared distances is
 // minimal (assignment problem; Kuhn 1955, in the form of Jonker & Volgenant 1987), within a gate.
@@ -16,6 +15,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "swirl/math/vec2.hpp"
@@ -36,12 +36,25 @@ struct LinkSettings {
     std::function<void()> throw_if_stopped{};  // called once per frame and row
 };
 
+/// Two tracks that may continue each other from this frame on.
+struct PossibleSwap {
+    std::size_t frame = 0, first = 0, second = 0;
+};
+
+/// A sure detection beyond the number of discs.
+struct ExtraDisc {
+    std::size_t frame = 0;
+    Vec2 position{0.0, 0.0};
+};
+
 struct Links {
     /// The track of each detected disc of each frame, or −1.
     std::vector<std::vector<int>> track;
     std::vector<std::size_t> species;  // species of each track
-    std::uint64_t rejected = 0;        // sure detections beyond the number of discs
-    std::uint64_t crowded = 0;         // frames with at least one of these
+    std::optional<ExtraDisc> extra;    // one of them
+    std::uint64_t rejected = 0;        // number of these
+    std::uint64_t crowded = 0;         // frames with at least one
+    std::vector<PossibleSwap> swaps;   // ascending frames
 };
 
 /// Throws std::invalid_argument unless times are finite and strictly ascending.

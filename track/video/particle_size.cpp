@@ -104,8 +104,7 @@ std::string contradiction(const SizeCheck& check) {
         return fmt::format("they fill only {:.1f} % of the container", 100.0 * check.fill);
     if (check.mean > many_discs && check.spread > max_flicker * check.mean)
         return fmt::format(
-            "their number changes from frame to frame by {:.0f}, and is {:.0f} on "
-            "average",
+            "their number changes from frame to frame by {:.0f}, and is {:.0f} on average",
             check.spread, check.mean);
     return "";
 }
@@ -192,9 +191,8 @@ CommonCircle find_common_circle(const ParticleSurvey& survey, const KnownDiscs& 
     if (reason.empty()) return best;
     throw UncertainDiscs(fmt::format(
         "the container was found, but no discs: circles with a radius of {:.1f} pixels fit the "
-        "edges best, but {}.\n"
-        "hint: give --discs, or --disc-diameter and --container-diameter. A higher contrast and "
-        "less compression also help.",
+        "edges best, but {}.\nhint: give --discs, or --disc-diameter and --container-diameter. A "
+        "higher contrast and less compression also help.",
         radius_of_reason, reason));
 }
 

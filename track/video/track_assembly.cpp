@@ -81,6 +81,7 @@ void assemble_tracks(const Detections& all, const Links& links, std::int64_t fir
     const auto max_gap = static_cast<std::size_t>(std::max(min_gap, per_period / max_gap_share));
     const double smooth = tracked.readout > 0.0 ? smoothness(points) : 0.0;
     std::int64_t id = 0;
+    std::vector<std::int64_t> ids(points.size(), -1);
     for (TrackedSpecies& species : tracked.species) species.number = 0;
     for (std::size_t t = 0; t < points.size(); ++t) {
         if (points[t].size() < min_length) continue;
@@ -113,9 +114,13 @@ void assemble_tracks(const Detections& all, const Links& links, std::int64_t fir
             add(now, position, at_its_time, error, true);
         }
         ++species.number;
-        ++id;
+        ids[t] = id++;
     }
     tracked.number = static_cast<std::size_t>(id);
+    for (const PossibleSwap& swap : links.swaps)
+        if (ids[swap.first] >= 0 && ids[swap.second] >= 0)
+            tracked.swaps.push_back(
+                {swap.frame, std::size_t(ids[swap.first]), std::size_t(ids[swap.second])});
 }
 
 }  // namespace swirl::tracking

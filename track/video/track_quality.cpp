@@ -3,7 +3,6 @@
 #include <map>
 #include <optional>
 
-#include "swirl/math/unit_circle.hpp"
 #include "track/video/contact_distance.hpp"
 #include "track/video/robust_statistics.hpp"
 #include "track/video/tracking_steps.hpp"
@@ -11,22 +10,6 @@
 namespace swirl::tracking {
 
 namespace {
-
-/// Discs in contact: the mean gap is 0, and half of the gaps are negative by errors of positions.
-void measure_contacts(const std::vector<double>& gaps, TrackedVideo& tracked) {
-    // For an onset, and for a median. Few discs are seldom in contact, and the onset of few gaps
-    // may be off by several per cent.
-    constexpr std::size_t min_gaps = 1000, min_overlaps = 50;
-    constexpr double window = 0.02;  // radii
-    if (gaps.size() > min_gaps && !tracked.contact_fitted)
-        tracked.contact_ratio = 1.0 + onset(gaps, window * tracked.radius) / (2.0 * tracked.radius);
-    if (tracked.overlap_error > 0.0) return;  // known from the distances of contact, and better
-    std::vector<double> overlaps;
-    for (const double g : gaps)
-        if (g < 0.0) overlaps.push_back(-g);
-    if (overlaps.size() > min_overlaps)
-        tracked.overlap_error = mad_to_sigma * quantile(overlaps, 0.5) / std::sqrt(2.0);
-}
 
 constexpr double same_reach = 0.005;    // relative: touches of one wall
 constexpr double touches_needed = 3.0;  // touches per period
@@ -159,16 +142,18 @@ void find_contacts(TrackedVideo& tracked) {
 }
 
 void measure_quality(const Detections& all, TrackedVideo& tracked) {
-    constexpr double near = 0.25;  // radii between neighbours, for statistics of contacts
-    constexpr double no_neighbour = 1e300;
-    std::size_t complete = 0, count = 0, used = 0;
+    std::size_t count = 0, used = 0;
+    double complete = 0.0;
     double square = 0.0;
-    std::vector<double> reaches, gaps;  // gaps: to the nearest disc
+    std::vector<double> reaches;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const TrackFrame& f = tracked.tracks.frames[k];
         const std::vector<std::uint8_t>& seen = tracked.seen[k];
+        const double all_seen = tracked.number_seen(k) == tracked.number ? 1.0 : 0.0;
+        complete += all_seen;
         if (all[k].used) ++used;
-        if (std::size_t(std::count(seen.begin(), seen.end(), 1)) == tracked.number) ++complete;
+        if (all[k].used && is_whole(tracked, tracked.radius, k))
+            tracked.whole += 1.0, tracked.complete_whole += all_seen;
         double reach = 0.0;
         const Vec2 c = tracked.container(k);
         for (std::size_t i = 0; i < f.id.size(); ++i) {
@@ -176,20 +161,13 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
             square += tracked.errors[k][i] * tracked.errors[k][i];
             ++count;
             reach = std::max(reach, length(f.position[i] - c) + f.radius[i]);
-            double nearest = no_neighbour;
-            for (std::size_t j = 0; j < f.id.size(); ++j)
-                if (j != i && seen[j])
-                    nearest = std::min(
-                        nearest, length(f.position[i] - f.position[j]) - f.radius[i] - f.radius[j]);
-            if (std::abs(nearest) < near * f.radius[i]) gaps.push_back(nearest);
         }
         // At rest, discs lie where they stopped.
         if (reach > 0.0 && !tracked.rests_in(k)) reaches.push_back(reach);
     }
-    tracked.complete_share = double(complete) / double(std::max<std::size_t>(used, 1));
+    tracked.complete_share = complete / double(std::max<std::size_t>(used, 1));
     tracked.position_error = count ? std::sqrt(square / double(count)) : 0.0;
     set_reach(reaches, tracked);
-    measure_contacts(gaps, tracked);
     // An edge determines how far its rays scatter, but not what shade, texture and compression do
     // to all of them at once. If overlaps imply larger errors, these replace those of the edges.
     // The rays of a soft edge scatter by more than the circle errs, so a fit to all distances

@@ -1,65 +1,12 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "swirl/math/unit_circle.hpp"
-#include "track/video/robust_statistics.hpp"
 #include "track/video/tracking_steps.hpp"
 
 namespace swirl::tracking {
 
 namespace {
-
-/// Of two particles that overlap by more than errors of positions explain, removes the one with
-/// less of an edge.
-void drop_overlapping(const Detections& all, const std::vector<double>& radii, double spacing,
-                      Links& links) {
-    const double min_distance = 0.84 * spacing;  // sums of radii
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const std::vector<DetectedParticle>& particles = all[k].particles;
-        for (std::size_t a = 0; a < particles.size(); ++a)
-            for (std::size_t b = a + 1; b < particles.size(); ++b) {
-                int &first = links.track[k][a], &second = links.track[k][b];
-                if (first < 0 || second < 0) continue;
-                if (length(particles[a].centre - particles[b].centre) >
-                    min_distance * (radii[particles[a].species] + radii[particles[b].species]))
-                    continue;
-                (particles[a].support < particles[b].support ? first : second) = -1;
-            }
-    }
-}
-
-/// Removes positions of a single frame far from the mean of those before and after. At distances
-/// that a disc reaches which is hit twice in between, only a sure detection is believed.
-void drop_outliers(const Detections& all, const TrackedVideo& tracked, Links& links) {
-    constexpr double min_radii = 0.2;                   // errors of positions stay below it
-    constexpr double max_sure = 2.4, max_unsure = 1.2;  // steps of the container
-    constexpr double nearly_all = 0.95;                 // of the moves between two frames
-    struct Point {
-        std::size_t frame, index;
-        Vec2 relative;  // to the container
-    };
-    std::vector<std::vector<Point>> points(links.species.size());
-    std::vector<double> moves{0.0};
-    for_each_linked(links, [&](std::size_t k, std::size_t track, std::size_t d) {
-        const Vec2 here = all[k].particles[d].centre - tracked.container(k);
-        if (!points[track].empty() && points[track].back().frame + 1 == k)
-            moves.push_back(length(here - points[track].back().relative));
-        points[track].push_back({k, d, here});
-    });
-    const double step = tracked.path.amplitude * tracked.path.omega * tracked.step();
-    const double fast = std::max(max_sure * step, quantile(moves, nearly_all));
-    for (std::size_t t = 0; t < points.size(); ++t)
-        for (std::size_t j = 1; j + 1 < points[t].size(); ++j) {
-            const Point &before = points[t][j - 1], &now = points[t][j], &after = points[t][j + 1];
-            if (after.frame - before.frame != 2) continue;
-            const bool sure = all[now.frame].particles[now.index].sure;
-            const double maximum = std::max(min_radii * tracked.species[links.species[t]].radius,
-                                            sure ? fast : max_unsure * step);
-            if (length(now.relative - 0.5 * (before.relative + after.relative)) > maximum)
-                links.track[now.frame][now.index] = -1;
-        }
-}
 
 /// Where a disc that was not detected should be.
 struct MissingDisc {
@@ -173,11 +120,10 @@ Links link_detections(const TrackingSettings& settings, const VideoSurvey& surve
     }
     link.throw_if_stopped = [&settings] { settings.throw_if_stopped(); };
     Links links = link_discs(discs, tracked.times, tracked.path, link);
-    drop_overlapping(all, link.radii, tracked.spacing, links);
-    drop_outliers(all, tracked, links);
     find_missing_discs(settings, survey, tracked, all, links);
     tracked.rejected = links.rejected;
     tracked.crowded = links.crowded;
+    tracked.extra = links.extra;
     return links;
 }
 

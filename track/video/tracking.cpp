@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <map>
 #include <optional>
 
@@ -52,20 +51,20 @@ TrackScale TrackedVideo::scale() const {
 namespace {
 
 /// Number of discs that `counts` accepts: the largest number of sure discs that is reached in more
-/// than a seventh of the frames, so that it is no accident.
+/// than a seventh of the frames; of those that show all of the container, if they are enough.
 template <typename Counts>
-std::size_t count_discs(const Detections& all, Counts&& counts) {
-    constexpr std::size_t one_in = 7;
-    std::vector<std::size_t> numbers;
-    for (const FrameDetections& found : all)
-        if (found.rim.good)
-            numbers.push_back(std::size_t(
-                std::count_if(found.particles.begin(), found.particles.end(),
-                              [&](const auto& p) { return p.sure && counts(p.species); })));
-    if (numbers.empty()) return 0;
-    const auto at = numbers.begin() + std::ptrdiff_t(numbers.size() / one_in);
-    std::nth_element(numbers.begin(), at, numbers.end(), std::greater<>());
-    return *at;
+std::size_t count_discs(const Detections& all, const TrackedVideo& tracked, double radius,
+                        Counts&& counts) {
+    std::vector<double> numbers, whole;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!all[k].rim.good) continue;
+        numbers.push_back(
+            double(std::count_if(all[k].particles.begin(), all[k].particles.end(),
+                                 [&](const auto& p) { return p.sure && counts(p.species); })));
+        if (is_whole(tracked, radius, k)) whole.push_back(numbers.back());
+    }
+    if (double(whole.size()) >= counted_frames * double(numbers.size())) numbers = whole;
+    return std::size_t(quantile(numbers, 1.0 - counted_frames));
 }
 
 /// Numbers of the two species that are most common among frames with `total` sure discs.
@@ -89,12 +88,13 @@ std::optional<std::array<std::size_t, 2>> common_composition(const Detections& a
 void set_species(const TrackingSettings& settings, const ParticleAppearance& appearance,
                  const Detections& all, TrackedVideo& tracked) {
     for (std::size_t k = 0; k < appearance.species.size(); ++k)
-        tracked.species.push_back(
-            {appearance.species[k].radius, appearance.species[k].scatter,
-             count_discs(all, [k](std::size_t species) { return species == k; })});
+        tracked.species.push_back({appearance.species[k].radius, appearance.species[k].scatter,
+                                   count_discs(all, tracked, appearance.radius(),
+                                               [k](std::size_t species) { return species == k; })});
     if (tracked.species.size() == 2) {
         // A disc whose size is ambiguous is of either species in some frames: it counts once.
-        const std::size_t counted = count_discs(all, [](std::size_t) { return true; }),
+        const std::size_t counted = count_discs(all, tracked, appearance.radius(),
+                                                [](std::size_t) { return true; }),
                           sum = tracked.species[0].number + tracked.species[1].number,
                           total = settings.discs ? static_cast<std::size_t>(*settings.discs)
                                                  : std::min(counted, sum);

@@ -9,6 +9,7 @@
 // Lengths in pixels, y down. Times in seconds, or in frames if the frame rate is unknown.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -19,6 +20,7 @@
 #include "track/tables/tracks.hpp"
 #include "track/video/camera_motion.hpp"
 #include "track/video/lens.hpp"
+#include "track/video/link.hpp"
 #include "track/video/recorded_motion.hpp"
 #include "track/video/tilt.hpp"
 #include "track/video/tracked_path.hpp"
@@ -113,13 +115,16 @@ struct TrackedVideo {
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
     std::vector<std::vector<std::uint8_t>> seen;  // 0: interpolated
     std::vector<std::vector<Vec2>> rolled;        // ways until the disc's row was read; removed
+    std::vector<PossibleSwap> swaps;              // of IDs
+    std::optional<ExtraDisc> extra;               // the first one beyond the number of discs
     std::size_t number = 0;                       // of discs
     std::optional<std::size_t> number_given;      // by the user
     double spacing = 1.0;  // contact distance / sum of visible radii, if these are parts of discs
     double contact_ratio = 0.0;   // distance of discs in contact / sum of radii
     bool contact_fitted = false;  // from the distribution of all distances
 
-    double complete_share = 0.0;  // of the frames: every disc was detected
+    double complete_share = 0.0;               // of the frames: every disc was detected
+    double whole = 0.0, complete_whole = 0.0;  // frames with all of the container; and all discs
     double position_error = 0.0;  // rms of `errors`: from the edges, or from overlaps if larger
     double overlap_error = 0.0;   // from distances that hard discs cannot have
     std::uint64_t filled = 0;     // interpolated positions
@@ -135,16 +140,22 @@ struct TrackedVideo {
     double step() const;
     /// That the frames show.
     double periods() const;
+    std::size_t number_seen(std::size_t frame) const {
+        return std::size_t(std::count(seen[frame].begin(), seen[frame].end(), 1));
+    }
     bool rests_in(std::size_t frame) const { return !rests.empty() && rests[frame]; }
     /// Centre of the container in this frame.
     Vec2 container(std::size_t frame) const { return path.at(times[frame]); }
+    /// A position that the lens shows, as recorded.
+    Vec2 in_frame(std::size_t frame, const Vec2& at) const {
+        return camera.poses.empty() ? at : camera.poses[frame].seen(at);
+    }
     /// Position of disc `i` of a frame as the lens and the shutter show it, and as recorded.
     Vec2 seen_by_lens(std::size_t frame, std::size_t i) const {
         return lens.seen(tracks.frames[frame].position[i] + rolled[frame][i]);
     }
     Vec2 in_image(std::size_t frame, std::size_t i) const {
-        const Vec2 p = seen_by_lens(frame, i);
-        return camera.poses.empty() ? p : camera.poses[frame].seen(p);
+        return in_frame(frame, seen_by_lens(frame, i));
     }
     /// Removes the camera's motion from a frame as it was read.
     void stabilise(std::size_t frame, cv::Mat& grey) const {

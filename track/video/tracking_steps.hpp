@@ -108,7 +108,7 @@ void fit_container_motion(const TrackingSettings& settings, bool uneven_times, D
 
 // track_repair.cpp
 
-/// Links the particles of all frames. Removes outliers, and adds discs that were missed. `all` gets
+/// Links the particles of all frames. Adds discs that were missed. `all` gets
 /// the added ones.
 Links link_detections(const TrackingSettings& settings, const VideoSurvey& survey, Detections& all,
                       TrackedVideo& tracked);
@@ -134,11 +134,17 @@ void find_contacts(TrackedVideo& tracked);
 void measure_quality(const Detections& all, TrackedVideo& tracked);
 /// Sets the container's radius from the rim and the discs; corrects the radii of discs in contact.
 void set_radii(TrackedVideo& tracked);
-/// Share of the rim outside the frame: the mean over a period, or over the frames without a path.
+/// Share of the rim outside the frame: the mean over the frames where it was found.
 double share_outside(const TrackedVideo& tracked);
+/// True if at least half of a disc would be in the frame wherever it is in the container.
+bool is_whole(const TrackedVideo& tracked, double disc_radius, std::size_t frame);
+/// Share of the frames that is enough to count discs: reached by no accident.
+inline constexpr double counted_frames = 1.0 / 7.0;
 inline constexpr double complete_rim = 0.005;  // share outside that is no warning
 /// Throws UncertainDiscs if the frames contradict the discs that were found, or their number.
 void reject_contradicted_discs(const TrackedVideo& tracked);
+/// "40, 41, 60 and 12 more".
+std::string first_of(const std::vector<std::string>& items);
 /// Adds warnings about what looks wrong, with the likely cause.
 void add_warnings(TrackedVideo& tracked);
 

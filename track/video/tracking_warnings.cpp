@@ -11,22 +11,44 @@
 
 namespace swirl::tracking {
 
+namespace {
+
+/// Share of a circle that lies outside a frame.
+double share_outside(const TrackedVideo& tracked, std::size_t frame, const Vec2& centre,
+                     double radius) {
+    constexpr int steps = 36;  // 10 degrees
+    int out = 0;
+    for (int k = 0; k < steps; ++k) {
+        const Vec2 p = tracked.in_frame(
+            frame, tracked.lens.seen(centre + radius * unit_circle(double(k) / steps)));
+        if (p.x < 0.0 || p.y < 0.0 || p.x > tracked.width - 1.0 || p.y > tracked.height - 1.0)
+            ++out;
+    }
+    return double(out) / steps;
+}
+
+}  // namespace
+
+std::string first_of(const std::vector<std::string>& items) {
+    constexpr std::size_t most = 10;
+    std::string text;
+    for (std::size_t n = 0; n < std::min(most, items.size()); ++n)
+        text += (n == 0 ? "" : ", ") + items[n];
+    if (items.size() > most) text += fmt::format(" and {} more", items.size() - most);
+    return text;
+}
+
 double share_outside(const TrackedVideo& tracked) {
-    constexpr int steps = 36;  // steps of the period and of the rim: 10 degrees
-    std::vector<Vec2> centres = tracked.rims.centres;
-    if (tracked.path.amplitude > 0.0) centres.resize(steps);
-    for (int a = 0; a < steps && tracked.path.amplitude > 0.0; ++a)
-        centres[std::size_t(a)] = tracked.path.centre - tracked.rim_shift +
-                                  tracked.path.amplitude * unit_circle(double(a) / steps);
-    double out = 0.0;
-    for (const Vec2& centre : centres)
-        for (int b = 0; b < steps; ++b) {
-            const Vec2 p =
-                tracked.lens.seen(centre + tracked.rim_radius * unit_circle(double(b) / steps));
-            if (p.x < 0.0 || p.y < 0.0 || p.x > tracked.width - 1.0 || p.y > tracked.height - 1.0)
-                ++out;
-        }
-    return out / std::max(1.0, double(steps * centres.size()));
+    const RimCentres& rims = tracked.rims;
+    double sum = 0.0;
+    for (std::size_t n = 0; n < rims.centres.size(); ++n)
+        sum += share_outside(tracked, rims.frames[n], rims.centres[n], tracked.rim_radius);
+    return sum / std::max(1.0, double(rims.centres.size()));
+}
+
+bool is_whole(const TrackedVideo& tracked, double disc_radius, std::size_t frame) {
+    const double reach = tracked.rim_radius - tracked.spacing * disc_radius;
+    return share_outside(tracked, frame, tracked.container(frame), reach) == 0.0;
 }
 
 namespace {
@@ -40,15 +62,45 @@ struct Occlusion {
     std::size_t size() const { return end - begin; }
 };
 
+std::int64_t number_of(const TrackedVideo& tracked, std::size_t frame) {
+    return tracked.tracks.frames[frame].number;
+}
+
+bool is_seen(const TrackedVideo& tracked, std::size_t id, std::size_t frame) {
+    const auto& ids = tracked.tracks.frames[frame].id;
+    const auto at = std::find(ids.begin(), ids.end(), std::int64_t(id));
+    return at != ids.end() && tracked.seen[frame][std::size_t(at - ids.begin())];
+}
+
+/// ", above all disc 7 in frames 12 to 40": the longest time for which a disc is missing.
+std::string missing_text(const TrackedVideo& tracked) {
+    std::size_t disc = 0, begin = 0, end = 0;
+    for (std::size_t id = 0; id < tracked.number; ++id)
+        for (std::size_t k = 0, from = 0; k < tracked.seen.size(); ++k) {
+            if (is_seen(tracked, id, k)) from = k + 1;
+            if (k + 1 - from > end - begin) disc = id, begin = from, end = k + 1;
+        }
+    return begin == end ? ""
+                        : fmt::format(", above all disc {} in frames {} to {}", disc,
+                                      number_of(tracked, begin), number_of(tracked, end - 1));
+}
+
+/// ", such as one at (120, 84) in frame 3": a circle beyond the number of discs.
+std::string extra_text(const TrackedVideo& tracked) {
+    if (!tracked.extra) return "";
+    const Vec2 at =
+        tracked.in_frame(tracked.extra->frame, tracked.lens.seen(tracked.extra->position));
+    return fmt::format(", such as one at ({:.0f}, {:.0f}) in frame {}", at.x, at.y,
+                       number_of(tracked, tracked.extra->frame));
+}
+
 Occlusion longest_occlusion(const TrackedVideo& tracked) {
     constexpr double min_share = 0.2;   // share of the discs
     constexpr std::size_t minimum = 3;  // discs: of very few, one is a large share
     Occlusion longest, here;
     for (std::size_t k = 0; k <= tracked.seen.size(); ++k) {
         std::size_t missing = 0;
-        if (k < tracked.seen.size())
-            missing = tracked.number -
-                      std::size_t(std::count(tracked.seen[k].begin(), tracked.seen[k].end(), 1));
+        if (k < tracked.seen.size()) missing = tracked.number - tracked.number_seen(k);
         if (missing >= minimum && double(missing) >= min_share * double(tracked.number)) {
             if (here.end != k) here = {k, k, 0.0};
             ++here.end;
@@ -65,11 +117,12 @@ Occlusion longest_occlusion(const TrackedVideo& tracked) {
 std::string omission_text(const Occlusion& occlusion, const TrackedVideo& tracked) {
     constexpr std::size_t one_in = 10;  // frames that may be left out in addition
     const std::size_t frames = tracked.seen.size();
-    const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
     if (one_in * occlusion.begin < frames)
-        return fmt::format("; --from {} leaves these frames out", first + occlusion.end);
+        return fmt::format("; --from {} leaves these frames out",
+                           number_of(tracked, occlusion.end - 1) + 1);
     if (one_in * (frames - occlusion.end) < frames)
-        return fmt::format("; --to {} leaves these frames out", first + occlusion.begin - 1);
+        return fmt::format("; --to {} leaves these frames out",
+                           number_of(tracked, occlusion.begin) - 1);
     return "";
 }
 
@@ -154,15 +207,22 @@ void warn_about_wall(TrackedVideo& tracked) {
 void warn_about_discs(double outside, TrackedVideo& tracked) {
     constexpr std::size_t min_occlusion = 4;  // frames
     const Occlusion occlusion = longest_occlusion(tracked);
-    const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
     const bool hidden = occlusion.size() >= min_occlusion && outside <= complete_rim;
+    std::vector<std::string> swaps;
     if (hidden)
-        warn(
-            tracked,
-            "in frames {} to {} about {:.0f} % of the discs are missing at once: something covered "
-            "the container, perhaps a hand; a disc may have different IDs before and after{}",
-            first + occlusion.begin, first + occlusion.end - 1, 100.0 * occlusion.share,
-            omission_text(occlusion, tracked));
+        warn(tracked,
+             "in frames {} to {} about {:.0f} % of the discs are missing at once{}: something "
+             "covered the container, perhaps a hand; a disc may have different IDs before and "
+             "after{}",
+             number_of(tracked, occlusion.begin), number_of(tracked, occlusion.end - 1),
+             100.0 * occlusion.share, missing_text(tracked), omission_text(occlusion, tracked));
+    for (const PossibleSwap& swap : tracked.swaps)
+        swaps.push_back(fmt::format("{} and {} in frame {}", swap.first, swap.second,
+                                    number_of(tracked, swap.frame)));
+    if (!swaps.empty())
+        warn(tracked,
+             "some IDs are uncertain: discs that were hidden or fast may have swapped theirs: {}",
+             first_of(swaps));
     if (tracked.mixed)
         warn(tracked,
              "dark and bright discs are tracked together: light from one side shifts them in "
@@ -170,28 +230,49 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
     const double crowded = double(tracked.crowded) / double(tracked.frame_count);
     if ((tracked.complete_share < min_complete && !hidden) || crowded > max_crowded)
         warn(tracked,
-             "all {} discs are detected in {:.1f} % of the frames, and {:.0f} % have more circles: "
-             "more even light, less glare, a sharper image or a shorter exposure would help",
-             tracked.number, 100.0 * tracked.complete_share, 100.0 * crowded);
+             "all {} discs are detected in {:.1f} % of the frames{}, and {:.0f} % have more "
+             "circles{}: more even light, less glare, a sharper image or a shorter exposure would "
+             "help",
+             tracked.number, 100.0 * tracked.complete_share, missing_text(tracked), 100.0 * crowded,
+             extra_text(tracked));
+}
+
+/// The number of discs that a seventh of the frames show.
+double number_found(const TrackedVideo& tracked) {
+    std::vector<double> numbers;
+    for (std::size_t k = 0; k < tracked.seen.size(); ++k)
+        numbers.push_back(double(tracked.number_seen(k)));
+    return quantile(numbers, 1.0 - counted_frames);
+}
+
+/// Throws Failure if discs may be outside the frame too often to be counted.
+void reject_discs_outside(const TrackedVideo& tracked) {
+    const double frames = double(tracked.seen.size()), found = number_found(tracked);
+    if (tracked.whole >= counted_frames * frames ||
+        (tracked.number_given && found >= double(*tracked.number_given)))
+        return;
+    throw Failure(fmt::format(
+        "{}{:.0f} discs are found, and in {:.0f} % of the frames others may be outside the frame\n"
+        "hint: record again with the whole container in the frame. If all discs are in it at some "
+        "time, count them, and give --discs.",
+        tracked.number_given ? fmt::format("--discs is {}, but ", *tracked.number_given) : "",
+        found, 100.0 * (1.0 - tracked.whole / frames)));
 }
 
 /// Throws UncertainDiscs if the video contradicts the number that the user gave.
 void reject_contradicted_number(const TrackedVideo& tracked) {
-    constexpr double most = 0.5, few = 1.0 / 7.0;  // share of the frames
-    constexpr double max_excess = 0.05;            // share of the discs: phantoms are rejected
-    std::vector<double> numbers;
-    for (const auto& seen : tracked.seen)
-        numbers.push_back(double(std::count(seen.begin(), seen.end(), 1)));
+    constexpr double most = 0.5;         // share of the frames
+    constexpr double max_excess = 0.05;  // share of the discs: phantoms are rejected
     const double given = double(*tracked.number_given), crowded = double(tracked.crowded),
                  excess = double(tracked.rejected) / std::max(crowded, 1.0),
-                 found = quantile(numbers, 1.0 - few);
+                 found = number_found(tracked);
     const bool fewer = found < given, more = crowded >= most * double(tracked.frame_count) &&
                                              excess > std::max(1.0, max_excess * given);
     if (fewer || more)
         throw UncertainDiscs(fmt::format(
-            "--discs is {}, but the video shows {:.0f}.\nhint: omit --discs, or give the number of "
-            "discs in the container. Discs that are hidden or blurred need a better view.",
-            given, fewer ? std::floor(found) : given + excess));
+            "--discs is {}, but the video shows {:.0f}{}.\nhint: omit --discs, or give the number "
+            "of discs in the container. Discs that are hidden or blurred need a better view.",
+            given, fewer ? std::floor(found) : given + excess, fewer ? "" : extra_text(tracked)));
 }
 
 /// Throws UncertainDiscs if a third of the video shows no disc. Resting discs look like the floor.
@@ -199,37 +280,34 @@ void reject_hidden_discs(const TrackedVideo& tracked) {
     constexpr double most = 1.0 / 3.0, all = 0.9;  // share of the frames, of the discs
     const Occlusion missing = longest_occlusion(tracked);
     if (double(missing.size()) < most * double(tracked.seen.size()) || missing.share < all) return;
-    const auto first = static_cast<std::size_t>(tracked.tracks.frames.front().number);
     throw UncertainDiscs(fmt::format(
         "in frames {} to {} no disc is visible: they are covered, the light changes, or they rest "
         "for so long that they look like the floor.\nhint: --from and --to limit the video to "
         "frames in which the container moves.",
-        first + missing.begin, first + missing.end - 1));
+        number_of(tracked, missing.begin), number_of(tracked, missing.end - 1)));
 }
 
 }  // namespace
 
 void reject_contradicted_discs(const TrackedVideo& tracked) {
+    reject_discs_outside(tracked);
     reject_hidden_discs(tracked);
     if (tracked.number_given) return reject_contradicted_number(tracked);
-    const double crowded = double(tracked.crowded), frames = double(tracked.frame_count),
+    const double crowded = double(tracked.crowded) / double(tracked.frame_count),
                  hidden = double(longest_occlusion(tracked).size());
     // Discs outside the frame or under a hand contradict no number; a folded floor hides some.
     const double least = tracked.mixed ? min_folded : min_complete;
-    if (tracked.complete_share + hidden / frames >= least || share_outside(tracked) > complete_rim)
-        return;
+    if (tracked.complete_whole + hidden >= least * tracked.whole) return;
     throw UncertainDiscs(fmt::format(
         "{} discs with a radius of {:.1f} pixels were counted, but the frames contradict that: all "
-        "of them are found in only {:.0f} %, and {:.0f} % have more, on average {:.0f} more. Some "
-        "of these circles may be texture or noise.\nhint: count the discs, and give --discs; or "
-        "give --disc-diameter and --container-diameter. A plain floor, a higher contrast and less "
-        "compression also help.",
-        tracked.number, tracked.radius, 100.0 * tracked.complete_share, 100.0 * crowded / frames,
-        double(tracked.rejected) / std::max(crowded, 1.0)));
+        "of them are found in only {:.0f} %{}, and {:.0f} % have more{}. Some of these circles may "
+        "be texture or noise.\nhint: count the discs, and give --discs; or give --disc-diameter "
+        "and --container-diameter. A plain floor, more contrast and less compression help, too.",
+        tracked.number, tracked.radius, 100.0 * tracked.complete_share, missing_text(tracked),
+        100.0 * crowded, extra_text(tracked)));
 }
 
 void add_warnings(TrackedVideo& tracked) {
-    constexpr double min_percent = 1.0;                    // printed without decimals
     constexpr double min_shake = 0.5, shake_factor = 3.0;  // pixels; position errors
     constexpr double max_contact_off = 0.03;               // share of the contact ratio
     warn_about_fields(tracked);
@@ -241,7 +319,7 @@ void add_warnings(TrackedVideo& tracked) {
              "the container is not entirely in the frame: {:.0f} % of its rim, averaged over a "
              "period, lies outside; discs there are not detected, and results are from a part of "
              "the container",
-             std::max(100.0 * outside, min_percent));
+             std::max(100.0 * outside, 1.0));
     warn_about_discs(outside, tracked);
     if (tracked.frames_without_pose > 0)
         warn(tracked,

@@ -208,8 +208,7 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
     else if (survey.appearance.shading)
         throw UncertainDiscs(
             "the container was found, but no discs: balls were found by their shading, but they "
-            "have no common appearance.\n"
-            "hint: a higher contrast and less compression help.");
+            "have no common appearance.\nhint: a higher contrast and less compression help.");
 }
 
 /// The typical distance of the rim from its path, pixels. Removing a mere shadow increases it.
