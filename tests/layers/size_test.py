@@ -24,8 +24,9 @@ LINES = {
     "paper": (["paper"], [], 10_250),
     # Goal 9,000. No other part can go without a changed verdict or a claimed error that fails (bench/NOTES_tracking.md):
     # the rest is detection, links, cameras and lenses, errors, paths moved by hand, comparisons and synthetic videos.
-    # Discs of both brightnesses and containers that rest in most frames came later (100 lines).
-    "track": (["track"], ["track/tests"], 15_280),
+    # Discs of both brightnesses and containers that rest in most frames came later (100 lines). The search for
+    # overlapping discs came back (20 lines): without it, a video with hands is rejected.
+    "track": (["track"], ["track/tests"], 15_300),
     "page": (["web/src"], [], 6_500),
     # Goal 30,000. The number that can be defended is 43,500: copied setup and repeated mechanisms are gone (60 equal
     # blocks of four lines remain). 22,000 lines of C++ test the layers, with one or two assertions for each formula,

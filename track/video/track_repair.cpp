@@ -8,6 +8,25 @@ namespace swirl::tracking {
 
 namespace {
 
+/// Of two particles that overlap by more than errors of positions explain, removes the one with
+/// less of an edge.
+void drop_overlapping(const Detections& all, const std::vector<double>& radii, double spacing,
+                      Links& links) {
+    const double min_distance = 0.84 * spacing;  // sums of radii
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::vector<DetectedParticle>& particles = all[k].particles;
+        for (std::size_t a = 0; a < particles.size(); ++a)
+            for (std::size_t b = a + 1; b < particles.size(); ++b) {
+                int &first = links.track[k][a], &second = links.track[k][b];
+                if (first < 0 || second < 0) continue;
+                if (length(particles[a].centre - particles[b].centre) >
+                    min_distance * (radii[particles[a].species] + radii[particles[b].species]))
+                    continue;
+                (particles[a].support < particles[b].support ? first : second) = -1;
+            }
+    }
+}
+
 /// Where a disc that was not detected should be.
 struct MissingDisc {
     std::size_t track, species;
@@ -120,6 +139,7 @@ Links link_detections(const TrackingSettings& settings, const VideoSurvey& surve
     }
     link.throw_if_stopped = [&settings] { settings.throw_if_stopped(); };
     Links links = link_discs(discs, tracked.times, tracked.path, link);
+    drop_overlapping(all, link.radii, tracked.spacing, links);
     find_missing_discs(settings, survey, tracked, all, links);
     tracked.rejected = links.rejected;
     tracked.crowded = links.crowded;
