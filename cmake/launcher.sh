@@ -96,10 +96,11 @@ changed_since() {
 
 # Waits until no other process holds the folder $1, and holds it until unlock or the end of this shell. With
 # `only_try` it fails instead of waiting. The kernel frees the folder of a killed process. Perl is part of
-# Debian and macOS; without it, two first calls at once are not protected from each other.
+# Debian and macOS; without it, two first calls at once are not protected, and every try fails.
 lock() {
     exec 9<"$1"
-    ! command -v perl >/dev/null || perl -MFcntl=:flock -e \
+    command -v perl >/dev/null || { [ $# -eq 1 ] && return; }
+    perl -MFcntl=:flock -e \
         'open FOLDER, "<&=9" and flock FOLDER, @ARGV ? LOCK_EX | LOCK_NB : LOCK_EX or exit 1' -- ${2-}
 }
 unlock() { exec 9<&-; }
