@@ -141,9 +141,9 @@ void warn_about_motion(TrackedVideo& tracked) {
              periods);
     if (per_period < min_per_period)
         warn(tracked,
-             "there are only {:.1f} frames per period: discs may be confused, and their spins "
+             "there are only {:.1f} frames per period: discs may be confused, {}and their spins "
              "cannot be measured; use 60 or more (the paper has 511)",
-             per_period);
+             per_period, tracked.contact_fitted ? "" : "positions may err more than claimed, ");
     if (tracked.path.used < min_used)
         warn(tracked,
              "in {:.0f} % of the frames the rim is not on the fitted path: something may cover it, "
