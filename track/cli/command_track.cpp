@@ -166,11 +166,13 @@ std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
                                                      double(video.times.size() - 1)
                                                : 1.0;
     std::string text = fmt::format(
-        "  video       {}x{} pixels\n  discs       {}, {} floor\n  container   radius {} pixels, "
-        "{} disc radii\n  path        {}\n  centre      {}, {} pixels\n  amplitude   {} pixels, "
-        "{:.3f} disc radii\n  period      {} {}, {:.1f} frames; Ω = {} rad/{}\n  phase       {} "
-        "degrees in the first frame\n  lens        distortion {}{}\n  camera      {}\n{}{}  filled "
-        "in   {} positions\n  error       from {}\n",
+        "  video       {}x{} pixels\n  discs       {}, {} floor\n"
+        "  container   radius {} pixels, {} disc radii\n  path        {}\n"
+        "  centre      {}, {} pixels\n  amplitude   {} pixels, {:.3f} disc radii\n"
+        "  period      {} {}, {:.1f} frames; Ω = {} rad/{}\n"
+        "  phase       {} degrees in the first frame\n"
+        "  lens        distortion {}{}\n  camera      {}\n{}{}"
+        "  filled in   {} positions\n  error       from {}\n",
         video.width, video.height, species_text(video),
         video.mixed    ? "dark and bright on the"
         : video.bright ? "bright on a dark"

@@ -186,9 +186,8 @@ std::vector<double> CameraView::delays() const {
 }
 
 Vec2 CameraView::at_row(const std::vector<Vec2>& way, int row) const {
-    const double last = double(way.size() - 1);
     if (settings_.interlaced) return row % 2 == 0 ? way.front() : way.back();
-    const double at = last * row / settings_.size.height;
+    const double at = double(way.size() - 1) * row / settings_.size.height;
     const auto k = std::size_t(at);
     return k + 1 < way.size() ? way[k] + (at - double(k)) * (way[k + 1] - way[k]) : way[k];
 }
