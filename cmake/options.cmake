@@ -76,9 +76,12 @@ if(SWIRL_ONLY_WIDEST)
   set(batch 0)
 endif()
 function(swirl_compiled_at_once target)
-  if(SWIRL_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
-    # A local name may equal the name of a constant in another file of the batch.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # A local name may equal the name of a constant in another file of the batch. Files compiled alone have the same
+    # warnings, so that every preset accepts the same code.
     target_compile_options(${target} PRIVATE -Wno-shadow -Wshadow=local)
+    if(SWIRL_UNITY)
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    endif()
   endif()
 endfunction()

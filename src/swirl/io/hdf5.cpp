@@ -43,7 +43,7 @@ class Locked {
 
 class Handle {
   public:
-    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    Handle(hid_t id, herr_t (*close_function)(hid_t)) : id_(id), close_(close_function) {}
     ~Handle() { close(); }
     Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
     Handle& operator=(Handle&& other) noexcept {

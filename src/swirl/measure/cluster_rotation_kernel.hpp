@@ -338,10 +338,10 @@ SWIRL_INLINE RotationRates rates_of_few_discs(const Columns& c, const RotationCe
     const Eight vx = load(c.vx), vy = load(c.vy);
     const Discs discs{load(c.x) + elapsed * vx, load(c.y) + elapsed * vy, vx, vy};
     const Eight counts = Eight::load(first_lanes + lanes - about.discs);
-    const Eight far = Eight::load(far_lanes + lanes - about.discs);
+    const Eight far_away = Eight::load(far_lanes + lanes - about.discs);
     Arm arm = Centre(about, clock).arm(discs);
     arm.l = arm.l * counts;
-    const Eight individual = arm.l / (arm.q + far), minimum = arm.q + far;
+    const Eight individual = arm.l / (arm.q + far_away), minimum = arm.q + far_away;
     const Double2 above = sums(where_above(minimum, closest_square, individual), arm.l);
     const Double2 below{static_cast<double>(about.discs), sums(arm.q * counts, arm.q * counts)[0]};
     return above / below;
