@@ -48,14 +48,14 @@ void expect_no_overlap(const InitialState& scene, int events) {
 void run_search(SearchMethod search, const InitialState& scene) {
     expect_no_overlap_in_all(scene, 3'000'000, {.search = search});
 }
-TEST(Overlap, SlowSearchAllPairs) { run_search(SearchMethod::all_pairs, paper_container(28)); }
-TEST(Overlap, SlowSearchLists) { run_search(SearchMethod::lists, paper_container(48)); }
-TEST(Overlap, SlowSearchCells) {
+TEST(Overlap, Slow_SearchAllPairs) { run_search(SearchMethod::all_pairs, paper_container(28)); }
+TEST(Overlap, Slow_SearchLists) { run_search(SearchMethod::lists, paper_container(48)); }
+TEST(Overlap, Slow_SearchCells) {
     run_search(SearchMethod::cells,
                state_of({unit_disc()}, 200, 30.0, polygon_path(6.6, 41.4, paper_sides), 1.0, 1.0));
 }
-TEST(Overlap, SlowSearchFewSpheres) { run_search(SearchMethod::all_pairs, sphere_container(48)); }
-TEST(Overlap, SlowSearchManySpheres) { run_search(SearchMethod::cells, sphere_container(48)); }
+TEST(Overlap, Slow_SearchFewSpheres) { run_search(SearchMethod::all_pairs, sphere_container(48)); }
+TEST(Overlap, Slow_SearchManySpheres) { run_search(SearchMethod::cells, sphere_container(48)); }
 
 TEST(Overlap, NoneWith48DiscsInSixMillionEvents) {
     expect_no_overlap(paper_container(48), 6000000);
@@ -68,7 +68,7 @@ TEST(Overlap, NoneWithoutFrictionWhereTheEnergyGrows) {
     expect_no_overlap(paper_container(40, 0.0, 0.0), 1000000);
 }
 TEST(Overlap, NoneWithRollingSpheres) { expect_no_overlap(sphere_container(48), 1000000); }
-TEST(Overlap, SlowNoneWithSpheresAndCoinsInTenMillionEvents) {
+TEST(Overlap, Slow_NoneWithSpheresAndCoinsInTenMillionEvents) {
     for (const std::size_t n : {5u, 28u, 48u}) expect_no_overlap(sphere_container(n), 10'000'000);
     expect_no_overlap(sphere_container(48, 0.0), 10'000'000);
     expect_no_overlap(sphere_mixture(), 10'000'000);

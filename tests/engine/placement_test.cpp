@@ -65,7 +65,7 @@ TEST(Placement, PaperContainerHoldsMoreThanTheLattice) {
     expect_placed(std::vector<double>(7, 1.0), 3.0001, 1);  // seven discs need R = 3
 }
 
-TEST(Placement, SlowPaperContainerHolds59DiscsButNot61) {
+TEST(Placement, Slow_PaperContainerHolds59DiscsButNot61) {
     for (std::uint64_t seed = 0; seed < 5; ++seed)
         expect_placed(std::vector<double>(59, 1.0), 8.6, seed);
     // The smallest circle known around 61 unit circles has radius 8.6613 (the curved hexagonal
@@ -109,7 +109,7 @@ TEST(Placement, DensestKnownArrangements) {
     }
 }
 
-TEST(Placement, SlowNoArrangementDenserThanTheKnownOnesIsFound) {
+TEST(Placement, Slow_NoArrangementDenserThanTheKnownOnesIsFound) {
     // The known arrangement has one disc fewer than the call requests.
     for (const double R : {4.6, 6.1, 8.6}) {
         const auto n = discs_in_densest_known_arrangement(1.0, R);

@@ -652,7 +652,7 @@ TEST(EngineWithManyDiscs, EqualsGridReferenceInADiluteGasOfTenThousand) {
 }
 // This is by far the longest test of this layer (ten seconds). The test above with ten thousand
 // discs uses the same lists, cells and queue.
-TEST(EngineWithManyDiscs, SlowEqualsGridReferenceInAContainerOfAHundredThousand) {
+TEST(EngineWithManyDiscs, Slow_EqualsGridReferenceInAContainerOfAHundredThousand) {
     if (sanitized) GTEST_SKIP() << "a million events";
     expect_same_trajectory<GridReference>(large_container(100000), 1000000, {});
 }

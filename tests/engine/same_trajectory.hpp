@@ -40,7 +40,7 @@ inline void expect_same_sphere(const Disc& a, const Disc& b) {
 
 /// Compares every event's time, partners and impulse of a reference with those of other simulations,
 /// and all discs at the end. Under the sanitizers it compares an eighth of the events: the plain
-/// build compares all of them, and Overlap.SlowSearch runs millions of events under the sanitizers.
+/// build compares all of them, and Overlap.Slow_Search runs millions of events under the sanitizers.
 template <class Slow, class Engines>
 void expect_same_events(const InitialState& scene, Slow&& reference, Engines&& engines,
                         int events) {

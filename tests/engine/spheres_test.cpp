@@ -57,7 +57,7 @@ TEST(SpheresEqualReference, WithRollingResistance) {
     mixture.floor.rolling_resistance = 0.1;
     expect_same_for_every_width(mixture, 5000, tuning());
 }
-TEST(SpheresEqualReference, SlowOverAHundredThousandEvents) {
+TEST(SpheresEqualReference, Slow_OverAHundredThousandEvents) {
     for (const SearchMethod search : {SearchMethod::all_pairs, SearchMethod::cells}) {
         for (const std::size_t n : {1u, 2u, 5u, 28u, 48u})
             expect_same_for_every_width(sphere_container(n), 100000, tuning(search));

@@ -203,7 +203,7 @@ TEST(Trajectory, FlushedFramesSurviveKillsAtRandomMoments) {
             }
         }
         // Waits for the child's first flush, which can take long on a busy machine.
-        for (int k = 0; k < 20'000 && !std::filesystem::exists(begun); ++k) ::usleep(1000);
+        while (!std::filesystem::exists(begun)) ::usleep(1000);
         ::usleep(unsigned(60'000 + 7'001 * round));
         ::kill(child, SIGKILL);
         ::waitpid(child, nullptr, 0);
@@ -227,7 +227,7 @@ TEST(Trajectory, FramesAreFlushedWithoutFurtherWrites) {
     };
     for (std::uint64_t k = 0; k < 3; ++k) writer.write(known_frame(discs, k), k);
     EXPECT_EQ(frames_on_disk(), 0u);
-    for (int k = 0; k < 100 && frames_on_disk() == 0; ++k) ::usleep(10'000);
+    while (frames_on_disk() == 0) ::usleep(10'000);
     EXPECT_EQ(frames_on_disk(), 3u);
 }
 

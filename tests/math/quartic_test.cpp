@@ -174,7 +174,7 @@ TEST(Quartic, ReferenceHasFiftyDigits) {
     EXPECT_EQ(double(third * third - 1.0 - Wide(0x1p-99) - Wide(3.0 * 0x1p-200)), 0x1p-299);
 }
 TEST(Quartic, FirstFallAgreesWithHighPrecision) { expect_first_falls(3000, 1); }
-TEST(Quartic, SlowFirstFallAgreesWithHighPrecisionInMillionsOfCases) {
+TEST(Quartic, Slow_FirstFallAgreesWithHighPrecisionInMillionsOfCases) {
     expect_first_falls(500000, 2);
 }
 

@@ -165,7 +165,7 @@ class Builder:
                                "program_" + os.path.basename(test).removesuffix(".cpp"))
         subprocess.run([COMPILER, *objects, *LIBRARIES, "-o", program], check=True)
         result = subprocess.run(
-            [program, "--gtest_filter=-*Slow*:*Soak*", "--gtest_brief=1", "--gtest_fail_fast"],
+            [program, "--gtest_filter=-*.Slow_*:*.Soak_*", "--gtest_brief=1", "--gtest_fail_fast"],
             capture_output=True, text=True, errors="replace",
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU,
                                                   (CPU_SECONDS, CPU_SECONDS + 1)))

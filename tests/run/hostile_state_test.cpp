@@ -152,10 +152,10 @@ TEST(HostileState, OfDiscsIsRejectedOrRuns) { expect_mutations_are_harmless(Shap
 TEST(HostileState, OfSpheresIsRejectedOrRuns) {
     expect_mutations_are_harmless(Shape::sphere, 1, 150);
 }
-TEST(HostileState, SlowOfDiscsIsRejectedOrRuns) {
+TEST(HostileState, Slow_OfDiscsIsRejectedOrRuns) {
     expect_mutations_are_harmless(Shape::disc, 1'000, 8'000);
 }
-TEST(HostileState, SlowOfSpheresIsRejectedOrRuns) {
+TEST(HostileState, Slow_OfSpheresIsRejectedOrRuns) {
     expect_mutations_are_harmless(Shape::sphere, 1'000, 8'000);
 }
 

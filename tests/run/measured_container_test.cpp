@@ -252,7 +252,7 @@ TEST(MeasuredContainer, MeanOfTheProfileIsRotationMinusOmega) {
     EXPECT_NEAR(rotation, seen.rotation.estimates().mean_by_time.mean, 1e-12);
 }
 
-TEST(MeasuredContainer, SlowPinnedDiscsBehaveAsInThePaper) {
+TEST(MeasuredContainer, Slow_PinnedDiscsBehaveAsInThePaper) {
     const Seen few = watch(24, {1.0, 1.0, 0.0}, 300), many = watch(48, {1.0, 1.0, 0.0}, 300);
     // "The slip parameter of the particles in the pinned region approaches 1 as N is increased."
     EXPECT_GT(row_of(many.slip, "pinned_region").mean, 0.95);

@@ -96,11 +96,13 @@ RunConfig circle(int discs) {
     return resolve({{"path", "circle"}, {"discs", std::to_string(discs)}});
 }
 
-TEST(Soak, InvariantsOf48DiscsInABillionEvents) { expect_invariants(RunConfig{}, 100, 10'000'000); }
-TEST(Soak, InvariantsOf48DiscsOnTheCircleInABillionEvents) {
+TEST(BillionEvents, Soak_InvariantsOf48DiscsInABillionEvents) {
+    expect_invariants(RunConfig{}, 100, 10'000'000);
+}
+TEST(BillionEvents, Soak_InvariantsOf48DiscsOnTheCircleInABillionEvents) {
     expect_invariants(circle(48), 100, 10'000'000);
 }
-TEST(Soak, InvariantsOf5DiscsOnTheCircleInABillionEvents) {
+TEST(BillionEvents, Soak_InvariantsOf5DiscsOnTheCircleInABillionEvents) {
     expect_invariants(circle(5), 100, 10'000'000);
 }
 TEST(Invariants, HoldForThreeMillionEventsOnPolygonAndCircle) {

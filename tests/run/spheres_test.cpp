@@ -65,7 +65,7 @@ TEST(RunOfSpheres, AResumedRunEndsWithTheSameResult) {
     EXPECT_LT(whole.max_overlap, 1e-12);
 }
 
-TEST(RunOfSpheres, SlowInTenMillionEventsNoTwoOverlapByMoreThanRounding) {
+TEST(RunOfSpheres, Slow_InTenMillionEventsNoTwoOverlapByMoreThanRounding) {
     const RunResult done = run(
         resolve({{"preset", "experiment"}, {"discs", "48"}, {"events", "1e7"}, {"warmup", "0"}}));
     EXPECT_EQ(done.events.total(), 10'000'000u);
@@ -366,7 +366,7 @@ void expect_extremes_end(std::int64_t events) {
     EXPECT_GT(outcomes[Outcome::ran], 100);
 }
 TEST(RunOfSpheres, RunsWithExtremeParametersEnd) { expect_extremes_end(5000); }
-TEST(RunOfSpheres, SlowRunsWithExtremeParametersEndAfterAMillionEvents) {
+TEST(RunOfSpheres, Slow_RunsWithExtremeParametersEndAfterAMillionEvents) {
     expect_extremes_end(1'000'000);
 }
 

@@ -77,7 +77,7 @@ int count_found(const std::vector<Series>& all, const Planted& plant, double siz
 
 // The rates of false_alarm_rate(), for autoregressive series of 50 to 2000 blocks with a memory of
 // 0 to 0.95 of the previous block.
-TEST(SlowSteadyStateCalibration, FalseAlarmRateIsAsStated) {
+TEST(SteadyStateCalibration, Slow_FalseAlarmRateIsAsStated) {
     struct Bin {
         double minimum;
         int series = 0, alarms = 0;
@@ -109,7 +109,7 @@ TEST(SlowSteadyStateCalibration, FalseAlarmRateIsAsStated) {
     }
 }
 
-TEST(SlowSteadyStateCalibration, SteadyRecordedRunsAreRecognised) {
+TEST(SteadyStateCalibration, Slow_SteadyRecordedRunsAreRecognised) {
     int alarms = 0, runs = 0;
     double largest = 0.0;
     for (const Setting& setting : {Setting{6, 0.1},
@@ -140,7 +140,7 @@ TEST(SlowSteadyStateCalibration, SteadyRecordedRunsAreRecognised) {
     EXPECT_LT(alarms, 5);
 }
 
-TEST(SlowSteadyStateCalibration, PlantedChangesInRecordedRunsAreFound) {
+TEST(SteadyStateCalibration, Slow_PlantedChangesInRecordedRunsAreFound) {
     std::vector<Series> all;
     for (const Setting& setting : {Setting{24, 1.0}, {40, 1.0}, {48, 1.0}, {24, 0.1}})
         for (Series& series : recorded(setting, 25)) all.push_back(std::move(series));

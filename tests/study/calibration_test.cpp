@@ -30,7 +30,7 @@ struct Point {
     double mu;
 };
 
-class SlowCalibration : public testing::TestWithParam<Point> {
+class CalibrationOfTheError : public testing::TestWithParam<Point> {
   protected:
     /// ϖ by time of `count` runs over this number of periods after a warm-up of 100.
     static std::vector<Estimate> rotations(std::size_t count, std::int64_t periods,
@@ -79,11 +79,11 @@ void expect_calibrated(const char* what, const std::vector<Estimate>& given, dou
     EXPECT_GT(found.scatter_to_error, 0.5) << what << ": the errors are far too large";
 }
 
-TEST_P(SlowCalibration, TheErrorOfARunIsThatOfItsMean) {
+TEST_P(CalibrationOfTheError, Slow_TheErrorOfARunIsThatOfItsMean) {
     expect_calibrated("run", rotations(repetitions, 200, 1), reference().mean);
 }
 
-TEST_P(SlowCalibration, TheErrorOverFourRunsIsThatOfTheirMean) {
+TEST_P(CalibrationOfTheError, Slow_TheErrorOverFourRunsIsThatOfTheirMean) {
     const std::vector<Estimate> runs = rotations(4 * repetitions, 200, 10'000);
     std::vector<Estimate> collected;
     for (std::size_t k = 0; k < repetitions; ++k)
@@ -91,7 +91,7 @@ TEST_P(SlowCalibration, TheErrorOverFourRunsIsThatOfTheirMean) {
     expect_calibrated("four runs", collected, reference().mean);
 }
 
-INSTANTIATE_TEST_SUITE_P(Containers, SlowCalibration,
+INSTANTIATE_TEST_SUITE_P(Containers, CalibrationOfTheError,
                          testing::Values(Point{8, 1.0}, Point{28, 1.0}, Point{36, 0.2},
                                          Point{47, 1.0}, Point{48, 1.0}),
                          [](const auto& point) {
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Containers, SlowCalibration,
 // Dense containers have states that outlive such a run, so with 52 discs the interval of a single
 // run contains the reference value far too rarely. Eight seeds, the number at every point of the
 // paper's figures, reveal these states.
-TEST(SlowCalibrationOfADenseContainer, EightSeedsRevealStatesThatOutliveARun) {
+TEST(CalibrationOfADenseContainer, Slow_EightSeedsRevealStatesThatOutliveARun) {
     const auto rotations = [](std::size_t count, std::int64_t periods, std::uint64_t first_seed) {
         std::vector<Estimate> all(count);
         parallel_for(count, [&](std::size_t k) {
@@ -152,7 +152,7 @@ class CachedRuns {
     std::map<Key, RunResult> made_;
 };
 
-class SlowCalibrationOfTheCrossing : public testing::TestWithParam<Setting> {
+class CalibrationOfTheCrossing : public testing::TestWithParam<Setting> {
   protected:
     static CrossingSettings settings_of(std::uint64_t seed) {
         CrossingSettings settings;
@@ -168,7 +168,7 @@ class SlowCalibrationOfTheCrossing : public testing::TestWithParam<Setting> {
 
 // Short runs and wide intervals calibrate the method as well as long ones: at least 50 periods, one
 // round of longer runs.
-TEST_P(SlowCalibrationOfTheCrossing, TheIntervalContainsTheCrossingForTwoRanges) {
+TEST_P(CalibrationOfTheCrossing, Slow_TheIntervalContainsTheCrossingForTwoRanges) {
     CrossingSettings precise = settings_of(1'000'000);
     precise.config.events = 500'000;
     precise.tolerance = 0.08;  // a quarter of the tested errors or less
@@ -219,7 +219,7 @@ TEST_P(SlowCalibrationOfTheCrossing, TheIntervalContainsTheCrossingForTwoRanges)
     EXPECT_GE(same, searches - 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Settings, SlowCalibrationOfTheCrossing,
+INSTANTIATE_TEST_SUITE_P(Settings, CalibrationOfTheCrossing,
                          testing::Values(Setting{"mu03", "mu", "0.3", false, 45, 50, 44, 51},
                                          Setting{"mu035", "mu", "0.35", false, 44, 49, 43, 51},
                                          Setting{"mu05", "mu", "0.5", false, 41, 46, 40, 48},

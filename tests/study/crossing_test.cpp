@@ -249,7 +249,7 @@ TEST(CrossingSearch, EveryRunCoversTheRequestedPeriods) {
 }
 
 // Later runs may move a crossing to numbers without runs, which must not end the search.
-TEST(CrossingSearchSlow, AMovingCrossingIsFollowed) {
+TEST(CrossingSearch, Slow_AMovingCrossingIsFollowed) {
     CrossingSettings settings = short_search(1.0);
     settings.config.amplitude = 3.0;
     settings.config.events = 20'000;
