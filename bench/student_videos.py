@@ -29,7 +29,7 @@ import time
 for folder in ("tests/cli", "track/tests"):
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", folder))
 import track_test  # noqa: E402
-from program import swirl  # noqa: E402
+from program import HANG, swirl  # noqa: E402
 
 PERIOD = 15  # frames
 WIDTH, HEIGHT = 640, 480  # pixels
@@ -120,7 +120,7 @@ class Video:
         if self.seed is not None:
             at = call.index("--seed") if "--seed" in call else len(call)
             call[at:at + 2] = ["--seed", self.seed]
-        done = swirl("synthetic-video", *call, "--out", made, "--quiet", "--overwrite", timeout=3000)
+        done = swirl("synthetic-video", *call, "--out", made, "--quiet", "--overwrite", timeout=HANG)
         if done.returncode != 0:
             sys.exit(done.stderr)
         self.about = track_test.Truth(made).about
@@ -211,7 +211,7 @@ def track(folder, video):
     out = os.path.join(folder, "tracks.csv")
     options, said = [], ""
     for _ in range(2):
-        done = swirl("track", video.path, "--out", out, "--overwrite", "--quiet", *options, timeout=3000)
+        done = swirl("track", video.path, "--out", out, "--overwrite", "--quiet", *options, timeout=HANG)
         said += done.stderr
         if done.returncode == 0:
             break

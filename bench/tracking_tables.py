@@ -13,7 +13,7 @@ import tempfile
 for path in ("tests/cli", "track/tests"):
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", path))
 import track_test  # noqa: E402
-from program import swirl  # noqa: E402
+from program import HANG, swirl  # noqa: E402
 
 VIDEOS = (("laboratory", ["--discs", 36, "--length", 1.5]),
          ("phone", ["--discs", 48, "--length", 4, "--quality", 26]),
@@ -23,7 +23,7 @@ VIDEOS = (("laboratory", ["--discs", 36, "--length", 1.5]),
 
 def make_and_track(video, made, tracks, tracked):
     for call in (["synthetic-video", *made, "--out", video], ["track", video, *tracked, "--out", tracks]):
-        done = swirl(*call, "--overwrite", "--quiet", timeout=1200)
+        done = swirl(*call, "--overwrite", "--quiet", timeout=HANG)
         if done.returncode != 0:
             sys.exit(done.stderr)
 

@@ -9,7 +9,7 @@ import tempfile
 import tomllib
 import unittest
 
-from program import ONE_ERROR, SWIRL, InFolder, ProgramTest, read_json, read_text, swirl, write_text
+from program import HANG, ONE_ERROR, SWIRL, InFolder, ProgramTest, read_json, read_text, swirl, write_text
 
 # Options, exit code, words that the error must contain.
 CALLS = [
@@ -117,21 +117,21 @@ class BadCalls(ProgramTest):
             for option in (b"--json", b"--trajectory", b"--checkpoint"):
                 done = subprocess.run([SWIRL, "run", "--discs", "5", "--events", "1e4", option,
                                        b"r\xe9sum\xe9.h5"],
-                                      cwd=folder, capture_output=True, timeout=150)
+                                      cwd=folder, capture_output=True, timeout=HANG)
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(b"'r\\xe9sum\\xe9.h5' is not UTF-8 text", done.stderr)
                 self.assertRegex(done.stderr.decode(), ONE_ERROR)
                 self.assertEqual(os.listdir(folder), [])
             done = subprocess.run([SWIRL, "run", "--discs", "5", "--events", "1e4", "--quiet",
                                    "--json", "r\u00e9sum\u00e9 \U0001f300.json"],
-                                  cwd=folder, capture_output=True, timeout=150)
+                                  cwd=folder, capture_output=True, timeout=HANG)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(os.listdir(folder), ["r\u00e9sum\u00e9 \U0001f300.json"])
 
     def test_each_call_gives_an_error_that_quotes_the_value(self):
         for call, code, words in CALLS:
             with self.subTest(call):
-                done = swirl("run", *call.split(), timeout=150)
+                done = swirl("run", *call.split(), timeout=HANG)
                 self.assertEqual(done.returncode, code, done.stderr)
                 self.assertEqual(done.stdout, "")
                 self.assertRegex(done.stderr, ONE_ERROR)
@@ -149,7 +149,7 @@ class BadCalls(ProgramTest):
         for call in (["--help"], ["run", "--help"], ["--version"]):
             with open("/dev/full", "w") as full:
                 done = subprocess.run([SWIRL, *call], stdout=full, stderr=subprocess.PIPE, text=True,
-                                      timeout=150)
+                                      timeout=HANG)
             self.assertEqual(done.returncode, 1)
             self.assertIn("No space left", done.stderr)
 
@@ -179,7 +179,7 @@ class BadCalls(ProgramTest):
 
     def test_arguments_that_are_not_utf8(self):
         done = subprocess.run([SWIRL.encode(), b"run", b"--discs", b"\xff\xfe"],
-                              capture_output=True, timeout=150)
+                              capture_output=True, timeout=HANG)
         self.assertEqual(done.returncode, 2)
 
     def test_an_option_is_not_the_value_of_the_one_before_it(self):
@@ -314,7 +314,7 @@ class UnwritableOutput(InFolder):
     def test_full_disk_for_stdout(self):
         with open("/dev/full", "w") as full:
             done = subprocess.run([SWIRL, "run", "--events", "100"], stdout=full,
-                                  stderr=subprocess.PIPE, text=True, timeout=150)
+                                  stderr=subprocess.PIPE, text=True, timeout=HANG)
         self.assertEqual(done.returncode, 1)
         self.assertIn("No space left", done.stderr)
 
@@ -322,7 +322,7 @@ class UnwritableOutput(InFolder):
         for call in (["run", "--events", "100", "--quiet", "--json", "-"], ["run", "--events", "100"],
                      ["--version"], ["run", "--help"]):
             done = subprocess.run(["sh", "-c", 'exec "$0" "$@" >&-', SWIRL, *call],
-                                  capture_output=True, text=True, timeout=150)
+                                  capture_output=True, text=True, timeout=HANG)
             self.assertEqual(done.returncode, 1, call)
             self.assertRegex(done.stderr, r"error: writing to standard output failed: [^\n]+\.\n\Z")
 
@@ -341,7 +341,7 @@ class UnwritableOutput(InFolder):
                   'echo "code $?"; ls')
         done = subprocess.run(["unshare", "--map-root-user", "--mount", "sh", "-c", script, "sh",
                                self.folder, os.path.abspath(SWIRL)],
-                              capture_output=True, text=True, timeout=150)
+                              capture_output=True, text=True, timeout=HANG)
         if "code" not in done.stdout:
             self.skipTest("no small disk can be mounted here: " + done.stderr)
         self.assertIn("code 1", done.stdout)

@@ -2,11 +2,10 @@
 
 import os
 import subprocess
-import time
 
 import private_slurm
 import program
-from program import SOURCE, InFolder, read_text, slow, swirl, write_text
+from program import SOURCE, InFolder, read_text, slow, swirl, wait_until, write_text
 
 AXES = ["--discs", "20:34", "--mu", "0.5,1"]
 RUNS = ["--seeds", "2", "--events", "200000"]
@@ -36,16 +35,17 @@ class Cluster(InFolder):
 
         killed = False
         running_seen = False
-        for _ in range(1200):
+
+        def is_over():
+            nonlocal killed, running_seen
             text = status()
             running_seen = running_seen or ("running" in text and "job " in text)
             if not killed and results() >= 5 and slurm.steps_on("n2"):
                 slurm.kill_node("n2")
                 killed = True
                 self.assertLess(results(), POINTS, "the sweep ended before the node failed")
-            if f"{POINTS} of {POINTS} runs done" in text:
-                break
-            time.sleep(0.1)
+            return f"{POINTS} of {POINTS} runs done" in text
+        wait_until(is_over)
         logs = ""
         for name in sorted(os.listdir(out + "/log")):
             logs += read_text(f"{out}/log/{name}")

@@ -9,7 +9,7 @@ import re
 import subprocess
 import unittest
 
-from program import SOURCE, read_text, swirl, write_text
+from program import HANG, SOURCE, read_text, swirl, write_text
 
 PAGE = os.path.join(SOURCE, "docs", "reference", "commands.md")
 HELP = os.path.join(SOURCE, "cmake", "help.txt")
@@ -23,7 +23,7 @@ def subcommands(text):
 
 def help_of_script(name):
     done = subprocess.run([os.path.join(SOURCE, "web", name + ".sh"), "--help"], capture_output=True,
-                          text=True, check=True, timeout=100, stdin=subprocess.DEVNULL)
+                          text=True, check=True, timeout=HANG, stdin=subprocess.DEVNULL)
     return done.stdout
 
 

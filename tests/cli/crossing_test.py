@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from program import SWIRL, InFolder, read_json, read_rows, swirl, write_text
+from program import HANG, SWIRL, InFolder, read_json, read_rows, swirl, write_text
 
 SHORT = ["--events", "2e4", "--tolerance", 5, "--quiet"]
 FEW = ["--from", 5, "--to", 7]
@@ -137,7 +137,7 @@ class Crossing(InFolder):
         while process.poll() is None and not (os.path.isdir(results) and len(os.listdir(results)) > 4):
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        said, errors = process.communicate(timeout=100)
+        said, errors = process.communicate(timeout=HANG)
         self.assertEqual(process.returncode, 130, errors)
         self.assertRegex(said, r"N = \d+ +ϖ/Ω = ")
         self.assertIn("repeat the call to continue", errors)

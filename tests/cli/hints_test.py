@@ -5,7 +5,7 @@ import shlex
 import subprocess
 import unittest
 
-from program import SWIRL, InFolder, swirl, write_text
+from program import HANG, SWIRL, InFolder, swirl, write_text
 
 NAMES = ["plain", "with spaces", "it's", 'a "quoted" name', "a\nb", "$(touch planted)", "a; touch planted #",
          "./-dash", "./-with spaces"]
@@ -20,7 +20,7 @@ class Hints(InFolder):
         """Runs the command in a shell, with the program under test as `swirl`."""
         self.assertTrue(command.startswith("swirl "), command)
         return subprocess.run(["/bin/sh", "-c", shlex.quote(SWIRL) + command[5:]], cwd=self.folder,
-                              capture_output=True, text=True, timeout=100)
+                              capture_output=True, text=True, timeout=HANG)
 
     def test_the_printed_collect_command_works(self):
         for name in NAMES:
@@ -50,7 +50,7 @@ class Hints(InFolder):
         self.addCleanup(process.kill)
         first = process.stderr.read(1)  # of the progress line: the sweep is running
         process.terminate()
-        said = first + process.communicate(timeout=150)[1]
+        said = first + process.communicate(timeout=HANG)[1]
         self.assertEqual(process.returncode, 130, said)
         command = re.search(r"\nhint: run `(.*)` to continue", said, re.DOTALL)[1]
         status = self.in_shell(command + " --status")

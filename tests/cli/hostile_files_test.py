@@ -9,10 +9,9 @@ import shutil
 import signal
 import struct
 import subprocess
-import time
 import unittest
 
-from program import SWIRL, InFolder, read_bytes, read_json, swirl, write_text
+from program import HANG, SWIRL, InFolder, read_bytes, read_json, read_text, swirl, wait_until, write_text
 
 DISCS = ["run", "--discs", "4", "--periods", "3", "--frames", "5", "--warmup", "1", "--quiet"]
 # HDF5 1.14 itself rejects what 1.10 opens.
@@ -34,7 +33,7 @@ class HostileFiles(InFolder):
         return copy
 
     def expect_error(self, saying, *call):
-        done = swirl(*call, timeout=150)
+        done = swirl(*call, timeout=HANG)
         self.assertEqual(done.returncode, 1, (call, done.stdout, done.stderr))
         self.assertRegex(done.stderr, saying if isinstance(saying, re.Pattern) else re.escape(saying), call)
         return done
@@ -72,7 +71,7 @@ class HostileFiles(InFolder):
                 for step in range(2):
                     dump.write(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n1\n"
                                f"ITEM: ATOMS {' '.join(row)}\n{' '.join(row.values())}\n")
-            done = swirl("measure", self.path("d.dump"), "--omega", 1, "--container-radius", 8, timeout=150)
+            done = swirl("measure", self.path("d.dump"), "--omega", 1, "--container-radius", 8, timeout=HANG)
             self.assertEqual(done.returncode, 1, (column, done.stdout, done.stderr))
 
     def test_an_impossible_initial_state_of_an_event_log_is_rejected(self):
@@ -129,23 +128,30 @@ made.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ones(57))""")
 
     # --- endless files --------------------------------------------------------------------------
 
+    def polls(self, pid):
+        """Whether a process waits in poll(), as it does for the reader of a pipe."""
+        waits_in = read_text(f"/proc/{pid}/wchan")
+        if read_text("/proc/self/wchan") == waits_in == "":
+            self.skipTest("the kernel does not report where a process waits")
+        return "poll" in waits_in
+
     def test_writing_to_a_pipe_without_a_reader_ends_at_a_signal(self):
         os.mkfifo(self.path("pipe"))
         call = [SWIRL, "run", "--discs", "4", "--events", "2000", "--quiet", "--json", self.path("pipe")]
         for signal_sent in (signal.SIGTERM, signal.SIGINT):
             started = subprocess.Popen(call, stderr=subprocess.PIPE, text=True)
-            time.sleep(1)  # longer than the run
+            wait_until(lambda: self.polls(started.pid), started)
             started.send_signal(signal_sent)
-            _, errors = started.communicate(timeout=150)
+            _, errors = started.communicate(timeout=HANG)
             self.assertEqual(started.returncode, 130)
             self.assertIn("waiting for a reader", errors)
         started = subprocess.Popen(call, stderr=subprocess.PIPE, text=True)
         self.assertEqual(read_json(self.path("pipe"))["events"]["total"], 2000)
-        started.communicate(timeout=150)
+        started.communicate(timeout=HANG)
         self.assertEqual(started.returncode, 0)
 
     def test_an_endless_configuration_is_rejected(self):
-        self.assert_fails(2, "run", "/dev/zero", timeout=150, says="longer than 1048576 bytes")
+        self.assert_fails(2, "run", "/dev/zero", timeout=HANG, says="longer than 1048576 bytes")
 
     # --- verify ---------------------------------------------------------------------------------
 

@@ -5,14 +5,13 @@ import resource
 import signal
 import struct
 import subprocess
-import time
 import unittest
 
-from program import SWIRL, InFolder, read_bytes, write_text
+from program import HANG, SWIRL, InFolder, read_bytes, wait_until, write_text
 
 
 def swirl(*arguments):
-    return subprocess.run([SWIRL, *arguments], capture_output=True, text=True, timeout=150)
+    return subprocess.run([SWIRL, *arguments], capture_output=True, text=True, timeout=HANG)
 
 
 def contents(path):
@@ -74,7 +73,7 @@ class ImageTest(InFolder):
             self.assertEqual(result.returncode, 1)
             self.assertIn("no/such/folder", result.stderr)
             limited = subprocess.run([SWIRL, *call, self.path("y." + ending)], capture_output=True, text=True,
-                                     timeout=150, preexec_fn=lambda: resource.setrlimit(
+                                     timeout=HANG, preexec_fn=lambda: resource.setrlimit(
                                          resource.RLIMIT_FSIZE, (100, 100)))
             self.assertEqual(limited.returncode, 1, limited.stderr)
             self.assertIn("File too large", limited.stderr)
@@ -90,17 +89,16 @@ class ImageTest(InFolder):
         call = [SWIRL, "paper", "--movies", "--quick", "--quiet", "--out", self.folder]
         # Stop after some movies and damage one of them: only that one is made again.
         process = subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        parts, deadline = self.path("parts"), time.time() + 150
+        parts = self.path("parts")
 
         def complete():
             """A movie is complete when its part is stored; a part that is being written has another ending."""
             return sorted(name[len("movie-"):-len(".json")] + ".mp4" for name in os.listdir(parts)
                           if name.endswith(".json")) if os.path.isdir(parts) else []
 
-        while time.time() < deadline and len(complete()) < 2:
-            time.sleep(0.02)
+        wait_until(lambda: len(complete()) >= 2, process)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=150)
+        _, errors = process.communicate(timeout=HANG)
         self.assertEqual(process.returncode, 130, errors)
         self.assertIn("the same call makes the others", errors)
         self.assertNotIn("movies.html", os.listdir(self.folder))
@@ -108,7 +106,7 @@ class ImageTest(InFolder):
         with open(self.path(done[0]), "r+b") as file:
             file.truncate(100)
         before = {name: os.stat(self.path(name)).st_mtime_ns for name in done}
-        result = subprocess.run(call, capture_output=True, text=True, timeout=150)
+        result = subprocess.run(call, capture_output=True, text=True, timeout=HANG)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(f"{len(done) - 1} of 16 movies are from an earlier call", result.stdout)
         for name in done:

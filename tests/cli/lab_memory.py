@@ -7,7 +7,7 @@ import subprocess
 import sys
 import unittest
 
-from program import SOURCE, made_of_the_web
+from program import HANG, SOURCE, made_of_the_web
 
 LAB = os.path.join(SOURCE, "web", "lab.sh")
 CHROMIUM = shutil.which("chromium")
@@ -21,7 +21,7 @@ class Memory(unittest.TestCase):
         page = made_of_the_web(type(self), LAB, "laboratory.html")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "memory.mjs"), page,
                                CHROMIUM, str(MINUTES)], capture_output=True, text=True,
-                              timeout=150 * MINUTES + 300)
+                              timeout=HANG)
         print(done.stdout)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import unittest
 
-from program import SOURCE, InFolder, read_text, write_text
+from program import HANG, SOURCE, InFolder, read_text, write_text
 
 # Programs in the PATH. npm runs in the folder web; its build is counted.
 PROGRAMS = {
@@ -36,7 +36,7 @@ class LabNames(InFolder):
                              (absolute, "absolute.html")):
             with self.subTest(out):
                 done = subprocess.run([self.path("clone/web/lab.sh"), "--out", out], cwd=self.path("elsewhere"),
-                                      capture_output=True, text=True, timeout=60,
+                                      capture_output=True, text=True, timeout=HANG,
                                       env={**os.environ, "PATH": self.path("clone/bin") + ":" + os.environ["PATH"]})
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(read_text(self.path("elsewhere/" + written)), "page\n")

@@ -18,7 +18,8 @@ import subprocess
 import tempfile
 import zlib
 
-from program import ALL, SOURCE, ProgramTest, made_of_the_web, main, read_bytes, read_json, read_rows, read_text, slow, swirl, write_text
+from program import (ALL, HANG, SOURCE, ProgramTest, made_of_the_web, main, read_bytes, read_json, read_rows,
+                     read_text, slow, swirl, write_text)
 
 LAB = os.path.join(SOURCE, "web", "lab.sh")
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -465,7 +466,7 @@ class Laboratory(ProgramTest):
         swirl("image", *dish, "--start", repr(run["periods"]), "--no-annotations", "--out", picture, "--quiet")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page,
                                CHROMIUM, run["state_hash"], picture, folder, *COMPLETE],
-                              capture_output=True, text=True, timeout=700)
+                              capture_output=True, text=True, timeout=HANG)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(read_json(os.path.join(folder, "result.json"))["config"]["discs"], 28)
         self.assert_shows_discs(os.path.join(folder, "swirl.png"), 28)
@@ -483,7 +484,7 @@ class Laboratory(ProgramTest):
         run = json.loads(swirl("run", "--discs", "28", "--mu", "0.5", "--seed", "3", "--events", "20000", "--json", "-",
                                "--quiet").stdout)
         done = subprocess.run(["node", "--experimental-websocket", os.path.join(SOURCE, "web", "test", "firefox.mjs"), self.page,
-                               firefox, run["state_hash"]], capture_output=True, text=True, timeout=300)
+                               firefox, run["state_hash"]], capture_output=True, text=True, timeout=HANG)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def assert_shows_discs(self, path, discs):
@@ -514,7 +515,7 @@ class Laboratory(ProgramTest):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "sizes.mjs"), self.page, CHROMIUM, *COMPLETE],
-                              capture_output=True, text=True, timeout=300)
+                              capture_output=True, text=True, timeout=HANG)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_the_units_of_the_page(self):
@@ -557,7 +558,7 @@ class Laboratory(ProgramTest):
             self.skipTest("this test needs chromium")
         folder = os.path.dirname(self.page)
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "panels_page.mjs"), self.page, CHROMIUM,
-                               self.files(), folder], capture_output=True, text=True, timeout=600)
+                               self.files(), folder], capture_output=True, text=True, timeout=HANG)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         # A point of the explorer is the mean of runs, and its row has their command lines.
         with open(os.path.join(folder, "rotation_explored.csv"), encoding="utf-8") as opened:
@@ -666,7 +667,7 @@ class Laboratory(ProgramTest):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
         done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "frames.mjs"), self.page,
-                               CHROMIUM], capture_output=True, text=True, timeout=120)
+                               CHROMIUM], capture_output=True, text=True, timeout=HANG)
         print(done.stdout)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 

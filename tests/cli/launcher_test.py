@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from program import SOURCE, InFolder, read_text, write_text
+from program import HANG, SOURCE, InFolder, read_text, write_text
 
 CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
@@ -65,7 +65,7 @@ class Launcher(InFolder):
 
     def call(self, *arguments):
         return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
-                              timeout=100, cwd="/")
+                              timeout=HANG, cwd="/")
 
     def word(self):
         done = self.call()
@@ -99,7 +99,7 @@ class Launcher(InFolder):
         for call, word in (([], "first"), (["python", "-c", "import swirl; print(swirl.word)"], "module")):
             with self.subTest(call):
                 done = subprocess.run([self.path("swirl"), *call], capture_output=True, text=True,
-                                      timeout=100, env=leaks, cwd="/")
+                                      timeout=HANG, env=leaks, cwd="/")
                 self.assertEqual(done.stdout.split()[:1], [word], done.stderr)
                 self.assertNotIn("LEAKED", done.stderr)
                 self.assertFalse("LEAKED" in read_text(self.path("build/release/CMakeCache.txt")))
@@ -111,7 +111,7 @@ class Launcher(InFolder):
             with self.subTest(given):
                 done = subprocess.run(
                     [self.path("swirl"), "python", "-P", "-S", "-c", "import sys; print(*sys.path)"],
-                    capture_output=True, text=True, timeout=100, cwd="/tmp",
+                    capture_output=True, text=True, timeout=HANG, cwd="/tmp",
                     env=dict(os.environ, PYTHONPATH=given))
                 path = done.stdout.split()
                 self.assertEqual(path[:1 + len(others)],
@@ -126,7 +126,7 @@ class Launcher(InFolder):
             os.chmod(self.path("build/release"), 0o555)
             self.addCleanup(os.chmod, self.path("build/release"), 0o755)
         def call():
-            return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=100,
+            return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=HANG,
                                   cwd="/", **as_other)
         done = call()
         self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)  # the build is up to date
@@ -172,7 +172,7 @@ class Launcher(InFolder):
             shutil.move(self.path(name), new)
         write_text(os.path.join(new, "src", "main.cpp"), PROGRAM.replace("WORD", "elsewhere"))
         done = subprocess.run([os.path.join(new, "swirl")], capture_output=True, text=True,
-                              timeout=100)
+                              timeout=HANG)
         self.assertEqual(done.stdout.split()[:1], ["elsewhere"], done.stderr)
 
     def test_becomes_the_program_with_its_exit_code_and_signals(self):
@@ -182,7 +182,7 @@ class Launcher(InFolder):
                                    text=True)
         self.assertEqual(process.stdout.readline().split(), ["first", str(process.pid)])
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=150)
+        process.communicate(timeout=HANG)
         self.assertEqual(process.returncode, -signal.SIGTERM)
 
     def parts(self, subcommand, *arguments):
@@ -216,13 +216,13 @@ class Launcher(InFolder):
 
     def test_works_through_a_link(self):
         os.symlink(self.path("swirl"), self.path("link"))
-        done = subprocess.run([self.path("link")], capture_output=True, text=True, timeout=100)
+        done = subprocess.run([self.path("link")], capture_output=True, text=True, timeout=HANG)
         self.assertEqual(done.stdout.split()[0], "first")
 
     def test_simultaneous_calls_build_once(self):
         both = [subprocess.Popen([self.path("swirl")], stdout=subprocess.PIPE,
                                  stderr=subprocess.PIPE, text=True) for _ in range(2)]
-        outputs = [process.communicate(timeout=100) for process in both]
+        outputs = [process.communicate(timeout=HANG) for process in both]
         self.assertEqual([out.split()[0] for out, _ in outputs], ["first", "first"])
         self.assertEqual(sum("building" in errors for _, errors in outputs), 1)
 
@@ -235,7 +235,7 @@ class Launcher(InFolder):
     def call_with_stand_ins(self, *arguments, **environment):
         path = self.path("bin") + ":" + os.environ["PATH"]
         return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
-                              timeout=100, env=dict(os.environ, PATH=path, **environment))
+                              timeout=HANG, env=dict(os.environ, PATH=path, **environment))
 
     def test_without_root_the_install_command_is_printed(self):
         self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
@@ -343,7 +343,7 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
                     if not os.path.lexists(os.path.join(everything, name)):
                         os.symlink(os.path.join(folder, name), os.path.join(everything, name))
         def call():
-            return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=100,
+            return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=HANG,
                                   env=dict(os.environ, PATH=everything))
         done = call()
         self.assertEqual((done.returncode, done.stdout), (1, ""))
@@ -378,7 +378,7 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
                         "-q", "--allow-empty", "-m", "first"], check=True)
         for builds in (True, False):
             done = subprocess.run([os.path.join(strange, "swirl")], capture_output=True, text=True,
-                                  timeout=100, cwd="/")
+                                  timeout=HANG, cwd="/")
             self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
             self.assertEqual("building" in done.stderr, builds)
 
@@ -398,7 +398,7 @@ add_custom_target(waits ALL DEPENDS waited.txt)
         with self.assertRaises(subprocess.TimeoutExpired):
             second.wait(1)
         self.write("build/release/end", "")
-        self.assertEqual(second.communicate(timeout=100)[0].split()[0], "first")
+        self.assertEqual(second.communicate(timeout=HANG)[0].split()[0], "first")
         with open(begun) as file:
             self.assertEqual(len(file.readlines()), 1)
 

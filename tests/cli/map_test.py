@@ -6,11 +6,11 @@ import io
 import json
 import os
 import subprocess
-import time
 import unittest
 
 import private_slurm
-from program import SOURCE, SWIRL, InFolder, read_json, read_rows, read_text, swirl, write_text
+from program import (HANG, SOURCE, SWIRL, InFolder, read_json, read_rows, read_text, swirl, wait_until,
+                     write_text)
 
 # A small map: rotation of a few discs, a coarse grid and short runs. It crosses the level 0.5.
 MAP = ["map", "--x", "mu=0:1", "--y", "discs=4:40", "--steps", "7", "--level", "0.5", "--periods", "12", "--seeds",
@@ -40,7 +40,7 @@ class Map(InFolder):
         self.assertEqual((self.table(self.path("one")), self.results(self.path("one"))), (table, results))
         parts = [subprocess.Popen([SWIRL, *MAP, "--out", self.path("two"), "--part", f"{k}/2"],
                                   stderr=subprocess.DEVNULL) for k in (1, 2)]
-        self.assertEqual([part.wait(100) for part in parts], [0, 0])
+        self.assertEqual([part.wait(HANG) for part in parts], [0, 0])
         self.assertFalse(os.path.exists(self.path("two/map.csv")))  # left to a call without a part
         self.assert_works("map", "--out", self.path("two"), "--no-figure", "--quiet")
         self.assertEqual((self.table(self.path("two")), self.results(self.path("two"))), (table, results))
@@ -246,11 +246,10 @@ class Cluster(InFolder):
         out = self.path("a map")
         call = [word for word in MAP if word not in ("--no-figure", "--quiet")]
         self.assert_works(*call, "--out", out, "--slurm", "--nodes", 2, environment=environment)
-        for _ in range(600):
+        def is_over():
             status = swirl("map", "--out", out, "--status", environment=environment).stdout
-            if "; 0 runs to do" in status or "no longer in the queue" in status:
-                break
-            time.sleep(0.1)
+            return "; 0 runs to do" in status or "no longer in the queue" in status
+        wait_until(is_over)
         logs = ""
         for name in os.listdir(out + "/log"):
             logs += read_text(os.path.join(out, "log", name))
@@ -260,10 +259,7 @@ class Cluster(InFolder):
         with open(out + "/map.csv", encoding="utf-8") as ours, open(self.path("one/map.csv"), encoding="utf-8") as one:
             self.assertEqual(ours.read(), one.read())
         # The folder can be deleted when no job writes into it.
-        for _ in range(600):
-            if not slurm.run("squeue", "-h").stdout:
-                break
-            time.sleep(0.1)
+        wait_until(lambda: not slurm.run("squeue", "-h").stdout)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, read_bytes, read_text, write_text
+from program import HANG, SOURCE, SWIRL, InFolder, read_bytes, read_text, wait_until, write_text
 
 # One message, and an optional hint on a second line.
 ONE_ERROR = r"\A[^\n]+\.\n(hint: [^\n]+\.\n)?\Z"
@@ -28,7 +28,7 @@ def commands_in_the_documents():
 
 def swirl(*arguments, **more):
     return subprocess.run([SWIRL, "movie", *arguments], capture_output=True, text=True,
-                          timeout=120, **more)
+                          timeout=HANG, **more)
 
 
 def probe(path, entries):
@@ -106,7 +106,7 @@ class MovieTest(InFolder):
         call, = [words[1:] for words in commands_in_the_documents()
                  if words[1] == "movie" and "docs/images/swirl.gif" in words]
         call[call.index("docs/images/swirl.gif")] = self.path("swirl.gif")
-        result = subprocess.run([SWIRL, *call], capture_output=True, text=True, timeout=120)
+        result = subprocess.run([SWIRL, *call], capture_output=True, text=True, timeout=HANG)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("](docs/images/swirl.gif)", read_text(os.path.join(SOURCE, "README.md")))
         entries = "stream=codec_name,width,height,r_frame_rate,nb_read_frames"
@@ -153,7 +153,7 @@ class MovieTest(InFolder):
         for call in calls:
             with self.subTest(call[-1]):
                 made = self.path(os.path.basename(call[-1]))
-                result = subprocess.run([SWIRL, *call[:-1], made], capture_output=True, text=True, timeout=120)
+                result = subprocess.run([SWIRL, *call[:-1], made], capture_output=True, text=True, timeout=HANG)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assert_looks_like(made, os.path.join(SOURCE, call[-1]))
 
@@ -179,32 +179,24 @@ class MovieTest(InFolder):
     def test_encoder_of_a_killed_process_does_not_write_into_the_next_movie(self):
         # This encoder sleeps until the next movie has opened its file and written the first frames.
         os.mkdir(self.path("slow"))
-        write_text(self.path("slow/ffmpeg"), "#!/bin/sh\nwhile ! [ -e wake ]; do sleep 0.01; done\n"
+        write_text(self.path("slow/ffmpeg"), "#!/bin/sh\ntouch begun\nwhile ! [ -e wake ]; do sleep 0.01; done\n"
                                              f'{shutil.which("ffmpeg")} "$@"\ntouch asleep\n')
         os.chmod(self.path("slow/ffmpeg"), 0o755)
         out = self.path("m.mp4")
         call = ["--seconds", "6", "--size", "640x640", "--quiet", "--out", out]
         killed = subprocess.Popen([SWIRL, "movie", *call], cwd=self.folder,
                                   env={**os.environ, "PATH": self.path("slow") + ":" + os.environ["PATH"]})
-        while not os.path.exists(out + ".partial"):
-            time.sleep(0.001)
-        time.sleep(0.3)  # long enough for the encoder to start and to receive some frames
+        wait_until(lambda: os.path.exists(out + ".partial") and os.path.exists(self.path("begun")), killed)
         killed.kill()
         killed.wait()
         second = subprocess.Popen([SWIRL, "movie", *call])
         self.addCleanup(second.wait)
         self.addCleanup(second.kill)
-        deadline = time.time() + 150
-        while not (os.path.exists(out + ".partial") and os.path.getsize(out + ".partial") > 50_000):
-            self.assertIsNone(second.poll())
-            self.assertLess(time.time(), deadline)
-            time.sleep(0.001)
+        wait_until(lambda: os.path.exists(out + ".partial") and os.path.getsize(out + ".partial") > 50_000, second)
         open(self.path("wake"), "w").close()
-        while not os.path.exists(self.path("asleep")):
-            self.assertLess(time.time(), deadline)
-            time.sleep(0.01)
+        wait_until(lambda: os.path.exists(self.path("asleep")))
         self.assertIsNone(second.poll(), "the second movie ended before the first encoder woke up")
-        self.assertEqual(second.wait(timeout=150), 0)
+        self.assertEqual(second.wait(timeout=HANG), 0)
         self.assertEqual(probe(out, "stream=nb_read_frames"), "360")
 
     def test_missing_ffmpeg_is_an_error_with_a_hint(self):
@@ -229,15 +221,12 @@ class MovieTest(InFolder):
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0)
         # The palette of a GIF depends on all frames, so its file is empty until the end.
         min_size = 0 if name.endswith(".gif") else 1
-        deadline = time.time() + 150
-        while time.time() < deadline and not (os.path.exists(out + ".partial")
-                                              and os.path.getsize(out + ".partial") >= min_size):
-            time.sleep(0.05)
+        wait_until(lambda: os.path.exists(out + ".partial") and os.path.getsize(out + ".partial") >= min_size, process)
         time.sleep(0.2)
         # Two signals in a row, as timeout(1) sends them.
         os.killpg(process.pid, signal.SIGINT)
         os.killpg(process.pid, signal.SIGINT)
-        _, errors = process.communicate(timeout=150)
+        _, errors = process.communicate(timeout=HANG)
         self.assertEqual(process.returncode, 130, errors)
         self.assertRegex(errors, r"stopped after \d+ of 20000 frames")
         frames = int(errors.split("stopped after ")[1].split()[0])

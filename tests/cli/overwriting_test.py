@@ -6,11 +6,10 @@ import shutil
 import signal
 import stat
 import subprocess
-import time
 import unittest
 from pathlib import Path
 
-from program import SOURCE, SWIRL, InFolder, read_bytes, swirl, without_time
+from program import HANG, SOURCE, SWIRL, InFolder, read_bytes, swirl, wait_until, without_time, worked
 
 
 class Overwriting(InFolder):
@@ -23,9 +22,7 @@ class Overwriting(InFolder):
         """Starts a long run and kills it at its first checkpoint."""
         process = subprocess.Popen([SWIRL, *map(str, self.run_call(*more, seed=seed, events="1e9"))],
                                    stderr=subprocess.DEVNULL)
-        while not os.path.exists(self.path("r.json.checkpoint")):
-            self.assertIsNone(process.poll(), "over without a checkpoint")
-            time.sleep(0.001)
+        wait_until(lambda: os.path.exists(self.path("r.json.checkpoint")), process)
         process.kill()
         process.wait()
 
@@ -104,7 +101,7 @@ class Overwriting(InFolder):
         runs = [subprocess.Popen([SWIRL, "run", "--discs", "8", "--events", "300000", "--measure", name,
                                   "--json", self.path("r.json"), "--quiet"], stderr=subprocess.PIPE, text=True)
                 for name in ("slip", "order")]
-        errors = [run.communicate(timeout=100)[1] for run in runs]
+        errors = [run.communicate(timeout=HANG)[1] for run in runs]
         self.assertEqual(sorted(run.returncode for run in runs), [0, 1], errors)
         self.assertEqual(self.left_behind(), ["r.json", "r.json.second"])
         self.assertEqual({*without_time(self.path("r.json"))["measured"],
@@ -114,16 +111,14 @@ class Overwriting(InFolder):
         call = ["run", "--discs", "8", "--events", "20000", "--json", self.path("r.json"), "--quiet"]
         long = [SWIRL, *call[:4], "1e9", *call[5:], "--checkpoint", self.path("c")]
         process = subprocess.Popen([*long, "--checkpoint-every", "0.01"], stderr=subprocess.PIPE, text=True)
-        while not os.path.exists(self.path("c")):
-            self.assertIsNone(process.poll(), "over without a checkpoint")
-            time.sleep(0.001)
+        wait_until(lambda: os.path.exists(self.path("c")), process)
         # The complete result of the same run, as if written by another process.
         with open(self.path("r.json"), "w", encoding="utf-8") as opened:
             plan = json.loads(swirl(*call[:-3], "--json", "-", "--quiet").stdout)
             plan["config"]["events"] = 1000000000
             json.dump(plan, opened)
         process.send_signal(signal.SIGINT)
-        self.assertIn("r.json.second", process.communicate(timeout=150)[1])
+        self.assertIn("r.json.second", process.communicate(timeout=HANG)[1])
         self.assertTrue(without_time(self.path("r.json"))["complete"])
         self.assertFalse(without_time(self.path("r.json.second"))["complete"])
 
@@ -131,9 +126,9 @@ class Overwriting(InFolder):
         for name in ("slip", "order"):
             process = subprocess.Popen([SWIRL, "run", "--events", "1e9", "--measure", name, "--quiet"],
                                        cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(0.5)
+            self.assertTrue(worked(process, 0.5))
             process.send_signal(signal.SIGINT)
-            self.assertEqual(process.wait(timeout=150), 130)
+            self.assertEqual(process.wait(timeout=HANG), 130)
         self.assertEqual(len(self.left_behind()), 2, self.left_behind())
         self.assertFalse([name for name in self.left_behind() if "backup" in name])
 
@@ -141,9 +136,7 @@ class Overwriting(InFolder):
         self.assert_works(*self.run_call())
         process = subprocess.Popen(
             [SWIRL, *map(str, self.run_call("--overwrite", seed=2, events="3000000"))])
-        while not os.path.exists(self.path("r.json.checkpoint")):
-            self.assertIsNone(process.poll(), "over without a checkpoint")
-            time.sleep(0.001)
+        wait_until(lambda: os.path.exists(self.path("r.json.checkpoint")), process)
         process.kill()
         process.wait()
         self.assert_works(*self.run_call("--resume", seed=2, events="3000000"))
@@ -153,7 +146,7 @@ class Overwriting(InFolder):
         runs = [subprocess.Popen([SWIRL, "run", "--discs", "8", "--events", "1000000", "--seed", str(seed),
                                   "--json", self.path("r.json"), "--quiet"], stderr=subprocess.PIPE, text=True)
                 for seed in (1, 2)]
-        errors = [run.communicate(timeout=100)[1] for run in runs]
+        errors = [run.communicate(timeout=HANG)[1] for run in runs]
         self.assertEqual(sorted(run.returncode for run in runs), [0, 1], errors)
         self.assertIn("r.json.second'", "".join(errors))
         self.assertEqual(self.left_behind(), ["r.json", "r.json.second"])
@@ -280,7 +273,7 @@ class Names(InFolder):
             self.assertTrue(stat.S_ISFIFO(os.stat(self.path(call[-1])).st_mode), call)
         laboratory = [os.path.join(SOURCE, "web", "lab.sh"), "--out"]
         for place in (self.path("pipe"), self.folder):
-            done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=150)
+            done = subprocess.run([*laboratory, place], capture_output=True, text=True, timeout=HANG)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("which exists and is not a file", done.stderr)
         self.assertEqual(self.left_behind(), ["pipe", "pipe.h5", "t.h5"])

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, read_text, swirl, write_text
+from program import HANG, SOURCE, SWIRL, InFolder, read_text, swirl, write_text
 
 CALL = re.compile(r"(?:^|[\s;&|])(?:\./|build/release/)?swirl ([^&|\n]+)", re.M)
 
@@ -242,7 +242,7 @@ class PagesAsShown(InFolder):
         for name, discs in VIDEOS.items():
             if re.search(rf"(?<!out ){name.replace('a.mp4', '')}", text):
                 self.assert_works("synthetic-video", "--discs", discs, "--camera", "phone", "--length", 2, "--out",
-                                  name, cwd=folder, timeout=900)
+                                  name, cwd=folder, timeout=HANG)
         if "swirl movie run.h5" in text:
             self.assert_works("run", "--periods", 45, "--frames", 60, "--trajectory", "run.h5", cwd=folder)
 

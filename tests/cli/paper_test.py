@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, read_bytes, read_rows, swirl, write_text
+from program import HANG, SOURCE, SWIRL, InFolder, read_bytes, read_rows, swirl, write_text
 
 SETTINGS = {"high", "medium", "low", "no-wall", "no-disc"}
 
@@ -68,13 +68,12 @@ class Figure5b(InFolder):
                                        text=True, **on_one_core)
             runs = self.path("cut/runs/rotation/results")
             before = len(os.listdir(runs)) if os.path.isdir(runs) else 0
-            deadline = time.time() + 150
-            while time.time() < deadline and process.poll() is None:
+            while process.poll() is None:
                 if os.path.isdir(runs) and len(os.listdir(runs)) > before + 5:
                     process.send_signal(signal.SIGINT)
                     break
                 time.sleep(0.001)
-            _, message = process.communicate(timeout=150)
+            _, message = process.communicate(timeout=HANG)
             if process.returncode == 0:
                 break
             self.assertEqual(process.returncode, 130, message)
@@ -88,7 +87,7 @@ class Figure5b(InFolder):
         self.whole()
         shutil.copy(self.path("whole/figure_5b.csv"), self.path("figure_5b.csv"))
         subprocess.run(["/usr/bin/python3", "-B", os.path.join(SOURCE, "paper", "draw.py"),
-                        self.path("figure_5b.csv")], check=True, timeout=150)
+                        self.path("figure_5b.csv")], check=True, timeout=HANG)
         for kind in ("png", "pdf"):
             self.assertEqual(self.bytes_of("whole", f"figure_5b.{kind}"), self.bytes_of(f"figure_5b.{kind}"))
 

@@ -6,10 +6,9 @@ import re
 import shutil
 import signal
 import subprocess
-import time
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, read_json, read_text, result_of, swirl, write_text
+from program import HANG, SOURCE, SWIRL, InFolder, read_json, read_text, result_of, swirl, worked, write_text
 
 ROW = re.compile(r"^\| `(\w+)` \|", re.MULTILINE)
 
@@ -78,9 +77,9 @@ class Everywhere(InFolder):
     def test_identity_of_a_resumed_run(self):
         call = [SWIRL, "run", "--events", "1e14", "--quiet", "--checkpoint", self.path("kept")]
         process = subprocess.Popen(call, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(0.3)
+        self.assertTrue(worked(process, 0.3))
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=150), 130)
+        self.assertEqual(process.wait(timeout=HANG), 130)
         for name, option in GIVEN.items():
             with self.subTest(name):
                 shutil.copy(self.path("kept"), self.path("copy"))

@@ -12,7 +12,7 @@ import socket
 import subprocess
 import time
 
-from program import read_text, write_text
+from program import HANG, read_text, wait_until, write_text
 
 PROGRAMS = ("slurmctld", "slurmd", "sbatch", "squeue", "scancel", "sinfo", "munged")
 
@@ -113,7 +113,7 @@ SlurmdParameters=config_overrides
 
     def run(self, *command):
         return subprocess.run(command, env=self.environment, capture_output=True, text=True,
-                              timeout=150)
+                              timeout=HANG)
 
     def start(self):
         munge = f"{self.folder}/munge"
@@ -135,12 +135,7 @@ SlurmdParameters=config_overrides
         subprocess.run(["slurmctld"], check=True, **quiet)
         for node in self.nodes:
             subprocess.run(["slurmd", "-N", node], check=True, **quiet)
-        for _ in range(600):
-            idle = self.run("sinfo", "-h", "-N", "-o", "%T").stdout.split().count("idle")
-            if idle == len(self.nodes):
-                return
-            time.sleep(0.1)
-        raise RuntimeError("the private Slurm did not come up")
+        wait_until(lambda: self.run("sinfo", "-h", "-N", "-o", "%T").stdout.split().count("idle") == len(self.nodes))
 
     def pid_of(self, name):
         try:

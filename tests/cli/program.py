@@ -8,11 +8,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 SWIRL = os.environ.get("SWIRL", "build/tests/swirl")
 SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__)))))
+# Seconds that no call lasts, on a busy machine either. The hour of ctest is longer, so that a message names the call.
+HANG = 3000
 
 # A script called with --all runs complete, as in the suite `slow` (tests/CMakeLists.txt). Without it, it omits
 # tests that take long and whose code the others cover too.
@@ -37,11 +40,42 @@ def main():
 ONE_ERROR = r"\Aerror: [^\n]+\.\n(hint: [^\n]+\n)?\Z"
 
 
-def swirl(*arguments, timeout=150, **more):
+def swirl(*arguments, timeout=HANG, **more):
     """Runs the program to its end. Returns an object with returncode, stdout and stderr (text)."""
     environment = dict(os.environ, NO_COLOR="1", **more.pop("environment", {}))
     return subprocess.run([SWIRL, *map(str, arguments)], capture_output=True, text=True,
                           timeout=timeout, env=environment, stdin=subprocess.DEVNULL, **more)
+
+
+def wait_until(happens, process=None):
+    """Waits until happens() is true. Fails if the process ends before."""
+    begin = time.monotonic()
+    while not happens():
+        if process is not None and process.poll() is not None:
+            raise AssertionError(f"the program ended before, with exit code {process.returncode}")
+        if time.monotonic() - begin > HANG:
+            raise AssertionError(f"did not happen in {HANG} seconds")
+        time.sleep(0.005)
+
+
+def processor_seconds(pid):
+    """Processor time of all threads of a process; None if it has ended."""
+    try:
+        fields = read_text(f"/proc/{pid}/stat").rsplit(")", 1)[1].split()
+    except FileNotFoundError:
+        return None
+    if fields[0] == "Z":
+        return None
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def worked(process, seconds):
+    """Waits until a process has used that much processor time, on a busy machine, too; False if it ended before."""
+    while (used := processor_seconds(process.pid)) is not None:
+        if used >= seconds:
+            return True
+        time.sleep(0.005)
+    return False
 
 
 def read_text(path):

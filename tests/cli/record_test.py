@@ -7,7 +7,8 @@ import signal
 import subprocess
 import time
 
-from program import ALL, SWIRL, InFolder, main, read_json, swirl, without_time, write_text
+from program import (ALL, HANG, SWIRL, InFolder, main, read_json, swirl, wait_until, without_time, worked,
+                     write_text)
 
 RUN = ["run", "--discs", "24", "--events", "100000", "--warmup", "5", "--seed", "3", "--frames", "120",
        "--checkpoint-every", "0.01", "--compression", "0", "--measure", "radial,pinned"]
@@ -52,7 +53,7 @@ for file in sys.argv[1:]:
                                        stderr=subprocess.PIPE, text=True)
             try:
                 errors = process.communicate(
-                    timeout=choose.uniform(0.001, longest) if hits < kills else 100)[1]
+                    timeout=choose.uniform(0.001, longest) if hits < kills else HANG)[1]
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.communicate()
@@ -110,7 +111,7 @@ f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
         for call in (["measure"], ["movie", "--out", self.path("m.mp4")],
                      ["image", "--out", self.path("p.png")], ["verify"], ["export", "--format", "xyz"],
                      ["track", "--out", self.path("t.csv")]):
-            done = swirl(call[0], self.path("pipe"), *call[1:], timeout=150)
+            done = swirl(call[0], self.path("pipe"), *call[1:], timeout=HANG)
             self.assertIn(done.returncode, (1, 2), call)
             self.assertRegex(done.stderr, "regular file|video must be a file")
 
@@ -122,7 +123,7 @@ f.create_dataset('parameters/parameters', data=[text] * 5000, dtype=dtype)
         while process.poll() is None and not os.path.exists(checkpoint):
             time.sleep(0.001)
         process.send_signal(how)
-        errors = process.communicate(timeout=150)[1]
+        errors = process.communicate(timeout=HANG)[1]
         return process.returncode, errors
 
     def test_ctrl_c_and_resume(self):
@@ -247,11 +248,7 @@ time_t time(time_t* to) {
         long = [a if a != "100000" else "2e6" for a in arguments]
         process = subprocess.Popen([SWIRL, *long], env={**os.environ, **environment},
                                    stderr=subprocess.DEVNULL)
-        deadline = time.monotonic() + 150
-        while not os.path.exists(folder + "/r.json.checkpoint"):
-            self.assertIsNone(process.poll(), "the run was over without a checkpoint")
-            self.assertLess(time.monotonic(), deadline, "no checkpoint")
-            time.sleep(0.001)
+        wait_until(lambda: os.path.exists(folder + "/r.json.checkpoint"), process)
         process.kill()
         process.wait()
         os.remove(folder + "/r.json.checkpoint")
@@ -323,7 +320,7 @@ class Disk(InFolder):
             self.assertIsNone(process.poll(), "over without a checkpoint")
             time.sleep(0.001)
         self.fill(disk)
-        errors = process.communicate(timeout=150)[1]
+        errors = process.communicate(timeout=HANG)[1]
         self.assertEqual(process.returncode, 1, errors)
         self.assertIn("No space left on device", errors)
         self.assertEqual(errors.count("\n"), 1)
@@ -332,9 +329,9 @@ class Disk(InFolder):
         os.remove(disk + "/filler")
         process = subprocess.Popen([SWIRL, *arguments, "--resume"], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
-        time.sleep(0.2)
+        self.assertTrue(worked(process, 0.2))
         process.send_signal(signal.SIGTERM)
-        errors = process.communicate(timeout=150)[1]
+        errors = process.communicate(timeout=HANG)[1]
         self.assertEqual(process.returncode, 130, errors)
         self.assertIn("--resume to continue", errors)
 
@@ -372,7 +369,7 @@ class Disk(InFolder):
             self.assertIsNone(process.poll(), process.stderr)
             time.sleep(0.001)
         what()
-        errors = process.communicate(timeout=150)[1]
+        errors = process.communicate(timeout=HANG)[1]
         self.assertEqual(process.returncode, 1, errors)
         self.assertEqual(errors.count("\n"), 1, errors)
         return errors
@@ -420,7 +417,7 @@ class Disk(InFolder):
 
     def test_a_read_only_folder_is_an_error_before_the_run(self):
         # /proc takes no files, even from root.
-        done = self.assert_fails(1, "run", "--events", "1e12", "--trajectory", "/proc/t.h5", timeout=150)
+        done = self.assert_fails(1, "run", "--events", "1e12", "--trajectory", "/proc/t.h5", timeout=HANG)
         self.assertEqual(done.stderr.count("\n"), 1)
 
 

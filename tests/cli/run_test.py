@@ -6,10 +6,9 @@ import os
 import re
 import signal
 import subprocess
-import time
 import unittest
 
-from program import SWIRL, InFolder, ProgramTest, read_json, result_of, swirl, write_text
+from program import HANG, SWIRL, InFolder, ProgramTest, read_json, result_of, swirl, worked, write_text
 
 
 class Json(InFolder):
@@ -174,14 +173,14 @@ class Stopping(InFolder):
     def start(self, *arguments):
         process = subprocess.Popen([SWIRL, "run", "--events", "1e14", *arguments],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(0.5)
+        self.assertTrue(worked(process, 0.5))
         return process
 
     def test_a_signal_ends_the_run_with_a_partial_result(self):
         for how in (signal.SIGINT, signal.SIGTERM):
             process = self.start("--json", self.path(how.name))
             process.send_signal(how)
-            _, errors = process.communicate(timeout=150)
+            _, errors = process.communicate(timeout=HANG)
             self.assertEqual(process.returncode, 130)
             self.assertIn("warning: incomplete", errors)
             self.assertIn("error: stopped before the end", errors)

@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, swirl, write_text
+from program import HANG, SOURCE, SWIRL, InFolder, swirl, write_text
 
 FIGURE = ["paper", "--figure", "5b", "--quick", "--events", "2000"]
 
@@ -24,7 +24,7 @@ class Scripts(InFolder):
         """A copy of the program with this name draws Figure 5b."""
         os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
         shutil.copy(SWIRL, self.path(name))
-        return subprocess.run([self.path(name), *FIGURE, "--out", self.path("out")], timeout=100,
+        return subprocess.run([self.path(name), *FIGURE, "--out", self.path("out")], timeout=HANG,
                               capture_output=True, text=True, cwd=self.folder)
 
     def assert_not_found(self, done):

@@ -5,10 +5,10 @@ import json
 import os
 import signal
 import subprocess
-import time
 import unittest
 
-from program import ONE_ERROR, SWIRL, InFolder, read_json, read_rows, read_text, swirl, write_text
+from program import (HANG, ONE_ERROR, SWIRL, InFolder, read_json, read_rows, read_text, swirl, wait_until,
+                     write_text)
 
 RAMP = ("--discs", 24, "--ramp", "mu=0.2:1:0.2@3..23", "--ramp", "amplitude=1:2@5..20")
 
@@ -84,7 +84,7 @@ class Series(InFolder):
                 except subprocess.TimeoutExpired:
                     started.send_signal(signal.SIGKILL if kills % 2 else signal.SIGTERM)
                     kills += 1
-            if started.wait(100) == 0:
+            if started.wait(HANG) == 0:
                 break
         self.assertEqual(started.returncode, 0)
         with open(self.path("s.csv")) as one, open(self.path("whole.csv")) as other:
@@ -96,22 +96,25 @@ class Series(InFolder):
                 "--frames", 1, "--quiet")
         running = subprocess.Popen([SWIRL, *map(str, call)], cwd=self.folder, stdout=subprocess.DEVNULL)
         try:
-            lengths, deadline = [], time.monotonic() + 100
-            while len(set(lengths)) < 3 and time.monotonic() < deadline:
-                time.sleep(0.2)
+            lengths = set()
+
+            def has_grown_twice():
                 if os.path.exists(self.path("live.csv.partial")):
-                    lengths.append(len(rows(self.path("live.csv.partial"))))
-            self.assertGreaterEqual(len(set(lengths)), 3)
+                    lengths.add(len(rows(self.path("live.csv.partial"))))
+                return len(lengths) >= 3
+            wait_until(has_grown_twice, running)
+            measure = ("measure", self.path("live.h5.partial"), "--measure", "radial", "--json", "-")
+            wait_until(lambda: swirl(*measure).returncode == 0, running)  # the first frames are on the disk
             self.assertFalse(os.path.exists(self.path("live.csv")))
             # The recording changes while it is read, so it is opened again. It has the frames that it had when
             # it was opened first.
             for _ in range(3):
-                done = self.run_swirl("measure", "live.h5.partial", "--measure", "radial", "--json", "-")
+                done = self.run_swirl(*measure)
                 found = json.loads(done.stdout)
                 self.assertGreater(found["frames"], 0)
         finally:
             running.send_signal(signal.SIGINT)
-            running.wait(100)
+            running.wait(HANG)
         self.assertFalse(os.path.exists(self.path("live.csv.partial")))
         table = rows(self.path("live.csv"))
         self.assertEqual([row["period"] for row in table], [str(k) for k in range(len(table))])

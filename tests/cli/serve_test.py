@@ -7,10 +7,9 @@ import subprocess
 import sys
 import unittest
 
-from program import SOURCE, InFolder
+from program import HANG, SOURCE, InFolder
 
 PAGE = b"<!doctype html><title>page</title>"
-WAIT = 30  # seconds; an answer normally takes less than one
 
 # Name, request target and expected status of GET requests with the right Host.
 TARGETS = [
@@ -78,7 +77,7 @@ class Serve(InFolder):
 
     def answer(self, request):
         """All bytes until the server closes the connection."""
-        with socket.create_connection(("127.0.0.1", self.port), timeout=WAIT) as connection:
+        with socket.create_connection(("127.0.0.1", self.port), timeout=HANG) as connection:
             connection.sendall(request)
             chunks = []
             try:
@@ -120,7 +119,7 @@ class Serve(InFolder):
     def test_half_open_and_broken_connections_do_not_block_others(self):
         half_open = []
         for sent in (b"", b"GET / HTTP/1.1\r\nHost:", b"GET "):
-            half_open += [socket.create_connection(("127.0.0.1", self.port), timeout=WAIT)
+            half_open += [socket.create_connection(("127.0.0.1", self.port), timeout=HANG)
                           for _ in range(20)]
             for connection in half_open[-20:]:
                 connection.sendall(sent)

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import unittest
 
-from program import SOURCE, InFolder, read_text, write_text
+from program import HANG, SOURCE, InFolder, read_text, write_text
 
 # Programs in the PATH. The last argument of sphinx-build is the output folder.
 PROGRAMS = {
@@ -44,7 +44,7 @@ class SiteNames(InFolder):
             os.remove(self.path("count"))
         settings = {"AT": "0", "WHEN": "", "SIGNAL": "", **more}
         return subprocess.run([self.path("web/site.sh"), "--out", self.site, *options], capture_output=True, text=True,
-                              timeout=150, env={**os.environ, **settings, "PAGE": page,
+                              timeout=HANG, env={**os.environ, **settings, "PAGE": page,
                                                "COUNT": self.path("count"), "SWIRL": self.path("bin/swirl"),
                                                "SWIRL_PYTHON": "false",
                                                "PATH": self.path("bin") + ":" + os.environ["PATH"]})

@@ -8,7 +8,7 @@ import unittest
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 
-from program import ALL, SOURCE, made_of_the_web, main, read_text, write_text
+from program import ALL, HANG, SOURCE, made_of_the_web, main, read_text, write_text
 
 SITE = os.path.join(SOURCE, "web", "site.sh")
 # With --all the notebooks are executed, with the Python module of this build. Else python.notebooks_test
@@ -187,7 +187,7 @@ class Site(unittest.TestCase):
         documents = [path for path in sorted(self.pages)
                      if re.search(r"/(search|gallery|README)\.html$|/docs/", path)]
         done = subprocess.run(["node", script, CHROMIUM, *documents], capture_output=True, text=True,
-                              timeout=150)
+                              timeout=HANG)
         self.assertEqual((done.returncode, done.stdout.strip()), (0, ""), done.stderr)
 
     def test_only_a_site_is_replaced(self):

@@ -9,21 +9,8 @@ import signal
 import subprocess
 import time
 
-from program import SOURCE, SWIRL, InFolder, main, read_text, some, swirl
+from program import HANG, SOURCE, SWIRL, InFolder, main, processor_seconds, some, swirl, worked
 
-HANG = 300  # seconds: a program that ignores the signal fails the test instead of blocking it
-PER_SECOND = os.sysconf("SC_CLK_TCK")
-
-
-def processor_seconds(pid):
-    """Processor time of all threads of a process; None if it has ended."""
-    try:
-        fields = read_text(f"/proc/{pid}/stat").rsplit(")", 1)[1].split()
-    except FileNotFoundError:
-        return None
-    if fields[0] == "Z":
-        return None
-    return (int(fields[11]) + int(fields[12])) / PER_SECOND
 
 
 class Started:
@@ -35,11 +22,7 @@ class Started:
 
     def wait_for(self, seconds):
         """Waits until it has used that much processor time; False if it ended before."""
-        while (done := processor_seconds(self.process.pid)) is not None:
-            if done >= seconds:
-                return True
-            time.sleep(0.005)
-        return False
+        return worked(self.process, seconds)
 
     def stop(self, sent=signal.SIGTERM):
         """Sends the signal; exit code and errors."""

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import time
 
-from program import ALL, SWIRL, InFolder, main, read_bytes, read_json, swirl, write_text
+from program import ALL, HANG, SWIRL, InFolder, main, read_bytes, read_json, swirl, wait_until, write_text
 
 PLAN = ["sweep", "--discs", "5:12", "--mu", "0.5,1", "--seeds", "3", "--events", "20000", "--quiet"]
 POINTS = 48
@@ -59,7 +59,7 @@ class Sweep(InFolder):
                                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
                 try:
                     errors = process.communicate(
-                        timeout=choose.uniform(0.001, longest) if hits < kills else 100)[1]
+                        timeout=choose.uniform(0.001, longest) if hits < kills else HANG)[1]
                     break
                 except subprocess.TimeoutExpired:
                     process.kill()
@@ -162,7 +162,7 @@ class Sweep(InFolder):
         both = [subprocess.Popen([SWIRL, *PLAN, "--out", self.path("a")],
                                  stderr=subprocess.PIPE, text=True) for _ in range(2)]
         for process in both:
-            errors = process.communicate(timeout=100)[1]
+            errors = process.communicate(timeout=HANG)[1]
             self.assertEqual(process.returncode, 0, errors)
         self.assertEqual(self.table(self.path("a")), table)
 
@@ -173,18 +173,11 @@ class Sweep(InFolder):
         process = subprocess.Popen([SWIRL, "sweep", "--discs", "5:8", "--events", "1e12", "--threads",
                                     "3", "--quiet", "--out", self.path("a")])
         try:
-            for _ in range(1000):
-                if os.path.exists(self.path("a/plan.json")) and "3 running" in status():
-                    break
-                time.sleep(0.01)
+            wait_until(lambda: os.path.exists(self.path("a/plan.json")) and "3 running" in status(), process)
             self.assertEqual(status(), "0 of 4 runs done, 3 running, 0 failed, 1 to do\n")
             # Another process takes only the free point.
             other = subprocess.Popen([SWIRL, "sweep", "--quiet", "--out", self.path("a")])
-            for _ in range(1000):
-                if "4 running" in status():
-                    break
-                time.sleep(0.01)
-            self.assertIn("4 running", status())
+            wait_until(lambda: "4 running" in status(), other)
             other.kill()
             other.wait()
             self.assertIn("3 running", status())
@@ -328,7 +321,7 @@ class Sweep(InFolder):
         os.close(gate)
         time.sleep(0.1)
         os.close(opened)
-        errors = [process.communicate(timeout=100)[1] for process in running]
+        errors = [process.communicate(timeout=HANG)[1] for process in running]
         return [process.returncode for process in running], errors
 
     def test_one_of_two_simultaneous_plans_is_rejected(self):

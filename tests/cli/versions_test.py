@@ -4,11 +4,12 @@ message that names its version or format. tests/io/version_1/make.sh made them."
 import json
 import os
 import re
+import signal
 import subprocess
 import tarfile
 import unittest
 
-from program import SOURCE, SWIRL, InFolder, read_bytes, read_json, read_text, swirl, write_text
+from program import HANG, SOURCE, SWIRL, InFolder, read_bytes, read_json, read_text, swirl, worked, write_text
 
 BODIES = ("discs", "spheres")
 
@@ -214,9 +215,12 @@ class OtherFormats(OldFiles):
         # A recording that this program did not finish.
         os.remove(self.path("discs_stopped.h5.partial"))
         os.remove(self.path("discs_stopped.checkpoint"))
-        subprocess.run(["timeout", "--signal", "INT", "0.7", SWIRL, "run", "run.toml", "--events", "4e7",
-                        "--frame-events", "200000", "--quiet", "--trajectory", "discs_stopped.h5",
-                        "--checkpoint", "discs_stopped.checkpoint"], cwd=self.folder, capture_output=True)
+        process = subprocess.Popen([SWIRL, "run", "run.toml", "--events", "4e7", "--frame-events", "200000", "--quiet",
+                                    "--trajectory", "discs_stopped.h5", "--checkpoint", "discs_stopped.checkpoint"],
+                                   cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.assertTrue(worked(process, 0.5))
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=HANG)
         for file, command in (("discs.h5", ("measure", "discs.h5")),
                               ("discs_events.h5", ("verify", "discs_events.h5")),
                               ("tracks.h5", ("measure", "tracks.h5")),

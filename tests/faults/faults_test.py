@@ -19,7 +19,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from program import SWIRL  # noqa: E402
+from program import HANG, SWIRL  # noqa: E402
 
 SHIM = os.environ["SWIRL_FAULTS"]
 EVERY = "--all" in sys.argv
@@ -67,7 +67,7 @@ class Faults(unittest.TestCase):
 
     def swirl(self, *arguments, **environment):
         return subprocess.run([SWIRL, *arguments], cwd=self.work, capture_output=True, text=True,
-                              timeout=120, stdin=subprocess.DEVNULL,
+                              timeout=HANG, stdin=subprocess.DEVNULL,
                               env={**os.environ, "NO_COLOR": "1", **environment})
 
     def empty_work_folder(self):

@@ -16,7 +16,7 @@ NOTEBOOKS = sorted(glob.glob(os.path.join(SOURCE, "examples", "*.ipynb")))
 def test_notebook_runs(file, tmp_path):
     book = nbformat.read(file, as_version=4)
     nbformat.validate(book)
-    NotebookClient(book, timeout=120, kernel_name="python3",
+    NotebookClient(book, kernel_name="python3",
                    resources={"metadata": {"path": str(tmp_path)}}).execute()
     for cell in book.cells:
         for output in cell.get("outputs", []):

@@ -32,7 +32,7 @@ def options(scene):
 
 
 def command(*words, **more):
-    return subprocess.run([SWIRL, *map(str, words)], capture_output=True, text=True, timeout=150,
+    return subprocess.run([SWIRL, *map(str, words)], capture_output=True, text=True,
                           stdin=subprocess.DEVNULL, **more)
 
 
