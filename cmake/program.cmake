@@ -12,10 +12,21 @@ find_package(CLI11 REQUIRED)
 find_path(hdf5_include hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_library hdf5 PATH_SUFFIXES hdf5/serial REQUIRED)
 find_library(hdf5_hl_library hdf5_hl PATH_SUFFIXES hdf5/serial REQUIRED)
+find_library(hdf5_static libhdf5.a PATH_SUFFIXES hdf5/serial)
+find_library(hdf5_hl_static libhdf5_hl.a PATH_SUFFIXES hdf5/serial)
+find_library(szip_library sz)
 set(hdf5_libraries ${hdf5_hl_library} ${hdf5_library})
 if(hdf5_library MATCHES "\\.a$")  # that of a wheel
   find_package(ZLIB REQUIRED)
   list(APPEND hdf5_libraries ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
+elseif(hdf5_static AND hdf5_hl_static AND szip_library)
+  # Debian's shared HDF5 can read files from Amazon S3. So it loads 35 libraries for TLS, LDAP and Kerberos, which take
+  # half of the time of a short call. A program that is linked to the static one does not contain that part. The
+  # Python module is a shared object, for which Debian's static library is not compiled.
+  find_package(ZLIB REQUIRED)
+  set(static ${hdf5_hl_static} ${hdf5_static} ${szip_library} ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
+  set(hdf5_libraries
+    "$<IF:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>,${static},${hdf5_libraries}>")
 endif()
 
 # Layers above the engine are optimised less, to compile faster: -O2 for the work at every frame, -O1

@@ -59,7 +59,7 @@ def main(wheel, folder):
         with zipfile.ZipFile(first) as archive:
             # "swirl.libs/libfmt-1a2b3c4d.so.9.1.0"; the file's own name has no more than the main version.
             libraries = [re.sub(r"-[0-9a-f]{8}(?=\.so)", "", name.partition("/")[2]) for name in archive.namelist()
-                         if re.match(r"swirl\.libs/.*\.so", name)]
+                         if re.match(r"[^/]+\.libs/.*\.so", name)]
         packages = {package_of(name if (PREFIX / "lib" / name).exists() else re.sub(r"(\.so\.\d+).*", r"\1", name))
                     for name in libraries}
         packages |= set(HEADERS if ON_DEBIAN else HEADERS.values())

@@ -2,8 +2,12 @@
 
 The environment is created without pip; Debian's pip installs into it (`pip --python`). auditwheel makes a
 wheel that contains its libraries; it runs in a Debian that has Python and numpy only. That part needs root,
-mmdebstrap and a mirror."""
+mmdebstrap and a mirror.
 
+The last test rehearses a release for every CPython that is found here: python3.11 to python3.15 on the PATH or in
+pyenv, and those of SWIRL_PYTHONS (paths, separated by colons)."""
+
+import glob
 import os
 import re
 import shutil
@@ -19,6 +23,8 @@ from scenes import SOURCE, result_of
 sys.path.insert(0, os.path.join(SOURCE, "tests", "platforms"))
 import debian_root  # noqa: E402
 
+# CPython of the published wheels (pyproject.toml).
+VERSIONS = [f"3.{minor}" for minor in range(11, 16)]
 PACKAGE = ("swirl/__init__.py", "swirl/py.typed", "swirl/_engine.pyi", "swirl/__main__.py")
 
 
@@ -43,7 +49,7 @@ def environment(tmp_path_factory):
 @pytest.fixture(scope="module")
 def sdist(environment):
     output_of(environment / "bin" / "python", "-m", "build", "--sdist", "--outdir", environment, SOURCE)
-    (file,) = environment.glob("swirl-*.tar.gz")
+    (file,) = environment.glob("swirl_dish-*.tar.gz")
     return file
 
 
@@ -57,7 +63,7 @@ def test_sdist_contains_the_sources_and_no_build(sdist):
     assert sdist.stat().st_size <= 3e6
     assert tracked - hidden <= names, sorted(tracked - hidden - names)
     assert not {name for name in names if name.startswith(("build/", "out/", ".git/", ".github/"))}
-    for line in ("Name: swirl", "License", "Requires-Python: >=3.9", "Requires-Dist: numpy",
+    for line in ("Name: swirl-dish", "License", "Requires-Python: >=3.11", "Requires-Dist: numpy",
                  "Provides-Extra: plots", "Provides-Extra: tables", "Classifier: ", "Keywords: ",
                  "Project-URL: ", "Description-Content-Type: text/markdown"):
         assert line in metadata, line
@@ -87,7 +93,7 @@ def wheel(environment, sdist, libraries, tmp_path_factory):
     folder = tmp_path_factory.mktemp("wheel")
     output_of(sys.executable, "-m", "pip", "--python", environment / "bin" / "python", "wheel", "--no-deps",
               "--wheel-dir", folder, sdist, env={**os.environ, "CMAKE_PREFIX_PATH": str(libraries)})
-    (file,) = folder.glob("swirl-*.whl")
+    (file,) = folder.glob("swirl_dish-*.whl")
     return file
 
 
@@ -99,7 +105,7 @@ def test_pip_installs_the_wheel_of_the_sdist(environment, wheel, tmp_path):
     for name in PACKAGE:
         assert os.path.exists(os.path.join(os.path.dirname(installed), name)), name
     packages = output_of(sys.executable, "-m", "pip", "--python", python, "list", "--format", "freeze")
-    assert {line.partition("==")[0] for line in packages.split()} >= {"numpy", "swirl"}
+    assert {line.partition("==")[0] for line in packages.split()} >= {"numpy", "swirl-dish"}
     assert "matplotlib" not in packages and "pandas" not in packages
 
     # Module, command of the environment, and program built here give the same state.
@@ -126,7 +132,7 @@ def test_repaired_wheel_runs_where_its_libraries_are_missing(environment, librar
     path = os.pathsep.join([str(environment / "bin"), os.environ["PATH"]])
     output_of(environment / "bin" / "python", os.path.join(SOURCE, "packaging", "wheels", "repair.py"), wheel,
               tmp_path, env={**os.environ, "PATH": path, "CMAKE_PREFIX_PATH": str(libraries)})
-    (repaired,) = tmp_path.glob("swirl-*manylinux*.whl")
+    (repaired,) = tmp_path.glob("swirl_dish-*manylinux*.whl")
     with zipfile.ZipFile(repaired) as archive:
         names = archive.namelist()
         large = [name for name in names if name.startswith("swirl/") and archive.getinfo(name).compress_size > 1.2e6]
@@ -162,3 +168,54 @@ def test_repaired_wheel_runs_where_its_libraries_are_missing(environment, librar
     assert "bitwise identical" in there("python3", "-m", "swirl", "verify", "five.h5")
     there("python3", "-m", "swirl", "image", "five.h5", "--out", "five.png", "--quiet")
     assert (root / "root" / "five.png").stat().st_size > 1000
+
+
+def interpreters():
+    """One path for each version of CPython that is found here and has a published wheel."""
+    paths = os.environ.get("SWIRL_PYTHONS", "").split(os.pathsep)
+    for version in VERSIONS:
+        paths += [shutil.which(f"python{version}") or ""]
+        paths += sorted(glob.glob(os.path.expanduser(f"~/.pyenv/versions/{version}.*/bin/python{version}")))
+    found = {}
+    for path in filter(None, paths):
+        done = subprocess.run([path, "-c", "import sysconfig, venv; print(sysconfig.get_python_version(), "
+                               "sysconfig.get_path('include'))"], capture_output=True, text=True)
+        version, _, include = done.stdout.strip().partition(" ")
+        if version in VERSIONS and os.path.exists(os.path.join(include, "Python.h")):
+            found.setdefault(version, path)
+    return found
+
+
+def test_a_local_index_serves_wheels_that_every_python_installs_and_uses(environment, sdist, libraries, tmp_path):
+    """Builds and repairs a wheel for each Python from one sdist with the page, puts all into one folder with numpy,
+    and installs from it without a network. Module, command, recording and page work."""
+    index = tmp_path / "index"
+    path = os.pathsep.join([str(environment / "bin"), os.environ["PATH"]])
+    variables = {**os.environ, "PATH": path, "CMAKE_PREFIX_PATH": str(libraries)}
+    with tarfile.open(sdist) as archive:
+        archive.extractall(tmp_path, filter="data")
+    source = tmp_path / sdist.name.removesuffix(".tar.gz")
+    (source / "bindings/python/swirl/lab.html").write_text('<html><meta charset="utf-8">the page</html>')
+    used = []
+    for version, python in interpreters().items():
+        built = tmp_path / f"built-{version}"
+        output_of(python, "-m", "venv", tmp_path / f"clean-{version}")
+        clean = tmp_path / f"clean-{version}" / "bin" / "python"
+        output_of(clean, "-m", "pip", "wheel", "--no-deps", "--wheel-dir", built, source, env=variables)
+        output_of(environment / "bin" / "python", os.path.join(SOURCE, "packaging", "wheels", "repair.py"),
+                  *built.glob("swirl_dish-*.whl"), index, env=variables)
+        output_of(clean, "-m", "pip", "download", "--only-binary", ":all:", "--dest", index, "numpy")
+        output_of(clean, "-m", "pip", "install", "--no-index", "--find-links", index, "swirl-dish",
+                  env={**os.environ, "PIP_FIND_LINKS": ""})
+        checked = output_of(clean, os.path.join(SOURCE, "packaging", "test_installation.py"), cwd=tmp_path)
+        assert "expected state hashes" in checked
+        code = "import swirl; assert 'the page' in swirl.lab(discs=5).html; print(swirl.run(discs=5, events=1000))"
+        assert "5 discs" in output_of(clean, "-c", code, cwd=tmp_path)
+        command = tmp_path / f"clean-{version}" / "bin" / "swirl"
+        recording = tmp_path / f"{version}.h5"
+        output_of(command, "run", "--discs", "5", "--events", "1000", "--quiet", "--trajectory", recording)
+        assert "bitwise identical" in output_of(command, "verify", recording)
+        output_of(command, "image", recording, "--out", tmp_path / f"{version}.png", "--quiet")
+        used.append(version)
+    print("wheels were built, installed and used by CPython", *used)
+    assert used, "no Python with headers was found"
