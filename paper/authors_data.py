@@ -26,6 +26,7 @@ import swirl
 
 import atomic_file
 import style
+from coarse_zero import crossing_of_curve
 from paper_parameters import CONTAINER_RADIUS as R, LAST_N, OMEGA
 
 SEEDS, EVENTS, BLOCKS = 3, 10**6, 10
@@ -63,7 +64,7 @@ def curve(folder, out, name, mu_disc, mu_wall, inertia, numbers=None):
     kind, _, which = name.partition(" ")
     which = which.removeprefix("spin ") if kind == "no" else STRENGTH[float(which)]
     theirs = {5 + k: row[-1] for k, row in enumerate(authors(folder, kind, which))}
-    numbers = numbers or (range(8, 45, 6) if kind == "no" else range(5, LAST_N + 1))
+    numbers = numbers or range(5, LAST_N + 1)
     runs = os.path.join(out, name.replace(" ", "_"))
     swirl.sweep(runs, discs=list(numbers), mu_disc=mu_disc, mu_wall=mu_wall, inertia=inertia, events=EVENTS, warmup=0,
                 seeds=SEEDS)
@@ -85,14 +86,9 @@ def curve(folder, out, name, mu_disc, mu_wall, inertia, numbers=None):
     return rows
 
 
-def crossing(rows, column):
-    """N_c by straight lines between neighbouring N, and its error; None without a change of sign."""
-    for a, b in zip(rows, rows[1:]):
-        if a[column] > 0 >= b[column]:
-            step = a[column] - b[column]
-            error = math.hypot(b[column] * a["error"], a[column] * b["error"]) / step**2
-            return a["discs"] + a[column] / step, error
-    return None
+def crossing(rows, column, runs=1):
+    """(N_c, error) of a column that is the mean over `runs` of our SEEDS runs; None without a certain change of sign."""
+    return crossing_of_curve([(row["discs"], row[column], row["error"] * math.sqrt(SEEDS / runs)) for row in rows])
 
 
 def sample(simulation, samples):
@@ -162,15 +158,15 @@ def rms(z):
 
 def report(rows, maps):
     """A table for docs/results/paper.md. N_c of the authors has the error of one run."""
-    def number(found, runs=1):
-        return f"{found[0]:.2f} ± {found[1] * math.sqrt(runs):.2f}" if found else ""
+    def number(found):
+        return f"{found[0]:.2f} ± {found[1]:.2f}" if found else ""
     print("| quantity | values | median difference | rms of z | N_c, authors | N_c, swirl |\n|---|---|---|---|---|---|")
     for name, *_ in CURVES:
         here = style.select(rows, curve=name)
         size, count = rms(style.column(here, "z"))
         middle = np.median([abs(row["theirs"] - row["ours"]) for row in here])
-        print(f"| {name} | {count} | {middle:.4f} | {size:.2f} | {number(crossing(here, 'theirs'), SEEDS)} | "
-              f"{number(crossing(here, 'ours'))} |")
+        print(f"| {name} | {count} | {middle:.4f} | {size:.2f} | {number(crossing(here, 'theirs'))} | "
+              f"{number(crossing(here, 'ours', SEEDS))} |")
     for (kind, discs), (_, _, z) in maps.items():
         size, count = rms(z)
         print(f"| {kind}, N = {discs} | {count} | | {size:.2f} | | |")

@@ -91,6 +91,21 @@ def last_zero(curve):
     return zero_of_curve(curve, middle_zero(curve, changes[-1])), changes[-1]["to_counterrotation"]
 
 
+def crossing_of_curve(curve):
+    """(N_c, error) of the last certain change to counterrotation; None without one. Where the points of its bracket are
+    neighbours, N_c is that of all figures. In a coarse curve the error contains that of the interpolation."""
+    if not curve:
+        return None
+    found = swirl._engine.zero_crossing(*map(list, zip(*curve)))
+    if math.isfinite(found["discs"]):
+        return found["discs"], found["error"]
+    changes = [change for change in found["changes"] if change["to_counterrotation"]]
+    if not changes:
+        return None
+    zero = zero_of_curve(curve, middle_zero(curve, changes[-1]))
+    return zero.discs, zero.error
+
+
 def measured_curve(points, quantity):
     """A measured quantity, such as "torque.transfer", against N."""
     values = [at(p.result, "measured", *quantity.split(".")) for p in points]
