@@ -10,8 +10,8 @@ CONTRADICTIONS = [
      "The first value is in disc diameters, the second in disc radii. This program uses 1.892, which gives the "
      "container the speed 1 that the SI states."),
     ("Amplitude of the experiment", "The main text has 1.15 cm and forces of up to 460 and 200 cm/s². The SI's A/R = 0.22 "
-     "implies 0.575 cm.", "A = 1.15 cm, since then one friction coefficient reproduces N_c, the slip and the single change "
-     "of direction. The force of 460 cm/s² needs 1.05 cm. A Coriolis force of at most 200 cm/s² fits neither value. "
+     "implies 0.575 cm.", "A = 1.15 cm, as the main text states. With the assumed restitution, one friction coefficient then gives N_c and the "
+     "single change of direction. The force of 460 cm/s² needs 1.05 cm. A Coriolis force of at most 200 cm/s² fits neither value. "
      "Claims about the experiment are judged there, and “half the amplitude” shows 0.575 cm."),
     ("Moment of inertia", "The table has I = 10 for m = r = 1. A rigid plane disc cannot exceed 1 (a ring); a "
      "solid disc has ½.", "The paper's 10 is the default. Figure “inertia” shows 1 and ½."),
@@ -76,8 +76,8 @@ QUESTIONS = {
         "and correlation time at the change grow with the size of the container?",
     "hysteresis": "Does the direction of rotation depend on whether a parameter rises or falls in a ramp?",
     "lifetimes": "Some points of Figure 5b end in different states for different seeds. How long do the states last?",
-    "coexistence": "A round and an elongated cluster exist at the same parameters. How long does each last, and does "
-        "that grow with the size of the dish?",
+    "coexistence": "Clusters of different shape exist at the same parameters. How long does a cluster stay round, or not "
+        "round, in dishes of several sizes?",
     "torque": "Which contacts make the cluster rotate, and which of their torques change sign with N?",
     "gears": "Do opposite spins of strong contacts predict the rotation better than the slip at the wall?",
     "gear_order": "Do touching particles stop turning like gears before the slip parameter rises, with it, or after it?",
@@ -85,22 +85,15 @@ QUESTIONS = {
     "material_inertia": "Where does the direction change for other moments of inertia and inelastic discs?",
     "material_friction": "Which of the two friction coefficients shifts the change of direction?",
     "material_tangential": "Where does the direction change if a sticking contact reverses a part of its slip?",
-    "spheres_packing": "At half the amplitude, ϖ(N) of spheres has a maximum near N = 28 to 30, which discs do not have. "
-        "Does the packing of the cluster explain it?",
-    "spheres_size": "Where does the direction of rolling spheres change in containers of other sizes?",
     "fields": "The paper suggests continuum equations that couple the spins to the vorticity of the flow. Does the "
         "difference between both predict the torque that drives the spins?",
     "closure": "Described as a micropolar fluid, which coefficients does the cluster have, and how much of the stresses "
-        "do they explain?",
+        "do they explain? A coefficient of a fluid depends on the packing fraction alone, and not on the dish.",
     "amplitude": "The paper has one amplitude, A/R = 0.22. Where does the direction of rotation change for others?",
     "cooling": "Does a gas of rough discs in a container at rest cool as the mean-field theory of Huthmann and Zippelius "
         "(1997) says?",
     "scherer": "Scherer et al. (2000) distinguish rotation, counterrotation and concentric rings by the sign of dE/dN, "
         "with the mean kinetic energy E of a particle, and see hypocycloids. Does the model agree?",
-    "instability": "Zhao and Pöschel (2020, 2021) see a dense region form above a threshold of the amplitude, and a "
-        "dense core that rotates against the swirl. Above which amplitude does a layer of rolling spheres show them?",
-    "local_speed": "Zhao and Pöschel (2020) explain the instability by a speed of the particles that grows with the "
-        "local density. Does it?",
 }
 
 # The description of each figure.
@@ -109,7 +102,8 @@ CAPTIONS = {
         "number of particles; below zero it counterrotates. Dashed: a rigid pancake with the perimeter of the cluster of "
         "smooth spheres that rolls along the wall without slipping. Below: slip parameter of the spheres that are pinned "
         "by the SI's criterion. Stars: the numbers that the paper states, N_c = 28 and 36, and s ≈ 0.5 at N = 25. The "
-        "two friction coefficients, 0.33 and 0.69, follow from these N_c; nothing else is fitted. Averages over time.",
+        "two friction coefficients, 0.33 and 0.69, are fitted to these N_c; restitution, floor friction and amplitude are "
+        "assumptions (docs/results/spheres.md has what depends on them). Averages over time.",
     "1c": "Left: the centre C of the container moves round the centre S of the swirl, and the container does not rotate. "
         "M is the point of the wall farthest from S. Middle: in the M-frame, which rotates with the swirl, S, C and M "
         "are at rest and the wall rotates clockwise with −Ω. Right: the inertial forces in the M-frame, the centrifugal "
@@ -185,7 +179,8 @@ CAPTIONS = {
         "ramp, for two ramp rates.",
     "lifetimes": "Mean lifetimes of the states at two points: time spent in the state divided by the number of exits.",
     "coexistence": "Left: mean lifetimes of clusters that were prepared round (full symbols) and elongated (open) "
-        "against the amplitude; triangles are lower bounds. Right: distribution of the rotation in windows of five "
+        "against the amplitude; triangles are lower bounds. The elongation alone tells them apart, so “elongated” contains "
+        "a rotating wave and a resting ellipse. Right: distribution of the rotation in windows of five "
         "periods, at one amplitude for each container.",
     "torque": "Torques on the cluster about its centre of mass against N, at μ = 1. (a) The sums: normal force and "
         "friction of the wall, and friction between discs, which transfers angular momentum to the spins. (b) The "
@@ -201,9 +196,6 @@ CAPTIONS = {
         "change of direction is certain.",
     "material_friction": "N_c with its error for pairs of the two friction coefficients.",
     "material_tangential": "N_c with its error for pairs of tangential restitution and inertia.",
-    "spheres_packing": "Rotation, hexatic order, elongation of the cluster and contacts of a sphere (gap below a tenth "
-        "of the radius) against the number of spheres, μ = 0.2. Grey: N = 28 to 30.",
-    "spheres_size": "The same as figure “size” for spheres, at A/R = 0.22 and μ = 0.2.",
     "fields": "Fields in the M-frame (M is at the bottom), kernel of four radii, means over the seeds. (a) Packing "
         "fraction and velocity relative to the centre of mass. (b) Spin of the discs and (c) half of the vorticity: "
         "equal if the discs rotate with the flow. (d) Torque of the stress per area and (e) that of a micropolar fluid, "
@@ -217,14 +209,8 @@ CAPTIONS = {
         "slide; the relative deviations of both from the theory; and the collision rate in equilibrium in units of "
         "Enskog's, for gases of different size. φ = 0.2.",
     "scherer": "Mean kinetic energy of a particle in units of that of the container's speed, and rotation, against the "
-        "number of particles, for the container of the paper's experiment and for other amplitudes and periods; the "
+        "number of particles, for spheres in the paper's experiment and for its discs; the "
         "number density around the centre of mass; and the distance of the particles' paths from hypotrochoids.",
-    "instability": "Layers of rolling spheres in a container of R/r = 17 against the amplitude. Distance between the "
-        "centre of mass and its position in a layer that moves freely; the part of this distance that rotates with the "
-        "swirl; and the rotation of the core and of the layer at the wall.",
-    "local_speed": "Mean speed of rolling spheres in the lab frame, in units of the floor's speed, against the packing "
-        "fraction within four radii of a sphere, for layers of three packing fractions. Dashed: a sphere that rolls "
-        "alone, 2/7.",
 }
 
 # Sections of the report: headings, and how the description of their figures begins.

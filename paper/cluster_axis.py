@@ -12,12 +12,15 @@ import math
 
 import numpy as np
 from engine import swirl
-from swirled_state import cross
 
 STEPS = 100  # in a period, on average
 STATE = ("elongation", "rotation")
 TORQUES = ("wall_normal", "wall_tangential", "transfer")  # on the orbital motion; the last one is that between discs
 MOMENTS = tuple(f"{part}_{way}" for part in ("flow", "collisions", "wall") for way in ("along", "across"))
+
+
+def cross(a, b):
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 def axis_of(parameters):

@@ -1,4 +1,4 @@
-"""The runs that the chapters share: discs or spheres in dishes of any size."""
+"""The runs that the chapters share: discs in dishes of any size."""
 
 import dataclasses
 import json
@@ -11,8 +11,6 @@ from engine import swirl
 from runs import length_of, lengths
 from study import Point
 
-SPHERES_OF_CHAPTERS = {"preset": "experiment-half", "mu": 0.2, "floor_friction": 0.3}
-
 
 @dataclasses.dataclass(frozen=True)
 class Dish:
@@ -20,7 +18,6 @@ class Dish:
 
     radius: float  # R/r
     amplitude: float  # A/R
-    spheres: bool = False  # that roll on the floor of the experiment, with μ = 0.2; else discs with μ = 1
 
     def discs(self, packing_fraction):
         """The number of discs with this packing fraction φ = N r²/R²."""
@@ -29,7 +26,7 @@ class Dish:
 
 def dish_run(dish, discs):
     """The container has the speed 1 in every dish."""
-    return {**(SPHERES_OF_CHAPTERS if dish.spheres else {}), "discs": discs, "container_radius": dish.radius,
+    return {"discs": discs, "container_radius": dish.radius,
             "amplitude": dish.amplitude * dish.radius, "speed": 1}
 
 
@@ -71,7 +68,7 @@ def dish_points(settings, dishes):
         R = dish.radius
         run = {**dish_run(dish, discs),
                **lengths(settings, (50 if R < 20 else 20, 2), (300 if R < 10 else 200 if R < 20 else 80 if R < 40 else 60, 5))}
-        made.append(Point(settings, f"{'spheres' if dish.spheres else 'dish'}_R{R:g}_A{dish.amplitude:g}_N{discs}_"
+        made.append(Point(settings, f"dish_R{R:g}_A{dish.amplitude:g}_N{discs}_"
                           f"{length_of(run)}", settings.chapter_seeds, run, work=fluctuating_run,
                           cells={"container_radius": R, "amplitude_ratio": dish.amplitude,
                                  "packing_fraction": discs / (R * R), "discs": discs}))

@@ -116,13 +116,13 @@ def experiment_found(study):
 
 
 def predictions_found(study):
-    """No parameter is fitted to these."""
+    """No parameter is fitted to these, but restitution, floor friction and amplitude are assumed."""
     slip, _ = contacts.slip_rises(study, "smooth")
     spin, _ = contacts.wall_spin(study, "smooth")
     slips = ends(study.curve("4a", setting="smooth"), "slip_resident")
     spins = ends(study.curve("4b", setting="smooth"), "resident_spin")
     words = {HOLDS: "is confirmed", UNDECIDED: "is undecided", IN_PART: "is confirmed in part"}
-    return (f"Without a further parameter: that the slip parameter of pinned spheres rises from about 0.5 to nearly 1 "
+    return (f"With the assumed restitution and floor friction: that the slip parameter of pinned spheres rises from about 0.5 to nearly 1 "
             f"{words.get(slip.verdict, 'is not confirmed')} ({slips}); that their spin at the wall falls "
             f"{words.get(spin.verdict, 'is not confirmed')} ({spins}, in Ω).")
 

@@ -1,14 +1,17 @@
 """The relations of a micropolar fluid, fitted to measured fields (Dahler, Scriven 1961; Tsai, Ye, Gollub, Lubensky 2005, doi:10.1103/PhysRevLett.94.214301):
 
     torque of the stress   σ_yx − σ_xy = Γ √(mT) (curl u − 2ω)
-    deviator of σ          = 2 √(mT) (η e + η_o e* + η_n sgn(curl u) e*),  e the deviator of the strain rate
+    deviator of σ          = 2 √(mT) η e,  e the deviator of the strain rate
     couple stress          C = D √(mT) ∇ω
     pressure               p = k p_H,  p_H that of smooth elastic discs (Henderson 1975, doi:10.1080/00268977500102511)
 
-e* is e turned by 45°: (e_xx, e_xy) → (−e_xy, e_xx). An odd viscosity η_o belongs to the sense of the spins, so its sign is
-that of the swirl everywhere. A normal-stress difference of sheared discs, η_n, reverses with the vorticity. Rigid discs
-have no other scale of time than √(m/T), so the coefficients depend on the packing fraction only, as long as the spins are
-as hot as the motion.
+Rigid discs have no other scale of time than √(m/T), so the coefficients depend on the packing fraction only, as long as the
+spins are as hot as the motion.
+
+One measured number is no coefficient of a fluid: the angle α by which the principal axes of the stress are turned against
+those of the strain rate. With e* = e turned by 45°, (e_xx, e_xy) → (−e_xy, e_xx), the fit a e + b e* has tan 2α = b/a. It
+depends on the amplitude of the swirl at the same packing fraction (docs/results/continuum.md), so no odd viscosity and no
+normal-stress difference of a fluid are derived from it.
 
 The fit is y = Σ k_a x_a at every point where the packing fraction, a mean over the seeds, is in a range and no contact with
 the wall contributes. Both x and y have errors, which are correlated within a run. So only products of two different seeds
@@ -49,17 +52,16 @@ def deviator(f):
 
 @dataclasses.dataclass(frozen=True)
 class Relation:
-    """`terms` and `field` return one component or two of x_a and y; `coefficient` is the shown one of the terms."""
+    """`terms` and `field` return one component or two of x_a and y; `shown` is the number of all coefficients."""
 
     name: str
     words: str
     explains: str
     terms: tuple
     field: object
-    coefficient: int = 0
+    shown: object = lambda k: k[0]
 
 
-ODD = (strain, turned, lambda f: tuple(np.sign(f["vorticity"]) * part for part in turned(f)))
 RELATIONS = (
     Relation("rotational_viscosity", "rotational viscosity Γ", "torque of the stress",
              (lambda f: (speed(f) * (f["vorticity"] - 2 * f["spin"]),),), lambda f: (f["torque"],)),
@@ -70,8 +72,8 @@ RELATIONS = (
     Relation("pressure", "pressure relative to smooth elastic discs", "pressure",
              # Discs of radius 1 have the number density φ/π.
              (lambda f: (f["packing"] / math.pi * f["temperature"] * pressure_ratio(f["packing"]),),), lambda f: (f["pressure"],)),
-    Relation("odd_viscosity", "odd viscosity η_o", "deviator of the stress, with η and η_n", ODD, deviator, 1),
-    Relation("normal_stress", "normal-stress coefficient η_n", "deviator of the stress, with η and η_o", ODD, deviator, 2))
+    Relation("angle", "angle of the stress against the strain rate", "deviator of the stress, with η", (strain, turned), deviator,
+             lambda k: math.degrees(0.5 * math.atan2(k[1], k[0]))))
 
 
 @dataclasses.dataclass
@@ -105,7 +107,7 @@ def fit_relation(seeds, relation, low, high, reach):
     def coefficients(s):
         try:
             return np.linalg.solve(s[:-1, :-1], s[:-1, -1])
-        except np.linalg.LinAlgError:  # two terms are proportional, as with a vorticity of one sign
+        except np.linalg.LinAlgError:  # a term is zero at every point
             return np.full(len(s) - 1, math.nan)
 
     def explained(chosen):
@@ -113,5 +115,5 @@ def fit_relation(seeds, relation, low, high, reach):
         # Noise may make a sum of squares negative; then nothing is known.
         return s[:-1, -1] @ coefficients(s) / s[-1, -1] if (s.diagonal() > 0).all() else math.nan
 
-    return Fit(int(inside.sum()), jackknife(len(seeds), lambda k: coefficients(products(k))[relation.coefficient]),
+    return Fit(int(inside.sum()), jackknife(len(seeds), lambda k: relation.shown(coefficients(products(k)))),
                jackknife(len(seeds), explained))

@@ -1,6 +1,5 @@
 """The quantities that published experiments with swirled spheres report: kinetic energy, rings, paths of single
-particles, the position of the dense region, and the rotation of core and wall layer. All are averages over the samples
-of one run after its warm-up.
+particles, and rotation. All are averages over the samples of one run after its warm-up.
 
 Paths. A rigid cluster whose centre orbits the container's centre C with the swirl's Ω, and that rotates with ϖ about its
 own centre, moves each of its discs along p(t) = D e^{iΩt} + ρ e^{iϖt} relative to C, as complex numbers. With ϖ < 0 this is
@@ -20,9 +19,6 @@ from engine import swirl
 
 PER_PERIOD = 60  # samples
 PERIODS_OF_A_PATH = 4
-# Particles whose centres are within this many radii of the wall are its layer. This includes the first layer, and half
-# of the way to the next one.
-LAYER = 2
 RINGS_PER_RADIUS = 5
 RATES = -0.5 + 0.005 * np.arange(261)  # of the fit, ϖ/Ω
 
@@ -62,26 +58,16 @@ class Samples:
         snapshots = [frames[k] for k in range(len(frames))]
         rolling = [0 if s.rolling_spin is None else np.sum(s.rolling_spin ** 2, axis=1) for s in snapshots]
         here = {"position": frames.position - frames.container_centre[:, None],
-                "velocity": frames.velocity, "centre": frames.container_centre,
-                "carrier": frames.container_velocity, "clock": frames.clock, "time": frames.time,
+                "velocity": frames.velocity, "carrier": frames.container_velocity,
                 "spins": frames.inertia / frames.mass * (frames.spin ** 2 + np.array(rolling).reshape(len(snapshots), -1))}
         for name, column in here.items():
             self.columns.setdefault(name, []).append(column)
-        self.period, self.radius = frames.period, frames.container_radius
+        self.radius = frames.container_radius
         return {"samples": float(len(frames))}
-
-
-def cross(a, b):
-    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 def dot(a, b):
     return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]
-
-
-def rotation_of(r, u, chosen):
-    """Sums of r × u and of r² over the chosen discs of each sample."""
-    return np.sum(np.where(chosen, cross(r, u), 0), axis=1), np.sum(np.where(chosen, dot(r, r), 0), axis=1)
 
 
 def densities(distance):
@@ -91,39 +77,19 @@ def densities(distance):
     return np.bincount(index.ravel()) / (len(distance) * np.pi * width * (2 * inner + width))
 
 
-def carried_share(parameters):
-    """A solid sphere that rolls on a floor gains 1/(1 + m r²/I) = 2/7 of each change of the floor's velocity. Discs
-    without a floor gain nothing."""
-    return 1 / (1 + 1 / 0.4) if "preset" in parameters else 0.0
-
-
 def swirled_run(parameters):
     """The averages over a run, as numbers, and the densities in rings about the cluster's and the container's centre."""
     samples = Samples()
     run = swirl.run(measure=samples, **parameters)
     s = {name: np.concatenate(blocks) for name, blocks in samples.columns.items()}
-    p, omega = s["position"], 2 * np.pi / samples.period
-    centre, u = p.mean(axis=1), s["velocity"] - s["carrier"][:, None]
-    r, speed_of_centre = p - centre[:, None], u.mean(axis=1)
-    core, core_square = rotation_of(r, u - speed_of_centre[:, None], dot(r, r) < 0.25 * samples.radius ** 2)
-    wall, wall_square = rotation_of(p, u, dot(p, p) > (samples.radius - LAYER) ** 2)
-    # Relative to the centre of mass of a uniform layer that moves freely, which the floor carries with the container.
-    q = centre + (1 - carried_share(parameters)) * s["centre"]
-    phase = 2 * np.pi * s["clock"] / samples.period
-    axis = np.column_stack([np.cos(phase), np.sin(phase)])
-    turns = np.diff(np.arctan2(q[:, 1], q[:, 0]))
+    p = s["position"]
+    r = p - p.mean(axis=1)[:, None]
     length = PERIODS_OF_A_PATH * PER_PERIOD
     fits = np.array([fit_hypotrochoids(p[k:k + length] @ [1, 1j]) for k in range(0, len(p) - length + 1, length)])
-    has_core, bins = core_square > 0, int(2 * samples.radius * RINGS_PER_RADIUS) + 1
+    bins = int(2 * samples.radius * RINGS_PER_RADIUS) + 1
     rings = {name: np.pad(values, (0, bins - len(values))).tolist() for name, values in
              (("about_centre_of_mass", densities(np.sqrt(dot(r, r)))), ("about_container", densities(np.sqrt(dot(p, p)))))}
     return {"speed_square": float(dot(s["carrier"], s["carrier"])[0]),
             "square": float(dot(s["velocity"], s["velocity"]).mean()), "spin_square": float(s["spins"].mean()),
-            "distance": float(np.sqrt(dot(q, q)).mean() / samples.radius),
-            "steady": float(np.hypot(dot(q, axis).mean(), cross(axis, q).mean()) / samples.radius),
-            "advance": float(np.sum(turns - 2 * np.pi * np.round(turns / (2 * np.pi))) /
-                             (omega * (s["time"][-1] - s["time"][0]))),
-            "core": float((core[has_core] / core_square[has_core]).mean() / omega),
-            "layer": float(wall.sum() / wall_square.sum() / omega),
             "path_rotation": float(fits[:, 0].mean()), "path_distance": float(np.sqrt((fits[:, 1] ** 2).mean())),
             "rotation": run.rotation.mean_by_time.mean, **rings}

@@ -8,12 +8,13 @@ from figure import Figure
 from micropolar import RELATIONS, fit_relation
 
 PANELS = (("rotational_viscosity", r"rotational viscosity $\Gamma$"), ("shear_viscosity", r"shear viscosity $\eta$"),
-          ("spin_diffusion", "spin diffusion $D$"), ("odd_viscosity", r"odd viscosity $\eta_o$"))
+          ("spin_diffusion", "spin diffusion $D$"), ("angle", r"angle of the stress $\alpha$ (°)"))
+DISH = ("container_radius", "amplitude_ratio", "discs")
 
 
 def closure_points(settings):
     return dish_points(settings, [(17.2, 0.45)] if settings.quick else
-                       [(34.4, 0.42), (34.4, 0.26), (34.4, 0.55), (17.2, 0.45)])
+                       [(34.4, 0.42), (34.4, 0.26), (34.4, 0.55), (17.2, 0.45), (17.2, 0.45, 0.15), (17.2, 0.45, 0.33)])
 
 
 def closure_table(points, settings):
@@ -43,19 +44,20 @@ def draw_closure(table):
     rows = style.read(table)
     panels = [panel for panel in PANELS if style.select(rows, relation=panel[0])]
     drawing, axes = style.figure(style.PAGE, 4.2, ncols=len(panels), nrows=2, sharex=True)
-    dishes = sorted({(row["container_radius"], row["discs"]) for row in rows})
+    dishes = sorted({tuple(row[name] for name in DISH) for row in rows})
     for column, (relation, words) in enumerate(panels):
         upper, lower = axes[0][column], axes[1][column]
         style.zero_line(upper)
-        for k, (radius, discs) in enumerate(dishes):
+        for k, dish in enumerate(dishes):
+            radius, ratio, discs = dish
             here = [row | {"packing": 0.5 * (row["packing_low"] + row["packing_high"]) + 0.008 * (k - 1.5)}
-                    for row in style.select(rows, container_radius=radius, discs=discs, relation=relation)]
+                    for row in style.select(rows, relation=relation, **dict(zip(DISH, dish)))]
             look = {"color": style.CYCLE[k], "marker": style.MARKERS[k], "linestyle": "-", "linewidth": 0.6,
                     "elinewidth": 0.7}
             for panel, name in ((upper, "coefficient"), (lower, "explained")):
                 panel.errorbar(style.column(here, "packing"), style.column(here, name),
                                yerr=style.column(here, name + "_error"), **look,
-                               label=f"$R/r$ = {radius:g}, $N$ = {discs:.0f}")
+                               label=f"$R/r$ = {radius:g}, $A/R$ = {ratio:g}, $N$ = {discs:.0f}")
         known = style.select(rows, relation=relation)
         style.fine_near_zero(upper, [row["coefficient"] + sign * row["coefficient_error"] for row in known
                                      for sign in (-1, 0, 1)], linear=1)
@@ -66,7 +68,7 @@ def draw_closure(table):
     axes[1][0].set_ylabel("share explained")
     if any(row["coefficient"] < 0 for row in rows):
         style.note(drawing, "negative coefficients: torque or force against the sign of the relation")
-    style.legend_of_all(drawing, axes[0][0], ncol=4)
+    style.legend_of_all(drawing, axes[0][0], ncol=3)
     style.save(drawing, table)
 
 

@@ -1,7 +1,8 @@
-"""Two states at the same parameters, and how long each lasts: a round cluster that counterrotates and an elongated one that
-rotates, both prepared on purpose, in dishes of several sizes at one packing fraction, against the amplitude A/R. In a
-transition of first order both lifetimes are much longer than the motion within a state, they grow with the size of the
-dish, and a line of equal lifetimes separates the states. `--seeds 64 --events 3.4e6` runs 64 seeds for 1000 periods, and
+"""Round clusters and elongated ones at the same parameters, and how long each lasts; both are prepared on purpose, in dishes
+of several sizes at one packing fraction, against the amplitude A/R. In a transition of first order both lifetimes are much
+longer than the motion within a state, they grow with the size of the dish, and a line of equal lifetimes separates the
+states. The lifetimes here cannot show that: windows are told apart by their elongation alone, and an elongated cluster is a
+rotating wave at R/r = 34.4, but also an ellipse at rest at 48 (AXES). Rotation and rate of the axis tell these apart. `--seeds 64 --events 3.4e6` runs 64 seeds for 1000 periods, and
 `--part K/N` divides the runs among the jobs of a cluster (docs/how-to/reproduce_paper.md)."""
 
 import math

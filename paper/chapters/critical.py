@@ -27,6 +27,7 @@ TWO_STATES = 1 / 3  # half of the cumulant of two equal states
 LAST_SIZES = 3  # in which growth must have ended if the change is smooth
 LAW = ("exponent", "exponent_error", "factor", "chi_square", "sizes")
 LIMIT = ("limit", "limit_error", "chi_square_limit", "bend")
+LOGARITHM = ("offset", "per_e_fold", "chi_square_logarithm")
 RARE = 0.0027  # probability of χ² with which a law is excluded: three standard errors of one normal variable
 SLOWEST = 3.8317  # first zero of the Bessel function J_1
 
@@ -75,13 +76,22 @@ def saturating_law(points):
     return limits[best] if known else math.nan, wrong if known else math.nan, chi_square[best], bends[best]
 
 
+def logarithmic_law(points):
+    """The fit y = a + b ln x, which grows without a limit, but more slowly than any power: a, b, and χ²."""
+    x, y, error = usable(points)
+    if len(x) < 4:
+        return (math.nan,) * len(LOGARITHM)
+    b, a = np.polyfit(np.log(x), y, 1, w=1 / error)
+    return a, b, float(np.sum(((y - a - b * np.log(x)) / error) ** 2))
+
+
 def laws_of(changes, law=power_law):
     return {name: law([(c["container_radius"], abs(c[name]), c[f"{name}_error"]) for c in changes]) for name in QUANTITIES}
 
 
 def verdict_on(laws, last, binder, saturated=False):
     """By the largest cumulant and by the exponents of slope and correlation time, of all sizes and of the largest ones. The
-    growth of the slope has also ended if it is `saturated`. A missing or uncertain exponent leaves the question open."""
+    growth of the slope has also ended if it is `saturated`: neither a power law nor a logarithm fits, and a limit does. A missing or uncertain exponent leaves the question open."""
     if binder[0] - CERTAIN * binder[1] > TWO_STATES:
         return "first order"
     exponents, final = ([each[name][:2] for name in DECISIVE] for each in (laws, last))
@@ -122,17 +132,19 @@ def scaling_tables(all_changes):
         binder = max(((c["binder"], c["binder_error"]) for c in changes if math.isfinite(c["binder"])),
                      default=(math.nan, math.nan))
         limits, freedom = laws_of(changes, saturating_law), laws["slope"][4] - 2
-        saturated = chi2.sf(laws["slope"][3], freedom) < RARE and chi2.sf(limits["slope"][2], freedom) > 0.05
+        logarithms = laws_of(changes, logarithmic_law)
+        unlimited = min(laws["slope"][3], logarithms["slope"][2])
+        saturated = chi2.sf(unlimited, freedom) < RARE and chi2.sf(limits["slope"][2], freedom) > 0.05
         verdict = verdict_on(laws, last, binder, saturated)
         rows += [{"amplitude_ratio": amplitude, "kind": kind, "quantity": name, **dict(zip(LAW, law)),
                   "exponent_last": last[name][0], "exponent_last_error": last[name][1], **dict(zip(LIMIT, limits[name])),
-                  "verdict": verdict} for name, law in laws.items()]
+                  **dict(zip(LOGARITHM, logarithms[name])), "verdict": verdict} for name, law in laws.items()]
         exponents = ", ".join(f"{words} {with_error(*laws[name][:2])}" for name, words in QUANTITIES.items())
         findings.append(f"A/R = {amplitude:g}, {kind} ({len(changes)} sizes): {verdict}; exponents of R/r: {exponents}, "
                         f"of the slope in the largest {min(LAST_SIZES, len(changes))} {with_error(*last['slope'][:2])}; largest "
                         f"slope {with_error(abs(changes[-1]['slope']), changes[-1]['slope_error'])}, its limit "
                         f"{with_error(*limits['slope'][:2])} (χ² {limits['slope'][2]:.1f}, of the power law "
-                        f"{laws['slope'][3]:.1f}), pancake line {1 / (2 * changes[-1]['packing_fraction']):.2f}; largest "
+                        f"{laws['slope'][3]:.1f}, of a logarithm {logarithms['slope'][2]:.1f}), pancake line {1 / (2 * changes[-1]['packing_fraction']):.2f}; largest "
                         f"Binder cumulant {with_error(*binder)}.")
     times = [times_of(change) for change in all_changes if change["kind"] == "free" and change["granular"] > 0]
     return {"_scaling": rows, "_times": times}, findings

@@ -35,12 +35,13 @@ def fields_run(parameters):
 
 def dish_points(settings, dishes):
     points = []
-    for radius, fraction in dishes:
-        dish = Dish(radius, AMPLITUDE)
+    for radius, fraction, *amplitude in dishes:
+        dish = Dish(radius, *(amplitude or (AMPLITUDE,)))
         run = dish_run(dish, dish.discs(fraction)) | lengths(settings, (10, 2), (30, 5))
         # The jackknife needs four seeds.
-        points.append(Point(settings, f"fields_R{radius}_N{run['discs']}_{length_of(run)}", 4 if settings.quick else 8,
-                            run, work=fields_run, cells={"container_radius": radius, "discs": run["discs"]}))
+        points.append(Point(settings, f"fields_R{radius}_A{dish.amplitude}_N{run['discs']}_{length_of(run)}", 4 if settings.quick else 8,
+                            run, work=fields_run, cells={"container_radius": radius, "amplitude_ratio": dish.amplitude,
+                                                                  "discs": run["discs"]}))
     return points
 
 

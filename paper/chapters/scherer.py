@@ -12,29 +12,27 @@ import style
 import tables
 from combine import means, over_seeds
 from curves import CERTAIN, listed
-from dishes import SPHERES_OF_CHAPTERS, resolved
+from dishes import resolved
 from figure import Figure
 from runs import length_of, lengths
 from study import Point
 from swirled_state import RINGS_PER_RADIUS, swirled_run
 
-# Name, words, spheres, amplitude and period relative to those of the experiment.
-SETTINGS = (("experiment", "spheres, A/R = 0.225", True, 1.0, 1.0), ("wide", "spheres, 1.4 A", True, 1.4, 1.0),
-            ("fast", "spheres, 0.7 T", True, 1.0, 0.7), ("discs", "discs, A/R = 0.22", False, 1.0, 1.0))
+# Name, words, parameters.
+SETTINGS = (("experiment", "spheres, A/R = 0.451, μ = 0.33", {"preset": "experiment"}),
+            ("discs", "discs, A/R = 0.22, μ = 1", {}))
 QUANTITIES = ("energy", "spin_energy", "rotation", "path_rotation", "path_distance")
 
 
 def points(settings):
     made = []
-    for name, words, spheres, amplitude, period in SETTINGS:
+    for name, words, parameters in SETTINGS:
         for n in (8, 20, 32, 44, 52) if settings.quick else (5, 8, 11, 14, 20, 26, 32, 38, 44, 48, 52, 54):
-            run = {**(SPHERES_OF_CHAPTERS if spheres else {}), "discs": n}
+            run = {**parameters, "discs": n, **lengths(settings, (20, 2), (60, 8))}
             known = resolved(run)
-            run |= {"amplitude": known["amplitude"] * amplitude, "period": known["period"] * period,
-                    **lengths(settings, (20, 2), (60, 8))}
             made.append(Point(settings, f"scherer_{name}_N{n}_{length_of(run)}", settings.chapter_seeds, run,
-                              work=swirled_run, cells={"setting": name, "words": words, "amplitude": run["amplitude"],
-                                                       "period": run["period"], "discs": n}))
+                              work=swirled_run, cells={"setting": name, "words": words, "amplitude": known["amplitude"],
+                                                       "period": known["period"], "discs": n}))
     return made
 
 

@@ -38,13 +38,6 @@ def amplitude_points(settings):
     return dish_points(settings, dishes)
 
 
-def sphere_points(settings):
-    radii, fractions = ((8.5,), (0.28, 0.46, 0.58)) if settings.quick else (
-        (6.0, 8.5, 12.0, 17.0), (0.1, 0.2, 0.28, 0.34, 0.4, 0.46, 0.52, 0.58))
-    return dish_points(settings, [(Dish(radius, RATIO_OF_THE_PAPER, spheres=True), fraction)
-                                  for radius in radii for fraction in fractions])
-
-
 def draw_size(table):
     chapter_drawings.dishes(table, "container_radius", r"container radius $R/r$", "$R/r$")
 
@@ -52,6 +45,4 @@ def draw_size(table):
 FIGURES = [Figure("size", "chapters", "chapter: the direction of rotation in containers of different sizes", size_points,
                   dish_tables, draw_size),
            Figure("amplitude", "chapters", "chapter: the direction of rotation for different amplitudes", amplitude_points,
-                  dish_tables, lambda table: chapter_drawings.dishes(table, "amplitude_ratio", r"amplitude $A/R$", "$A/R$")),
-           Figure("spheres_size", "chapters", "chapter: spheres in containers of different sizes", sphere_points,
-                  dish_tables, draw_size)]
+                  dish_tables, lambda table: chapter_drawings.dishes(table, "amplitude_ratio", r"amplitude $A/R$", "$A/R$"))]

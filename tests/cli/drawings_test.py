@@ -130,8 +130,8 @@ TABLES = {
 
 # The chapters are drawn from the tables of quick runs, four of them by figures_test.py.
 CHAPTERS = {"amplitude", "closure", "coexistence", "contacts", "cooling", "critical", "fields", "gear_order", "gears",
-            "hysteresis", "instability", "lifetimes", "local_speed", "material_friction", "material_inertia",
-            "material_tangential", "scherer", "size", "spheres_packing", "spheres_size", "torque"}
+            "hysteresis", "lifetimes", "material_friction", "material_inertia", "material_tangential", "scherer", "size",
+            "torque"}
 
 
 class Drawings(unittest.TestCase):

@@ -14,9 +14,9 @@ import catalogue  # noqa: E402
 import cluster_axis  # noqa: E402
 import curves  # noqa: E402
 import study  # noqa: E402
-from chapters import coexistence, cooling, gear_order, lifetimes, local_speed  # noqa: E402
+from chapters import coexistence, cooling, gear_order, lifetimes  # noqa: E402
 from chapters.critical import power_law, scaling_tables, verdict_on  # noqa: E402
-from coarse_zero import last_zero, zero_of_curve  # noqa: E402
+from coarse_zero import crossing_of_curve, last_zero, zero_of_curve  # noqa: E402
 from dishes import direction_changes, kind_of, shares_of_the_states  # noqa: E402
 from hard_discs import kinematic_viscosity, sound_speed  # noqa: E402
 from jackknife import jackknife  # noqa: E402
@@ -55,6 +55,18 @@ def test_two_points_leave_the_uniform_error_of_their_distance():
     assert (zero.discs, zero.interpolation) == pytest.approx((30, 6 / math.sqrt(12)), abs=EXACT)
 
 
+def test_n_c_contains_the_distance_of_the_points():
+    """Part of the way from 26 to 32 is not part of the way from 26 to 27."""
+    for step in (1, 3, 6):
+        found, error = crossing_of_curve(curve(lambda n: 28.5 - n, range(8, 48, step)))
+        # Straight lines are exact, and both points of a line have the error 10⁻⁶.
+        assert found == pytest.approx(28.5, abs=EXACT) and error < 1e-5
+    # Two points of a coarse curve tell little: N_c has the error of their distance.
+    assert crossing_of_curve(curve(lambda n: 28.5 - n, (26, 32))) == pytest.approx((28.5, 6 / math.sqrt(12)), abs=1e-6)
+    assert crossing_of_curve(curve(lambda n: n - 28.5, range(8, 48))) is None  # to rotation
+    assert crossing_of_curve([]) is None
+
+
 def test_a_curve_without_a_certain_sign_has_no_zero():
     assert last_zero(curve(lambda n: 30 - n, (28, 34), error=10)) == (None, False)
     assert last_zero([]) == (None, False)
@@ -68,46 +80,39 @@ def test_the_jackknife_of_a_mean_is_its_standard_error():
 
 
 def seeds_with(noise, **more):
-    """Six seeds of a stress with η = 2, η_o = 0.5 and η_n = −0.3, whose columns have independent errors."""
+    """Six seeds of a stress with η = 2 that is turned by 10° against the strain rate; its columns have independent errors."""
     random = np.random.default_rng(7)
     xx, xy = random.normal(size=(2, 400))
-    vorticity = random.normal(size=400)
     even, odd = np.array([xx, xy]), np.array([-xy, xx])
-    stress = 2 * (2 * even + (0.5 - 0.3 * np.sign(vorticity)) * odd)  # √(mT) = 1
+    stress = 4 * (even + math.tan(math.radians(20)) * odd)  # √(mT) = 1
     seeds = []
     for _ in range(6):
         def noisy(column):
             return column + noise * random.normal(size=400)
         zero = np.zeros(400)
         seeds.append({"x": zero, "y": zero, "packing": np.full(400, 0.5), "temperature": np.ones(400),
-                      "vorticity": vorticity, "strain_xx": noisy(xx), "strain_xy": noisy(xy), "kinetic_xx": noisy(stress[0]),
+                      "strain_xx": noisy(xx), "strain_xy": noisy(xy), "kinetic_xx": noisy(stress[0]),
                       "kinetic_yy": noisy(-stress[0]), "kinetic_xy": noisy(stress[1]), "collisional_xx": zero,
                       "collisional_yy": zero, "collisional_xy": zero, "collisional_yx": zero, **more})
     return seeds
 
 
 def coefficients(seeds):
-    return [fit_relation(seeds, relation, 0.4, 0.6, 1).coefficient for relation in (RELATIONS[1], *RELATIONS[4:])]
+    return [fit_relation(seeds, relation, 0.4, 0.6, 1).coefficient for relation in (RELATIONS[1], RELATIONS[4])]
 
 
-def test_even_odd_and_normal_parts_of_the_stress_are_separated():
-    (eta, _), (odd, _), (normal, _) = coefficients(seeds_with(0))
+def test_viscosity_and_angle_of_the_stress_are_separated():
+    (eta, _), (angle, _) = coefficients(seeds_with(0))
     # The even part alone is not biased, because e and e* are orthogonal at every point.
-    assert (eta, odd, normal) == pytest.approx((2, 0.5, -0.3), abs=EXACT)
+    assert (eta, angle) == pytest.approx((2, 10), abs=EXACT)
     fit = fit_relation(seeds_with(0), RELATIONS[4], 0.4, 0.6, 1)
     assert fit.explained[0] == pytest.approx(1, abs=EXACT) and fit.points == 400
 
 
 def test_noise_does_not_bias_the_coefficients():
     # Ordinary least squares would give η = 2/(1 + 0.5²) = 1.6.
-    for (found, error), exact in zip(coefficients(seeds_with(0.5)), (2, 0.5, -0.3)):
-        assert abs(found - exact) < 4 * error and error < 0.1
-
-
-def test_a_vorticity_of_one_sign_leaves_odd_and_normal_parts_undetermined():
-    seeds = seeds_with(0, vorticity=np.ones(400))
-    assert all(math.isnan(found) for found, _ in coefficients(seeds)[1:])
-    assert coefficients(seeds)[0][0] == pytest.approx(2, abs=EXACT)
+    for (found, error), exact, largest in zip(coefficients(seeds_with(0.5)), (2, 10), (0.1, 2)):
+        assert abs(found - exact) < 4 * error and error < largest
 
 
 def test_points_outside_the_range_or_with_a_missing_value_are_omitted():
@@ -386,13 +391,6 @@ def test_equal_lifetimes_are_not_extrapolated():
     rows = [row(ratio, "round", math.exp(20 - 400 * (ratio - 0.21))) for ratio in (0.25, 0.2525)]
     rows += [row(ratio, "elongated", math.exp(20 + 200 * (ratio - 0.21))) for ratio in (0.125, 0.13)]
     assert coexistence.equal_lifetimes(rows) is None
-
-
-def test_the_slope_of_the_speed_is_that_of_all_particles():
-    count = np.array([0, 5, 0, 20, 7, *[0] * 12])
-    sums = [count * (0.3 + 0.2 * np.arange(17) / 16), count]
-    assert local_speed.slope_of(sums) == pytest.approx(0.2, abs=EXACT)
-    assert math.isnan(local_speed.slope_of([np.zeros(17)] * 2))
 
 
 def test_a_table_whose_runs_all_failed_is_empty(tmp_path):
