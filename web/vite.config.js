@@ -36,18 +36,20 @@ const policy = {
         const hashes = [...page.source.matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map(
             ([, script]) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`);
         const rules = ["default-src 'none'", `script-src ${hashes.join(" ")} 'wasm-unsafe-eval'`, "worker-src blob: data:",
-                       "style-src 'unsafe-inline'", "img-src data: blob:", "connect-src data:", "base-uri 'none'", "form-action 'none'"];
+                       "style-src 'unsafe-inline'", "font-src data:", "img-src data: blob:", "connect-src data:", "base-uri 'none'", "form-action 'none'"];
         page.source = page.source.replace('<meta charset="utf-8">', (charset) =>
             `${charset}\n<meta http-equiv="Content-Security-Policy" content="${rules.join("; ")}">`);
     },
 };
 
-/** The licences of the libraries in the engine, as a comment at the end of the page. */
+const read = (name) => readFileSync(new URL(name, import.meta.url), "utf-8");
+
+/** The licences of the font and of the libraries in the engine, as a comment at the end of the page. */
 const notices = {
     name: "notices",
     enforce: "post",
     generateBundle: (_, bundle) => {
-        bundle["index.html"].source += `<!--\n${readFileSync(new URL("notices.txt", import.meta.url), "utf-8")}-->\n`;
+        bundle["index.html"].source += `<!--\n${read("notices.txt")}\n${read("../LICENSES/OFL-1.1.txt")}-->\n`;
     },
 };
 

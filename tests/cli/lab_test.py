@@ -660,7 +660,7 @@ class Laboratory(ProgramTest):
 
     def test_it_is_small(self):
         packed = gzip.compress(read_bytes(self.page), 9)
-        self.assertLessEqual(len(packed), 330_000)
+        self.assertLessEqual(len(packed), 345_000)  # the font is 18_000 of them
 
     @slow("it watches the page for ten seconds; test_the_page_in_a_browser requires motion too")
     def test_it_keeps_running(self):

@@ -7,6 +7,7 @@ import {createServer} from "node:http";
 import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
 import {chromium} from "playwright-core";
+import {inEachFont} from "./fonts.mjs";
 
 const [file, executablePath, wantedHash, image, folder] = process.argv.slice(2);
 const all = process.argv.includes("--all");
@@ -239,13 +240,14 @@ assert.equal(await page.locator("#views canvas:visible").count(), 2);
 await page.waitForFunction(() => /^\?seed=\d{4}&beside=8$/.test(location.search));
 await page.locator("#discovery-plot [role=img][aria-label*='with 2 points']").waitFor(); // the points of both
 await requireAccessible("two containers");
-// Before most of the file has arrived, there is a picture of both at the same places. The worker of the second is late here,
-// but skips the warm-up, too.
+// Before most of the file has arrived, there is a picture of both at the same places, in every font. The worker of the second
+// is late here, but skips the warm-up, too.
+const bytesOfPage = readFileSync(file), picturedBy = bytesOfPage.indexOf('<div id="transport">');
+assert.ok(picturedBy < 0.1 * bytesOfPage.length, `the first picture ends after ${picturedBy} bytes`);
 let finish;
 const slow = createServer((_, response) => {
-    const bytes = readFileSync(file);
-    response.writeHead(200, {"content-type": "text/html; charset=utf-8"}).write(bytes.subarray(0, 40_000));
-    finish = () => response.end(bytes.subarray(40_000));
+    response.writeHead(200, {"content-type": "text/html; charset=utf-8"}).write(bytesOfPage.subarray(0, picturedBy));
+    finish = () => response.end(bytesOfPage.subarray(picturedBy));
 });
 await new Promise((resolve) => slow.listen(0, "127.0.0.1", resolve));
 const early = await newPage({viewport: {width: 360, height: 640}});
@@ -258,16 +260,19 @@ await early.addInitScript(() => {
         setTimeout(() => postMessage.call(this, message, ...more), message.kind === "engine" && globalThis.sent.size > 1 ? 1500 : 0);
     };
 });
-await early.goto(`http://127.0.0.1:${slow.address().port}/`, {waitUntil: "commit"});
-const placesOf = (selector) => early.$$eval(selector, (all) => all.map((each) => ["x", "y", "width", "height"].map(
-    (side) => Math.round(each.getBoundingClientRect()[side]))));
-await early.waitForSelector("#first svg:last-of-type");
-const pictured = await placesOf("#first svg");
-assert.deepEqual(await early.$$eval("#first svg", (all) => all.map((each) => each.querySelectorAll("g path").length > 3)), [true, true]);
-finish();
-await early.waitForFunction(() => !document.getElementById("first") && /with it.*against it/.test(document.getElementById("headline").textContent));
-assert.deepEqual(await placesOf("#views canvas"), pictured);
-assert.ok(pictured[0][2] >= 170, `${pictured}`);
+const placesOf = (selector) => inEachFont(early, () => early.$$eval(selector, (all) => all.map((each) => ["x", "y", "width", "height"].map(
+    (side) => Math.round(each.getBoundingClientRect()[side])))));
+for (const [lang, headline] of [["de", "im Umlaufsinn.*gegensinnig"], ["en", "with it.*against it"]]) {
+    await early.goto(`http://127.0.0.1:${slow.address().port}/?lang=${lang}`, {waitUntil: "commit"});
+    await early.waitForSelector("#first svg:last-of-type");
+    const pictured = await placesOf("#first svg");
+    assert.deepEqual(await early.$$eval("#first svg", (all) => all.map((each) => each.querySelectorAll("g path").length > 3)), [true, true]);
+    finish();
+    await early.waitForFunction((said) => !document.getElementById("first") &&
+        new RegExp(said).test(document.getElementById("headline").textContent), headline);
+    assert.deepEqual(await placesOf("#views canvas"), pictured, lang);
+    for (const [where, [[, , width]]] of Object.entries(pictured)) assert.ok(width >= 150, `${where}: a dish is ${width} wide`);
+}
 const orders = await early.evaluate(() => [...globalThis.sent.values()].map((kinds) => kinds.filter((kind) => /begin|skip/.test(kind)).slice(0, 2).join(" ")));
 assert.deepEqual(orders.slice(0, 2), ["begin skip", "begin skip"]);
 await early.goto(`${address}?discs=9`);
