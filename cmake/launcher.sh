@@ -22,6 +22,10 @@ require_writable() {
         for file do [ -w "$file" ] || { printf "%s\n" "$file" && exit; }; done' sh {} + 2>/dev/null |
         head -n 1)
     [ -n "$locked" ] || return 0
+    if [ -O "$locked" ]; then
+        give_up "cannot build: '$locked' cannot be written." \
+            "if the file system is read-only, copy this folder to another one."
+    fi
     # shellcheck disable=SC2012
     give_up "cannot build: '$locked' cannot be written; it belongs to $(ls -ld "$locked" | awk '{print $3}')." \
         "sudo chown -R $(id -u) $(printf %s "$home/build" |
@@ -43,6 +47,13 @@ install_packages() {
     command -v dpkg-query >/dev/null || return 0
     missing=$(missing_packages "$@")
     [ -n "$missing" ] || return 0
+    # Another process may be installing them. This lock ends with the subshell; a lock of the caller continues.
+    (install_missing "$@")
+}
+install_missing() {
+    [ "$(id -u)" -ne 0 ] || [ "${SWIRL_INSTALL-}" = no ] || lock "$home/build" installation
+    missing=$(missing_packages "$@")
+    [ -n "$missing" ] || return 0
     command="apt-get install --no-install-recommends $missing"
     if [ "$(id -u)" -ne 0 ]; then
         say "some Debian packages are missing; this installs them:"
@@ -52,7 +63,8 @@ install_packages() {
     else
         say "installing Debian packages, once (SWIRL_INSTALL=no forbids it): $missing"
         log=$home/build/packages.log
-        install() { DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@"; }
+        # A service that a package starts must not keep the lock.
+        install() { DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@" 9<&-; }
         interrupted() { grep -q "dpkg --configure -a" "$log"; }
         # The lists of packages may be missing or old, for example on a new machine.
         { install install -y --no-install-recommends $missing || { ! interrupted && install update &&
@@ -83,25 +95,39 @@ packages_for_this_call() {
     has_packages "$@" || ! install_packages "$@" || touch "$packages_stamp" 2>/dev/null || true
 }
 
-# Prints the sources "$@", the current commit (which every result names) and the packages of [build], [drawing] and
-# [camera] that have changed since the stamp was set. It compares ctime, so that files moved here with an old date count; a
-# removed file counts because its folder has changed.
+# Prints the sources "$@", the current commit (which every result names) and the packages in the sections $linked
+# that have changed since the stamp was set. It compares ctime, so that files moved here with an old date count; a
+# removed file counts because its folder has changed. A date in the future was set while the clock was ahead: such a
+# stamp is no proof and counts as changed, and such a source is older than it seems.
 changed_since() {
     git_folder=$home/.git
     [ ! -f "$git_folder" ] || git_folder=$(sed -n 's/^gitdir: //p' "$git_folder")
-    libraries=$(awk -v info=$dpkg/info/ '/^\[/ { section = $0 }
-        /^[a-z]/ && section ~ /build|drawing|camera/ { print info $0 "[.:]*list" }' "$home/packages")
-    (cd "$home" && find "$@" "$git_folder/logs/HEAD" "$git_folder/HEAD" $libraries -cnewer "$stamp" 2>/dev/null)
+    libraries=$(awk -v info=$dpkg/info/ -v linked=" $linked " '/^\[/ { section = " " substr($1, 2, length($1) - 2) " " }
+        /^[a-z]/ && index(linked, section) && !/^(cmake|ninja-build|pkg-config)/ { print info $1 "[.:]*list" }' \
+        "$home/packages")
+    (cd "$home" && find "$@" "$git_folder/logs/HEAD" "$git_folder/HEAD" $libraries "$stamp" \
+        \( -name '.built*' -mmin -0 -o ! -name '.built*' -cnewer "$stamp" ! -cmin -0 \) 2>/dev/null)
 }
 
-# Waits until no other process holds the folder $1, and holds it until unlock or the end of this shell. With
-# `only_try` it fails instead of waiting. The kernel frees the folder of a killed process. Perl is part of
-# Debian and macOS; without it, two first calls at once are not protected, and every try fails.
+# Holds the folder $1 until unlock or the end of this shell. If another process holds it for a $2, this says so and
+# waits. The kernel frees the folder of a killed process. Perl is part of Debian and macOS; without it, two first calls
+# at once are not protected.
 lock() {
+    if ! try_lock "$1" && command -v perl >/dev/null; then
+        since=$(cat "$1/.since" 2>/dev/null) || true
+        say "waiting for another $2${since:+ (since $since)}"
+        flock_folder
+    fi
+    { date +%H:%M >"$1/.since"; } 2>/dev/null || true
+}
+# Fails instead of waiting, and without perl always.
+try_lock() {
     exec 9<"$1"
-    command -v perl >/dev/null || { [ $# -eq 1 ] && return; }
+    command -v perl >/dev/null && flock_folder only_try
+}
+flock_folder() {
     perl -MFcntl=:flock -e \
-        'open FOLDER, "<&=9" and flock FOLDER, @ARGV ? LOCK_EX | LOCK_NB : LOCK_EX or exit 1' -- ${2-}
+        'open FOLDER, "<&=9" and flock FOLDER, @ARGV ? LOCK_EX | LOCK_NB : LOCK_EX or exit 1' -- "$@"
 }
 unlock() { exec 9<&-; }
 
@@ -127,9 +153,10 @@ has_tools() {
     return 1
 }
 
-# Reports the progress of the build with the log $1 every ten seconds. Ends with this shell.
+# Reports the progress of the build with the log $1 every ten seconds. Ends with this shell, also if that was killed
+# and its parent still waits for the end of its output.
 report_progress() {
-    while sleep 10 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
+    while sleep 10 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null && ! grep -qs '^State:.Z' /proc/$$/status; do
         # ninja writes "[37/98] Building …".
         step=$(sed -n '/Re-checking/d; s/^\[\([0-9]*\)\/\([0-9]*\)\].*/\1 \2/p' "$1" | tail -n 1)
         [ -z "$step" ] || say "building: ${step% *} of ${step#* }, $((100 * ${step% *} / ${step#* })) %"
@@ -140,6 +167,9 @@ report_progress() {
 is_built() {
     stamp="$home/build/$1/.built${3:+ $3}${settings:+ $settings}"
     sources="src track cmake CMakeLists.txt CMakePresets.json packages ${2-}"
+    linked=build
+    case "${3-} $settings" in swirl_python* | *DRAWING=OFF*) ;; *) linked="$linked drawing" ;; esac
+    case "${3-} $settings" in swirl_python* | *CAMERA=OFF*) ;; *) linked="$linked camera" ;; esac
     [ -e "$stamp" ] && [ -z "$(changed_since $sources)" ]
 }
 
@@ -153,31 +183,46 @@ build() {
     folder=$home/build/$1
     mkdir -p "$folder" 2>/dev/null || give_up "cannot write to $home/build, where the program is built."
     require_writable "$folder"
-    lock "$home/build"
+    lock "$folder" build
     # Another process may have built it while this one waited.
     built=yes
     is_built "$1" "${3-}" "${4-}" || (build_now "$@") || built=no
     unlock
     [ $built = yes ] || exit 1
 }
+# Whether the build failed because of a full disk.
+is_full() {
+    grep -qs 'No space left on device' "$log" && return
+    { printf '%9000s' '' >"$folder/.space"; } 2>/dev/null && rm -f "$folder/.space" && return 1
+    rm -f "$folder/.space"
+}
+no_space() {
+    give_up "cannot build: no space is left in '$folder'." "make room on the disk, and repeat the call."
+}
 build_now() {
+    reporter=
+    trap '[ -z "$reporter" ] || kill "$reporter" 2>/dev/null' EXIT
+    trap 'exit 130' INT
+    trap 'exit 143' HUP TERM
     install_packages $2 || exit 1
     command -v dpkg-query >/dev/null || [ -e "$stamp" ] || has_tools || exit 1
     # ninja compares modification times only. A file that was replaced by one with an old date has a newer
     # ctime, so it gets a new date.
     [ ! -e "$stamp" ] || (cd "$home" && find $sources -type f -cnewer "$stamp" ! -newer "$stamp" \
         -exec touch {} + 2>/dev/null) || true
+    # Dates in the future were set while the clock was ahead. What was built then is built again.
+    find "$folder" -type f -mmin -0 -exec touch -t 200001010000 {} + 2>/dev/null || true
+    (cd "$home" && find $sources -type f -mmin -0 -exec touch {} + 2>/dev/null) || true
     [ "$1" != release ] || settings="-DSWIRL_ONLY_WIDEST=ON $settings" # only for this machine
     [ -e "$stamp" ] || say "building the program, only once; this takes $long on two cores"
-    touch "$stamp.building"
     log=$folder/build.log
-    : >"$log"
+    { touch "$stamp.building" && echo "cmake --preset $1" >"$log"; } 2>/dev/null || no_space
     report_progress "$log" 9<&- &
     reporter=$!
     # A build made elsewhere cannot be continued in a tree that was moved, so it begins from scratch.
     (cd "$home" && { cmake --preset "$1" $settings || cmake --preset "$1" --fresh $settings; } &&
         cmake --build "$folder" ${4:+--target} ${4-}) >>"$log" 2>&1 || built=no
-    kill "$reporter" 2>/dev/null || true
+    [ $built = yes ] || ! is_full || no_space
     [ $built = yes ] || { tail -n 40 "$log" >&2 && give_up "the build failed (see above; full log: $log)."; }
     mv "$stamp.building" "$stamp" # dated before the build: later changes are newer
 }

@@ -91,23 +91,26 @@ if [ -n "$out" ] && [ -e "$out" ] && ! [ -f "$out" ]; then
 fi
 
 page=$home/build/lab/index.html
+stamp=$home/build/.built-page
+# The date of the stamp is that of the beginning of the last complete build (cmake/launcher.sh).
 is_page_built() {
-    [ -e "$page" ] || return 1
+    [ -e "$page" ] && [ -e "$stamp" ] || return 1
     newer=$(cd "$home" && find src/swirl/math src/swirl/physics src/swirl/engine src/swirl/statistics \
         src/swirl/measure src/swirl/io src/swirl/run bindings/wasm web -path web/node_modules -prune -o \
-        -path web/generated -prune -o -newer "$page" -type f -print 2>/dev/null | head -n 1)
-    [ -z "$newer" ]
+        -path web/generated -prune -o -newer "$stamp" ! -mmin -0 -type f -print 2>/dev/null | head -n 1)
+    [ -z "$newer" ] && [ -z "$(find "$stamp" -mmin -0)" ]
 }
 build_page() {
-    mkdir -p "$home/build" 2>/dev/null || give_up "cannot write to the build folder $home/build."
-    lock "$home/build"
+    mkdir -p "$home/build/wasm" 2>/dev/null || give_up "cannot write to the build folder $home/build."
+    lock "$home/build/wasm" build
     ! is_page_built || return 0 # by another process, or another user
     [ -w "$home/build" ] || give_up "cannot write to the build folder $home/build."
-    require_writable "$home/build/lab.log" "$home/build/lab" "$home/build/wasm" "$home/web/generated"
+    require_writable "$stamp" "$home/build/lab.log" "$home/build/lab" "$home/build/wasm" "$home/web/generated"
     install_packages lab || exit 1
     command -v npm >/dev/null || install_packages npm || exit 1
     log=$home/build/lab.log
     say "building the page; this takes about a minute on two cores"
+    touch "$stamp.building" 2>/dev/null || give_up "the page could not be built: no space is left in $home/build."
     # Not npm ci, which requires the packages of all platforms: some mirrors of the registry lack those.
     # The versions are those of the lock file in both cases.
     if ! {
@@ -120,8 +123,9 @@ build_page() {
         tail -n 30 "$log" >&2
         give_up "the page could not be built (see above; full log: $log)."
     fi
+    mv "$stamp.building" "$stamp"
 }
-build_page
+is_page_built || build_page
 unlock
 
 query=

@@ -66,7 +66,7 @@ fi
 # is moved back.
 out=${out%"${out##*[!/]}"} # without trailing slashes
 for left in "$out".partial.??????; do
-    [ -d "$left/notebooks" ] && (lock "$left" only_try) || continue
+    [ -d "$left/notebooks" ] && (try_lock "$left") || continue
     [ -e "$out" ] || ! [ -e "$left/before" ] || rename "$left/before" "$out"
     rm -rf "$left"
 done
@@ -75,7 +75,7 @@ mkdir -p "$(dirname "$out")" 2>/dev/null &&
 trap 'rm -rf "$temporary"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' HUP TERM
-lock "$temporary"
+lock "$temporary" site
 site=$temporary/site
 source=$temporary/source
 log=$temporary/log

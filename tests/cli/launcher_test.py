@@ -1,14 +1,16 @@
 """The launcher ./swirl on a small project of one file: it builds after changes, never runs a stale
 program, starts no other program if the build is up to date, and becomes the program."""
 
+import fcntl
 import os
+import re
 import shutil
 import signal
 import subprocess
 import time
 import unittest
 
-from program import HANG, SOURCE, InFolder, read_text, write_text
+from program import HANG, SOURCE, InFolder, read_text, wait_until, write_text
 
 CMAKE = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
@@ -321,18 +323,22 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
         launcher = read_text(self.path("cmake/launcher.sh"))
         self.write("cmake/launcher.sh", launcher.replace("/var/lib/dpkg", self.path("dpkg")))
         packages = [self.path("dpkg/info/" + name) for name in ("g++.list", "cmake:amd64.list", "other.list",
-                                                             "lens.list")]
-        self.write("packages", "[build]\ng++\ncmake\nninja-build\n[figures]\nother\n[camera]\nlens\n")
+                                                             "lens.list", "libfmt-dev:amd64.list")]
+        self.write("packages", "[build]\ng++\ncmake\nninja-build\nlibfmt-dev\n[figures]\nother\n[camera]\nlens\n")
         for name in [self.path("dpkg/status"), *packages]:
             self.write(name, "")
         self.assertEqual(self.word(), "first")
         for name, builds in ((self.path("dpkg/status"), False), (packages[2], False), (packages[0], True),
-                             (packages[1], True), (packages[3], True)):
+                             (packages[1], False), (packages[3], False), (packages[4], True)):
             with self.subTest(name):
                 os.utime(name)
                 self.assertEqual("sources have changed" in self.call("run", "--help").stderr, builds)
                 self.assertEqual(self.call().returncode, 0)
                 self.assertNotIn("note", self.call("run", "--help").stderr)
+        # The camera's packages count when the program has that part.
+        self.call("track", "parts")
+        self.write(packages[3], "")
+        self.assertIn("sources have changed", self.call("run", "--help").stderr)
 
     def test_without_dpkg_it_lists_what_is_missing(self):
         everything = self.path("bin")
@@ -368,8 +374,8 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
             self.assertRegex(done.stderr, r"\Aerror: cannot build in '.*': CMake does not support .*\n\Z")
             self.assertFalse(os.path.exists(os.path.join(strange, "build")))
 
-    def test_works_in_a_folder_with_a_strange_name(self):
-        strange = self.path("it's a test & $HOME `x`")
+    def test_works_in_a_folder_with_a_strange_name_and_without_home(self):
+        strange = self.path("it's a tëst & $HOME `x`")
         os.makedirs(strange)
         for name in ("src", "cmake", "swirl", "packages", "CMakeLists.txt", "CMakePresets.json"):
             shutil.move(self.path(name), strange)
@@ -377,30 +383,156 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
         subprocess.run(["git", "-C", strange, "-c", "user.name=a", "-c", "user.email=a@b", "commit",
                         "-q", "--allow-empty", "-m", "first"], check=True)
         for builds in (True, False):
-            done = subprocess.run([os.path.join(strange, "swirl")], capture_output=True, text=True,
-                                  timeout=HANG, cwd="/")
+            done = subprocess.run([os.path.join(strange, "swirl")], capture_output=True, text=True, timeout=HANG,
+                                  cwd="/", env={name: text for name, text in os.environ.items() if name != "HOME"})
             self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
             self.assertEqual("building" in done.stderr, builds)
 
-    def test_a_call_waits_for_the_build_of_a_killed_call(self):
+    def start(self, *arguments, **more):
+        return subprocess.Popen([self.path("swirl"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                **more)
+
+    def start_a_build_that_waits(self, **more):
+        """A call whose build continues when the file build/release/end exists."""
         self.write("wait.sh", "echo . >>begun\nuntil [ -e end ]; do sleep 0.05; done\n")
         self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT waited.txt VERBATIM
   COMMAND sh ${PROJECT_SOURCE_DIR}/wait.sh COMMAND ${CMAKE_COMMAND} -E touch waited.txt)
 add_custom_target(waits ALL DEPENDS waited.txt)
 """)
-        killed = subprocess.Popen([self.path("swirl")], stderr=subprocess.DEVNULL)
-        begun = self.path("build/release/begun")
-        while killed.poll() is None and not os.path.exists(begun):
-            time.sleep(0.05)
+        started = self.start(**more)
+        wait_until(lambda: os.path.exists(self.path("build/release/begun")), started)
+        return started
+
+    WAITS = r"\Aswirl: waiting for another build \(since \d\d:\d\d\)\n\Z"
+
+    def test_a_call_waits_for_the_build_of_a_killed_call_and_says_so(self):
+        killed = self.start_a_build_that_waits()
         killed.kill()
         killed.wait()
-        second = subprocess.Popen([self.path("swirl")], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        with self.assertRaises(subprocess.TimeoutExpired):
-            second.wait(1)
+        second = self.start()
+        self.assertRegex(second.stderr.readline(), self.WAITS)
         self.write("build/release/end", "")
         self.assertEqual(second.communicate(timeout=HANG)[0].split()[0], "first")
-        with open(begun) as file:
+        killed.communicate(timeout=HANG)
+        with open(self.path("build/release/begun")) as file:
             self.assertEqual(len(file.readlines()), 1)
+
+    def held(self, name):
+        """Holds a folder as a build does, until the returned function is called."""
+        os.makedirs(self.path(name), exist_ok=True)
+        folder = os.open(self.path(name), os.O_RDONLY)
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        self.write(name + "/.since", "14:03\n")
+        return lambda: os.close(folder)
+
+    def test_only_a_call_that_must_build_waits_for_the_build_of_the_same_preset(self):
+        for folder in ("build", "build/tests", "build/wasm"):
+            self.addCleanup(self.held(folder))
+        self.assertEqual(self.word(), "first")
+        let_go = self.held("build/release")
+        done = self.call()  # up to date
+        self.assertEqual((done.stdout.split()[0], done.stderr), ("first", ""))
+        self.write_program("second")
+        for call in (["--version"], ["--help"], ["run", "--help"], ["lab", "--help"], ["python", "--help"]):
+            with self.subTest(call):
+                self.copy("web/lab.sh")
+                self.assertNotIn("waiting", self.call(*call).stderr)
+        waits = self.start()
+        self.assertEqual(waits.stderr.readline(), "swirl: waiting for another build (since 14:03)\n")
+        let_go()
+        self.assertEqual(waits.communicate(timeout=HANG)[0].split()[0], "second")
+
+    def test_the_version_needs_no_build(self):
+        self.write("CMakeLists.txt", CMAKE + "# as in the real project\nproject(swirl VERSION 3.2.1 LANGUAGES CXX)\n")
+        done = self.call("--version")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "3.2.1 (not built yet)\n", ""))
+        self.assertFalse(os.path.exists(self.path("build")))
+
+    def test_the_page_is_built_without_waiting_for_the_program(self):
+        self.copy("web/lab.sh")
+        for name, script in (("clang++-19", "exit 0"), ("wasm-opt", "exit 0"), ("node", "exit 0"), ("zopfli", "echo x"),
+                             ("cmake", "exit 0"), ("npm", f"echo x >>{self.path('builds')}\n"
+                              "[ $1 != run ] || { mkdir -p ../build/lab && echo page >../build/lab/index.html; }")):
+            self.stand_in(name, script + "\n")
+        for folder in ("build", "build/release", "build/tests"):
+            self.addCleanup(self.held(folder))
+        call = ["lab", "--out", self.path("page.html")]
+        self.assertEqual(self.call_with_stand_ins(*call).returncode, 0)
+        let_go = self.held("build/wasm")
+        done = self.call_with_stand_ins(*call)
+        self.assertNotIn("waiting", done.stderr)
+        self.assertEqual(read_text(self.path("builds")), "x\nx\n")  # install and run, once
+        # A build that failed leaves no page that a later call takes for a finished one.
+        let_go()
+        self.write("web/page.ts", "")
+        self.stand_in("npm", "mkdir -p ../build/lab && echo half >../build/lab/index.html\nexit 1\n")
+        for _ in range(2):
+            done = self.call_with_stand_ins(*call)
+            self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(read_text(self.path("page.html")), "page\n")
+
+    def test_ctrl_c_ends_all_processes_of_a_build(self):
+        started = self.start_a_build_that_waits(start_new_session=True)
+        os.killpg(started.pid, signal.SIGINT)
+        said = started.communicate(timeout=HANG)[1]  # until all of them have closed the pipes
+        self.assertNotEqual(started.returncode, 0)
+        self.assertNotIn("error", said)
+        self.write("build/release/end", "")
+        self.assertEqual(self.word(), "first")
+
+    def test_reports_of_progress_end_with_a_killed_call_that_its_caller_has_not_noticed(self):
+        self.stand_in("sleep", 'exec /bin/sleep 0.1\n')
+        path = self.path("bin") + ":" + os.environ["PATH"]
+        started = self.start_a_build_that_waits(env=dict(os.environ, PATH=path))
+        started.kill()  # from now on it is a zombie, since nothing waits for it
+        self.write("build/release/end", "")
+        started.communicate(timeout=HANG)
+
+    def test_a_clock_that_was_ahead_leaves_no_stale_program(self):
+        self.assertEqual(self.word(), "first")
+        ahead = time.time() + 7200
+        for folder, _, names in os.walk(self.folder):
+            for name in names:
+                if not os.path.islink(os.path.join(folder, name)):
+                    os.utime(os.path.join(folder, name), (ahead, ahead))
+        self.write_program("second")
+        self.assertEqual(self.word(), "second")
+        self.assertEqual(self.call().stderr, "")
+        self.write_program("third")
+        self.assertEqual(self.word(), "third")
+
+    def on_a_small_disk(self, script):
+        """Runs a script of sh in which build is a disk of 16 kB and ./swirl the launcher; its output and errors in one."""
+        os.makedirs(self.path("build"))
+        before = 'mount -t tmpfs -o size=16k swirl "$1/build" && cd "$1" || exit 0; echo mounted; '
+        done = subprocess.run(["unshare", "--map-root-user", "--mount", "sh", "-c", before + script, "sh", self.folder],
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=HANG)
+        if not done.stdout.startswith("mounted\n"):
+            self.skipTest("no small disk can be mounted here: " + done.stdout)
+        return done.stdout
+
+    def test_a_full_disk_leaves_nothing_that_a_later_call_takes_for_finished(self):
+        said = self.on_a_small_disk("""for size in 16k 64k 150k 250k 350k 450k 600k; do
+            mount -o remount,size=$size build; ./swirl; echo "code $?"; done
+        mount -o remount,size=100m build; ./swirl""")
+        self.assertRegex(said, r"first \d+\n\Z")
+        codes = re.findall(r"^code (\d+)$", said, re.M)
+        self.assertEqual(codes, sorted(codes, reverse=True))  # it builds as soon as the disk suffices
+        self.assertIn("1", codes)
+        self.assertLessEqual(set(codes), {"0", "1"})
+        errors = re.findall(r"^error: .*$", said, re.M)
+        self.assertEqual(len(errors), codes.count("1"), said)
+        for error in errors:
+            self.assertRegex(error, "^error: cannot build: no space is left in '.*/build/release'.$")
+
+    def test_a_read_only_tree_runs_what_is_built_and_reports_what_is_not(self):
+        said = self.on_a_small_disk("""mount -o remount,size=100m build; ./swirl
+        mount -o remount,ro build; ./swirl; echo "code $?"; touch src/main.cpp; ./swirl; echo "code $?"
+        umount build; mount -t tmpfs -o ro swirl build; ./swirl; echo "code $?" """)
+        built, stale, empty = re.split(r"code \d\n", said)[:3]
+        self.assertEqual(re.findall(r"code (\d)", said), ["0", "1", "1"], said)
+        self.assertRegex(stale, r"\Aerror: cannot build: '.*' cannot be written\.\nhint: [^\n]*\n\Z")
+        self.assertRegex(empty, r"\Aerror: cannot write to [^\n]*\n\Z")
 
     def test_packages_of_a_subcommand_are_installed_once(self):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")

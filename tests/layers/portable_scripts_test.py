@@ -23,7 +23,7 @@ NOT_PORTABLE = {
     r"\binstall -D\b": "mkdir -p and cp",
     r"\bxargs -\w*[rd]": "find -exec … +",
     r"\bgrep -\w*P": "grep -E",
-    r"\bfind\b[^|;]*-(?:quit|printf|executable|regextype|mmin)\b": "-print with head, or -exec",
+    r"\bfind\b[^|;]*-(?:quit|printf|executable|regextype)\b": "-print with head, or -exec",
     r"\b(?:tac|shuf|seq|timeout|taskset|setsid|sha256sum|md5sum|realpath|getent|pidof|free)\b(?=[ )])":
         "a tool of POSIX",
     r"\b(?:head|tail) -[nc] ?-\d": "sed",
