@@ -27,7 +27,7 @@ ALLOWED = {
 
 def instructions(scene, events):
     done = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
-                           PROGRAM, scene, str(events)], check=True, capture_output=True, text=True)
+                           PROGRAM, scene, str(events)], check=True, capture_output=True, encoding="utf-8")
     return int(re.search(r"Collected : (\d+)", done.stderr).group(1))
 
 

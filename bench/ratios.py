@@ -9,7 +9,7 @@ import sys
 
 def measured(file):
     """Rates by scene, discs and width; and all named values except rates and ratios to a baseline."""
-    with open(file) as f:
+    with open(file, encoding="utf-8") as f:
         result = json.load(f)
     rates = {(row["scene"], row["discs"], row["width"]): row["rate"] for row in result["rows"]}
     others = {target["name"]: target["value"] for target in result["targets"]
@@ -35,13 +35,13 @@ def instruction_ratios(folder):
     """Instructions per event, new / old, of the scenes of instructions_test.py."""
     counts = []
     for which in ("old", "new"):
-        with open(f"{folder}/{which}-instructions.json") as f:
+        with open(f"{folder}/{which}-instructions.json", encoding="utf-8") as f:
             counts.append(json.load(f))
     return {scene: [counts[1][scene] / old] for scene, old in counts[0].items() if scene in counts[1]}
 
 
 def write_csv(file, tables):
-    with open(file, "w", newline="") as f:
+    with open(file, "w", newline="", encoding="utf-8") as f:
         lines = csv.writer(f)
         lines.writerow(["what", "scene", "ratio", "lowest", "highest", "pairs"])
         for title, found in tables.items():

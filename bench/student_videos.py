@@ -106,7 +106,7 @@ class Video:
             ffmpeg("-i", made, "-c", "copy", "-metadata:s:v:0", "rotate=90", self.path)
             angle = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries",
                                     "stream_side_data=rotation", "-of", "csv=p=0", self.path],
-                                   capture_output=True, check=True, text=True).stdout
+                                   capture_output=True, check=True, encoding="utf-8").stdout
             self.turns_left = float(angle.strip()) > 0.0
         elif after == "anamorphic":
             self.path = os.path.join(folder, "anamorphic.mp4")

@@ -12,7 +12,7 @@ def read(files):
     """The rows of all runs by scene, discs and width, in the order of the first run."""
     found = {}
     for name in files:
-        with open(name, newline="") as f:
+        with open(name, newline="", encoding="utf-8") as f:
             for row in csv.DictReader(f):
                 found.setdefault((row["scene"], int(row["discs"]), row["width"]), []).append(row)
     return found

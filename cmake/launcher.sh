@@ -38,7 +38,7 @@ missing_packages() {
     installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2>/dev/null) || true
     for package in $wanted; do
         echo "$installed" | grep -qx -e "installed $package" || echo "$package"
-    done | sort -u | paste -s -d ' ' -
+    done | LC_ALL=C sort -u | paste -s -d ' ' -
 }
 
 # Installs the missing packages of the sections "$@". Without root, or if that fails, it prints the

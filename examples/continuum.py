@@ -27,7 +27,7 @@ import numpy as np
 
 def read(path):
     """The columns of a table of fields as arrays; an empty cell is NaN."""
-    with open(path, newline="") as file:
+    with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     if not rows:
         raise ValueError(f"'{path}' has no rows")

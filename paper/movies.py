@@ -93,7 +93,7 @@ def make_movie(movie, call):
     words = [call["program"], "movie", "--out", file, "--quiet", *(["--turned-angle"] if movie.options["frame"] == "lab" else [])]
     for name, value in movie.options.items():
         words += [f"--{name}", str(value)]
-    done = subprocess.run(words, capture_output=True, text=True)
+    done = subprocess.run(words, capture_output=True, encoding="utf-8")
     if done.returncode:
         raise Problem(done.stderr.removeprefix("error: ").strip())
     rotation = rotation_in(movie)

@@ -18,7 +18,7 @@ def read(table):
         except ValueError:
             return cell
 
-    with open(table, newline="") as file:
+    with open(table, newline="", encoding="utf-8") as file:
         return [{name: value(cell) for name, cell in row.items()} for row in csv.DictReader(file)]
 
 

@@ -131,7 +131,7 @@ done
 </html>
 HTML
 if [ -n "$address" ]; then
-    (cd "$site" && find . -name '*.html' | sort | sed "s|^\./|$address|") >"$site/sitemap.txt"
+    (cd "$site" && find . -name '*.html' | LC_ALL=C sort | sed "s|^\./|$address|") >"$site/sitemap.txt"
     echo "Sitemap: ${address}sitemap.txt" >"$site/robots.txt"
 fi
 pages=$(find "$site" -name '*.html' | wc -l)

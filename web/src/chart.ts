@@ -1,6 +1,6 @@
 // The charts of the page: curves of estimates with intervals, or lines with gaps, on two linear axes. Each change redraws
 // the whole chart.
-import {element, ink, line as grid, localized, paper, quiet, signed} from "./page";
+import {canvasFont, element, ink, line as grid, localized, paper, quiet, signed} from "./page";
 
 export interface ChartPoint {
     x: number;
@@ -46,7 +46,7 @@ export const curveColors = ["#c4500a", "#0072b2", "#008a63", "#b8609a", "#a87900
 const margin = 14, numbersBelow = 26, numbersLeft = 44, labelSize = 20; // pixels
 const pixelsOf = (css: number): number => css * (window.devicePixelRatio || 1);
 const setFont = (context: CanvasRenderingContext2D, css: number, weight = 400): void => {
-    context.font = `${weight} ${pixelsOf(css)}px Inter, system-ui, sans-serif`;
+    context.font = canvasFont(weight, pixelsOf(css));
 };
 
 /** Round numbers, at most `most`, that cover a range: multiples of 1, 2 or 5 times a power of ten. */

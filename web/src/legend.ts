@@ -1,6 +1,7 @@
 // The legend of the colours, in a lower corner of the image. It is part of the canvas, so saved images and movies contain it.
 import {mapColor} from "./maps";
 import {slidingColor} from "./marks";
+import {canvasFont} from "./page";
 import {diverging, looseColor, pinnedColor, type DrawOptions, type Palette} from "./scene";
 import {texts} from "./texts";
 
@@ -9,7 +10,7 @@ const margin = 10, barWidth = 110, barHeight = 7, row = 17, narrow = 450; // pix
 /** `size` is the width of the image in pixels of the page. */
 export function drawLegend(context: CanvasRenderingContext2D, size: number, look: DrawOptions, palette: Palette): void {
     if (size < 220 || (size < 320 && look.coloring === "contacts")) return; // its rows would hide discs
-    context.font = "500 12px Inter, system-ui, sans-serif";
+    context.font = canvasFont(500, 12);
     context.textBaseline = "alphabetic";
     context.textAlign = "left";
     let y = size - margin;

@@ -1,6 +1,7 @@
 // Marks in the drawing of a frame: turns, events, forces, the selected disc, and the points S, C and M.
 import {frameDisc, frameHead} from "./engine";
 import {shown, type DrawOptions, type Frame, type Palette} from "./scene";
+import {canvasFont} from "./page";
 import {symbols} from "./texts";
 
 /** Writes a text at a point, in pixels of the page, on a halo of the background. */
@@ -9,7 +10,7 @@ function write(context: CanvasRenderingContext2D, text: string, x: number, y: nu
     context.save();
     context.translate(x, y);
     context.scale(1, -1);
-    context.font = `600 ${size * hair}px Inter, system-ui, sans-serif`;
+    context.font = canvasFont(600, size * hair);
     context.lineWidth = 3.5 * hair;
     context.lineJoin = "round";
     context.strokeStyle = palette.paper;

@@ -37,6 +37,10 @@ export function save(name: string,
     setTimeout(() => URL.revokeObjectURL(href), downloadStarts);
 }
 
+/** The font of the page for a canvas. */
+export const canvasFont = (weight: number, pixels: number): string =>
+    `${weight} ${pixels}px ${getComputedStyle(document.documentElement).fontFamily}`;
+
 const style = (name: string): string =>
     getComputedStyle(document.documentElement).getPropertyValue(name);
 export const ink = (): string => style("--ink");

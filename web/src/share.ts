@@ -2,7 +2,7 @@
 import type {Dish} from "./dish";
 import {icon} from "./icons";
 import type {Laboratory} from "./laboratory";
-import {button, byId, element, paper, quiet, save} from "./page";
+import {button, byId, canvasFont, element, paper, quiet, save} from "./page";
 import {Recording} from "./recording";
 import {tableOf} from "./series";
 import {pageEntries} from "./start";
@@ -31,7 +31,7 @@ function pictureOf(address: string): string {
         left += each.width;
     }
     context.fillStyle = quiet();
-    context.font = `${0.55 * row}px system-ui, sans-serif`;
+    context.font = canvasFont(400, 0.55 * row);
     context.fillText(address, 0.4 * row, canvas.height - 0.4 * row, canvas.width - 0.8 * row);
     return canvas.toDataURL("image/png");
 }

@@ -187,7 +187,7 @@ def _camera(file: pathlib.Path) -> dict[str, Any]:
     type, because a missing field would silently take its default."""
     numbers = ("omega", "container_radius", "amplitude", "camera_fps", "scale", "phase")
     try:
-        found = json.loads(file.read_text(), object_pairs_hook=_unique)["camera"]
+        found = json.loads(file.read_text(encoding="utf-8"), object_pairs_hook=_unique)["camera"]
         camera = {argument: found[argument.replace("_", "-")]
                   for argument in (*numbers, "centre", "clockwise")}
         for name in numbers:

@@ -72,7 +72,7 @@ def track(video: PathName, *, discs: Optional[int] = None, fps: Optional[float] 
         for name, value in (("--discs", discs), ("--fps", fps), ("--max-frames", frames)):
             if value is not None:
                 call += [name, str(value)]
-        done = subprocess.run(call + (["--spin"] if spin else []), capture_output=True, text=True)
+        done = subprocess.run(call + (["--spin"] if spin else []), capture_output=True, encoding="utf-8")
         if done.returncode == 0:
             return VideoTracks(out, [line.removeprefix("warning: ")
                                      for line in done.stderr.splitlines()])
