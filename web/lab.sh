@@ -114,7 +114,9 @@ build_page() {
     # Not npm ci, which requires the packages of all platforms: some mirrors of the registry lack those.
     # The versions are those of the lock file in both cases, and no package needs its scripts.
     if ! {
-        cmake -S "$home/bindings/wasm" -B "$home/build/wasm" -G Ninja &&
+        # In a tree that was moved, the build begins from scratch.
+        { cmake -S "$home/bindings/wasm" -B "$home/build/wasm" -G Ninja ||
+            cmake --fresh -S "$home/bindings/wasm" -B "$home/build/wasm" -G Ninja; } &&
             cmake --build "$home/build/wasm" &&
             mkdir -p "$home/web/generated" &&
             zopfli -c "$home/build/wasm/swirl.wasm" >"$home/web/generated/swirl.wasm.gz" &&

@@ -1,7 +1,7 @@
 """For every random choice of parameters from their whole range, with fixed seeds, a run of a thousand
 events either ends or is rejected with one error message.
 
-With --all: thousands of choices, up to hundreds of thousands of discs and ten thousand spheres."""
+With --all: hundreds of choices, with --soak thousands, up to hundreds of thousands of discs and ten thousand spheres."""
 
 import json
 import math
@@ -116,7 +116,7 @@ class RandomScenes(InFolder):
         self.assertFalse(self.run_or_rejected([*scene, "--amplitude", "1e6", "--events", "10000"]))
 
     def test_random_parameters_run_or_are_rejected(self):
-        cases, max_discs = (3000, 3e5) if "--all" in sys.argv else (80, 3000)
+        cases, max_discs = (3000, 3e5) if "--soak" in sys.argv else (500, 3e5) if "--all" in sys.argv else (80, 3000)
         run = 0
         for case in range(cases):
             options = drawn(random.Random(f"scene {case}"), max_discs)
@@ -127,4 +127,4 @@ class RandomScenes(InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[a for a in sys.argv if a != "--all"])
+    unittest.main(argv=[a for a in sys.argv if a not in ("--all", "--soak")])

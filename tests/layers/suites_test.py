@@ -67,6 +67,13 @@ class Suites(unittest.TestCase):
                     whole = f"cli.{script.stem.removesuffix('_test')}_all_slow"
                     self.assertTrue({whole, complete} & self.suites["slow"], "no slow test calls it with --all")
 
+    def test_a_test_without_end_is_stopped_by_its_processor_time(self):
+        limited = ["sh", SOURCE / "tests/limited.sh", "1"]
+        done = subprocess.run([*limited, sys.executable, "-c", "while True: pass"], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("more than 1 seconds of processor time", done.stdout)
+        self.assertEqual(subprocess.run([*limited, "sh", "-c", "exit 77"]).returncode, 77)
+
     def test_no_limit_depends_on_the_clock(self):
         for pattern, limit in BY_THE_CLOCK.items():
             for file in [*SOURCE.glob(f"tests/**/{pattern}"), *SOURCE.glob(f"track/tests/**/{pattern}")]:

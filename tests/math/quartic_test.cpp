@@ -62,25 +62,47 @@ class Wide {
 
 struct WideQuartic {
     Wide c[5];
-    explicit WideQuartic(const Quartic& f, Wide added = 0.0)
-        : c{f.c0 + added, f.c1, f.c2, f.c3, f.c4} {}
+    double rough[5], unsure;
+    /// For times up to `horizon`.
+    explicit WideQuartic(const Quartic& f, double horizon, Wide added = 0.0)
+        : c{f.c0 + added, f.c1, f.c2, f.c3, f.c4}, unsure(0.0) {
+        for (int k = 4; k >= 0; --k) {
+            rough[k] = double(c[k]);
+            unsure = unsure * horizon + std::abs(rough[k]);
+        }
+        unsure *= 1e-12;
+    }
 
-    Wide value(Wide t) const { return (((c[4] * t + c[3]) * t + c[2]) * t + c[1]) * t + c[0]; }
+    template <class Number>
+    static Number value(const Number* f, Number t) {
+        return (((f[4] * t + f[3]) * t + f[2]) * t + f[1]) * t + f[0];
+    }
     /// A lower bound of the values from a to b: the polynomial about a with only its negative
     /// coefficients, at b.
-    Wide lower_bound(Wide a, Wide b) const {
-        const Wide w = b - a;
-        const Wide d1 = ((4.0 * c[4] * a + 3.0 * c[3]) * a + 2.0 * c[2]) * a + c[1];
-        const Wide d2 = (6.0 * c[4] * a + 3.0 * c[3]) * a + c[2];
-        const Wide d3 = 4.0 * c[4] * a + c[3];
-        const auto down = [](const Wide& x) { return x > 0.0 ? Wide() : x; };
-        return value(a) + w * (down(d1) + w * (down(d2) + w * (down(d3) + w * down(c[4]))));
+    template <class Number>
+    static Number lower_bound(const Number* f, Number a, Number b) {
+        const Number w = b - a;
+        const Number d1 = ((4.0 * f[4] * a + 3.0 * f[3]) * a + 2.0 * f[2]) * a + f[1];
+        const Number d2 = (6.0 * f[4] * a + 3.0 * f[3]) * a + f[2];
+        const Number d3 = 4.0 * f[4] * a + f[3];
+        const auto down = [](const Number& x) { return x > 0.0 ? Number() : x; };
+        return value(f, a) + w * (down(d1) + w * (down(d2) + w * (down(d3) + w * down(f[4]))));
+    }
+    /// Double precision decides where the value is far larger than its rounding errors, which are
+    /// some hundred roundings of the largest term: `unsure` allows for 9000.
+    bool positive(Wide t) const {
+        const double near = value(rough, double(t));
+        return std::abs(near) > unsure ? near > 0.0 : value(c, t) > 0.0;
+    }
+    bool positive(Wide a, Wide b) const {
+        const double near = lower_bound(rough, double(a), double(b));
+        return std::abs(near) > unsure ? near > 0.0 : lower_bound(c, a, b) > 0.0;
     }
     /// The first time at which it is 0 or less, to 10⁻²⁴ of the interval; −1 if it is positive
     /// everywhere.
     Wide first_zero(Wide a, Wide b, int depth = 0) const {
-        if (lower_bound(a, b) > 0.0) return -1.0;
-        if (!(value(a) > 0.0) || depth == 80) return a;
+        if (positive(a, b)) return -1.0;
+        if (!positive(a) || depth == 80) return a;
         const Wide middle = 0.5 * (a + b);
         const Wide left = first_zero(a, middle, depth + 1);
         return left == -1.0 ? first_zero(middle, b, depth + 1) : left;
@@ -107,9 +129,10 @@ std::string wrong(const Quartic& f, double horizon, double grain) {
     if (end < 0.0 || end > horizon) return "outside" + position;
     // The result is 0 if the two touch, or overlap by any amount, and approach.
     if (found == 0.0 && f.c0 <= 0.0 && f.c1 < 0.0) return "";
-    if (found != never && std::abs(double(WideQuartic(f).value(found))) > error)
+    if (found != never &&
+        std::abs(double(WideQuartic::value(WideQuartic(f, horizon).c, Wide(found)))) > error)
         return "no zero" + position;
-    const Wide earlier = WideQuartic(f, 2.0 * error).first_zero(0.0, end);
+    const Wide earlier = WideQuartic(f, horizon, 2.0 * error).first_zero(0.0, end);
     return earlier == -1.0 ? ""
                            : "one at " + std::to_string(double(earlier)) + " is before" + position;
 }

@@ -9,6 +9,7 @@ At last, a warning of the compiler kills it, as it stops the build of the tests.
     mutate.py                       the chosen mutations of mutations.py
     mutate.py measure/slip          those of files whose path contains this text
     mutate.py --number 17           one mutation
+    mutate.py --every 6             the first of each six mutations
     mutate.py --check               only checks that each text occurs exactly once
     mutate.py --random 100 --seed 4 mutations drawn from a seed (draw.py)
 
@@ -227,7 +228,7 @@ def check_table():
 
 def run_chosen(options, pool):
     chosen = [number for number, (file, *_) in enumerate(MUTATIONS) if options.part in file and
-              (not options.number or number in options.number)]
+              (not options.number or number in options.number)][::options.every]
 
     def judge(builder, number):
         file, before, after, _, *equivalent = MUTATIONS[number]
@@ -287,6 +288,7 @@ def main():
     call = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     call.add_argument("part", nargs="?", default="", help="mutate files whose path contains this")
     call.add_argument("--number", type=int, nargs="*", help="numbers of the mutations to run")
+    call.add_argument("--every", type=int, default=1, help="run one of so many mutations [1]")
     call.add_argument("--check", action="store_true", help="check the table only")
     call.add_argument("--random", type=int, default=0, metavar="COUNT", help="draw this many mutations")
     call.add_argument("--seed", type=int, default=1, help="of the random mutations [1]")

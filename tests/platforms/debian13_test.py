@@ -104,9 +104,9 @@ class Debian13(unittest.TestCase):
 
         # There the run is interrupted and resumed, here it is not.
         long_run = ["run", "--discs", "20", "--periods", "20000", "--frames", "1", "--quiet",
-                    "--trajectory", "two.h5", "--json", "two.json"]
-        self.in_debian13("sh", "-c", 'timeout -s INT 0.5 "$@"; [ $? -eq 124 ]', "sh",
-                         "/root/swirl/swirl", *long_run)
+                    "--trajectory", "two.h5", "--json", "two.json", "--checkpoint-every", "0.05"]
+        self.in_debian13("sh", "-c", '"$@" & until [ -e two.json.checkpoint ]; do sleep 0.01; done; '
+                                     'kill -TERM $!; wait $!; [ $? -eq 130 ]', "sh", "/root/swirl/swirl", *long_run)
         self.assertFalse(result(os.path.join(self.there, "two.json"))["complete"])
         self.in_debian13("/root/swirl/swirl", *long_run, "--resume")
         subprocess.run([SWIRL, *long_run], cwd=self.here, check=True, capture_output=True)

@@ -1,17 +1,22 @@
 """Compares runs with the numbers that the authors of the paper published (paper/authors_data.py). Their files are not
-part of this repository. The folder is ../shared/authors_data, or a clone of github.com/jpryan1/rotation-sim that
-the environment variable AUTHORS_DATA names; without it, this test is skipped."""
+part of this repository. The folder is ../shared/authors_data, next to this tree or to the tree of which it is a clone, or
+a clone of github.com/jpryan1/rotation-sim that the environment variable AUTHORS_DATA names. Without it, this test is
+skipped."""
 
 import math
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
 
 SOURCE = os.environ["SWIRL_SOURCE"]
-AUTHORS = os.environ.get("AUTHORS_DATA", os.path.join(SOURCE, "..", "shared", "authors_data"))
-if not os.path.isdir(AUTHORS):
-    print(f"skipped: the authors' data are not at '{AUTHORS}'")
+ORIGIN = subprocess.run(["git", "-C", SOURCE, "remote", "get-url", "origin"], capture_output=True, text=True).stdout.strip()
+FOLDERS = [os.environ["AUTHORS_DATA"]] if "AUTHORS_DATA" in os.environ else [
+    os.path.normpath(os.path.join(tree, "..", "shared", "authors_data")) for tree in (SOURCE, ORIGIN) if tree]
+AUTHORS = next(filter(os.path.isdir, FOLDERS), None)
+if AUTHORS is None:
+    print("skipped: the authors' data are not at", *FOLDERS)
     sys.exit(77)
 sys.path.insert(0, os.path.join(SOURCE, "paper"))
 
