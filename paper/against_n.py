@@ -17,7 +17,8 @@ def against_n(frictions, quantities="", words=(), with_crossings=False):
 
     def table(points, settings):
         curves = curves_by(points, "setting")
-        findings = [f"{curve.name} friction, ϖ by time: {curve.sentence()}" for curve in curves if with_crossings]
+        words = {friction.name: friction.words for friction in frictions}
+        findings = [f"{words[curve.name]}, ϖ by time: {curve.sentence()}" for curve in curves if with_crossings]
         return (curve_tables(points, curves, quantities.split()),
                 findings + findings_of(points, frictions, dict(words)))
     return points, table

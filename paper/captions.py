@@ -58,6 +58,10 @@ QUESTIONS = {
     "averages": "The paper averages over events, but an observer averages over time. Does the result differ?",
     "transient": "Without disc friction only the wall changes the discs' spins. How long does that take, and does the "
         "paper's average include the end of it?",
+    "5b-start": "The paper averages over all events of a run, from the first one on. What are its curves without one kind of "
+        "friction, by the same protocol?",
+    "settling": "Do the spheres at the wall move as a rigid body, how often do they collide before they settle, and how do "
+        "spheres in contact roll?",
     "5b-steady": "What is Figure 5b after a warm-up that is long enough for the spins?",
     "friction": "The paper shows that less friction moves the crossing to higher N. How does N_c depend on μ?",
     "inertia": "The paper's discs have more inertia than a rigid plane disc can have. Where do solid discs (I = ½), "
@@ -167,6 +171,11 @@ CAPTIONS = {
     "spheres_friction": "N_c of spheres against the friction coefficient of all contacts. Black: A = 11.5 mm, e = 0.9, "
         "floor as the contacts. Colours: one of these changed. Dashed: N_c of the experiment, 36 for smooth and 28 for "
         "roughened spheres.",
+    "settling": "Left: what is left of the velocities of the resident spheres, and of the loose ones, if the best rigid motion "
+        "of each group is subtracted. Middle: encounters of a sphere in the quarter period before its residence at the wall "
+        "begins; repeated collisions with one partner count once. Right: share of the spheres in strong contact (gap below 0.003 r) "
+        "that roll on the floor, for pairs that move in single file and for pairs side by side. Full symbols: smooth spheres; "
+        "open: roughened ones.",
     "spheres_few": "A few spheres after a long warm-up: ϖ (in units of Ω), and the share of them that resides at the "
         "wall. Both are 1 for a row that rolls along the wall with the swirl.",
     "size": "Left: rotation of the cluster against the packing fraction φ = N r²/R² in containers of different radius, "

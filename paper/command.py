@@ -75,6 +75,9 @@ class Paper:
         for figure in self.figures:
             try:
                 plans.append(figure.points(self.settings))
+                for point in plans[-1]:
+                    for task in point.tasks:
+                        task.figures.add(figure.name)
             except Exception as error:
                 plans.append([])
                 self.problems[figure.name] = study.reason_of(error)

@@ -40,6 +40,18 @@ def duration(seconds):
     return f"{s // 60} min {s % 60} s" if s < 3600 else f"{s // 3600} h {s % 3600 // 60} min"
 
 
+# A share below this says too little about the rest: the first runs are the longest.
+LEAST_SHARE, LEAST_SECONDS, DAY = 0.02, 5.0, 86_400.0
+
+
+def time_left(seconds, fraction):
+    """", 3 min 20 s left", an estimate from the time so far; nothing while it would be a guess."""
+    if fraction < LEAST_SHARE or seconds < LEAST_SECONDS:
+        return ""
+    left = seconds * (1 / fraction - 1)
+    return ", more than a day left" if left > DAY else f", {duration(left)} left"
+
+
 class Progress:
     """On a terminal a line that is drawn again, in a log file an occasional one."""
 
@@ -55,11 +67,11 @@ class Progress:
         if self.terminal and not self.quiet:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
-    def show(self, fraction):
+    def show(self, fraction, part=""):
+        """`part` names what is being made."""
         now = time.monotonic()
         if self.quiet or now < self.next:
             return
         self.next = now + (0.1 if self.terminal else 30)
-        left = duration((now - self.begin) * (1 / fraction - 1)) if fraction > 0 else "unknown time"
-        text = f"{self.label}: {100 * fraction:.0f} %, {left} left"
+        text = f"{self.label}{part and f', {part}'}: {100 * fraction:.0f} %{time_left(now - self.begin, fraction)}"
         print(f"\r{text}\x1b[K" if self.terminal else text, end="" if self.terminal else "\n", file=sys.stderr, flush=True)

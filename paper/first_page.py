@@ -3,10 +3,9 @@ its numbers come from the tables."""
 
 import math
 
-import tables
 from claims import contacts, rotation, spheres
 from claims.settings import SPHERES, WORDS
-from claims.study import Study, crossing_sentence, crossing_value, crossing_words
+from claims.study import Study, crossing_sentence
 from claims.wording import ends, known, number, value_at
 from paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
 from verdicts import HOLDS, IN_PART, UNDECIDED, measured
@@ -152,45 +151,3 @@ def main_results(path):
         except (*NO_TABLE, ValueError, ZeroDivisionError):
             continue
     return [sentence for sentence in sentences if sentence][:MOST]
-
-
-# Figures with the same discs, so that the report has their N_c more than once: (figure, curve, how).
-SAME_SETTING = {
-    1.0: (("5b", "high", "by event"), ("5b-steady", "high", "after a long warm-up"),
-          ("1b", "high", "by time, the runs of 5b"), ("friction", None, "by time, by a search"),
-          ("restitution", "1", "by time, shorter runs, fewer seeds and N"),
-          ("inertia", "10", "the runs of restitution")),
-    0.5: (("5b", "medium", "by event"), ("5b-steady", "medium", "after a long warm-up"),
-          ("friction", None, "by time, by a search")),
-}
-
-
-def crossing_of(study, figure, curve, mu):
-    """N_c of a figure's curve, and its words; None if it does not cross."""
-    if curve is None:
-        row = tables.select(study.table(figure), mu=mu)[0]
-        return (crossing_value(row), crossing_words(row)) if row["crosses"] else None
-    found = study.crossing(figure, curve)
-    return (found.at, found.words) if found.verdict == "crosses" else None
-
-
-def crossings_of_one_setting(path):
-    """N_c wherever the report has it more than once, and whether the values agree."""
-    study, sentences = Study(path), []
-    for mu, estimates in SAME_SETTING.items():
-        found = []
-        for figure, curve, how in estimates:
-            try:
-                at = crossing_of(study, figure, curve, mu)
-            except NO_TABLE:
-                continue
-            if at:
-                found.append((figure, *at, how))
-        if len(found) < 2:
-            continue
-        first = found[0][1]
-        apart = max(abs(at.mean - first.mean) / max((at - first).error, 1e-9) for _, at, _, _ in found[1:])
-        listed = "; ".join(f"{words} (figure {figure}, {how})" for figure, _, words, how in found)
-        sentences.append(f"N_c for both friction coefficients {mu:g} is estimated more than once: {listed}. Use the "
-                         f"first; the others differ from it by at most {apart:.1f} standard errors.")
-    return " ".join(sentences)

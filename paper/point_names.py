@@ -9,7 +9,7 @@ CURVES = {"high": "μ = 1", "medium": "μ = 0.5", "low": "μ = 0.1", "no-wall": 
           "shell": "hollow spheres", "all": "all ingredients", "smooth": "smooth spheres",
           "rough": "roughened spheres", "half": "half the amplitude"}
 # A point, such as spheres_0.2_N16_25of75periods or run_no-wall_N48_200000events_seed3.
-POINT = re.compile(r"\b(?:(?:run|measured|spheres|settled|steady|dense|varied)_)*"
+POINT = re.compile(r"\b(?:(?:run|measured|spheres|settled|steady|start|dense|varied)_)*"
                    r"((?:(?:inertia|restitution|tangential)_|e)?[\d.]+|(?:no-)?[a-z][a-z-]*)"
                    r"_N(\d+)(?:_\d+of\d+periods|_\d+events|_\d+periods)?(?:_seed(\d+))?\b")
 FRICTION_PAIR = re.compile(r"\bmap_d([\d.]+)_w([\d.]+)_(?:\d+of\d+periods|\d+events|\d+periods)\b")

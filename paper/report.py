@@ -13,8 +13,9 @@ import verdicts
 from captions import CONTRADICTIONS, by_section, figure_texts, image_of, question_of, title_of
 from claims import all_judged
 from claims.claim import UNTESTED
+from claims.wording import headline
 from console import duration
-from first_page import crossings_of_one_setting, main_results
+from first_page import main_results
 from html_page import described_folder, rendered, size_of
 from point_names import in_words
 from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
@@ -28,14 +29,13 @@ WORDS = {HOLDS: ("holds", "hold"), IN_PART: ("holds in part", "hold in part"),
          UNTESTABLE: ("is not testable by simulation", "are not testable by simulation"),
          UNTESTED: ("is not tested", "are not tested"), MISSING: ("was not made", "were not made")}
 
-TITLE = "Rotation and counterrotation of swirled discs"
+TITLE = "Rotation and counterrotation of particles in a swirled container"
 INTRODUCTION = (
-    "Discs lie in a container that is swirled. With few discs the cluster rotates in the direction of the swirl, with "
-    "many against it. L. Lee, J. P. Ryan, Y. Lahini, M. Holmes-Cerfon and S. M. Rubinstein, “Geometric frustration "
-    "induces the transition between rotation and counterrotation in swirled granular media” (Phys. Rev. E 100, "
-    "012903, 2019), explain it by friction at the wall and between the discs. This report answers which of their "
-    "claims are confirmed by exact event-driven simulations: claims about their experiment by spheres that roll on a "
-    "floor, claims about their simulation by their discs.")
+    "Few particles in a swirled container rotate with the swirl, many against it. Lee, Ryan, Lahini, Holmes-Cerfon and "
+    "Rubinstein (Phys. Rev. E 100, 012903, 2019) explain this by friction and geometric frustration. Their statements are "
+    "tested by exact event-driven simulations: those about the experiment on spheres that roll on a floor, those about the "
+    "simulation on discs.")
+ABSTRACT_WORDS = 120
 
 
 def judge(folder):
@@ -48,10 +48,8 @@ def judge(folder):
 
 def with_sizes(j):
     """How the verdict depends on the sizes that our reading of the paper's words requires."""
-    if not j.scaled or j.verdict in (MISSING, UNTESTED, UNTESTABLE):
+    if not j.depends_on_size or j.verdict in (MISSING, UNTESTED, UNTESTABLE):
         return ""
-    if not j.depends_on_size:
-        return "the same at half and twice the size"
     return "depends on the size: " + ", ".join(
         f"{j.scaled[factor]} at {words}" for factor, words in ((0.5, "half"), (2, "twice")))
 
@@ -67,12 +65,13 @@ def counts(judged):
              if changing else ""))
 
 
-def disagreements(judged):
-    """[(heading, [(statement, found)])] of the claims that do not hold. For undecided claims the table has more."""
-    groups = ((FAILS, "Does not hold"), (IN_PART, "Holds in part"), (UNDECIDED, "Undecided"))
-    result = [(heading, [(f"{j.claim.statement} (judged on {j.claim.on})", "" if kind == UNDECIDED else j.found)
-                         for j in judged if j.verdict == kind]) for kind, heading in groups]
-    return [(heading, claims) for heading, claims in result if claims]
+def abstract(judged, results):
+    """What was asked, the first results that fit, and the counts of the verdicts, within ABSTRACT_WORDS."""
+    counted, said = counts(judged), []
+    for sentence in results:
+        if len(" ".join([INTRODUCTION, *said, sentence, counted]).split()) <= ABSTRACT_WORDS:
+            said.append(sentence)
+    return " ".join([INTRODUCTION, *said, counted])
 
 
 def parameter_rows(about):
@@ -101,13 +100,16 @@ def how_to_read(about):
             f"{about.get('max_seeds_of_a_point', 32)} seeds at the points that could decide it. Verdicts are computed "
             "from the tables by the rules in paper/verdicts.py. Every other number on which a verdict depends is a "
             "named constant in paper/claims/thresholds.py or paper/paper_parameters.py. The sizes that our reading "
-            "of the paper's words requires are also halved and doubled; verdicts that change are marked." + quick)
+            "of the paper's words requires are also halved and doubled; verdicts that change are marked. verdicts.json has all numbers "
+            "behind each verdict." + quick)
 
 
 # --- Contents -----------------------------------------------------------------------------------
 
-FIRST_PICTURES = ("5b", "1b", "4c")  # the first that exists begins the report
-CLAIMS = "Claim by claim"
+# The figure that stands for its group: the first that was made.
+LEADING = ("5b", "1b", "friction", "spheres_ingredients", "size")
+MOST_FINDINGS = 4  # below a figure; the tables have the others
+CLAIMS = "The claims"
 # An image wider than this, in pixels, is made for the width of the page; figures for one column have 1012
 # (style.COLUMN). So is an image that is wider than FLAT times its height.
 ONE_COLUMN = 1200
@@ -115,36 +117,43 @@ FLAT = 2.0
 
 
 def contents(folder, about, judged):
-    """The blocks of the report (html_page.py): what is found, then each figure, then each claim."""
-    made = {figure["name"]: image_of(figure) for figure in about["figures"]}
-    blocks = [("picture", made[name]) for name in FIRST_PICTURES if made.get(name)][:1]
-    blocks += [("bullets", main_results(folder)), ("text", counts(judged)), ("text", INTRODUCTION),
-               ("small", f"{how_to_read(about)} {crossings_of_one_setting(folder)}".strip())]
-    texts = figure_texts(about)
+    """The blocks of the report (html_page.py), as in a paper: abstract, results, a figure of each group with the list of the
+    others, the claims in one table, methods, contradictions."""
+    results, texts = main_results(folder), figure_texts(about)
+    blocks = [("section", "Abstract"), ("text", abstract(judged, results)), ("section", "Results"), ("bullets", results)]
     for heading, figures in by_section(about["figures"]):
-        blocks += [("section", heading), ("figures", [figure_row(folder, figure, texts) for figure in figures])]
-    blocks += [("section", "Contradictions in the paper, and the choices of this program"),
-               ("table", (["topic", "the paper", "this program"], CONTRADICTIONS)),
-               ("section", "Parameters, versions, time"), ("table", (["", ""], parameter_rows(about))),
-               ("section", CLAIMS)]
-    for heading, group in disagreements(judged):
-        blocks += [("text", f"{heading}:"), ("bullets", [f"{statement}" + (f" — {found}" if found else "")
-                                                         for statement, found in group])]
-    return [*blocks, ("claims", [claim_row(k, j) for k, j in enumerate(judged, 1)])]
+        leading = leading_figure(figures)
+        blocks += [("section", heading), ("figures", [figure_row(folder, leading, texts)])]
+        if others := [(name_of(figure), title_of(figure)) for figure in figures if figure is not leading]:
+            blocks.append(("table", (["further figures", "what they show"], others)))
+    return [*blocks, ("section", CLAIMS), ("text", counts(judged)), ("claims", [claim_row(k, j) for k, j in enumerate(judged, 1)]),
+            ("section", "Methods"), ("text", how_to_read(about)), ("table", (["", ""], parameter_rows(about))),
+            ("section", "Contradictions in the paper, and the choices of this program"),
+            ("table", (["topic", "the paper", "this program"], CONTRADICTIONS))]
+
+
+def name_of(figure):
+    """The name for --figure; its image and its table are figure_NAME.png and .csv."""
+    return figure["name"]
+
+
+def leading_figure(figures):
+    with_image = [figure for figure in figures if image_of(figure)] or figures
+    return next((figure for name in LEADING for figure in with_image if figure["name"] == name), with_image[0])
 
 
 def figure_row(folder, figure, texts):
     image, (caption, findings, remarks) = image_of(figure), texts[figure["name"]]
     width, height = size_of(os.path.join(folder, image)) if image else (0, 0)
     return {"title": title_of(figure), "images": [image] if image else [], "question": question_of(figure),
-            "wide": width > ONE_COLUMN or width > FLAT * height, "caption": caption, "findings": findings,
+            "wide": width > ONE_COLUMN or width > FLAT * height, "caption": caption, "findings": findings[:MOST_FINDINGS],
             "remarks": remarks, "command": f"swirl paper --figure {figure['name']}"}
 
 
 def claim_row(k, j):
-    return {"number": k, "statement": j.claim.statement, "source": j.claim.source, "on": j.claim.on, "found": j.found,
+    return {"number": k, "statement": j.claim.statement, "source": j.claim.source, "on": j.claim.on, "found": headline(j.found),
             "verdict": j.verdict, "mark": MARK[j.verdict], "look": CLASS.get(j.verdict, "other"), "sizes": with_sizes(j),
-            "command": j.claim.command}
+            "command": j.claim.figure and f"--figure {j.claim.figure}"}
 
 
 def write_all(folder):

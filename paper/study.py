@@ -98,6 +98,7 @@ class Task:
 
     def __init__(self, name, parameters, measure, work):
         self.parameters, self.measure, self.work = parameters, tuple(sorted(measure)), work
+        self.figures = set()  # that need it
         self.result, self.seconds = None, 0.0
         if work:
             self.identity = repr((sorted(parameters.items()), f"{work.__module__}.{work.__name__}"))
@@ -179,10 +180,19 @@ def distinct(points):
         for task in point.tasks:
             known = tasks.setdefault(task.key, task)
             known.measure = tuple(sorted({*known.measure, *task.measure}))
+            known.figures |= task.figures
     return sorted(tasks.values(), key=lambda task: -task.cost())
 
 
-def make(points, settings, progress=lambda fraction: None, part=(1, 1)):
+def part_in_words(tasks):
+    """"figures 3a and 4b" that need these tasks, or how many."""
+    names = sorted(set().union(*(task.figures for task in tasks)))
+    if not names:
+        return ""
+    return f"figure{'s' if len(names) > 1 else ''} {' and '.join(names)}" if len(names) <= 2 else f"{len(names)} figures"
+
+
+def make(points, settings, progress=lambda fraction, part="": None, part=(1, 1)):
     """Makes the missing runs of the points, or those of a part, and combines those of every point. Returns the counts
     of all runs, those reused and those failed, and the seconds of all of them."""
     out, tasks = settings.out, distinct(points)
@@ -198,7 +208,7 @@ def make(points, settings, progress=lambda fraction: None, part=(1, 1)):
     reused, total, done = len(tasks) - len(left), sum(task.cost() for task in left) or 1.0, 0.0
     for measure, here in run_folder.by_measurements([task for task in left if not task.work]):
         cost = sum(task.cost() for task in here)
-        run_folder.make(out, measure, here, settings.threads, lambda share: progress((done + share * cost) / total))
+        run_folder.make(out, measure, here, settings.threads, lambda share: progress((done + share * cost) / total, part_in_words(here)))
         done += cost
     jobs = [(k, task, out) for k, task in enumerate(left) if task.work]
     if jobs:
@@ -206,7 +216,7 @@ def make(points, settings, progress=lambda fraction: None, part=(1, 1)):
             for k, stored in pool.imap_unordered(do, jobs):
                 left[k].result, left[k].seconds = stored["result"], stored["seconds"]
                 done += left[k].cost()
-                progress(done / total)
+                progress(done / total, part_in_words([left[k]]))
     if part == (1, 1):
         results = {task.key: task for task in tasks}
         for point in points:

@@ -5,7 +5,7 @@ import math
 
 from paper_parameters import AMPLITUDE, CONTAINER_RADIUS, EXPERIMENT_DISH, EXPERIMENT_N
 
-from .wording import known
+from .wording import ALSO, known
 
 WORDS = {"smooth": "smooth spheres", "rough": "roughened spheres", "half": "smooth spheres at A = 5.75 mm",
          "high": "discs with μ = 1", "low": "discs with μ = 0.1"}
@@ -14,9 +14,6 @@ SPHERES = ("smooth", "rough", "half")
 # Container radius and amplitude, in particle radii. In the tables, Ω of the spheres is 1/A.
 DISHES = {"smooth": EXPERIMENT_DISH, "rough": EXPERIMENT_DISH, "half": (EXPERIMENT_DISH[0], EXPERIMENT_DISH[1] / 2),
           "high": (CONTAINER_RADIUS, AMPLITUDE), "low": (CONTAINER_RADIUS, AMPLITUDE)}
-
-# The found text of a claim has the value that is judged first, then, after this, those of other settings.
-ALSO = " For comparison: "
 
 # N that a claim about the experiment needs.
 GRID = tuple(range(EXPERIMENT_N[0], EXPERIMENT_N[1] + 1, 4))

@@ -79,6 +79,8 @@ class Crossing:
     def __init__(self, row, points, freedom=math.inf):
         self.verdict, self.points = row["verdict"], points
         self.at, self.words = crossing_value(row, points, freedom), crossing_words(row)
+        # Of a known N_c, an interval of 95 %: claims need no more, and N_c itself stands in docs/results/paper.md alone.
+        self.interval = (row.get("lower", math.nan), row.get("upper", math.nan)) if row["crossing"] == row["crossing"] else None
         self.lowest = Value(row["lowest"], row["lowest_error"], points, freedom)
         self.lowest_discs = row["lowest_discs"]
 
@@ -91,6 +93,8 @@ class Crossing:
     @property
     def text(self):
         if self.verdict == "crosses":
+            if self.interval and self.interval[0] == self.interval[0]:
+                return f"N_c between {self.interval[0]:.1f} and {self.interval[1]:.1f}"
             return crossing_sentence(self.words)
         return (f"no crossing ({self.verdict}; lowest ϖ/Ω = {number(self.lowest)} at N = "
                 f"{self.lowest_discs:.0f})")

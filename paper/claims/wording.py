@@ -1,10 +1,15 @@
 """Texts about numbers and curves."""
 
 import math
+import re
 
 from verdicts import HOLDS, Value, largest_reversal, measured, rises
 
 from . import thresholds as size
+
+# The found text of a claim has the value that is judged first, then, after this, those of other settings.
+ALSO = " For comparison: "
+SHORTEST, LONGEST = 40, 150  # characters of a headline
 
 
 def number(mean, error=math.nan):
@@ -63,3 +68,21 @@ def monotonic(rows, name, falling=False, least=None):
 
 def count(judgements, verdict=HOLDS):
     return sum(judgement.verdict == verdict for judgement in judgements)
+
+
+def headline(found):
+    """The decisive numbers of what was found: the beginning, up to whole clauses of about LONGEST characters."""
+    text = re.sub(r"^(?:Smooth spheres|Discs with μ = 1)[:,] ", "", found.split(ALSO)[0])
+    text = re.sub(r" \((?:over all N|required|more than|rotating|rotation|nearer|opposite|no order|loose|quickly|little|prevented|"
+                  r"to the left|similar|near|5% of|by more|earlier|the same|often|slower|a couple|a rise|as fast|no spinning|around|"
+                  r"it blows|qualitatively|layers|top left|within \d)[^()]*\)", "", text)
+    clauses = re.split(r"(?<=; )|(?<=\. )(?=[A-Z])", text)
+    kept = clauses[0]
+    for clause in clauses[1:]:
+        if len(kept) >= SHORTEST and len(kept) + len(clause) > LONGEST:
+            break
+        kept += clause
+    if len(kept) > LONGEST + SHORTEST:  # a long clause ends at its last comma within the length
+        cut = re.match(rf"(.{{{SHORTEST},{LONGEST}}}), (?!\d|and \d)", kept, re.S)
+        kept = cut[1] if cut else kept
+    return kept.strip().rstrip(";.,:")

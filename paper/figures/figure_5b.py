@@ -8,10 +8,11 @@ import tables
 from curves import curve_tables, curves_by, lowest_of, with_error
 from figure import Figure
 from paper_parameters import LAST_N
-from runs import (FRICTION_OF_5B, HIGH, cells_of, dense_point, length_of, numbers_beyond, numbers_of_discs, point,
-                  settled_run, sparse_numbers)
+from runs import (FRICTION_OF_5B, HIGH, NO_DISC, NO_WALL, cells_of, dense_point, length_of, numbers_beyond,
+                  numbers_of_discs, paper_run, point, settled_run, sparse_numbers)
 from study import Point
 
+WITHOUT = {friction.name: friction for friction in (NO_WALL, NO_DISC)}
 NEAR_ZERO = 0.1  # in Ω: upper limit of the lower panel
 CURVES = [
     ("no-wall", r"no wall friction ($\mu_w = 0$)", style.GREEN, "^"),
@@ -38,6 +39,17 @@ def steady_points(settings):
             made.append(Point(settings, f"steady_{friction.name}_N{discs}_{length_of(run)}", settings.seeds_beyond, run,
                               cells=cells_of(friction, discs)))
     return made
+
+
+def start_points(settings):
+    """The paper's protocol for the curves without one kind of friction: averages over all events, from the start on."""
+    return [point(settings, friction, discs, run=paper_run(settings, friction, discs) | {"warmup": 0}, prefix="start_")
+            for friction in (NO_WALL, NO_DISC) for discs in numbers_of_discs(settings)]
+
+
+def start_table(points, settings):
+    curves = curves_by(points, "setting", "mean_by_event")
+    return curve_tables(points, curves), [f"{WITHOUT[curve.name].words}: {curve.sentence()}" for curve in curves]
 
 
 def compare_rates(curve):
@@ -101,4 +113,6 @@ def draw(table):
 
 
 FIGURES = [Figure("5b", "paper", "rotation against N, for five sets of friction coefficients", points, table, draw),
+           Figure("5b-start", "beyond", "beyond the paper: Figure 5b without one friction, all events",
+                  start_points, start_table, draw),
            Figure("5b-steady", "beyond", "beyond the paper: Figure 5b in the steady state", steady_points, table, draw)]

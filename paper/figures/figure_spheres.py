@@ -8,6 +8,8 @@ from figure import Figure
 from runs import HALF, ROUGH, SMOOTH, length_of, lengths, numbers_of_spheres, paper_run, point, with_periods
 from study import Point
 
+WORDS = {friction.name: friction.words for friction in (SMOOTH, ROUGH, HALF)}
+
 
 def points(settings):
     """From N = 24 on the runs are those of Figures 1 to 4."""
@@ -17,7 +19,7 @@ def points(settings):
 
 def table(points, settings):
     curves = curves_by(points, "setting")
-    return curve_tables(points, curves), [f"{curve.name}: {sign_changes_sentence(curve)}" for curve in curves]
+    return curve_tables(points, curves), [f"{WORDS[curve.name]}: {sign_changes_sentence(curve)}" for curve in curves]
 
 
 # --- A few spheres --------------------------------------------------------------------------------

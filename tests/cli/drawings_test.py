@@ -2,17 +2,20 @@
 must be legible, legends must not cover data, points must be inside their axes, and arrows must not touch."""
 
 import csv
+import glob
 import itertools
 import math
 import os
+import re
 import sys
 import tempfile
 import unittest
 from unittest import mock
 
-from program import SOURCE
+from program import SOURCE, read_text
 
 sys.path.insert(0, os.path.join(SOURCE, "paper"))
+import captions  # noqa: E402
 import catalogue  # noqa: E402
 import draw  # noqa: E402
 import style  # noqa: E402
@@ -120,6 +123,9 @@ TABLES = {
                           "crossing_error": 0.3}
                          for name in ("experiment", "A5.75", "A7.5", "A9.5", "A10.5", "e0.7", "e0.8", "e1", "f0.15",
                                       "f0.3", "f0.6", "r0.01", "r0.03") for mu in (0.2, 0.4, 0.7, 1.0)],
+    "settling": [with_errors({"setting": setting, "discs": n}, rigid_resident=0.08, rigid_loose=0.2, encounters=6,
+                             two_encounters=0.9, rolling_single_file=0.45, rolling_side_by_side=0.6)
+                 for setting in ("smooth", "rough") for n in (24, 36, 48)],
     "states": [with_errors(row, coriolis=5.0, granular=0.5)
                for row in curves("setting", ("high", "no-wall", "no-disc"), (28, 48))],
     "tangential": curves("tangential_restitution", (0, 0.5, 1)),
@@ -132,6 +138,35 @@ TABLES = {
 CHAPTERS = {"amplitude", "closure", "coexistence", "contacts", "cooling", "critical", "fields", "gear_order", "gears",
             "hysteresis", "lifetimes", "material_friction", "material_inertia", "material_tangential", "scherer", "size",
             "torque"}
+
+
+def lines_of(drawing):
+    return [line for axes in drawing.axes for line in axes.lines]
+
+
+def dashed(drawing):
+    steps = [patch for axes in drawing.axes for patch in axes.patches]
+    return any(shape.get_linestyle() in ("--", "dashed") for shape in lines_of(drawing) + steps)
+
+
+def shaded(drawing):
+    return any(patch.get_fill() and patch.get_alpha() != 0 for axes in drawing.axes for patch in axes.patches)
+
+
+def marked(*markers):
+    return lambda drawing: any(line.get_marker() in markers and len(line.get_xdata()) for line in lines_of(drawing))
+
+
+DOCUMENTATION = "\n".join(read_text(file) for file in glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"), recursive=True) +
+                          [os.path.join(SOURCE, "README.md")])
+# What a word of a caption promises: a pattern, and whether the drawing has it.
+PROMISES = ((r"[Dd]ashed", dashed), (r"[Ss]haded", shaded), (r"[Ss]tars?\b", marked("*")),
+            (r"[Tt]riangles (?:are|mark)|Triangles:", marked("^", "v", "<", ">")))
+
+
+def unkept(caption, drawing):
+    """The promises of a caption that the drawing does not keep."""
+    return [pattern for pattern, is_drawn in PROMISES if re.search(pattern, caption) and not is_drawn(drawing)]
 
 
 class Drawings(unittest.TestCase):
@@ -153,10 +188,10 @@ class Drawings(unittest.TestCase):
 
     def test_every_figure_has_a_table(self):
         names = {figure.name for figure in catalogue.named(["all"]) if figure.draw}
-        self.assertEqual(names, set(TABLES) | CHAPTERS | {"2c", "5b-steady"})
+        self.assertEqual(names, set(TABLES) | CHAPTERS | {"2c", "5b-start", "5b-steady"})
 
     def test_figures_with_the_same_columns_share_a_drawing(self):
-        for name, other in (("2c", "2b"), ("5b-steady", "5b")):
+        for name, other in (("2c", "2b"), ("5b-start", "5b"), ("5b-steady", "5b")):
             self.assertIs(catalogue.drawing(name), catalogue.drawing(other))
 
     def test_layout_of_every_figure(self):
@@ -167,6 +202,27 @@ class Drawings(unittest.TestCase):
                 self.check_size(drawing)
                 self.check_legends(drawing)
                 self.check_points(drawing)
+                self.check_captions(name, drawing)
+
+    def check_captions(self, name, drawing):
+        """What a caption names is drawn: in the report and below the pictures of the documentation."""
+        if name == "5b":  # its dashed lines come from a table of their own (test_figure_5b_marks_the_crossings)
+            return
+        below = re.findall(rf"images/figure_{re.escape(name)}\.png\)\n+\*([^*]+)\*", DOCUMENTATION)
+        for text in (captions.CAPTIONS.get(name, ""), *below):
+            self.assertEqual(unkept(text, drawing), [], text)
+
+    def test_a_caption_that_names_nothing_drawn_is_found(self):
+        drawing = style.plt.figure()
+        axes = drawing.add_subplot()
+        text = "Dashed: a limit. Shaded: a range. Stars: the paper. Triangles are bounds."
+        axes.plot([0, 1], [0, 1])
+        self.assertEqual(len(unkept(text, drawing)), 4)
+        axes.plot([0, 1], [0, 1], "*--")
+        axes.plot([0, 1], [0, 1], "^")
+        axes.axvspan(0, 1)
+        self.assertEqual(unkept(text, drawing), [])
+        style.plt.close(drawing)
 
     def check_letters(self, drawing):
         for text in drawing.findobj(Text):

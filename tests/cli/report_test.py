@@ -4,19 +4,24 @@ arrangement of its figures."""
 import os
 import struct
 import unittest
+from unittest import mock
 
 from claim_tables import SOURCE, HandMadeTables
+from program import read_rows
 
 import captions
 import catalogue
 import command
+import console
 import html_page
 import point_names
 import report
+import study
 from claims import CLAIMS
 from claims.claim import Claim, Judged
 from claims.study import crossing_sentence
-from first_page import crossings_of_one_setting, main_results
+from claims.wording import headline
+from first_page import main_results
 from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, Judgement
 
 
@@ -40,17 +45,6 @@ class FirstPage(HandMadeTables):
 
     def test_no_tables_give_no_results(self):
         self.assertEqual(main_results(self.folder), [])
-
-    def test_repeated_estimates_of_a_crossing_are_compared(self):
-        self.crossings_5b(high=("crosses", 38.0, 0.3), medium=("crosses", 43.7, 0.1))
-        self.assertEqual(crossings_of_one_setting(self.folder), "")
-        self.table("friction", [{"mu": mu, "crosses": crosses, "crossing": at, "crossing_error": 0.4}
-                                for mu, crosses, at in ((0.1, 0, ""), (0.5, 0, ""), (1, 1, 39.5))])
-        # 1.5 apart, with an error of √(0.3² + 0.4²) = 0.5; for μ = 0.5 the search found no crossing.
-        self.assertEqual(crossings_of_one_setting(self.folder),
-                         "N_c for both friction coefficients 1 is estimated more than once: 38.0 ± 0.3 (figure "
-                         "5b, by event); 39.5 ± 0.4 (figure friction, by time, by a search). Use the "
-                         "first; the others differ from it by at most 3.0 standard errors.")
 
     def test_transition_is_confirmed(self):
         self.rotations(high=[(5, 0.2), (48, -0.1)])
@@ -121,8 +115,8 @@ class FirstPage(HandMadeTables):
                                    f"{other}_error": error, "triangles": 0.5, "triangles_error": 0}
                                   for n, v in zip((24, 36, 48), values)])
             return self.found()
-        self.assertEqual(said((0.5, 0.9, 1.0)), "Without a further parameter: that the slip parameter of pinned spheres "
-                         "rises from about 0.5 to nearly 1 is confirmed (0.5000 ± 0.0010 at N = 24, 1.0000 ± 0.0010 at "
+        self.assertEqual(said((0.5, 0.9, 1.0)), "With the assumed restitution and floor friction: that the slip parameter of "
+                         "pinned spheres rises from about 0.5 to nearly 1 is confirmed (0.5000 ± 0.0010 at N = 24, 1.0000 ± 0.0010 at "
                          "N = 48); that their spin at the wall falls is confirmed (2.2000 ± 0.0010 at N = 24, 0.3000 ± "
                          "0.0010 at N = 48, in Ω).")
         self.assertIn("nearly 1 is confirmed in part", said((0.7, 0.9, 1.0)))
@@ -223,18 +217,16 @@ class Figures(HandMadeTables):
 
 
 class Page(HandMadeTables):
-    def test_disagreements_come_first(self):
+    def test_counts_and_dependence_on_the_sizes(self):
         judged = [Judged(Claim("x", f"{v} {k}", "5b", None, "discs"), Judgement(v), "found", {0.5: v, 2: v})
                   for v, n in ((HOLDS, 3), (IN_PART, 1), (FAILS, 2), (UNDECIDED, 1))
                   for k in range(n)]
         self.assertEqual(report.counts(judged),
                          "Of 7 claims 3 hold, 1 holds in part, 2 do not hold, 1 is undecided.")
-        self.assertEqual(report.with_sizes(judged[0]), "the same at half and twice the size")
+        self.assertEqual(report.with_sizes(judged[0]), "")
         judged[0].scaled = {0.5: HOLDS, 2: UNDECIDED}
         self.assertEqual(report.with_sizes(judged[0]), "depends on the size: holds at half, undecided at twice")
         self.assertIn(" The verdicts on 1 depend on the required sizes", report.counts(judged))
-        self.assertEqual([heading for heading, _ in report.disagreements(judged)],
-                         ["Does not hold", "Holds in part", "Undecided"])
 
     def test_subscripts(self):
         self.assertEqual(html_page.rich("N_c < 5, ϖ_M, R_ball, steady_state"),
@@ -264,13 +256,65 @@ class Page(HandMadeTables):
         for claim in CLAIMS:
             self.assertIn(html_page.rich(claim.statement), page)
             self.assertIn(f"<td>{claim.on}</td>", page)
-        # It begins with a picture; the claims come last.
-        self.assertLess(page.index("<img class=first"), page.index("<p>"))
-        self.assertLess(page.index("Parameters, versions"), page.index("Claim by claim"))
+        # As a paper: what was found comes first, and how it was found last.
+        order = ["<h2>Abstract", "<h2>Results", "data:image", f"<h2>{report.CLAIMS}", "<h2>Methods", "<h2>Contradictions"]
+        self.assertEqual([page.index(part) for part in order], sorted(page.index(part) for part in order))
         text = html_page.rendered("page.md.j2", title=report.TITLE, blocks=blocks)
-        self.assertTrue(text.startswith(f"# {report.TITLE}\n\n!["))
+        self.assertTrue(text.startswith(f"# {report.TITLE}\n\n## Abstract"))
         self.assertEqual(text.count("\n| "), len(CLAIMS) + len(captions.CONTRADICTIONS) +
                          len(report.parameter_rows(about)) + 3)
+
+    def test_a_complete_report_is_as_long_as_a_paper(self):
+        """With all figures, and for each claim the text that is stored in docs/data/claims.csv."""
+        figures = [{"name": name, "description": description, "findings": ["At N = 48 it is 0.123 ± 0.004."] * 12,
+                    "files": [f"figure_{name}.png"]} for name, _, description, _ in catalogue.entries()]
+        for figure in figures:
+            with open(os.path.join(self.folder, figure["files"][0]), "wb") as file:
+                file.write(b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 1012, 700))
+        about = {"command": "swirl paper", "version": "1", "build": "b", "quick": False, "seed": 1, "events_of_a_run": 1_000_000,
+                 "runs": 9000, "runs_of_earlier_calls": 0, "seconds": 100.0, "seconds_on_one_core": 200.0, "figures": figures,
+                 "defaults": {name: 1 for name in ("inertia", "container_radius", "amplitude", "sides", "period", "restitution")}}
+        stored = read_rows(os.path.join(SOURCE, "docs", "data", "claims.csv"))
+        judged = [Judged(claim, Judgement(row["verdict"]), row["result"], {}) for claim, row in zip(CLAIMS, stored)]
+        with mock.patch.object(report, "main_results", lambda folder: ["A result of fifteen words, as it is printed in the "
+                                                                       "list below the abstract of it."] * 6):
+            blocks = report.contents(self.folder, about, judged)
+        text = html_page.rendered("page.md.j2", title=report.TITLE, blocks=blocks)
+        self.assertLessEqual(len(text.split()), 6000)
+        abstract = text.split("## Abstract")[1].split("## Results")[0]
+        self.assertTrue(80 <= len(abstract.split()) <= report.ABSTRACT_WORDS, abstract)
+        self.assertEqual(text.count("!["), len({figure for _, figure, *_ in catalogue.entries()}))  # one for each group
+        # The names of settings and points are keys of tables, and no words.
+        for key in ("no-wall", "no-disc", "Smooth friction", "smooth friction", "_N48"):
+            self.assertNotIn(key, text)
+
+    def test_the_table_of_claims_has_the_decisive_numbers(self):
+        found = ("Smooth spheres: s is 0.58 ± 0.01 at N = 25 (over all N 0.5 to 0.9), 0.98 ± 0.01 at N = 48; by another criterion 0.61 ± "
+                 "0.01, and a long explanation of why they differ, which nobody reads in a table of sixty rows. For comparison: more.")
+        self.assertEqual(headline(found), "s is 0.58 ± 0.01 at N = 25, 0.98 ± 0.01 at N = 48")
+        for row in read_rows(os.path.join(SOURCE, "docs", "data", "claims.csv")):
+            self.assertTrue(10 <= len(headline(row["result"])) <= 260, headline(row["result"]))
+
+
+class Shown(unittest.TestCase):
+    def test_the_time_left_is_not_guessed_from_the_first_runs(self):
+        self.assertEqual(console.time_left(30, 0.0), "")
+        self.assertEqual(console.time_left(30, 0.01), "")
+        self.assertEqual(console.time_left(1, 0.5), "")
+        self.assertEqual(console.time_left(30, 0.25), ", 1 min 30 s left")
+        self.assertEqual(console.time_left(12_000, 0.02), ", more than a day left")
+
+    def test_progress_names_what_is_made(self):
+        def tasks(*names):
+            made = []
+            for name in names:
+                made.append(study.Task.__new__(study.Task))
+                made[-1].figures = {name}
+            return made
+        self.assertEqual(study.part_in_words(tasks("5b")), "figure 5b")
+        self.assertEqual(study.part_in_words(tasks("4b", "3a", "4b")), "figures 3a and 4b")
+        self.assertEqual(study.part_in_words(tasks("3a", "3b", "4a")), "3 figures")
+        self.assertEqual(study.part_in_words([]), "")
 
 
 class Call(unittest.TestCase):

@@ -33,7 +33,7 @@ export interface Step {
 export const steps: Step[] = [
     {given: {discs: "8"}, view: "lab", kind: "direction", solution: [0, "0.145 ± 0.005"]},
     {given: {discs: "48"}, view: "lab", kind: "direction", solution: [1, "−0.0365 ± 0.0003"]},
-    {given: {discs: "28"}, view: "lab", kind: "crossing", solution: [2, "38.4 ± 0.1"]},
+    {given: {discs: "28"}, view: "lab", kind: "crossing", solution: [2, "38.49 ± 0.06"]},
     {given: {discs: "48"}, view: "m", kind: 0, isSlow: true, solution: [0]}, // one image per period would show the wall at rest
     {given: {discs: "48", mu_disc: "1", mu_wall: "0"}, view: "both", kind: "direction", solution: [0, "1.000 ± 0.002"],
      next: {discs: "48", mu_disc: "0", mu_wall: "1"}},

@@ -186,7 +186,7 @@ assert.equal(await page.isVisible("#headline"), true);
 await page.evaluate(() => { globalThis.print = () => {}; document.getElementById("lesson-solutions").click(); });
 const solved = await page.textContent("#worksheet");
 assert.equal(solved.match(/☒/g).length, 6);
-for (const shown of ["−0.0365 ± 0.0003", "38.4 ± 0.1", "☒ 35 to 44 discs", "Gears would have a spin correlation of −1", "0.184"])
+for (const shown of ["−0.0365 ± 0.0003", "38.49 ± 0.06", "☒ 35 to 44 discs", "Gears would have a spin correlation of −1", "0.184"])
     assert.ok(solved.includes(shown), shown);
 await page.evaluate(() => dispatchEvent(new Event("afterprint")));
 assert.equal(await page.$("#worksheet"), null);
