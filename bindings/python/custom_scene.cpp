@@ -69,6 +69,8 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
     const double multiple = config.inertia / (config.mass * config.radius * config.radius);
     for (std::size_t i = 0; i < n; ++i) inertia[i] = multiple * mass[i] * radius[i] * radius[i];
     if (given.inertia) inertia = column_of("inertia", given.inertia, n, 0.0);
+    std::vector<double> can_spin = which_can_spin(config, n);
+    if (given.cannot_spin) can_spin = column_of("cannot_spin", given.cannot_spin, n, 0.0);
     std::vector<Disc> discs;
     discs.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -76,8 +78,9 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
         const Vec2 velocity =
             given.velocity ? Vec2{given.velocity->data()[2 * i], given.velocity->data()[2 * i + 1]}
                            : first_segment.velocity;
-        discs.push_back(
-            {{p[0], p[1]}, velocity, angle[i], spin[i], 0.0, radius[i], mass[i], inertia[i]});
+        Disc disc{{p[0], p[1]}, velocity, angle[i], spin[i], 0.0, radius[i], mass[i], inertia[i]};
+        disc.can_spin = given.cannot_spin ? 1.0 - can_spin[i] : can_spin[i];
+        discs.push_back(disc);
     }
     return discs;
 }

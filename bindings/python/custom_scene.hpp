@@ -13,7 +13,7 @@ namespace swirl::python {
 /// Columns of discs. Each but `position` may also be one number for all discs.
 struct GivenDiscs {
     Numbers position;
-    std::optional<Numbers> velocity, angle, spin, radius, mass, inertia;
+    std::optional<Numbers> velocity, angle, spin, radius, mass, inertia, cannot_spin;
 };
 
 /// Throws UsageError for arrays of wrong shapes. Values that are not given are those of `config`.

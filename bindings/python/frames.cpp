@@ -1,5 +1,7 @@
 #include "frames.hpp"
 
+#include <algorithm>
+
 #include "swirl/statistics/block_average.hpp"
 
 namespace swirl::python {
@@ -22,6 +24,8 @@ void Frames::begin(const Snapshot& s) {
     radius = s.radius;
     mass = s.mass;
     inertia = s.inertia;
+    can_spin = s.can_spin;
+    can_spin.resize(discs, 1.0);
 }
 
 void Frames::add_time(std::int64_t whole_periods, double clock_now, const PeriodChange& since,
@@ -100,6 +104,7 @@ Snapshot Frames::frame(std::size_t k) const {
     s.radius = radius;
     s.mass = mass;
     s.inertia = inertia;
+    if (std::find(can_spin.begin(), can_spin.end(), 0.0) != can_spin.end()) s.can_spin = can_spin;
     for (std::size_t i = 0; i < discs; ++i) {
         const std::size_t at = k * discs + i;
         const auto vector = [at](const std::vector<double>& column) {

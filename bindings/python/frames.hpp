@@ -19,7 +19,7 @@ struct Frames {
     std::size_t discs = 0;
     double period = 0.0, container_radius = 0.0;
     bool on_floor = false, are_spheres = false, lie_flat = false;
-    std::vector<double> radius, mass, inertia;                           // [disc]
+    std::vector<double> radius, mass, inertia, can_spin;                 // [disc]
     std::vector<std::int64_t> periods;                                   // [frame], whole periods
     std::vector<double> clock, time;                                     // [frame]
     std::vector<double> container_centre, container_velocity;            // [frame][x, y]

@@ -395,8 +395,9 @@ std::optional<GivenDiscs> discs_in(const py::dict& columns) {
         if (!columns.contains(name)) return {};
         return py::cast<Numbers>(columns[name]);
     };
-    return GivenDiscs{*array("position"), array("velocity"), array("angle"),  array("spin"),
-                      array("radius"),    array("mass"),     array("inertia")};
+    return GivenDiscs{*array("position"), array("velocity"),   array("angle"),
+                      array("spin"),      array("radius"),     array("mass"),
+                      array("inertia"),   array("cannot_spin")};
 }
 
 void bind_events(py::module_& module) {

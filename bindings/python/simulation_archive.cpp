@@ -19,7 +19,7 @@
 namespace swirl::python {
 namespace {
 
-constexpr std::string_view archive_head = "swirl simulation 2\n";
+constexpr std::string_view archive_head = "swirl simulation 3\n";
 
 [[noreturn]] void reject_archive(std::string_view reason) {
     throw FileError(fmt::format("not a swirl simulation that can continue: {}.", reason));
@@ -54,12 +54,13 @@ void require_path(const std::vector<Segment>& segments, const ContainerPath& pat
 /// parameters.
 void require_discs(const InitialState& scene, const RunConfig& config, bool is_custom,
                    double clock) {
-    std::vector<double> radius, mass, inertia;
+    std::vector<double> radius, mass, inertia, can_spin;
     InitialState now = scene;
     for (Disc& d : now.discs) {
         radius.push_back(d.radius);
         mass.push_back(d.mass);
         inertia.push_back(d.inertia);
+        can_spin.push_back(d.can_spin);
         d = d.at(clock);
     }
     if (is_custom) {
@@ -71,7 +72,7 @@ void require_discs(const InitialState& scene, const RunConfig& config, bool is_c
     bool same = radius.size() == particles.size();
     for (std::size_t i = 0; same && i < particles.size(); ++i)
         same = radius[i] == particles[i].radius && mass[i] == particles[i].mass &&
-               inertia[i] == particles[i].inertia;
+               inertia[i] == particles[i].inertia && can_spin[i] == particles[i].can_spin;
     if (!same) reject_archive("its discs do not match its parameters");
 }
 

@@ -57,6 +57,7 @@ void bind_columns(Class& type) {
         .def_property_readonly("radius", column<Owner>(&Frames::radius, per_disc))
         .def_property_readonly("mass", column<Owner>(&Frames::mass, per_disc))
         .def_property_readonly("inertia", column<Owner>(&Frames::inertia, per_disc))
+        .def_property_readonly("can_spin", column<Owner>(&Frames::can_spin, per_disc))
         .def_property_readonly("container_centre", column<Owner>(&Frames::container_centre, xy))
         .def_property_readonly("container_velocity", column<Owner>(&Frames::container_velocity, xy))
         .def_property_readonly("container_radius",
@@ -73,8 +74,9 @@ void bind_columns(Class& type) {
 /// Order of the columns in a pickled object, for io/state_archive.hpp.
 void visit_columns(Frames& f, auto&& visit) {
     visit(f.discs, f.period, f.container_radius, f.on_floor, f.are_spheres, f.lie_flat, f.radius,
-          f.mass, f.inertia, f.periods, f.clock, f.time, f.container_centre, f.container_velocity,
-          f.position, f.velocity, f.acceleration, f.rolling_spin, f.angle, f.spin);
+          f.mass, f.inertia, f.can_spin, f.periods, f.clock, f.time, f.container_centre,
+          f.container_velocity, f.position, f.velocity, f.acceleration, f.rolling_spin, f.angle,
+          f.spin);
 }
 
 py::bytes to_bytes(const Frames& frames) {
@@ -98,7 +100,7 @@ Frames from_bytes(const py::bytes& bytes) {
     };
     if (f.periods.size() != n || !have(n, {&f.clock, &f.time}) ||
         !have(2 * n, {&f.container_centre, &f.container_velocity}) ||
-        !have(f.discs, {&f.radius, &f.mass, &f.inertia}) ||
+        !have(f.discs, {&f.radius, &f.mass, &f.inertia, &f.can_spin}) ||
         !have(2 * all, {&f.position, &f.velocity}) ||
         !have(floor, {&f.acceleration, &f.rolling_spin}) || !have(all, {&f.angle, &f.spin}))
         throw FileError("these bytes do not hold swirl frames.");
@@ -117,8 +119,9 @@ void bind_snapshot(py::module_& module) {
     py::class_<SingleFrame> type(
         module, "Snapshot",
         "All discs and the container at one instant in the lab frame. Arrays are read-only views\n"
-        "that never change: position and velocity [disc, xy], spin, angle, radius, mass and\n"
-        "inertia [disc]; pinned and resident [disc]: 1, 0, or NaN if that is unknown.");
+        "that never change: position and velocity [disc, xy], spin, angle, radius, mass,\n"
+        "inertia and can_spin (0 or 1) [disc]; pinned and resident [disc]: 1, 0, or NaN if that is "
+        "unknown.");
     forbid_construction(type);
     bind_columns<SingleFrame>(type);
     type.def_property_readonly("rolling_spin",

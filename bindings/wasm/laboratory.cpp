@@ -148,7 +148,8 @@ Change change_between(const RunConfig& a, const RunConfig& b) {
     like.rolling_resistance = a.rolling_resistance;
     like.warmup = a.warmup;
     const std::int64_t discs = b.discs;
-    if (!has_unequal_sizes(a) && a.discs > 0 && discs > 0 && a.discs <= most && discs <= most)
+    const bool are_equal = !has_unequal_sizes(a) && (a.cannot_spin == 0.0 || a.cannot_spin == 1.0);
+    if (are_equal && a.discs > 0 && discs > 0 && a.discs <= most && discs <= most)
         like.discs = a.discs;
     if (texts_of(a) != texts_of(like)) return Change::needs_new_simulation;
     return texts_of(b) == texts_of(with_path_of(a, b)) ? Change::at_once

@@ -20,6 +20,7 @@ inline constexpr auto sliders = std::to_array<Slider>({
     {"mu_disc", 0, 2, 0.05},
     {"mu_wall", 0, 2, 0.05},
     {"inertia", 0.25, 20, 0.25},
+    {"cannot_spin", 0, 1, 0.05},
     {"mass", 0.1, 10, 0.1},
     {"radius", 0.1, 2, 0.05},
     {"restitution", 0.5, 1, 0.01},

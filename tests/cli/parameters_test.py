@@ -19,9 +19,9 @@ OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mi
          "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
          "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
          "container_radius": "9", "gravity": "2", "rolling_resistance": "0.01", "vertical_disc": "0.5", "vertical_wall": "0.5",
-         "events_per_sample": "7"}
+         "events_per_sample": "7", "cannot_spin": "0.5"}
 # Only in results of runs that set them.
-IF_SET = {"direction", "events_per_sample", "frictionless", "initial", "path_phase", "ramp", "sizes"}
+IF_SET = {"cannot_spin", "direction", "events_per_sample", "frictionless", "initial", "path_phase", "ramp", "sizes"}
 # Only in results of spheres or floors, and the options that they require.
 OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc",
               "vertical_wall"}

@@ -65,6 +65,8 @@ def drawn(draw, max_discs):
         options["contact-duration"] = usual_or(draw, 0, 1e-9, options.get("period", 11.87), 0.2)
     if draw.random() < 0.4 and discs <= 10_000:
         options.update(on_a_floor(draw, options))
+    if draw.random() < 0.2:
+        options["cannot-spin"] = draw.choice([0.5, 1])
     if draw.random() < 0.1:
         options["measure"] = "all"
     return [text for name, value in options.items() for text in (f"--{name}", str(value))]

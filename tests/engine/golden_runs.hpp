@@ -40,6 +40,12 @@ inline std::vector<GoldenRun> golden_runs() {
         {"48 spheres on a floor", sphere_container(48), 20000, 0x267ebf43bc3a9349u},
         {"spheres of three species", sphere_mixture(), 20000, 0xc3d231d32b19022bu},
         {"coins", coin_container(36), 20000, 0xb9396db00e95ef24u},
+        {"48 discs that cannot spin", with_held_spins(paper_container(48)), 50000,
+         0x566e1ca4c30f3992u},
+        {"mixture, every third cannot spin", with_held_spins(mixture_container(), 3), 50000,
+         0x172083a558701704u},
+        {"48 spheres that cannot spin", with_held_spins(sphere_container(48)), 20000,
+         0xbfe23aa02c175137u},
     };
 }
 

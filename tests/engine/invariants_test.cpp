@@ -113,6 +113,70 @@ TEST(ExactCircle, WallFrictionChangesEnergyMinusOmegaLByTorqueAndLoss) {
     EXPECT_GT(hits, 1000);
 }
 
+// Friction does not turn a disc that cannot spin: it acts at the contact, but its torque on the
+// orbit has the lever arm of the disc's centre. So each collision changes K − ΩL by −loss plus Ω
+// times the torque that what holds the spins takes up, r J_t for each disc. The loss follows from
+// the impulse and the slip before and after it.
+TEST(ExactCircle, HeldSpinsTakeUpTheTorqueOfFriction) {
+    const InitialState scene = with_held_spins(circle_container(36, 0.7, 1.0), 2);
+    const double omega = scene.path.omega();
+    Simulation simulation(scene);
+    Snapshot s = simulation.snapshot();
+    const auto slip = [](const Snapshot& now, const Event& event) {
+        const Vec2 n = event.normal, r{n.y, -n.x};
+        const std::size_t i = event.i, j = event.j;
+        if (event.kind == EventKind::disc_wall)
+            return dot(now.container_velocity - now.velocity(i), r) + now.radius[i] * now.spin[i];
+        return dot(now.velocity(j) - now.velocity(i), r) + now.radius[i] * now.spin[i] +
+               now.radius[j] * now.spin[j];
+    };
+    int collisions[2] = {0, 0};
+    for (int k = 0; k < 20000; ++k) {
+        const double before = energy(s) - omega * angular_momentum(s);
+        Snapshot old = s;
+        const Event event = simulation.step();
+        simulation.refresh(s, event);
+        const double change = energy(s) - omega * angular_momentum(s) - before;
+        const bool wall = event.kind == EventKind::disc_wall;
+        if (!wall && event.kind != EventKind::disc_disc) {
+            ASSERT_NEAR(change, 0.0, 1e-11);
+            continue;
+        }
+        ++collisions[wall];
+        old.container_velocity = s.container_velocity;
+        old.container_centre = s.container_centre;
+        const double J = event.impulse.tangential;
+        const double loss = -0.5 * J * (slip(old, event) + slip(s, event));
+        ASSERT_GE(loss, -1e-12);
+        double taken_up = 0.0;
+        for (const std::size_t i : {event.i, event.j})
+            if (s.inverse_inertia(i) == 0.0) taken_up += s.radius[i] * J;
+        if (wall) {
+            taken_up *= 0.5;  // i and j are the same disc
+            ASSERT_NEAR(change, -omega * (scene.container_radius * J - taken_up) - loss, 1e-11);
+        } else {
+            ASSERT_NEAR(change, omega * taken_up - loss, 1e-11);
+        }
+    }
+    EXPECT_GT(collisions[0], 1000);
+    EXPECT_GT(collisions[1], 1000);
+    for (std::size_t i = 0; i < s.size(); i += 2) EXPECT_EQ(simulation.disc(i).spin, 0.0);
+}
+
+// A moment of inertia of 10¹⁸ responds to friction by 10⁻¹⁸ of a spin.
+TEST(DiscsThatCannotSpin, AreTheLimitOfALargeMomentOfInertia) {
+    InitialState heavy = paper_container(20);
+    for (Disc& d : heavy.discs) d.inertia = 1e18;
+    Simulation limit(heavy), held(with_held_spins(paper_container(20)));
+    // Differences grow by a factor of about three per collision of a disc.
+    for (int k = 0; k < 100; ++k) {
+        const Event a = limit.step(), b = held.step();
+        ASSERT_EQ(a.kind, b.kind);
+        ASSERT_NEAR(a.clock, b.clock, 1e-9);
+        ASSERT_NEAR(a.impulse.tangential, b.impulse.tangential, 1e-9);
+    }
+}
+
 TEST(ContainerAtRest, SmoothDiscBouncesAtAConstantAngle) {
     InitialState scene = gas_at_rest(1, 0.02);
     scene.discs[0].position = {1.3, -2.1};

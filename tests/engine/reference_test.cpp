@@ -56,6 +56,14 @@ TEST(EngineEqualsReference, ForAMixture) {
     expect_same_for_every_width(mixture_container(), 30000, tuning(3));
     expect_same_for_every_width(mixture_container(20), 30000, tuning());
 }
+TEST(EngineEqualsReference, ForDiscsThatCannotSpin) {
+    for (const std::size_t step : {1u, 3u}) {
+        expect_same_for_every_width(with_held_spins(paper_container(28), step), 30000, tuning());
+        expect_same_for_every_width(with_held_spins(mixture_container(), step), 30000, tuning(3));
+        expect_same_for_every_width(with_held_spins(mixture_container(), step), 10000,
+                                    tuning(SearchMethod::cells));
+    }
+}
 TEST(EngineEqualsReference, OnTheExactCircle) {
     for (const std::size_t n : {1u, 2u, 5u, 28u, 48u}) {
         const InitialState scene = on_circle(paper_container(n));

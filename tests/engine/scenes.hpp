@@ -84,6 +84,15 @@ inline InitialState large_among_small(std::size_t large, std::size_t small, doub
     return scene;
 }
 
+/// Particles 0, `step`, 2·`step`, … of a scene cannot spin.
+inline InitialState with_held_spins(InitialState scene, std::size_t step = 1) {
+    for (std::size_t i = 0; i < scene.discs.size(); i += step) {
+        scene.discs[i].can_spin = 0.0;
+        scene.discs[i].spin = 0.0;
+    }
+    return scene;
+}
+
 /// An elastic gas of smooth discs in a container at rest.
 inline InitialState gas_at_rest(std::size_t n, double packing_fraction, double speed = 1.0) {
     return state_of({unit_disc()}, n, square_root(static_cast<double>(n) / packing_fraction),

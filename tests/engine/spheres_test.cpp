@@ -41,6 +41,13 @@ TEST(SpheresEqualReference, WithCells) {
         for (const double deceleration : {0.0, 0.5})
             expect_same_for_every_width(many_spheres(90, packing, deceleration), 2000, tuning());
 }
+TEST(SpheresEqualReference, ForSpheresAndCoinsThatCannotSpin) {
+    for (const std::size_t step : {1u, 3u}) {
+        expect_same_for_every_width(with_held_spins(sphere_container(28), step), 10000, tuning());
+        expect_same_for_every_width(with_held_spins(sphere_mixture(), step), 10000, tuning());
+        expect_same_for_every_width(with_held_spins(coin_container(36), step), 10000, tuning());
+    }
+}
 TEST(SpheresEqualReference, ForCoins) {
     for (const SearchMethod search : {SearchMethod::best, SearchMethod::cells})
         for (const double deceleration : {0.1, 1.92})

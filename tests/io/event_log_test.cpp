@@ -36,6 +36,8 @@ InitialState mixed_container() {
         scene.discs[i].mass = 0.71;
         scene.discs[i].inertia = 1.9;
     }
+    for (std::size_t i = 0; i < scene.discs.size(); i += 4)
+        scene.discs[i].spin = scene.discs[i].can_spin = 0.0;
     return scene;
 }
 

@@ -34,6 +34,7 @@ void expect_same(const Snapshot& a, const Snapshot& b) {
     EXPECT_EQ(a.radius, b.radius);
     EXPECT_EQ(a.mass, b.mass);
     EXPECT_EQ(a.inertia, b.inertia);
+    EXPECT_EQ(a.can_spin, b.can_spin);
 }
 
 std::filesystem::path known_trajectory(const Scratch& scratch,
@@ -59,6 +60,22 @@ TEST(Trajectory, RoundTripIsExact) {
         EXPECT_EQ(reader.events_before(k), 10 * k);
     }
     EXPECT_THROW(reader.frame(frames), FileError);
+}
+
+Snapshot frame_with_a_held_spin(std::size_t n, std::uint64_t k) {
+    Snapshot s = known_frame(n, k);
+    Disc disc = s.disc(2);
+    disc.spin = disc.can_spin = 0.0;
+    s.set(2, disc);
+    return s;
+}
+
+TEST(Trajectory, KeepsWhichParticlesCannotSpin) {
+    const Scratch scratch;
+    TrajectoryReader reader(known_trajectory(scratch, frame_with_a_held_spin));
+    expect_same(reader.frame(7), frame_with_a_held_spin(discs, 7));
+    EXPECT_EQ(reader.frame(7).disc(2).can_spin, 0.0);
+    EXPECT_EQ(reader.frame(7).disc(3).can_spin, 1.0);
 }
 
 TEST(Trajectory, SameFramesGiveTheSameBytes) {

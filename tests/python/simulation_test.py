@@ -296,6 +296,21 @@ def test_a_run_takes_a_path_sizes_and_states_as_arrays():
         swirl.run(discs=3, path="line", measure="slip", events=100)
 
 
+def test_particles_that_cannot_spin():
+    share = swirl.Simulation(discs=40, cannot_spin=0.25)
+    share.advance(periods=2)
+    now = share.snapshot()
+    assert (now.can_spin == 0).sum() == 10
+    assert np.all(now.spin[now.can_spin == 0] == 0) and np.all(now.spin[now.can_spin == 1] != 0)
+    again = pickle.loads(pickle.dumps(share))
+    np.testing.assert_array_equal(again.snapshot().can_spin, now.can_spin)
+    given = swirl.Simulation(position=[[-3, 0], [2, 0]], velocity=[[1, 0.3], [0, 0]], cannot_spin=[1, 0])
+    given.step(200)
+    np.testing.assert_array_equal(given.snapshot().can_spin, [0, 1])
+    assert given.snapshot().spin[0] == 0 and given.snapshot().spin[1] != 0
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(given)).snapshot().spin, given.snapshot().spin)
+
+
 def test_radii_without_masses_are_of_one_material():
     two_sizes = swirl.Simulation(position=[[0, 0], [4, 0]], radius=[1, 2])
     np.testing.assert_array_equal(two_sizes.snapshot().mass, [1, 4])
@@ -360,6 +375,8 @@ two = [[1.0, 0.0], [4.0, 0.0]]
     (dict(position=two, radius=[1, -1]), "radius of disc 1 is -1"),
     (dict(position=two, mass=[1, 0]), "mass of disc 1 is 0"),
     (dict(position=two, inertia=[1, 0]), "inertia of disc 1 is 0"),
+    (dict(position=two, cannot_spin=[0, 0.5]), "can_spin of disc 1 is 0.5"),
+    (dict(position=two, cannot_spin=1, spin=[0, 2]), "disc 1 has the spin 2, but it cannot spin"),
     (dict(position=two, discs=2), "discs and position are both given"),
     (dict(velocity=two), "velocity is given for each disc, but position is not"),
     (dict(position=two, body="sphere"), "only for discs without a floor"),
@@ -443,7 +460,7 @@ def _crc64(data):
     return ~crc & 2**64 - 1
 
 
-HEAD = b"swirl simulation 2\n"
+HEAD = b"swirl simulation 3\n"
 
 
 def _forged(archive, at, word):

@@ -113,6 +113,9 @@ TEST(FieldBalance, HoldsForAMixtureOfInelasticDiscs) {
     scene.wall_surface = {0.4, 0.8, 0.0, 1e-3};
     expect_all_terms(expect_balances(scene, 3), false);
 }
+TEST(FieldBalance, HoldsIfEverySecondDiscCannotSpin) {
+    expect_all_terms(expect_balances(with_held_spins(paper_container(40), 2), 7), false);
+}
 TEST(FieldBalance, HoldsForSpheresOnTheFloor) {
     expect_all_terms(expect_balances(sphere_container(30), 4), true);
 }

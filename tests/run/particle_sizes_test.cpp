@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "run/rejected_parameters.hpp"
 #include "swirl/run/config.hpp"
@@ -134,6 +135,39 @@ TEST(ParticleSizes, AShareOfAMixtureIsRoundedToWholeDiscs) {
 }
 
 // A configuration that was changed after it was read is validated before it runs.
+/// The particles that cannot spin, with this share and seed.
+std::vector<double> held_spins(const char* share, const char* seed) {
+    std::vector<double> held;
+    for (const ParticleProperties& p :
+         particles_of(resolve({{"discs", "40"}, {"cannot_spin", share}, {"seed", seed}})))
+        held.push_back(1.0 - p.can_spin);
+    return held;
+}
+
+TEST(CannotSpin, AShareIsRoundedAndDrawnWithTheSeed) {
+    const auto count = [](const std::vector<double>& held) {
+        return std::accumulate(held.begin(), held.end(), 0.0);
+    };
+    EXPECT_EQ(count(held_spins("0", "1")), 0.0);
+    EXPECT_EQ(count(held_spins("0.3", "1")), 12.0);
+    EXPECT_EQ(count(held_spins("0.51", "1")), 20.0);
+    EXPECT_EQ(count(held_spins("1", "1")), 40.0);
+    EXPECT_EQ(held_spins("0.3", "1"), held_spins("0.3", "1"));
+    EXPECT_NE(held_spins("0.3", "1"), held_spins("0.3", "2"));
+}
+TEST(CannotSpin, ALargerShareIncludesTheParticlesOfASmallerOne) {
+    const auto few = held_spins("0.3", "5"), many = held_spins("0.6", "5");
+    for (std::size_t i = 0; i < few.size(); ++i) EXPECT_LE(few[i], many[i]);
+}
+TEST(CannotSpin, IsWrittenOnlyIfItIsSet) {
+    EXPECT_FALSE(config_json(resolve({})).contains("cannot_spin"));
+    EXPECT_EQ(config_json(resolve({{"cannot_spin", "0.5"}}))["cannot_spin"], 0.5);
+}
+TEST(CannotSpin, ParticlesWithASpinAreRejected) {
+    const ParameterTexts spinning{{"initial", "states 2:0:1:0:0.5"}, {"cannot_spin", "1"}};
+    expect_rejected(spinning, "disc 0 has the spin 0.5, but it cannot spin");
+}
+
 TEST(ParticleSizes, AMixtureOfMoreDiscsThanThereAreDoesNotRun) {
     RunConfig config = resolve({{"mixture", "45:0.8"}, {"events", "3000"}});
     EXPECT_THROW(with_discs(config, 44), UsageError);

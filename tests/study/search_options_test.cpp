@@ -45,6 +45,7 @@ const Choice choices[] = {
     {"amplitude", {"0", "2"}},
     {"speed", {"2"}},
     {"inertia", {"solid"}},
+    {"cannot_spin", {"0.5", "1"}},
     {"seed", {"7"}}};
 
 /// One to four of them.

@@ -16,7 +16,7 @@ const main = ["discs", "mu", "amplitude"];
 const notShown = ["events", "events_per_sample", "frictionless", "initial", "periods", "ramp"];
 const groups = {
     friction: ["mu_disc", "mu_wall"],
-    particles: ["preset", "body", "radius", "mass", "inertia", "mixture", "sizes"],
+    particles: ["preset", "body", "radius", "mass", "inertia", "cannot_spin", "mixture", "sizes"],
     collisions: ["restitution", "tangential_restitution", "contact_duration"],
     floor: ["floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc", "vertical_wall"],
     container: ["container_radius", "period", "speed", "path", "sides", "direction", "path_phase"],

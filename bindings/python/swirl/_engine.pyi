@@ -54,6 +54,9 @@ class Snapshot:
     @property
     def inertia(self) -> _Floats: ...
     @property
+    def can_spin(self) -> _Floats:
+        """[disc], 1, or 0 for a particle that cannot spin"""
+    @property
     def container_centre(self) -> _Floats:
         """[xy]"""
     @property
@@ -110,6 +113,9 @@ class Frames:
     def mass(self) -> _Floats: ...
     @property
     def inertia(self) -> _Floats: ...
+    @property
+    def can_spin(self) -> _Floats:
+        """[disc], 1, or 0 for a particle that cannot spin"""
     @property
     def container_centre(self) -> _Floats:
         """[frame, xy]"""

@@ -17,7 +17,7 @@ from ._results import EventCounts, write_atomically
 from ._runs import PathName, Value, call_text, with_parameters
 
 Array = npt.ArrayLike
-_columns = ("position", "velocity", "angle", "spin", "radius", "mass", "inertia")
+_columns = ("position", "velocity", "angle", "spin", "radius", "mass", "inertia", "cannot_spin")
 
 
 class EventKind(enum.IntEnum):
@@ -40,7 +40,7 @@ class Simulation:
                  **parameters: Any) -> None:
         given = {"position": position, "velocity": velocity, "angle": angle, "spin": spin}
         discs = {name: values for name, values in given.items() if values is not None}
-        for name in ("radius", "mass", "inertia"):
+        for name in ("radius", "mass", "inertia", "cannot_spin"):
             if name in parameters and _is_array(parameters[name]):
                 discs[name] = parameters.pop(name)
         if discs and position is None:
@@ -272,7 +272,7 @@ with_parameters(Simulation.__init__, """A simulation that advances step by step.
 
 position [disc, xy], velocity [disc, xy], angle [disc], spin [disc]: custom discs in the lab frame. The
     swirl centre is the origin, and the container starts at the first vertex of its path,
-    (amplitude, 0). radius, mass and inertia may then be arrays [disc]. Without velocities discs start
+    (amplitude, 0). radius, mass, inertia and cannot_spin (0 or 1) may then be arrays [disc]. Without velocities discs start
     at rest relative to the container. If radius is an array and mass is not given, all discs consist
     of one material: mass ~ radius², and a disc of radius 1 has the mass 1.
 path: a shape ("circle", "ellipse:0.5", "lissajous:2:3"), a CSV file, or an array of a closed path: with

@@ -203,7 +203,8 @@ bool same_bits(Vec2 a, Vec2 b) { return same_bits(a.x, b.x) && same_bits(a.y, b.
 /// Compares all values of a recorded frame with the state of the run.
 bool same_frame(const Snapshot& frame, const Snapshot& now) {
     bool same = frame.size() == now.size() && frame.periods == now.periods &&
-                same_bits(frame.clock, now.clock) && same_bits(frame.period, now.period) &&
+                frame.can_spin == now.can_spin && same_bits(frame.clock, now.clock) &&
+                same_bits(frame.period, now.period) &&
                 same_bits(frame.container_radius, now.container_radius) &&
                 same_bits(frame.container_centre, now.container_centre) &&
                 same_bits(frame.container_velocity, now.container_velocity);
@@ -357,7 +358,8 @@ bool same_discs(const Disc& a, const Disc& b) {
     return same_bits(a.position, b.position) && same_bits(a.velocity, b.velocity) &&
            same_bits(a.angle, b.angle) && same_bits(a.spin, b.spin) && same_bits(a.time, b.time) &&
            same_bits(a.radius, b.radius) && same_bits(a.mass, b.mass) &&
-           same_bits(a.inertia, b.inertia) && same_bits(a.rolling_spin, b.rolling_spin);
+           same_bits(a.inertia, b.inertia) && same_bits(a.rolling_spin, b.rolling_spin) &&
+           a.can_spin == b.can_spin;
 }
 
 bool same_floors(const MovingFloor& a, const MovingFloor& b) {

@@ -68,13 +68,20 @@ struct Collided {
     Vec2 frame;
 
     SWIRL_INLINE bool is_wall() const { return before.inverse_mass == 0.0; }
+    SWIRL_INLINE bool can_spin() const { return before.inverse_inertia != 0.0; }
     SWIRL_INLINE Vec2 gain_of_momentum() const {
         if (is_wall()) return {0.0, 0.0};
         return (1.0 / before.inverse_mass) * (after.velocity - before.velocity);
     }
-    SWIRL_INLINE double gain_of_spin() const {
+    /// The angular momentum that the spin has gained; or that a disc has passed on to what holds it,
+    /// if it cannot spin.
+    SWIRL_INLINE double gain_of_spin(const Impulse& J) const {
         if (is_wall()) return 0.0;
+        if (!can_spin()) return before.radius * J.tangential;
         return (after.spin - before.spin) / before.inverse_inertia;
+    }
+    SWIRL_INLINE double size_of_spin() const {
+        return can_spin() ? magnitude(before.spin / before.inverse_inertia) : 0.0;
     }
     SWIRL_INLINE double momentum() const {
         if (is_wall()) return 0.0;
@@ -85,7 +92,8 @@ struct Collided {
     SWIRL_INLINE double energy(const Body& body) const {
         if (is_wall()) return 0.0;
         const Vec2 v = body.velocity - frame;
-        return 0.5 * (dot(v, v) / body.inverse_mass + body.spin * body.spin / body.inverse_inertia);
+        const double of_spin = can_spin() ? body.spin * body.spin / body.inverse_inertia : 0.0;
+        return 0.5 * (dot(v, v) / body.inverse_mass + of_spin);
     }
 };
 
@@ -142,9 +150,8 @@ SWIRL_INLINE double work_of(const Impulse& J, const Body& i, const Body& j, cons
     invariant::discs_touch_at_contact(magnitude(distance - contact) <=
                                       allowed_rounding * contact + rounding);
     const double angular =
-        cross(separation, j.gain_of_momentum()) + i.gain_of_spin() + j.gain_of_spin();
-    const double spins = magnitude(i.before.spin / i.before.inverse_inertia) +
-                         magnitude(j.before.spin / j.before.inverse_inertia);
+        cross(separation, j.gain_of_momentum()) + i.gain_of_spin(J) + j.gain_of_spin(J);
+    const double spins = i.size_of_spin() + j.size_of_spin();
     // The lever arms of the tangential impulse are the radii, which do not include the rounding.
     invariant::angular_momentum_is_conserved(magnitude(angular) <=
                                              allowed_rounding * (contact * scale + spins) +

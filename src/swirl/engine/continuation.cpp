@@ -27,6 +27,7 @@ bool is_sound(const Disc& d) {
                               d.angle,      d.spin,       d.rolling_spin.x, d.rolling_spin.y};
     const bool are_bounded = std::all_of(std::begin(numbers), std::end(numbers),
                                          [](double x) { return std::abs(x) <= largest_magnitude; });
+    if (d.can_spin != 1.0 && !(d.can_spin == 0.0 && d.spin == 0.0)) return false;
     const double sizes[] = {d.radius, d.mass, d.inertia};
     return are_bounded && std::all_of(std::begin(sizes), std::end(sizes),
                                       [](double x) { return x > 0.0 && x < never; });

@@ -113,9 +113,13 @@ class ReferenceBodies {
         return !(inner > 0.0) || dot(s, s) > inner * inner;
     }
     static Body body(const Disc& d) {
-        return {d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia};
+        return {d.velocity, d.spin, d.radius, 1.0 / d.mass, d.inverse_inertia()};
     }
-    static SphereBody sphere_body(const Disc& d) { return {body(d), d.rolling_spin}; }
+    static SphereBody sphere_body(const Disc& d) {
+        return {{d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia},
+                d.rolling_spin,
+                d.can_spin};
+    }
     static void set_velocities(Disc& d, const Body& after) {
         d.velocity = after.velocity;
         d.spin = after.spin;

@@ -108,7 +108,8 @@ struct Spheres {
                 species.mass,
                 species.inertia,
                 sphere.rolling_spin,
-                sphere.last_collision};
+                sphere.last_collision,
+                species.can_spin};
     }
     /// Stores the state, and the motion that follows from it.
     SWIRL_INLINE static void store(EngineState& state, std::uint32_t i, const Disc& sphere) {
@@ -135,7 +136,8 @@ struct Spheres {
         const Disc d = moved_to(load(state, i), state.spheres[i].motion, t);
         const Species& species = state.species[state.discs[i].species];
         return {{d.velocity, d.spin, d.radius, species.inverse_mass, species.inverse_inertia},
-                d.rolling_spin};
+                d.rolling_spin,
+                species.can_spin};
     }
     SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_for_spheres(velocity); }
     SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {

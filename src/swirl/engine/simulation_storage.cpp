@@ -144,12 +144,15 @@ void Simulation::Storage::add_discs(const InitialState& scene) {
     const std::size_t size = scene.discs.size();
     state->discs = memory.add<HotDisc>(size + 1);
     state->cold_discs = memory.add<unsigned char>((size + 1) * state->cold_bytes);
-    std::map<std::array<double, 3>, std::uint32_t> species_of;
+    std::map<std::array<double, 4>, std::uint32_t> species_of;
     for (std::uint32_t i = 0; i < size && !state->stops_at(i); ++i) {
         const Disc& d = scene.discs[i];
         const auto [entry, is_new] = species_of.try_emplace(
-            {d.radius, d.mass, d.inertia}, static_cast<std::uint32_t>(species.size()));
-        if (is_new) species.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass, 1.0 / d.inertia});
+            {d.radius, d.mass, d.inertia, d.can_spin}, static_cast<std::uint32_t>(species.size()));
+        if (is_new)
+            species.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass,
+                               are_spheres(scene) ? 1.0 / d.inertia : d.inverse_inertia(),
+                               d.can_spin});
         state->discs[i] = {
             d.position, d.velocity, d.time, d.radius, d.spin, 0, entry->second & 0xffffffu, 0, 0};
         state->cold(i).angle = d.angle;
@@ -182,6 +185,7 @@ Disc Simulation::Storage::disc(std::uint32_t i) const {
     const Species& s = species[d.species];
     Disc disc{d.position, d.velocity, state->cold(i).angle, d.spin, d.time, s.radius,
               s.mass,     s.inertia};
+    disc.can_spin = s.can_spin;
     if (state->spheres != nullptr) {
         disc.rolling_spin = state->spheres[i].rolling_spin;
         disc.last_collision = state->spheres[i].last_collision;

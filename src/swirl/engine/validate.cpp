@@ -108,6 +108,12 @@ Problem problem_with(const std::vector<Disc>& discs) {
             if (!is_positive(value))
                 return joined({what, " of disc ", std::to_string(i), " is ", text_of(value),
                                ", but it must be above 0."});
+        if (d.can_spin != 0.0 && d.can_spin != 1.0)
+            return joined({"can_spin of disc ", std::to_string(i), " is ", text_of(d.can_spin),
+                           ", but it must be 0 or 1."});
+        if (d.can_spin == 0.0 && d.spin != 0.0)
+            return joined({"disc ", std::to_string(i), " has the spin ", text_of(d.spin),
+                           ", but it cannot spin."});
     }
     return {};
 }

@@ -14,7 +14,8 @@ inline constexpr double rounding_overlap = 1e-6;
 
 /// Why the scene cannot be simulated, as a sentence; nothing if it can:
 ///
-/// - there is at least one disc; radius, mass and inertia are above 0
+/// - there is at least one disc; radius, mass and inertia are above 0; a disc that cannot spin has
+///   the spin 0
 /// - no disc overlaps another disc or the wall by more than `rounding_overlap`, each at its position
 ///   in the scene and with the container at the start of its path
 /// - the container has a radius above 0; its path has a period above 0, begins at time 0, ends after

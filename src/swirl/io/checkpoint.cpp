@@ -14,7 +14,7 @@ namespace swirl {
 namespace {
 
 constexpr std::string_view signature = "swirl checkpoint ";
-constexpr std::string_view first_line = "swirl checkpoint 11\n";
+constexpr std::string_view first_line = "swirl checkpoint 12\n";
 
 std::string number(std::uint64_t n) { return {reinterpret_cast<const char*>(&n), sizeof n}; }
 

@@ -2,7 +2,7 @@
 // one that was not interrupted. The event queue is not stored but rebuilt: a prediction depends
 // only on the states of its two partners.
 //
-//   swirl checkpoint 11 NEWLINE
+//   swirl checkpoint 12 NEWLINE
 //   u64 length, JSON: identity of the run ("about")
 //   u64 length, bytes: discs, clock, counters, and the sums of the averages (state_archive.hpp)
 //   u64 CRC-64 of everything before

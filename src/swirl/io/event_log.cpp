@@ -79,6 +79,7 @@ void write_initial_state(Hdf5File& file, const Snapshot& initial) {
     file.write("/initial/radius", initial.radius, {n});
     file.write("/initial/mass", initial.mass, {n});
     file.write("/initial/moment_of_inertia", initial.inertia, {n});
+    if (!initial.can_spin.empty()) file.write("/initial/can_spin", initial.can_spin, {n});
     if (initial.are_spheres())
         file.write("/initial/rolling_spin", interleaved(initial.spin_x, initial.spin_y), {n, 2});
 }
@@ -228,8 +229,11 @@ void EventLogReader::read_initial_state() {
     const auto inertia = numbers("moment_of_inertia");
     const std::size_t n = angle.size();
     const auto rolling = floor_ ? numbers("rolling_spin") : std::vector<double>(2 * n, 0.0);
+    const auto can_spin =
+        file_->has("/initial/can_spin") ? numbers("can_spin") : std::vector<double>(n, 1.0);
     if (position.size() != 2 * n || rolling.size() != 2 * n || velocity.size() != 2 * n ||
-        spin.size() != n || radius.size() != n || mass.size() != n || inertia.size() != n)
+        spin.size() != n || radius.size() != n || mass.size() != n || inertia.size() != n ||
+        can_spin.size() != n)
         throw_inconsistent(path_, "the columns of /initial differ in length");
     Snapshot initial;
     initial.period = period_;
@@ -244,7 +248,9 @@ void EventLogReader::read_initial_state() {
                             radius[i],
                             mass[i],
                             inertia[i],
-                            {rolling[2 * i], rolling[2 * i + 1]}});
+                            {rolling[2 * i], rolling[2 * i + 1]},
+                            0.0,
+                            can_spin[i]});
         initial.set(i, initial_.back());
     }
     require_possible(initial, Spins::known, path_.string());
@@ -328,7 +334,7 @@ void Replay::apply(const Event& event) {
         move_to(i, event.clock);
         const Vec2 change = (1.0 / d.mass) * kick;
         d.velocity = direction < 0.0 ? d.velocity - change : d.velocity + change;
-        d.spin = d.spin + d.radius * event.impulse.tangential * (1.0 / d.inertia);
+        d.spin = d.spin + d.radius * event.impulse.tangential * d.inverse_inertia();
         d.rolling_spin =
             d.rolling_spin - (d.radius * event.impulse.vertical * (1.0 / d.inertia)) * tangent;
         update_motion(i);

@@ -36,6 +36,7 @@ class RangeCheck {
         within("position", s_.position(i), largest_coordinate);
         if (is_available(s_.inertia[i]))
             between("moment of inertia", s_.inertia[i], smallest_inertia, largest_inertia);
+        if (!s_.can_spin.empty()) one_or_zero("can_spin", s_.can_spin[i]);
         if (is_available(s_.angle[i])) within("angle", s_.angle[i], largest_magnitude);
         if (is_available(s_.spin[i])) within("spin", s_.spin[i], largest_magnitude);
         if (!s_.are_spheres()) return;
@@ -48,6 +49,9 @@ class RangeCheck {
 
   private:
     bool is_available(double value) const { return spins_ == Spins::known || !std::isnan(value); }
+    void one_or_zero(const char* name, double value) const {
+        if (value != 0.0) between(name, value, 1.0, 1.0);
+    }
     void between(const char* name, double value, double from, double to) const {
         if (value >= from && value <= to) return;
         throw FileError(fmt::format("{}the {}{} is {} in period {}, but must be from {} to {}.",

@@ -133,7 +133,10 @@ void TrajectoryReader::read_constants() {
     };
     auto radius = read("radius"), mass = read("mass"), inertia = read("moment_of_inertia");
     const std::size_t n = radius.size();
-    bool same_shape = mass.size() == n && inertia.size() == n;
+    const bool all_can_spin = !file_->has(particles + "/can_spin");
+    auto can_spin = all_can_spin ? std::vector<double>{} : read("can_spin");
+    bool same_shape =
+        mass.size() == n && inertia.size() == n && (all_can_spin || can_spin.size() == n);
     for (std::size_t k = 0; k < series_.size(); ++k) {
         Dimensions row{n};
         if (layouts[k].components > 1) row.push_back(layouts[k].components);
@@ -150,6 +153,7 @@ void TrajectoryReader::read_constants() {
     constants_.radius = std::move(radius);
     constants_.mass = std::move(mass);
     constants_.inertia = std::move(inertia);
+    constants_.can_spin = std::move(can_spin);
     constants_.period = file_->number_attribute(parameters, "period");
     constants_.container_radius = file_->number_attribute(parameters, "container_radius");
     require_possible(constants_, Spins::known, path_);
@@ -189,14 +193,8 @@ Snapshot TrajectoryReader::frame(std::uint64_t k) {
             return block_[series].data() + (first + i) * layouts[series].components;
         };
         const double *const p = values(position), *const v = values(velocity);
-        s.set(i, {{p[0], p[1]},
-                  {v[0], v[1]},
-                  *values(angle),
-                  *values(angular_velocity),
-                  s.clock,
-                  constants_.radius[i],
-                  constants_.mass[i],
-                  constants_.inertia[i]});
+        s.set_motion(i, {{p[0], p[1]}, {v[0], v[1]}, s.clock}, *values(angle),
+                     *values(angular_velocity));
         if (!are_spheres_) continue;
         const double *const spin = values(rolling_spin), *const q = values(orientation);
         s.set_floor_motion(i, {spin[0], spin[1]}, {0.0, 0.0});

@@ -179,6 +179,9 @@ void write_constants(Hdf5File& file, const Snapshot& first) {
     file.write(particles + "/moment_of_inertia", first.inertia, {n});
     for (const char* name : {"/id", "/species", "/mass", "/radius", "/moment_of_inertia"})
         file.attach_scales(particles + name, {particles + "/particle"});
+    if (first.can_spin.empty()) return;
+    file.write(particles + "/can_spin", first.can_spin, {n});
+    file.attach_scales(particles + "/can_spin", {particles + "/particle"});
 }
 
 void write_parameters(Hdf5File& file, const Snapshot& first, const Provenance& provenance) {

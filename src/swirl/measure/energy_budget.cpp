@@ -8,7 +8,13 @@ namespace swirl {
 namespace {
 
 Body body_of(const Snapshot& s, std::size_t i) {
-    return {s.velocity(i), s.spin[i], s.radius[i], 1.0 / s.mass[i], 1.0 / s.inertia[i]};
+    return {s.velocity(i), s.spin[i], s.radius[i], 1.0 / s.mass[i], s.inverse_inertia(i)};
+}
+
+/// R²/I of the rolling of the spheres of an event.
+double rolling_lever(const Snapshot& s, const Event& event) {
+    const auto of = [&](std::size_t i) { return s.radius[i] * s.radius[i] / s.inertia[i]; };
+    return of(event.i) + (event.kind == EventKind::disc_wall ? 0.0 : of(event.j));
 }
 
 void add(EnergyChange& sum, const EnergyChange& change) {
@@ -57,7 +63,8 @@ EnergyChange energy_change(const Event& event, const Snapshot& after) {
             return after.radius[k] * cross(Vec2{after.spin_x[k], after.spin_y[k]}, n);
         };
         const double vertical_after = -(rolls(event.i) + (wall ? 0.0 : rolls(event.j)));
-        change.friction_loss += -J.vertical * (vertical_after - 0.5 * J.vertical * inverse_spins);
+        change.friction_loss +=
+            -J.vertical * (vertical_after - 0.5 * J.vertical * rolling_lever(after, event));
     }
     return change;
 }

@@ -171,7 +171,7 @@ void FieldBalance::add(const Transfer& t) {
     const Vec2 stress = -dot(t.line, gradient.whole) * t.impulse;
     const double couple = t.torque_i * dot(t.line, gradient.whole - gradient.weighted) -
                           t.torque_j * dot(t.line, gradient.weighted);
-    const double torque = -cross(t.line, t.impulse) * average.whole;
+    const double torque = (-cross(t.line, t.impulse) - t.taken_up) * average.whole;
     terms_.stress = terms_.stress + stress;
     terms_.couple_stress += couple;
     terms_.torque += torque;

@@ -34,6 +34,11 @@ Vec2 tangent(const Event& event) { return {event.normal.y, -event.normal.x}; }
 
 void grow(double& largest, double a, double b) { largest = std::fmax(largest, std::fabs(a - b)); }
 
+/// The arm of friction on the spin. What holds a disc that cannot spin takes up its torque.
+double arm_on_spin(const Snapshot& s, std::size_t i) {
+    return s.inverse_inertia(i) == 0.0 ? 0.0 : s.radius[i];
+}
+
 /// The slice of θ in which the contact of the event lies.
 std::size_t slice_of(const Event& event, const Snapshot& after, std::size_t slices) {
     Vec2 from_centre = event.normal;
@@ -65,13 +70,14 @@ AngularImpulse angular_impulse(const Event& event, const Snapshot& after) {
     if (event.kind == EventKind::disc_disc) {
         const Vec2 separation = after.position(event.j) - at;
         change.transfer = J.tangential * cross(separation, tangent(event));
-        change.discs_on_spins = (after.radius[event.i] + after.radius[event.j]) * J.tangential;
+        change.discs_on_spins =
+            (arm_on_spin(after, event.i) + arm_on_spin(after, event.j)) * J.tangential;
         return change;
     }
     const Vec2 s = at - cluster_of(after).position;
     change.wall_normal = -J.normal * cross(s, event.normal);
     change.wall_tangential = -J.tangential * cross(s, tangent(event));
-    change.wall_on_spins = after.radius[event.i] * J.tangential;
+    change.wall_on_spins = arm_on_spin(after, event.i) * J.tangential;
     change.wall_about_centre = -J.tangential * cross(at - after.container_centre, tangent(event));
     return change;
 }

@@ -13,10 +13,19 @@ struct Body {
     double inverse_mass, inverse_inertia;
 };
 
-/// A sphere has two more spins (ω_x, ω_y).
+/// A sphere has two more spins (ω_x, ω_y). `inverse_inertia` is that of these two.
 struct SphereBody : Body {
     Vec2 rolling_spin;
+    double can_spin = 1.0;  // Disc::can_spin, about the vertical axis
 };
+
+/// 1/I for the spin about the vertical axis.
+SWIRL_INLINE constexpr double inverse_spin_inertia(const Body& body) {
+    return body.inverse_inertia;
+}
+SWIRL_INLINE constexpr double inverse_spin_inertia(const SphereBody& body) {
+    return body.can_spin * body.inverse_inertia;
+}
 
 /// The wall has infinite mass and does not turn.
 SWIRL_INLINE constexpr Body wall_body(const Vec2& velocity) {

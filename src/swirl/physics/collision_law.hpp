@@ -31,6 +31,11 @@
 // This is Walton's three-parameter law (e, μ, β): Herbst, Cafiero, Zippelius, Herrmann, Luding,
 // cond-mat/0501223. With e = 1 and β = 0 it is the paper's.
 //
+// A particle that cannot spin (Disc::can_spin) has 1/I = 0. Friction then changes velocities only.
+// What holds its spin takes up the torque R J_t, so the sum of L and spins is not conserved: one
+// collision of two such discs changes it by −(R_i + R_j) J_t. Such a sphere rolls as before: only
+// R²/I of m_t is 0.
+//
 // ---- Spheres
 //
 // Spheres on a floor (floor.hpp) touch at their equators, and the contact also slips vertically:
@@ -202,7 +207,7 @@ SWIRL_INLINE constexpr TangentialAndVertical slip(const SphereBody& i, const Sph
             -(i.radius * cross(i.rolling_spin, normal) + j.radius * cross(j.rolling_spin, normal))};
 }
 
-/// `lever` is R²/I, summed over both bodies.
+/// `lever` is R²/I of the spins about the vertical axis, summed over both bodies.
 SWIRL_INLINE constexpr Tangential mass(const Body&, const Body&, const Tangential&,
                                        double inverse_masses, double lever) {
     return {1.0 / (inverse_masses + lever)};
@@ -211,7 +216,9 @@ SWIRL_INLINE constexpr TangentialAndVertical mass(const SphereBody& i, const Sph
                                                   const TangentialAndVertical& slip,
                                                   double inverse_masses, double lever) {
     const double of_lifted = slip.z > 0.0 ? i.inverse_mass : j.inverse_mass;
-    return {1.0 / (inverse_masses + lever), 1.0 / (of_lifted + lever)};
+    const double of_rolling =
+        i.radius * i.radius * i.inverse_inertia + j.radius * j.radius * j.inverse_inertia;
+    return {1.0 / (inverse_masses + lever), 1.0 / (of_lifted + of_rolling)};
 }
 
 SWIRL_INLINE constexpr void roll(Body&, const Vec2&, double) {}
@@ -253,8 +260,8 @@ SWIRL_INLINE Impulse collide(AnyBody& i, AnyBody& j, const Vec2& separation,
     // The sign of the approach is that of separation · relative. The same product decided in
     // contact_time.hpp that the two approach, so a contact found there always has J_n > 0.
     const double inverse_masses = i.inverse_mass + j.inverse_mass;
-    const double lever =
-        i.radius * i.radius * i.inverse_inertia + j.radius * j.radius * j.inverse_inertia;
+    const double spins_i = inverse_spin_inertia(i), spins_j = inverse_spin_inertia(j);
+    const double lever = i.radius * i.radius * spins_i + j.radius * j.radius * spins_j;
     const double horizontal = dot(relative, tangent) + (i.radius * i.spin + j.radius * j.spin);
     const auto slip = law::slip(i, j, normal, horizontal);
     const Approach approach{-(dot(separation, relative) / square) * distance, slip,
@@ -264,8 +271,8 @@ SWIRL_INLINE Impulse collide(AnyBody& i, AnyBody& j, const Vec2& separation,
     const Vec2 kick = J.normal * normal + J.tangential * tangent;
     i.velocity = i.velocity - i.inverse_mass * kick;
     j.velocity = j.velocity + j.inverse_mass * kick;
-    i.spin = i.spin + i.radius * J.tangential * i.inverse_inertia;
-    j.spin = j.spin + j.radius * J.tangential * j.inverse_inertia;
+    i.spin = i.spin + i.radius * J.tangential * spins_i;
+    j.spin = j.spin + j.radius * J.tangential * spins_j;
     law::roll(i, tangent, J.vertical);
     law::roll(j, tangent, J.vertical);
     return J;

@@ -38,8 +38,9 @@ struct Snapshot {
     // The orientation of each sphere at its time `held_at`. To follow orientations, an observer
     // starts with one quaternion per sphere; otherwise the column is empty.
     std::vector<Quaternion> turned;
-    bool on_floor = false;  // friction against the floor acts on the centre of mass
-    bool lie_flat = false;  // coins: they have the columns of spheres, but only one spin
+    std::vector<double> can_spin;  // Disc::can_spin; empty if all particles can
+    bool on_floor = false;         // friction against the floor acts on the centre of mass
+    bool lie_flat = false;         // coins: they have the columns of spheres, but only one spin
 
     /// Spheres or coins.
     bool are_spheres() const { return !ax.empty(); }
@@ -91,7 +92,12 @@ struct Snapshot {
         Disc d{{x[i], y[i]}, {vx[i], vy[i]}, angle[i], spin[i],
                held_at[i],   radius[i],      mass[i],  inertia[i]};
         if (are_spheres()) d.rolling_spin = {spin_x[i], spin_y[i]};
+        if (!can_spin.empty()) d.can_spin = can_spin[i];
         return d;
+    }
+    /// 1/I for the spin of particle i about the vertical axis.
+    double inverse_inertia(std::size_t i) const {
+        return (can_spin.empty() ? 1.0 : can_spin[i]) / inertia[i];
     }
     /// Writes a snapshot with all states at the current time to `now`, whose memory is reused.
     void up_to_date(Snapshot& now) const {
@@ -136,12 +142,15 @@ struct Snapshot {
         radius[i] = d.radius;
         mass[i] = d.mass;
         inertia[i] = d.inertia;
+        if (d.can_spin != 1.0 && can_spin.empty()) can_spin.resize(size(), 1.0);
+        if (!can_spin.empty()) can_spin[i] = d.can_spin;
     }
     /// A snapshot of spheres remains one, unless n is 0.
     void resize(std::size_t n) {
         if (are_spheres())
             for (auto* column : {&spin_x, &spin_y, &ax, &ay}) column->resize(n);
         if (!turned.empty()) turned.resize(n);
+        if (!can_spin.empty()) can_spin.resize(n, 1.0);
         for (auto* column : {&x, &y, &vx, &vy, &angle, &spin, &held_at, &radius, &mass, &inertia})
             column->resize(n);
     }

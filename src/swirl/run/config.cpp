@@ -274,10 +274,17 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     state.discs.reserve(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (stop && stop->load()) throw_interrupted("stopped before the first event.");
-        const auto& [radius, mass, inertia] = particles[i];
-        state.discs.push_back({segment.start + (*centres)[i],
-                               segment.velocity + random.in_disc(max_initial_speed), 0.0, 0.0, 0.0,
-                               radius, mass, inertia});
+        const auto& [radius, mass, inertia, can_spin] = particles[i];
+        Disc disc{segment.start + (*centres)[i],
+                  segment.velocity + random.in_disc(max_initial_speed),
+                  0.0,
+                  0.0,
+                  0.0,
+                  radius,
+                  mass,
+                  inertia};
+        disc.can_spin = can_spin;
+        state.discs.push_back(disc);
     }
     return state;
 }

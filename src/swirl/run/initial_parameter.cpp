@@ -35,6 +35,10 @@ std::optional<std::string> problem_with_numbers(std::size_t i, const Disc& d) {
         if (!(value >= from && value <= to))
             return fmt::format("{} of disc {} is {}, but it must be a number from {} to {}.", name,
                                i, value, from, to);
+    if (d.can_spin != 0.0 && d.can_spin != 1.0)
+        return fmt::format("can_spin of disc {} is {}, but it must be 0 or 1.", i, d.can_spin);
+    if (d.can_spin == 0.0 && d.spin != 0.0)
+        return fmt::format("disc {} has the spin {}, but it cannot spin.", i, d.spin);
     return {};
 }
 
@@ -43,8 +47,10 @@ InitialState scene_of(const RunConfig& c) {
     const std::vector<ParticleProperties> particles = particles_of(c);
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const auto& [position, velocity, spin] = c.initial[i];
-        const auto& [radius, mass, inertia] = particles[i];
-        scene.discs.push_back({position, velocity, 0.0, spin, 0.0, radius, mass, inertia});
+        const auto& [radius, mass, inertia, can_spin] = particles[i];
+        Disc disc{position, velocity, 0.0, spin, 0.0, radius, mass, inertia};
+        disc.can_spin = can_spin;
+        scene.discs.push_back(disc);
     }
     return scene;
 }

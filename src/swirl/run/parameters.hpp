@@ -111,6 +111,7 @@ struct RunConfig {
     double contact_duration = 1e-3;  // t_c; matters only for restitution < 1 or on a floor
     double mass = 1.0, radius = 1.0;
     double inertia = paper_inertia;  // moment of one disc, not divided by m r²
+    double cannot_spin = 0.0;        // share of the particles (Disc::can_spin)
     Shape body = Shape::disc;
     bool floor = false;  // spheres slide and roll on it, coins slide
     double floor_friction = 0.3, gravity = experiment_gravity(5.75);  // values at the SI's A/R
@@ -342,6 +343,16 @@ inline constexpr auto run_parameters = with_groups(std::to_array<Parameter>({
      .format = format_inertia,
      .default_text = "paper",
      .order = ReadingOrder::second},
+    {.name = "cannot_spin",
+     .form = "0..1",
+     .description = "Share of the particles that cannot spin",
+     .details = "Friction changes their velocities only: the inverse moment of inertia is 0. Of a "
+                "sphere, only the spin about the vertical axis is 0; it rolls as before. The seed "
+                "determines which particles; their number is rounded "
+                "(docs/explanation/physics.md).",
+     .member = &RunConfig::cannot_spin,
+     .range = parameter_range::fraction,
+     .written = WrittenIf::not_default},
     {.name = "mass",
      .symbol = "m",
      .unit = "mass",

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "swirl/math/elementary.hpp"
 #include "swirl/math/normal_deviate.hpp"
@@ -197,7 +199,24 @@ std::string radii_text(const RunConfig& c) {
     return fmt::format("radii from {} to {}", bounds.smallest, bounds.largest);
 }
 
-std::vector<ParticleProperties> particles_of(const RunConfig& c) {
+std::vector<double> which_can_spin(const RunConfig& c, std::size_t n) {
+    std::vector<double> can_spin(n, 1.0);
+    const auto held = static_cast<std::size_t>(std::llround(c.cannot_spin * double(n)));
+    std::vector<std::size_t> others(held == 0 ? 0 : n);
+    std::iota(others.begin(), others.end(), std::size_t{0});
+    // A separate stream: the choice must not depend on the numbers that place the discs.
+    constexpr std::uint64_t stream = 0x6361'6e6e'6f74'2073;  // "cannot s" in ASCII
+    Random random(Random(c.seed ^ stream).bits());
+    for (std::size_t k = 0; k < held; ++k) {
+        std::swap(others[k], others[k + random.below(n - k)]);
+        can_spin[others[k]] = 0.0;
+    }
+    return can_spin;
+}
+
+namespace {
+
+std::vector<ParticleProperties> sizes_of(const RunConfig& c) {
     const auto n = static_cast<std::size_t>(c.discs);
     std::vector<ParticleProperties> particles(n, {c.radius, c.mass, c.inertia});
     const double inertia_factor = c.inertia / (c.mass * c.radius * c.radius);
@@ -217,6 +236,15 @@ std::vector<ParticleProperties> particles_of(const RunConfig& c) {
                                                               : mass_of_same_material(r, c);
         particles[i] = {r, m, inertia_factor * m * r * r};
     }
+    return particles;
+}
+
+}  // namespace
+
+std::vector<ParticleProperties> particles_of(const RunConfig& c) {
+    std::vector<ParticleProperties> particles = sizes_of(c);
+    const std::vector<double> can_spin = which_can_spin(c, particles.size());
+    for (std::size_t i = 0; i < particles.size(); ++i) particles[i].can_spin = can_spin[i];
     return particles;
 }
 

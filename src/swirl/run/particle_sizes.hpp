@@ -26,10 +26,15 @@ inline constexpr std::size_t max_listed_sizes = 100'000;
 
 struct ParticleProperties {
     double radius, mass, inertia;
+    double can_spin = 1.0;  // Disc::can_spin
 };
 
 /// All particles, in order of their numbers. Radii of a distribution follow from the seed.
 std::vector<ParticleProperties> particles_of(const RunConfig& config);
+
+/// Disc::can_spin of n particles: 0 for the share --cannot-spin of them, rounded to whole particles.
+/// The seed determines which. A larger share includes the particles of a smaller one.
+std::vector<double> which_can_spin(const RunConfig& config, std::size_t n);
 
 /// Mass of a particle of this radius that consists of the material of --radius and --mass.
 double mass_of_same_material(double radius, const RunConfig& config);

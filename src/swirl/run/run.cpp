@@ -45,7 +45,8 @@ struct SavedTrajectory {
 
 bool have_equal_bodies(const std::vector<Disc>& a, const std::vector<Disc>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Disc& x, const Disc& y) {
-        return x.radius == y.radius && x.mass == y.mass && x.inertia == y.inertia;
+        return x.radius == y.radius && x.mass == y.mass && x.inertia == y.inertia &&
+               x.can_spin == y.can_spin;
     });
 }
 

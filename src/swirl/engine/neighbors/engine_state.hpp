@@ -42,7 +42,9 @@ struct alignas(64) SphereState {
 /// Properties that all discs of one species share.
 struct Species {
     double radius, mass, inertia;
-    double inverse_mass, inverse_inertia;
+    double inverse_mass;
+    double inverse_inertia;  // 1/I of a disc's spin, or of a sphere's rolling
+    double can_spin;         // Disc::can_spin
 };
 
 /// The data that only a disc's own events read: the partner of its pending event, and its angle. In
