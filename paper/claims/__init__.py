@@ -15,7 +15,7 @@ How a claim is judged:
    on our reading of the paper's words, and is marked.
 
 The experiment's two friction coefficients are fitted to its N_c, 36 for smooth and 28 for roughened spheres.
-Every other claim about it is a prediction without a further parameter. A statement that no table decides is
+Restitution, floor friction and amplitude are assumptions; ../sensitivity.py has what depends on them. A statement that no table decides is
 listed as "not tested", with the reason.
 """
 
@@ -25,6 +25,7 @@ import os
 import atomic_file
 
 from .catalogue import CLAIMS
+from .quotes import QUOTES  # noqa: F401
 from .study import Study
 
 

@@ -3,9 +3,9 @@ the points that it needs. Where the statement is a summary, the paper's sentence
 
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
 
-from . import contacts, motion, profiles, residence, rotation, spheres
+from . import contacts, motion, profiles, residence, rotation, settling, spheres
 from . import thresholds as size
-from .claim import BOTH, DISCS, NOTHING, SPHERES, Claim, untested
+from .claim import BOTH, DISCS, NOTHING, SPHERES, Claim, by_construction, untested
 from .settings import GRID, on_spheres
 
 
@@ -25,8 +25,17 @@ def of_5b(statement, judge, *settings, numbers=OF_5B, source="main text, Fig. 5b
     return Claim(source, statement, "5b", judge, DISCS, runs("5b", *settings, numbers=numbers))
 
 
+def from_start(statement, judge, setting):
+    return Claim("main text, Fig. 5b", statement, "5b-start", judge, DISCS, runs("5b-start", setting, numbers=OF_5B))
+
+
 def of_spheres(source, statement, figure, judge, note="", also=("half", "high"), settings=("smooth",)):
     return Claim(source, statement, figure, on_spheres(judge, note, also), SPHERES, runs(figure, *settings))
+
+
+def of_settling(statement, judge, note):
+    return Claim("main text", statement, "settling", on_spheres(judge, note, ("rough",)), SPHERES,
+                 runs("settling", "smooth", numbers=(24, 48)))
 
 
 def not_tested(source, statement, reason):
@@ -75,15 +84,14 @@ CLAIMS = [
     Claim("main text", "In the pinned region particles are packed in layers against the wall.", "2c",
           on_spheres(profiles.layers, f"layers: denser than between them by {size.LEAST_CHANGE:.0%}"), SPHERES,
           runs("2b", "smooth", numbers=(ROTATING_N,)) + runs("2c", "smooth", numbers=(COUNTERROTATING_N,))),
-    not_tested("main text", "Pinned particles move as a rigid structure.",
-               "The tables have the mean velocity at every place. Rigidity needs the relative motion of neighbours, "
-               "which no measurement of the program has."),
+    of_settling("Pinned particles move as a rigid structure.", settling.rigid,
+                f"rigid: within {size.RIGID}, and less than loose ones"),
     of_spheres("main text, Fig. 2", "The pinned region is at the top left of the container.", "3a", residence.top_left,
                "top left: 90° to 180°; 180° is left, 270° is M"),
     # "The coherent pinned region (top left on the container) grows in size with increasing N ..."
     of_spheres("main text, Fig. 2c", "The pinned region grows with N.", "3a", residence.pinned_grows),
-    not_tested("main text", "A particle has several collisions before it settles in the pinned region.",
-               "No measurement counts the collisions of a particle between its arrival and its residence."),
+    of_settling("A particle has several collisions before it settles in the pinned region.", settling.settles,
+                f"several: more than {size.MULTIPLE:.0f}"),
     of_spheres("main text, Fig. 3", "With increasing N particles enter the pinned region earlier in their cycle.",
                "3a", residence.pinned_earlier, f"earlier: by more than {size.LEAST_ADVANCE:.0f}°"),
     of_spheres("main text, Fig. 3", "Particles leave the pinned region at the same location for all N.", "3a",
@@ -132,10 +140,9 @@ CLAIMS = [
                f"often: more than {size.MAJORITY}; random points have 0.29, a crystal 1"),
     # "Similarly, particles in strong contact cannot advance as a tight single-file due to geometric frustration, and
     # can only roll on the ground side-by-side."
-    of_spheres("main text", "Particles that touch cannot roll in single file.", "4b", contacts.single_file,
-               f"rolling in single file has 1; required: below {-size.ANTIFERROMAGNETIC:.3f}", ("rough", "half")),
-    not_tested("main text", "Particles that touch can roll side by side.",
-               "The tables have the rolling along the line of the centres, not that across it."),
+    of_settling("Particles in strong contact cannot roll in single file.", settling.single_file,
+                f"cannot: fewer than {size.MAJORITY} of them roll"),
+    of_settling("They can only roll side by side.", settling.side_by_side, "required: more than in single file, at every N"),
     of_spheres("main text", "At high N particles at the wall are prevented from rolling on the ground.", "4b",
                contacts.prevented_from_rolling, f"prevented: fewer than {size.MAJORITY} of them roll",
                ("rough", "half")),
@@ -163,8 +170,8 @@ CLAIMS = [
           rotation.friction_order, "high", "medium", "low"),
     Claim("main text, Fig. 5", "The maps of density and flow of discs are similar to those of the experiment.", "2c",
           profiles.maps_alike, BOTH),
-    of_5b("Without wall friction the cluster rotates with the frequency of the swirl at every N.",
-          rotation.no_wall_at_omega, "no-wall"),
+    from_start("Without wall friction the cluster rotates with the frequency of the swirl at every N.",
+               rotation.no_wall_at_omega, "no-wall"),
     of_5b("Without wall friction there is never a transition.", rotation.never_crosses("no-wall"), "no-wall",
           numbers=OF_5B + DENSE),
     Claim("main text", "Without wall friction the discs do not spin.", "states", motion.no_spinning, DISCS),
@@ -172,8 +179,8 @@ CLAIMS = [
           "states", motion.rim, DISCS),
     not_tested("main text", "Without wall friction the discs form a rim at the boundary of the container.",
                "The maps of density and flow have both kinds of friction."),
-    of_5b("Without disc friction ϖ remains close to Ω.", rotation.no_disc_close, "no-disc"),
-    of_5b("Without disc friction ϖ drops slightly at very high N.", rotation.no_disc_drop, "no-disc"),
+    from_start("Without disc friction ϖ remains close to Ω.", rotation.no_disc_close, "no-disc"),
+    from_start("Without disc friction ϖ drops slightly at very high N.", rotation.no_disc_drop, "no-disc"),
     of_5b("Without disc friction there is never a transition.", rotation.never_crosses("no-disc"), "no-disc",
           numbers=OF_5B + DENSE),
     # "With no disc-disc friction ... The cluster of discs is loose and gas-like, unlike the rigid body
@@ -186,9 +193,9 @@ CLAIMS = [
     # quickly. ... individual discs spin with no coherence."
     Claim("main text", "Without disc friction the outer discs spin quickly, and without coherence.",
           "condensation", motion.outer_spins, DISCS),
-    not_tested("main text", "Without disc friction the spin of the outer discs reaches the inner ones only by exchange.",
-               "The collision law leaves no other way: without friction no collision of two discs changes a spin. A "
-               "simulation with this law cannot fail the test."),
+    Claim("main text", "Without disc friction the spin of the outer discs reaches the inner ones only by exchange.", "",
+          by_construction("The collision law leaves no other way: without friction no collision of two discs changes a spin. A "
+                          "simulation with this law cannot fail the test."), NOTHING),
     # "... there is no friction with the substrate, no three-dimensional rolling effects, and no normal
     # damping during collisions ... Therefore, these additional factors cannot be critical for observing the
     # transition."

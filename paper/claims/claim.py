@@ -3,7 +3,7 @@
 import os
 
 import tables
-from verdicts import MISSING, UNDECIDED, Judgement
+from verdicts import MISSING, UNDECIDED, UNTESTABLE, Judgement
 
 from . import thresholds
 
@@ -80,3 +80,8 @@ class Claim:
 def untested(reason):
     """The judge of a statement that no table decides."""
     return lambda study: (Judgement(UNTESTED), reason)
+
+
+def by_construction(reason):
+    """The judge of a statement that the model contains, so that no run of it could show the opposite."""
+    return lambda study: (Judgement(UNTESTABLE), f"True by construction. {reason}")

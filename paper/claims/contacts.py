@@ -1,23 +1,30 @@
 """Claims on slip, spin and packing of the pinned particles: Figure 4, and the text on frustration. Each judge gets
 the setting of the runs (settings.py)."""
 
-from verdicts import Value, above, below, combined, either, every, mean_of, measured, rises, within
+from paper_parameters import SLIP_AT_25
+from verdicts import Value, above, agreed, below, combined, every, mean_of, measured, rises, within
 
 from . import thresholds as size
 from .settings import ROUGHER_THAN
 from .thresholds import HIGH_N
-from .wording import count, ends, known, lowest_to_highest, monotonic, number, values
+from .wording import count, ends, known, lowest_to_highest, monotonic, number, value_at, values
 
 
 def slip_rises(study, setting):
-    """From a half at N = 25, or within ROUGHLY of it, to nearly 1."""
+    """From a half at N = 25 to nearly 1, for both definitions of the pinned particles. The paper does not say which it
+    uses, so they must agree."""
     rows = study.curve("4a", setting=setting)
-    judgement, reversal = monotonic(rows, "slip_resident", least=size.LEAST_SLIP_RISE)
-    half = [within(measured(row, "slip_resident"), 0.5 - size.ABOUT_HALF, 0.5 + size.ABOUT_HALF)
-            for row in rows if abs(row["discs"] - 25) <= size.ROUGHLY]
-    return combined(judgement, either(half), above(measured(rows[-1], "slip_resident"), size.NEARLY_ONE)), (
-        f"s of those that reside at the wall is {ends(rows, 'slip_resident')}{reversal}; of all pinned by the SI's "
-        f"criterion {ends(rows, 'pinned_region')}")
+    first = min(rows, key=lambda row: abs(row["discs"] - SLIP_AT_25[0]))
+    judged, reversals = [], []
+    for name in ("slip_resident", "pinned_region"):
+        judgement, reversal = monotonic(rows, name, least=size.LEAST_SLIP_RISE)
+        half = within(measured(first, name), SLIP_AT_25[1] - size.ABOUT_HALF, SLIP_AT_25[1] + size.ABOUT_HALF)
+        judged.append(combined(judgement, half, above(measured(rows[-1], name), size.NEARLY_ONE)))
+        reversals.append(reversal)
+    return agreed(judged), (
+        f"s of those that reside at the wall is {value_at(first, 'slip_resident')}, {value_at(rows[-1], 'slip_resident')}"
+        f"{reversals[0]}; of all pinned by the SI's criterion {value_at(first, 'pinned_region')}, "
+        f"{value_at(rows[-1], 'pinned_region')}{reversals[1]}")
 
 
 def slip_rough(study, setting):
@@ -69,14 +76,6 @@ def triangles_frustrate(study, setting):
         "correlation of the spins of pairs that touch and have a common neighbour "
         f"{ends(rows, 'triangle_correlation')} (over all N {lowest_to_highest(rows, 'triangle_correlation')}); such "
         f"pairs are {ends(rows, 'triangles')} of all that touch")
-
-
-def single_file(study, setting):
-    """1 if neighbours roll in the same direction along the line of their centres, −1 if they roll on each other."""
-    rows = known(study.curve("4b", setting=setting), "contact_correlation")
-    return every([below(v, -size.ANTIFERROMAGNETIC) for v in values(rows, "contact_correlation")]), (
-        "correlation of the rolling of pairs that touch, along the line of their centres, "
-        f"{ends(rows, 'contact_correlation')} (over all N {lowest_to_highest(rows, 'contact_correlation')})")
 
 
 def prevented_from_rolling(study, setting):

@@ -37,8 +37,8 @@ def forces(study, setting):
     mean = mean_of(values(rows, "coriolis")) * per_unit
     # No particle is farther from S than one that touches the wall at M.
     farthest = (radius - 1 + amplitude) * EXPERIMENT_R_OMEGA_SQUARED
-    return combined(*(within(found[name], paper - size.FORCE_DIGIT, paper + size.FORCE_DIGIT)
-                      for name, paper in MAX_FORCES.items())), (
+    return every(within(found[name], paper - size.FORCE_DIGIT, paper + size.FORCE_DIGIT)
+                 for name, paper in MAX_FORCES.items()), (
         f"the centrifugal force reaches {number(found['centrifugal'])} cm/s² on average over N; its limit, on a "
         f"particle that touches the wall at M, is (R − r + A)Ω² = {farthest:.1f}. The Coriolis force reaches "
         f"{number(found['coriolis'])}; on average it is {number(mean)}, and about "

@@ -9,7 +9,7 @@ import math
 
 import tables
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
-from verdicts import FAILS, Value, above, agreed, below, combined, measured, within
+from verdicts import FAILS, Value, above, agreed, below, combined, every, measured, within
 
 from . import thresholds as size
 from .thresholds import OTHER_SIDE
@@ -70,12 +70,24 @@ def span_over_choices(found):
     return f"{min(found):.0f} to {max(found):.0f}" if found else "n/a"
 
 
+def with_size(rows, share, begin, end):
+    """The rows with the size of the pinned region: the number of resident particles and its extent in degrees. Particles
+    run clockwise, so the region reaches from the end of residences to their beginning."""
+    return [row | {"residents": row[share] * row["discs"], "residents_error": row[f"{share}_error"] * row["discs"],
+                   "extent": (row[begin] - row[end]) % 360,
+                   "extent_error": math.hypot(row[f"{begin}_error"], row[f"{end}_error"])} for row in rows]
+
+
 def pinned_grows(study, setting):
-    rows, choices = one_row_per_discs(study, setting), by_choice(study, setting)
-    found = [monotonic(c, "share")[0] for c in choices.values()]
+    """"Increasing the size of the pinned region": both its number of particles and its extent. The share of the particles
+    that reside there is not its size."""
+    rows = with_size(one_row_per_discs(study, setting), "residence_share", "residence_begin", "residence_end")
+    choices = {choice: with_size(c, "share", "pinning", "depinning") for choice, c in by_choice(study, setting).items()}
+    found = [every([monotonic(c, "residents")[0], monotonic(c, "extent")[0]]) for c in choices.values()]
     return agreed(found), (
-        f"share that resides at the wall {ends(rows, 'residence_share')}; it rises for {count(found)} of "
-        f"{choices_in_words(choices)}; share pinned by the SI's criterion {ends(rows, 'share')}")
+        f"{ends(rows, 'residents')} particles reside at the wall, and their region extends over {ends(rows, 'extent')} "
+        f"(degrees); both rise for {count(found)} of {choices_in_words(choices)}; the share that resides there is "
+        f"{ends(rows, 'residence_share')}, that pinned by the SI's criterion {ends(rows, 'share')}")
 
 
 def pinned_earlier(study, setting):

@@ -63,17 +63,17 @@ def nc_of_all(study):
 
 def change_near_36(study):
     return either(judgement for _, judgement in changes_near(changes(study), SMOOTH_CHANGE_N)), (
-        f"{nc_of_all(study)}. The coefficient with N_c = {SMOOTH_CHANGE_N} is μ = {fitted(study, SMOOTH_CHANGE_N)}. It "
-        "is fitted, since the paper gives no friction coefficient: the claim holds if any coefficient has this N_c "
-        f"(roughly: within {size.ROUGHLY:.0f}).")
+        f"The coefficient with N_c = {SMOOTH_CHANGE_N} is μ = {fitted(study, SMOOTH_CHANGE_N)}. It is fitted, since the paper "
+        "gives no friction coefficient: the claim holds if any coefficient has this N_c "
+        f"(roughly: within {size.ROUGHLY:.0f}). {nc_of_all(study)}.")
 
 
 def roughened(study):
     """One friction coefficient for the smooth spheres, and a higher one for the same spheres after sanding."""
     smooth, rough = (changes_near(changes(study), discs) for discs in (SMOOTH_CHANGE_N, ROUGH_CHANGE_N))
     return either(every([a, b]) for low, a in smooth for high, b in rough if high > low), (
-        f"{nc_of_all(study)}. Fitted: μ = {fitted(study, SMOOTH_CHANGE_N)} for N_c = {SMOOTH_CHANGE_N}, μ = "
-        f"{fitted(study, ROUGH_CHANGE_N)} for {ROUGH_CHANGE_N} (within {size.ROUGHLY:.0f}).")
+        f"Fitted: μ = {fitted(study, SMOOTH_CHANGE_N)} for N_c = {SMOOTH_CHANGE_N}, μ = "
+        f"{fitted(study, ROUGH_CHANGE_N)} for {ROUGH_CHANGE_N} (within {size.ROUGHLY:.0f}). {nc_of_all(study)}.")
 
 
 def friction_order(study):

@@ -57,6 +57,8 @@ FORCE_DIGIT = 10.0          # cm/s²: the last digit given in "0–460" and "0�
 TIMES_AROUND = 10.0         # factor either way: "around" a time
 ROUGHLY = 2.0               # spheres either way: "at roughly N = 36"
 COUPLE = 2.0                # spheres: "with the addition of a couple of marbles"
+RIGID = 0.1                 # of ΩR: velocities that a rigid motion leaves, "move as a rigid structure"
+MULTIPLE = 2.0              # "multiple collisions before settling"
 NO_SPIN = 0.1               # relative to the discs with both kinds of friction: "without ... spinning"
 
 # --- Half and twice the sizes -------------------------------------------------------------------

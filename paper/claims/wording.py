@@ -75,7 +75,7 @@ def headline(found):
     text = re.sub(r"^(?:Smooth spheres|Discs with μ = 1)[:,] ", "", found.split(ALSO)[0])
     text = re.sub(r" \((?:over all N|required|more than|rotating|rotation|nearer|opposite|no order|loose|quickly|little|prevented|"
                   r"to the left|similar|near|5% of|by more|earlier|the same|often|slower|a couple|a rise|as fast|no spinning|around|"
-                  r"it blows|qualitatively|layers|top left|within \d)[^()]*\)", "", text)
+                  r"it blows|cannot|rigid|several|qualitatively|layers|top left|within \d)[^()]*\)", "", text)
     clauses = re.split(r"(?<=; )|(?<=\. )(?=[A-Z])", text)
     kept = clauses[0]
     for clause in clauses[1:]:
@@ -84,5 +84,5 @@ def headline(found):
         kept += clause
     if len(kept) > LONGEST + SHORTEST:  # a long clause ends at its last comma within the length
         cut = re.match(rf"(.{{{SHORTEST},{LONGEST}}}), (?!\d|and \d)", kept, re.S)
-        kept = cut[1] if cut else kept
+        kept = cut[1] if cut and re.search(r"\d\.\d", cut[1]) else kept
     return kept.strip().rstrip(";.,:")

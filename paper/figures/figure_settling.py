@@ -170,6 +170,8 @@ def draw(table):
         for k, (name, words) in enumerate(quantities):
             for setting, filled in (("smooth", style.CYCLE[k]), ("rough", "white")):
                 here = style.select(rows, setting=setting)
+                if not here:
+                    continue
                 style.curve(panel, here, "discs", name, color=style.CYCLE[k], marker=style.MARKERS[k], markerfacecolor=filled,
                             label=f"{words}, {'smooth' if setting == 'smooth' else 'roughened'}")
         panel.set(xlabel="number of spheres $N$", ylabel=label)

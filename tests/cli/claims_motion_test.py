@@ -116,7 +116,9 @@ class Motion(HandMadeTables):
         verdict, found = judged((459.7, 460, 460.3), (199.7, 200, 200.3))
         self.assertEqual(verdict, HOLDS)
         self.assertIn("(R − r + A)Ω² = 474.2", found)  # (8.5 − 1 + 3.833) · 0.3 cm · (11.81/s)²
-        self.assertEqual(judged((459.7, 460, 460.3), (990, 1000, 1010))[0], IN_PART)
+        # One statement on both: five times the stated Coriolis force fails it, whatever the centrifugal force.
+        self.assertEqual(judged((459.7, 460, 460.3), (990, 1000, 1010))[0], FAILS)
+        self.assertEqual(judged((440, 460, 480), (990, 1000, 1010))[0], FAILS)
         self.assertEqual(judged((473.9, 474, 474.1), (990, 1000, 1010))[0], FAILS)
         self.assertIn("= 394.0", judged((390, 391, 392), (990, 1000, 1010), "half", 5.75)[1])
         doubtful = judged((459.7, 460, 460.3), (100, 200, 300))[0]

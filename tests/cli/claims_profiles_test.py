@@ -7,6 +7,7 @@ from claim_tables import HandMadeTables
 from program import read_rows
 
 import paper_parameters
+import tables
 from claims import profiles, residence
 from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
 
@@ -236,15 +237,22 @@ class Profiles(HandMadeTables):
         self.assertEqual(judged((200, 205, 212)).points, {"high_N24", "high_N48"})
 
     def test_pinned_region_grows_for_every_layer(self):
-        def judged(*choices, error=0.01):
+        def judged(*choices, error=0.01, begin=(200, 250, 300)):
             self.residences(*choices, name="share", error=error)
+            rows = tables.read(os.path.join(self.folder, "figure_3a_sensitivity.csv"))
+            at = dict(zip((24, 36, 48), begin))
+            self.table("3a_sensitivity", [row | {"pinning": at[row["discs"]], "pinning_error": 1.0, "depinning": 90.0,
+                                                 "depinning_error": 1.0} for row in rows])
             return residence.pinned_grows(self.study, "high")[0]
-        up, down = (0.2, 0.3, 0.4), (0.4, 0.3, 0.2)
+        up, down = (0.2, 0.3, 0.4), (0.4, 0.25, 0.1)
         self.assertEqual(judged(up, up), HOLDS)
         self.assertEqual(judged(down, down), FAILS)
         self.assertEqual(judged(up, down), UNDECIDED)
-        self.assertEqual(judged(up, error=0.1), UNDECIDED)
-        self.assertEqual(judged((0.3, 0.31, 0.32), error=0.001), FAILS)  # 7 % more are similar
+        self.assertEqual(judged(up, error=0.2), UNDECIDED)
+        # The size counts, and not the share: as many of twice the particles are a larger region.
+        self.assertEqual(judged((0.3, 0.3, 0.3), error=0.001), HOLDS)
+        self.assertEqual(judged(up, begin=(200, 202, 205)), FAILS)  # more particles in the same extent
+        self.assertEqual(judged(up, begin=(300, 350, 40)), HOLDS)  # through zero
 
     def test_middle_of_the_pinned_region_is_top_left(self):
         def judged(*places, error=1.0):

@@ -31,21 +31,9 @@ class Rotation(HandMadeTables):
         self.assertIn("N_c between 36 and 38", found)
         self.assertNotIn("not known", found)
 
-    def test_drifting_runs_do_not_decide_closeness_to_omega(self):
-        def judged(drifting):
-            self.table("5b", [{"setting": "no-disc", "discs": n, "mean_by_event": v, "mean_by_event_error": 0.001,
-                               "point": f"no-disc_N{n}", "seeds": 8, "steady_runs": 8 - drifting,
-                               "drifting_runs": drifting} for n, v in ((8, 0.999), (40, 0.24))])
-            return rotation.no_disc_close(self.study)
-        self.assertEqual(judged(4)[0], FAILS)
-        verdict, found = judged(5)
-        self.assertEqual(verdict, UNDECIDED)
-        self.assertEqual(verdict.points, frozenset())  # more seeds would also drift
-        self.assertIn("Most runs drift at", found)
-
     def test_drop_needs_runs_as_long_as_the_papers(self):
         def judged(events):
-            self.table("5b", [{"setting": "no-disc", "discs": n, "mean_by_event": v, "mean_by_event_error": 0.001,
+            self.table("5b-start", [{"setting": "no-disc", "discs": n, "mean_by_event": v, "mean_by_event_error": 0.001,
                                "point": f"no-disc_N{n}", "events": events}
                               for n, v in ((36, 0.97), (40, 0.97), (48, 0.9))])
             return rotation.no_disc_drop(self.study)
@@ -124,17 +112,17 @@ class Rotation(HandMadeTables):
 
     def test_no_wall_friction_every_n_counts(self):
         at_omega = [(n, 1.0) for n in range(5, 49)]
-        self.rotation("5b", "no-wall", at_omega)
+        self.rotation("5b-start", "no-wall", at_omega)
         self.assertEqual(rotation.no_wall_at_omega(self.study)[0], HOLDS)
-        self.rotation("5b", "no-wall", at_omega[:-1] + [(48, 0.8)])
+        self.rotation("5b-start", "no-wall", at_omega[:-1] + [(48, 0.8)])
         self.assertEqual(rotation.no_wall_at_omega(self.study)[0], FAILS)
-        self.rotation("5b", "no-wall", at_omega[:-1] + [(48, 0.96)])
+        self.rotation("5b-start", "no-wall", at_omega[:-1] + [(48, 0.96)])
         self.assertEqual(rotation.no_wall_at_omega(self.study)[0], UNDECIDED)
 
     def test_no_disc_friction_is_close_to_omega_below_high_n(self):
         def judged(last, error=0.01, beyond=0.5):
             # From HIGH_N on the paper has a drop, which is another claim.
-            self.rotation("5b", "no-disc", [(20, 1.0), (30, 1.0), (40, last), (46, beyond)], error)
+            self.rotation("5b-start", "no-disc", [(20, 1.0), (30, 1.0), (40, last), (46, beyond)], error)
             return rotation.no_disc_close(self.study)[0]
         self.assertEqual(judged(0.95), HOLDS)
         self.assertEqual(judged(0.8), FAILS)
@@ -166,14 +154,14 @@ class Rotation(HandMadeTables):
 
     def test_drop_exceeds_its_error(self):
         def judged(last, error):
-            self.rotation("5b", "no-disc", [(30, 1.0), (40, 1.0), (48, last)], error)
+            self.rotation("5b-start", "no-disc", [(30, 1.0), (40, 1.0), (48, last)], error)
             return rotation.no_disc_drop(self.study)[0]
         self.assertEqual(judged(0.9, 0.01), HOLDS)
         self.assertEqual(judged(0.99, 0.01), UNDECIDED)
         self.assertEqual(judged(0.999, 0.001), FAILS)
 
     def test_drop_of_the_transient_is_reported(self):
-        self.rotation("5b", "no-disc", [(30, 1.0), (40, 1.0), (48, 0.9)])
+        self.rotation("5b-start", "no-disc", [(30, 1.0), (40, 1.0), (48, 0.9)])
         self.rotation("5b-steady", "no-disc", [(40, 1.0), (48, 0.998)])
         self.assertIn("after a long warm-up ϖ/Ω = 0.998 ± 0.010", rotation.no_disc_drop(self.study)[1])
 
