@@ -21,12 +21,23 @@ if(hdf5_library MATCHES "\\.a$")  # that of a wheel
   list(APPEND hdf5_libraries ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
 elseif(hdf5_static AND hdf5_hl_static AND szip_library)
   # Debian's shared HDF5 can read files from Amazon S3. So it loads 35 libraries for TLS, LDAP and Kerberos, which take
-  # half of the time of a short call. A program that is linked to the static one does not contain that part. The
-  # Python module is a shared object, for which Debian's static library is not compiled.
+  # half of the time of a short call. A program that is linked to the static one of Debian 12 does not contain that
+  # part; the one of Debian 13 needs these libraries, too, so the shared one is used there. The Python module is a
+  # shared object, for which the static library is not compiled.
   find_package(ZLIB REQUIRED)
   set(static ${hdf5_hl_static} ${hdf5_static} ${szip_library} ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
-  set(hdf5_libraries
-    "$<IF:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>,${static},${hdf5_libraries}>")
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_INCLUDES ${hdf5_include})
+  set(CMAKE_REQUIRED_LIBRARIES ${static})
+  check_cxx_source_compiles("#include <hdf5.h>
+    int main() { return H5Fcreate(\"file\", H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT) < 0; }"
+    hdf5_static_needs_no_network)
+  unset(CMAKE_REQUIRED_INCLUDES)
+  unset(CMAKE_REQUIRED_LIBRARIES)
+  if(hdf5_static_needs_no_network)
+    set(hdf5_libraries
+      "$<IF:$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>,${static},${hdf5_libraries}>")
+  endif()
 endif()
 
 # Layers above the engine are optimised less, to compile faster: -O2 for the work at every frame, -O1
