@@ -2,8 +2,8 @@
    change, sync, rename and close files, and makes the k-th of a kind fail, or kills the process
    before it, or keeps a record of everything that changes files.
 
-     FAULT_CALL   open read pwrite write fsync rename close unlink truncate, or change: any that
-                  changes files (all but open for reading, read and close), or new: operator new
+     FAULT_CALL   open read stat pwrite write fsync rename close unlink truncate, or change: any that
+                  changes files (all but open for reading, read, stat and close), or new: operator new
      FAULT_AT     which call of that kind, from 1; 0: none, only count
      FAULT_ERRNO  the number of the error it gives; 0: the process is killed instead
      FAULT_EVER   1: all calls from there on fail, not only this one
@@ -23,6 +23,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -34,7 +35,7 @@ static char names[MOST_FILES][512];        /* of the open files that count; "" f
 static struct { int file; off_t at; size_t size; } pending[MOST_PENDING];
 static int pending_count;
 /* The first counts every call that changes files. operator new is counted only if it is FAULT_CALL. */
-static const char* const kinds[] = {"change", "open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close", "new"};
+static const char* const kinds[] = {"change", "open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close", "stat", "new"};
 #define KINDS (int)(sizeof kinds / sizeof *kinds)
 static long counted[KINDS];
 static int record = -1;
@@ -168,6 +169,18 @@ ssize_t pread(int file, void* bytes, size_t size, off_t at) { return read_at(fil
 ssize_t pread64(int file, void* bytes, size_t size, off_t at) {
     return read_at(file, bytes, size, at);
 }
+
+/* Whether a file exists. */
+#define STAT(name)                                          \
+    int name(const char* path, struct name* about) {        \
+        REAL(int, #name, (const char*, struct name*));      \
+        pthread_mutex_lock(&lock);                          \
+        const int failed = under(path) && fails("stat", 0); \
+        pthread_mutex_unlock(&lock);                        \
+        return failed ? -1 : real(path, about);             \
+    }
+STAT(stat)
+STAT(stat64)
 
 static ssize_t write_at(int file, const void* bytes, size_t size, off_t at) {
     if (!*name_of(file)) return syscall(SYS_pwrite64, file, bytes, size, at);
