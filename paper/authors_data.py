@@ -13,7 +13,6 @@ averages over all events do not have, so z of the maps is rather small.
 """
 
 import csv
-import glob
 import io
 import json
 import math
@@ -25,6 +24,7 @@ import numpy as np
 import swirl
 
 import atomic_file
+import optional_file
 import style
 from coarse_zero import crossing_of_curve
 from paper_parameters import CONTAINER_RADIUS as R, LAST_N, OMEGA
@@ -53,7 +53,7 @@ def authors(folder, kind, which):
     """The rows of one of the authors' files; its first line is their command."""
     paths = [os.path.join(folder, name.format(which)) for name in FILES[kind]]
     for path in paths:
-        if os.path.exists(path):
+        if optional_file.exists(path):
             with open(path, encoding="ascii") as file:
                 return [[float(cell) for cell in line.replace(",", " ").split()] for line in file.readlines()[1:]]
     sys.exit(f"error: '{paths[0]}' does not exist.\nhint: give a clone of github.com/jpryan1/rotation-sim.")
@@ -69,8 +69,8 @@ def curve(folder, out, name, mu_disc, mu_wall, inertia, numbers=None):
     swirl.sweep(runs, discs=list(numbers), mu_disc=mu_disc, mu_wall=mu_wall, inertia=inertia, events=EVENTS, warmup=0,
                 seeds=SEEDS)
     rates = {discs: [] for discs in numbers if discs in theirs}
-    for file in glob.glob(os.path.join(runs, "results", "*.json")):
-        with open(file, encoding="utf-8") as opened:
+    for file in optional_file.names_in(os.path.join(runs, "results")):
+        with open(os.path.join(runs, "results", file), encoding="utf-8") as opened:
             run = json.load(opened)
         if run["config"]["discs"] in rates:
             rates[run["config"]["discs"]].append(run["rotation"]["mean_by_event"]["mean"])
@@ -128,7 +128,7 @@ def averages(discs, seed):
 
 def stored_averages(out, discs, seed):
     path = os.path.join(out, f"maps_{discs}_{seed}.npz")
-    if not os.path.exists(path):
+    if not optional_file.exists(path):
         content = io.BytesIO()
         np.savez_compressed(content, **averages(discs, seed))
         atomic_file.write(path, content.getvalue())

@@ -8,6 +8,7 @@ import os
 import sys
 
 import catalogue
+import optional_file
 
 
 def main():
@@ -15,7 +16,7 @@ def main():
         print(f"usage: {__doc__[__doc__.index('/usr'):]}", end="", file=sys.stderr)
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     table = sys.argv[1]
-    if not os.path.exists(table):
+    if not optional_file.exists(table):
         sys.exit(f"error: the table '{table}' does not exist.\nhint: `swirl paper` writes it.")
     name = os.path.splitext(os.path.basename(table))[0].removeprefix("figure_")
     draw = catalogue.drawing(name)

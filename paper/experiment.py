@@ -7,6 +7,7 @@
 import os
 
 import numpy as np
+import optional_file
 import style
 from atomic_file import write_or_exit
 from claims.wording import known, number
@@ -169,7 +170,7 @@ def found_row(folder, video):
                      f"{path['centre'][1]:.2f}, amplitude {path['amplitude']:.2f} pixels, "
                      f"{'clockwise' if path['clockwise'] else 'counter-clockwise'}.")
     return {"title": video["name"], "caption": text, "findings": video.get("remarks"), "remarks": [video["video"]],
-            "images": [name for name in video.get("images", []) if os.path.exists(os.path.join(folder, name))]}
+            "images": [name for name in video.get("images", []) if optional_file.exists(os.path.join(folder, name))]}
 
 
 def contents(folder, about, videos, figures):
@@ -197,7 +198,7 @@ def main():
                       [("mean_by_time", ""), ("pancake", "pancake")], rotation, 0,
                       rough if style.select(points, surface="rough") else ("smooth",))]
     for row in videos:
-        if os.path.exists(os.path.join(folder, f"maps_{row['video']}.csv")):
+        if optional_file.exists(os.path.join(folder, f"maps_{row['video']}.csv")):
             made.append(maps(folder, row["video"], row["amplitude"]))
     made += [profile(folder, "3a", profiles, "varpi_m", -1, r"$\langle\varpi_{M,i}\rangle/\Omega$"),
              profile(folder, "3b", profiles, "normalised", 1,

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 import atomic_file
+import optional_file
 from console import INTERRUPTED, Problem, Progress
 from engine import swirl
 from html_page import rendered
@@ -83,7 +84,7 @@ def note_of(movie, folder):
 def finished(movie, folder):
     """The rotation in this movie, if an earlier call has made the same one."""
     stored, file = atomic_file.stored(note_of(movie, folder)), os.path.join(folder, f"{movie.name}.mp4")
-    same = (stored and stored["movie"] == movie.options and os.path.exists(file) and
+    same = (stored and stored["movie"] == movie.options and optional_file.exists(file) and
             stored["bytes"] == os.path.getsize(file))
     return stored["rotation"] if same else None
 

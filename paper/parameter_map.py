@@ -4,11 +4,11 @@
 """
 
 import argparse
-import os
 import sys
 
 import numpy as np
 
+import optional_file
 import style
 import tables
 from style import plt
@@ -133,7 +133,7 @@ def main():
     parser.add_argument("table")
     parser.add_argument("--level", type=float, default=0.0, help="level that the line shows [0]")
     given = parser.parse_args()
-    if not os.path.exists(given.table):
+    if not optional_file.exists(given.table):
         sys.exit(f"error: the table '{given.table}' does not exist.\nhint: `swirl map` writes it.")
     rows = style.read(given.table)
     columns = list(rows[0])

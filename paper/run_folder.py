@@ -2,12 +2,12 @@
 and so on. `swirl collect OUT/runs/rotation` makes the table of one, and Python and the command line can continue it."""
 
 import fcntl
-import glob
 import json
 import os
 import time
 
 import atomic_file
+import optional_file
 from engine import swirl
 
 
@@ -33,7 +33,7 @@ def plan(out, tasks):
         fcntl.flock(lock, fcntl.LOCK_EX)
         for measure, here in by_measurements(tasks):
             folder = folder_of(out, measure)
-            if not os.path.exists(os.path.join(folder, "plan.json")):
+            if not optional_file.exists(os.path.join(folder, "plan.json")):
                 swirl._engine.Plan({}, 1, list(measure), 0, rows=[task.parameters for task in here]).write(folder)
             elif new := [task.parameters for task, files in zip(here, files_of(folder, here)) if not files]:
                 swirl._engine.grow(folder, {}, 1, [], new)
@@ -47,12 +47,15 @@ def take(folder, tasks):
     before = dict(known)
     for task, files in zip(tasks, files_of(folder, tasks)):
         for file, _ in files:
-            name, text = os.path.basename(file), text_of(file)
+            name, text = os.path.basename(file), optional_file.read(file)
             if text is None:
                 continue
             try:
                 stored, checksum = json.loads(text), swirl._engine.checksum(text)
-                if stored["version"] == swirl._engine.version() and known.setdefault(name, checksum) == checksum:
+                is_of_task = (stored["point"], stored["config"]["seed"]) == (int(name.removesuffix(".json")),
+                                                                             task.parameters["seed"])
+                if (is_of_task and stored["version"] == swirl._engine.version() and
+                        known.setdefault(name, checksum) == checksum):
                     task.result, task.seconds = stored, stored["seconds"]
                     continue
             except (ValueError, KeyError, TypeError):
@@ -63,18 +66,12 @@ def take(folder, tasks):
         atomic_file.store(list_of_checksums, known)
 
 
-def text_of(file):
-    try:
-        with open(file, encoding="utf-8", errors="replace") as opened:
-            return opened.read()
-    except FileNotFoundError:
-        return None
-
-
 def find(out, tasks):
     """Takes the results that exist. A sweep with further measurements serves a task without them."""
-    for folder in map(os.path.dirname, sorted(glob.glob(os.path.join(glob.escape(out), "runs", "*", "plan.json")))):
-        has = set(os.path.basename(folder).split("+"))
+    for name in optional_file.names_in(os.path.join(out, "runs")):
+        folder, has = os.path.join(out, "runs", name), set(name.split("+"))
+        if not optional_file.exists(os.path.join(folder, "plan.json")):
+            continue
         take(folder, [task for task in tasks if task.result is None and set(task.measure) <= has])
 
 
@@ -86,7 +83,7 @@ def make(out, measure, tasks, threads, progress):
                             [task.parameters for task in left])
         take(folder, left)
         for task, [(_, failure)] in zip(left, files_of(folder, left)):
-            if task.result is None and (message := text_of(failure)):
+            if task.result is None and (message := optional_file.read(failure)):
                 task.result = {"failed": message.strip()}
         left = [task for task in left if task.result is None]
         if left:

@@ -6,7 +6,6 @@ continues, and two figures that need the same point share its runs.
 """
 
 import dataclasses
-import glob
 import json
 import multiprocessing
 import os
@@ -197,7 +196,6 @@ def make(points, settings, progress=lambda fraction, part="": None, part=(1, 1))
     of all runs, those reused and those failed, and the seconds of all of them."""
     out, tasks = settings.out, distinct(points)
     os.makedirs(os.path.join(out, "parts"), exist_ok=True)
-    remove_leftovers(out)
     run_folder.plan(out, [task for task in tasks if not task.work])
     tasks = tasks[part[0] - 1::part[1]]
     run_folder.find(out, [task for task in tasks if not task.work])
@@ -225,13 +223,6 @@ def make(points, settings, progress=lambda fraction, part="": None, part=(1, 1))
             point.result = {**combine.combined([task.result for task in point.tasks]), "point": point.name}
     return {"tasks": len(tasks), "reused": reused, "failed": sum(failed(task.result) for task in left),
             "task_seconds": sum(task.seconds for task in tasks)}
-
-
-def remove_leftovers(out):
-    """Removes temporary files of killed calls, which nobody has locked."""
-    for name in glob.glob(os.path.join(glob.escape(out), "*.partial")) + glob.glob(
-            os.path.join(glob.escape(out), "parts", "*.partial")):
-        atomic_file.remove_if_unlocked(name)
 
 
 # --- Remarks ------------------------------------------------------------------------------------

@@ -6,9 +6,9 @@
 values. In a chain, rising and falling values are separate curves.
 """
 
-import os
 import sys
 
+import optional_file
 import style
 import tables
 
@@ -59,7 +59,7 @@ def main():
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     table = sys.argv[1]
     quantity = sys.argv[2] if len(sys.argv) == 3 else "mean_by_time"
-    if not os.path.exists(table):
+    if not optional_file.exists(table):
         sys.exit(f"error: the table '{table}' does not exist.\nhint: `swirl collect` writes it.")
     rows = style.read(table)
     parameters = parameters_of(rows)

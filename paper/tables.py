@@ -3,6 +3,8 @@
 import csv
 import os
 
+import optional_file
+
 # The columns of the rotation rates.
 RATES = ("mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event")
 
@@ -26,7 +28,7 @@ def companion(table, ending):
     """The rows of a second table of a figure, such as figure_5b_crossings.csv; none if it does not exist."""
     stem, kind = os.path.splitext(table)
     file = f"{stem}{ending}{kind}"
-    return read(file) if os.path.exists(file) else []
+    return read(file) if optional_file.exists(file) else []
 
 
 def select(rows, **columns):

@@ -3,6 +3,7 @@
 #include <pybind11/pybind11.h>
 
 #include "calls.hpp"
+#include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/run/failure.hpp"
 
@@ -43,6 +44,9 @@ PYBIND11_MODULE(_engine, module) {
     module.add_object("FileError", file_error_type);
     pybind11::register_exception_translator([](std::exception_ptr thrown) {
         if (thrown) python::translate(thrown, failure_type, file_error_type);
+    });
+    module.def("write_file", [](const std::string& path, const pybind11::bytes& content) {
+        swirl::write_file_atomically(path, std::string_view(content));
     });
     python::bind_snapshots(module);
     python::bind_simulation(module);

@@ -133,7 +133,7 @@ py::tuple sweep(const std::string& folder, unsigned threads, const ProgressCallb
 py::tuple collect(const std::string& folder) {
     const SweepPlan plan = read_plan(folder);
     const CollectedSweep collected = collect_sweep(folder, plan);
-    const SweepStatus status = sweep_status(folder, plan);
+    const SweepStatus status = sweep_status(folder, plan, Counted::results);
     return py::make_tuple(
         collected.table.csv(), status.points, status.done, status.running, status.failed,
         collected.disagreeing, collected.not_steady, collected.without_period,

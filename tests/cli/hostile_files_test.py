@@ -64,6 +64,21 @@ class HostileFiles(InFolder):
             self.expect_error(saying, verb, file, *(more if number % 9 != 2 else [*more, "--start", "1.4"]))
         self.assert_works("measure", self.path("t.h5"), "--quiet")
 
+    def test_a_recording_of_impossible_motion_is_rejected(self):
+        commands = (["measure"], ["export", "--format", "csv", "--out", self.path("o.csv")])
+        edits = (("clock = f['observables/clock/value']; clock[...] = clock[()][::-1]", "is before that of frame"),
+                 ("f['observables/swirls/value'][9:] = 0", "is before that of frame"),
+                 ("f['observables/events/value'][9] = 0", "is before that of frame 8"),
+                 ("p = particles['position/value']; p[...] = p[()][:, :1]", "discs 0 and 1 overlap"),
+                 ("p = particles['position/value']; p[7, 2] = p[7, 3] + 1", "discs 2 and 3 overlap"),
+                 ("particles['position/value'][7, 1, 0] += 20", "disc 1 is outside of the container"),
+                 ("particles['radius'][...] = 4", "outside of the container"))
+        for run in (DISCS, [*SPHERES, "--overwrite"]):
+            self.recorded(*run)
+            for number, (edit, saying) in enumerate(edits):
+                verb, *more = commands[number % 2]
+                self.expect_error(saying, verb, self.edited("t.h5", edit), *more)
+
     def test_impossible_values_in_a_dump_are_rejected(self):
         for column, value in (("radius", "0"), ("mass", "-1"), ("x", "1e300")):
             row = {"id": "1", "x": "0", "y": "0", "radius": "1", "mass": "1", column: value}
@@ -217,6 +232,22 @@ def cut(group, part):
             for says, change in changes:
                 with self.subTest(change):
                     self.expect_error(says, "verify", self.edited(name, cut + change))
+
+    def test_verify_names_every_text_that_it_cannot_compare(self):
+        self.recorded(*DISCS)
+        of_the_call = {"command", "config", "run"}
+        for file, unverifiable in (("t.h5", of_the_call), ("e.h5", of_the_call | {"frames"})):
+            for name in ("command", "config", "run", "frames"):
+                if name == "frames" and name not in unverifiable:
+                    continue
+                edit = f"del f['parameters/{name}']; f['parameters/{name}'] = np.bytes_('changed')"
+                for path in (self.path(file), self.edited(file, edit)):
+                    done = self.assert_works("verify", path)
+                    listed = done.stdout.split("not verifiable: ")[1].strip().split(", ")
+                    self.assertEqual(set(listed) - {"build"}, unverifiable)
+        # The frames confirm a text that says nothing else.
+        self.assert_works("verify", self.edited(
+            "t.h5", "del f['parameters/frames']; f['parameters/frames'] = np.bytes_('{\"by\":1,\"per_swirl\":5}')"))
 
     def test_verify_rejects_surplus_rows(self):
         self.recorded(*DISCS)

@@ -9,7 +9,8 @@ import shutil
 import subprocess
 import time
 
-from program import ALL, HANG, SWIRL, InFolder, main, read_bytes, read_json, swirl, wait_until, write_text
+from program import (ALL, HANG, SWIRL, InFolder, main, read_bytes, read_json, swirl, wait_until, without_time,
+                     write_text)
 
 PLAN = ["sweep", "--discs", "5:12", "--mu", "0.5,1", "--seeds", "3", "--events", "20000", "--quiet"]
 POINTS = 48
@@ -156,6 +157,27 @@ class Sweep(InFolder):
         done = swirl("sweep", "--out", self.path("a"), "--grow", "--seeds", 2, "--dry-run")
         self.assertIn("7 runs:\n  table of 3 points\n  discs: 5 6 7\n  events: 3000 3000 3000\n  replicates: 2 3 2\n",
                       done.stdout)
+
+    def test_a_table_that_grows_keeps_its_common_parameters(self):
+        def sweep(text, *more):
+            write_text(self.path("points.csv"), text)
+            return swirl("sweep", "--points", self.path("points.csv"), "--out", self.path("a"), "--quiet", *more)
+
+        common = ["--mu", "0.5", "--periods", 3]
+        self.assertEqual(sweep("discs\n5\n6\n", *common).returncode, 0)
+        for more in ([], common, ["--mu", "0.50"]):
+            self.assertEqual(sweep("discs\n7\n", "--grow", *more).returncode, 0)
+        self.assertEqual(sweep("discs,mu\n8,0.5\n", "--grow").returncode, 0)
+        self.assertEqual([row.split(",")[:3] for row in self.table(self.path("a")).splitlines()],
+                         [["discs", "mu", "periods"], *([n, "0.5", "3"] for n in "5678")])
+        for text, more, says in (("discs,mu\n9,1\n", [], "line 2: mu is 1, but all rows of the sweep in the folder have mu 0.5"),
+                                 ("discs\n9\n", ["--mu", "1"], "--mu is 1, but all rows"),
+                                 ("discs\n9\n", ["--restitution", "0.9"], "has no common value of it")):
+            done = sweep(text, "--grow", *more)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(says, done.stderr)
+        # The hint for another parameter.
+        self.assertEqual(sweep("discs,restitution\n9,0.9\n", "--grow").returncode, 0)
 
     def test_two_processes_share_one_folder(self):
         table = self.whole()
@@ -365,27 +387,77 @@ class Sweep(InFolder):
             for call in (["sweep", "--out", self.path("whole"), "--status"], ["collect", self.path("whole")]):
                 done = self.assert_works(*call)
                 self.assertIn(f"{runs - 1} of {runs} runs", done.stdout)
-                self.assertIn("1 result file is not whole", done.stderr)
+                self.assertIn("a file of 1 run is missing or not whole", done.stderr)
                 self.assertIn("000007.json'", done.stderr)
             done = self.assert_works("sweep", "--out", self.path("whole"))
             self.assertIn("(1 by this call)", done.stdout)
             self.assertEqual(self.table(self.path("whole")), whole)
 
-    def test_a_damaged_state_of_a_chain_says_what_to_remove(self):
-        call = ["sweep", "--discs", 5, "--mu", "0.1,0.5,1", "--periods", 3, "--warmup", 1, "--chain", "mu", "--out",
-                self.path("chain"), "--quiet"]
-        self.assert_works(*call)
-        whole = self.table(self.path("chain"))
-        with open(self.path("chain/states/000000.state"), "r+b") as opened:
-            opened.truncate(100)
-        for point in ("000002", "000004"):  # rising and falling, after point 0
-            os.remove(self.path(f"chain/results/{point}.json"))
-        done = self.assert_fails(1, *call)
-        remove = re.search(r"hint: remove '(.*?)' and run `swirl (.*?)` again", done.stderr)
-        self.assertTrue(remove, done.stderr)
-        os.remove(remove[1])
-        self.assert_works(*remove[2].split(), "--quiet")
-        self.assertEqual(self.table(self.path("chain")), whole)
+    CHAIN = ["sweep", "--discs", 5, "--mu", "0.1,0.3,0.5,1", "--periods", 3, "--warmup", 1, "--chain", "mu", "--quiet"]
+    IN_ORDER = (0, 2, 4, 6, 7, 5, 3, 1)  # rising, then falling
+
+    def assert_chain_is_repaired(self, **damaged):
+        """Damages results and states of these points, and calls the sweep again."""
+        folder = self.shared("chain", lambda path: self.assert_works(*self.CHAIN, "--out", path))
+        def contents():
+            """Of results also `started_from`, the point before."""
+            return ({point: without_time(f"{folder}/results/{point:06}.json") for point in self.IN_ORDER},
+                    {point: read_bytes(f"{folder}/states/{point:06}.state") for point in self.IN_ORDER})
+
+        whole = contents()
+        for part, points in damaged.items():
+            for point in points:
+                os.truncate(f"{folder}/{part}s/{point:06}.{'json' if part == 'result' else 'state'}", 100)
+        self.assert_works("sweep", "--out", folder, "--quiet")
+        self.assertEqual(contents(), whole)
+        shutil.rmtree(folder)
+
+    def test_a_chain_with_several_damaged_results_is_repaired(self):
+        order = self.IN_ORDER
+        self.assert_chain_is_repaired(result=[order[2], order[4]])  # a whole result between them
+        self.assert_chain_is_repaired(result=[order[1], order[3], order[-1]])
+        self.assert_chain_is_repaired(result=[order[0], order[2], order[3]])
+
+    def test_a_chain_starts_again_before_a_damaged_state(self):
+        order = self.IN_ORDER
+        self.assert_chain_is_repaired(state=[order[0]], result=[order[1], order[4]])
+        self.assert_chain_is_repaired(state=order[:5], result=[order[5]])
+        self.assert_chain_is_repaired(state=[order[-1]], result=[order[0]])
+
+    def test_a_point_without_its_recordings_is_not_done(self):
+        folder = self.path("recorded")
+        self.assert_works("sweep", "--discs", "5:7", "--periods", 3, "--frames", 4, "--series", "--out", folder, "--quiet")
+        table = self.table(folder)
+
+        def contents():
+            return {name: read_bytes(os.path.join(folder, name)) for part in ("trajectories", "series")
+                    for name in sorted(os.path.join(part, file) for file in os.listdir(os.path.join(folder, part)))}
+
+        whole = contents()
+
+        def exchange(one, other):
+            first, second = (os.path.join(folder, name) for name in (one, other))
+            os.rename(first, first + "~")
+            os.rename(second, first)
+            os.rename(first + "~", second)
+
+        def cut(name):
+            os.truncate(os.path.join(folder, name), len(whole[name]) // 2)
+
+        for damage, runs in ((lambda: os.remove(folder + "/trajectories/000001.h5"), 1),
+                             (lambda: cut("trajectories/000001.h5"), 1),
+                             (lambda: exchange("trajectories/000000.h5", "trajectories/000002.h5"), 2),
+                             (lambda: os.remove(folder + "/series/000001.csv"), 1),
+                             (lambda: cut("series/000001.csv"), 1),
+                             (lambda: exchange("series/000000.csv", "series/000002.csv"), 2)):
+            damage()
+            done = self.assert_works("sweep", "--out", folder, "--status")
+            self.assertIn(f"{3 - runs} of 3 runs done", done.stdout)
+            self.assertIn("is missing or not whole", done.stderr)
+            self.assertEqual(self.table(folder), table)  # the results are whole
+            done = self.assert_works("sweep", "--out", folder)
+            self.assertIn(f"({runs} by this call)", done.stdout)
+            self.assertEqual(contents(), whole)
 
     def test_results_of_other_points_and_wrong_types_are_reported(self):
         self.whole()

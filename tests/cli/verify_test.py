@@ -103,12 +103,14 @@ class Verify(InFolder):
         self.assertIn("holds 'warnings' twice", done.stderr)
 
     def test_every_change_of_a_result_of_a_sweep_is_noticed(self):
-        self.assert_works("sweep", "--discs", "6", "--mu", "0,1", "--periods", 4, "--warmup", 1, "--out",
+        self.assert_works("sweep", "--discs", "6", "--mu", "0,1", "--periods", 4, "--warmup", 1, "--series", "--out",
                           self.path("study"), "--quiet")
         result = read_json(self.path("study/results/000001.json"))
         # The test above has the entries that the result of a run has, too.
         own = {"point", "replicate"}
-        self.assert_every_change_is_noticed(result, OF_EVERY_RESULT | own, set(), set(result) - own - OF_EVERY_RESULT)
+        checksum = {"series_checksum"}
+        self.assert_every_change_is_noticed(result, OF_EVERY_RESULT | own, checksum,
+                                            set(result) - own - checksum - OF_EVERY_RESULT)
 
     def test_deeply_nested_results_are_rejected(self):
         for entry in ("config", "format", "version", "measured", "warnings"):

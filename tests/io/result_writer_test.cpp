@@ -54,15 +54,29 @@ TEST(AtomicFile, LeftoversOfKilledWritersAreRemovedButNotFilesInUse) {
     }
     ::waitpid(child, nullptr, 0);
     ASSERT_EQ(files_in(scratch.folder()), 1u);
-    AtomicFile alive(scratch / "f");
     write_quickly(scratch / "f.my own.partial", "foreign");
-    remove_leftovers_of(scratch / "other");
+    AtomicFile other(scratch / "other");
+    EXPECT_EQ(files_in(scratch.folder()), 3u);  // a leftover belongs to one target
+    AtomicFile alive(scratch / "f");
     EXPECT_EQ(files_in(scratch.folder()), 3u);
-    remove_leftovers_of(scratch / "f");
-    EXPECT_EQ(files_in(scratch.folder()), 2u);
+    AtomicFile second(scratch / "f");
+    EXPECT_EQ(files_in(scratch.folder()), 4u);
     alive.append("whole");
     alive.finish();
     EXPECT_EQ(read_whole_file(scratch / "f"), "whole");
+}
+
+TEST(AtomicFile, LeftoversOfAFileThatIsRemovedAreRemoved) {
+    const Scratch scratch;
+    const std::string leftover = "f.0123456789abcdef.partial";
+    for (const bool is_there : {false, true}) {
+        const auto folder = scratch / (is_there ? "there" : "absent");
+        std::filesystem::create_directory(folder);
+        if (is_there) write_quickly(folder / "f", "whole");
+        write_quickly(folder / leftover, "half");
+        remove_atomic_file(folder / "f");
+        EXPECT_EQ(files_in(folder), 0u);
+    }
 }
 
 TEST(JournaledFile, NothingIsCommittedAfterAnError) {

@@ -1,6 +1,7 @@
 """The figures of paper/: runs that are stored, reused, shared and combined."""
 
 import csv
+import fcntl
 import os
 import re
 import subprocess
@@ -52,6 +53,35 @@ def test_runs_are_reused_and_a_damaged_result_is_made_again(tmp_path, name, fold
     again = made(tmp_path, name)
     assert again["reused"] == first["tasks"] - len(damages) - 1
     assert rows(tmp_path, name) == table
+
+
+def test_a_file_that_is_written_again_leaves_no_temporary_file(tmp_path):
+    import atomic_file
+    left, other = (tmp_path / f"{name}.0123456789abcdef.partial" for name in ("a.json", "b.json"))
+    for file in (left, other):
+        file.write_text("half")
+    atomic_file.write(str(tmp_path / "a.json"), "whole")
+    assert not left.exists() and other.exists()
+    with open(other, "rb") as locked:  # its writer still runs
+        fcntl.flock(locked, fcntl.LOCK_EX)
+        atomic_file.write(str(tmp_path / "b.json"), "whole")
+    assert other.exists()
+
+
+def test_what_cannot_be_read_is_not_absent(tmp_path):
+    import atomic_file
+    import optional_file
+    atomic_file.store(str(tmp_path / "a.json"), [1])
+    assert atomic_file.stored(str(tmp_path / "a.json")) == [1]
+    assert atomic_file.stored(str(tmp_path / "b.json")) is None
+    folder_in_its_place = tmp_path / "c.json"
+    folder_in_its_place.mkdir()
+    with pytest.raises(IsADirectoryError):
+        atomic_file.stored(str(folder_in_its_place))
+    loop = tmp_path / "loop"
+    loop.symlink_to("loop")
+    with pytest.raises(OSError):
+        optional_file.exists(loop)
 
 
 def test_parts_share_the_runs(tmp_path):

@@ -16,6 +16,7 @@
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/tracks_input.hpp"
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/parse_json.hpp"
@@ -85,9 +86,9 @@ fs::path tracks_of(const ExperimentCall& call, const std::string& video,
                    image = fs::path(call.out) / fmt::format("video_{}.png", container.name);
     container.images = {image.filename()};
     const std::string key = tracking_key(call, video).dump(2) + "\n";
-    const bool reusable = video.find('%') == video.npos && fs::exists(about) && fs::exists(table) &&
-                          fs::exists(image) && fs::exists(camera_file(table)) &&
-                          read_whole_file(about) == key;
+    const bool reusable = video.find('%') == video.npos && file_exists(about) &&
+                          file_exists(table) && file_exists(image) &&
+                          file_exists(camera_file(table)) && read_whole_file(about) == key;
     if (reusable) return table;
     ProgressLine line(container.name, call.quiet);
     const TrackingSettings settings = tracking_settings(video, call.fps, call.frames, line);
@@ -114,7 +115,7 @@ fs::path tracks_of(const ExperimentCall&, const std::string&, ContainerVideo&) {
 
 void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& container) {
     const fs::path calibration = camera_file(table);
-    if (!fs::exists(calibration))
+    if (!file_exists(calibration))
         throw Failure(
             fmt::format("there is no calibration '{}' next to '{}'.\nhint: give a video, or tracks "
                         "by `swirl track`, which writes both files.",

@@ -14,6 +14,7 @@
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/table.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
@@ -276,7 +277,7 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
                    container_file = companion(".container.csv"),
                    json_file = companion(".truth.json");
     reject_unwritable(out);
-    if (!call.overwrite && fs::exists(out))
+    if (!call.overwrite && file_exists(out))
         throw Failure(
             fmt::format("'{}' already exists.\nhint: use --overwrite to replace it.", call.out));
 

@@ -13,6 +13,7 @@
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/track_options.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
@@ -283,7 +284,7 @@ void validate(const TrackCall& call) {
     reject_same_files(all);
     if (!call.report.empty()) make_folder(call.report);
     for (const std::string& file : {call.out, call.path})
-        if (!call.overwrite && std::filesystem::exists(file))
+        if (!call.overwrite && file_exists(file))
             throw Failure(
                 fmt::format("'{}' already exists.\nhint: use --overwrite to replace it.", file));
 }

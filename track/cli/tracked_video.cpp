@@ -12,6 +12,7 @@
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/track_options.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/table.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/render/label.hpp"
@@ -381,7 +382,7 @@ Json write_tracks(const TrackedVideo& video, const VideoSource& source,
     // Whenever the process is killed, tracks are never next to the calibration of other tracks, and
     // the same call works again.
     std::error_code ignored;
-    const bool replaces = fs::exists(out);
+    const bool replaces = file_exists(out);
     replaces ? void(fs::remove(camera_file(out), ignored)) : write_camera();
     try {
         write_tracks_file(video, source, out, spins);

@@ -6,6 +6,7 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parse_json.hpp"
 #include "swirl/run/version.hpp"
@@ -29,13 +30,13 @@ ResultStore::ResultStore(const fs::path& out) : folder_(out / "parts") {
     if (error)
         throw Failure(fmt::format("the folder '{}' cannot be created: {}.", folder_.string(),
                                   error.message()));
-    remove_leftovers(out);
-    remove_leftovers(folder_);
 }
 
 std::optional<Json> ResultStore::find(const std::string& key) const {
-    if (key.empty() || !fs::exists(file(key))) return {};
-    const Json stored = parse_json(read_whole_file(file(key)));
+    if (key.empty()) return {};
+    const std::optional<std::string> content = read_optional_file(file(key));
+    if (!content) return {};
+    const Json stored = parse_json(*content);
     const auto has = [&](const char* name, const std::string& text) {
         return stored.contains(name) && stored[name] == text;
     };

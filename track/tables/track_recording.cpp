@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/h5md.hpp"
 #include "swirl/io/hdf5.hpp"
@@ -208,10 +209,11 @@ void write_track_recording(const std::filesystem::path& path, const Tracks& trac
 }
 
 bool is_track_recording(const std::filesystem::path& path) {
+    if (!file_signature(path).starts_with("\x89HDF")) return false;
     try {
         return Hdf5File(path, JournaledFile::Mode::read).has(path_of("position/value"));
-    } catch (const FileError&) {
-        return false;
+    } catch (const FileChanged&) {
+        return false;  // tracks are written at once, so the file is the recording of a run
     }
 }
 

@@ -9,6 +9,7 @@ from typing import Optional
 from urllib.parse import urlencode
 
 from . import _engine
+from ._files import exists
 from ._runs import PathName, Value
 
 _BUILT = os.path.join("build", "lab", "index.html")
@@ -77,7 +78,7 @@ def _path_of(page: Optional[PathName]) -> PathName:
     package = os.path.dirname(os.path.realpath(__file__))
     sources = os.path.dirname(os.path.dirname(os.path.dirname(package)))
     for path in (os.path.join(package, "lab.html"), os.path.join(sources, _BUILT)):
-        if os.path.exists(path):
+        if exists(path):
             return path
     raise FileNotFoundError("the browser page is not built.\n"
                             "hint: run ./swirl lab --out laboratory.html in the folder of the sources, and use "

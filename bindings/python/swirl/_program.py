@@ -7,13 +7,15 @@ import shutil
 import sys
 from typing import Optional
 
+from ._files import exists
+
 
 def program() -> Optional[str]:
     """The program in this package, or the first on the PATH that is not this command."""
     import swirl
     for folder in swirl.__path__:
         bundled = os.path.join(folder, "_program", "bin", "swirl")
-        if os.path.exists(bundled):
+        if exists(bundled):
             return bundled
     found = shutil.which("swirl")
     is_this_command = found is not None and os.path.realpath(found) == os.path.realpath(sys.argv[0])

@@ -13,6 +13,7 @@ from typing import Any, Optional, Union, overload
 import numpy as np
 
 from . import _engine
+from ._files import exists
 from ._results import Estimate, Measured, Rotation, measured_of
 from ._runs import Measure, CustomBlocks, PathName, split_measure
 
@@ -151,7 +152,7 @@ class Tracks(Recording):
         """Reads a trackpy table in CSV format. Arguments that are not given come from
         NAME.camera.json next to NAME.csv, which `swirl track` writes."""
         camera_file = pathlib.Path(file).with_suffix(".camera.json")
-        if camera_file.is_file():
+        if exists(camera_file):
             scale = {**_camera(camera_file), **scale}
         return cls(_ReadTracks(_engine.Recording.read_tracks(os.fspath(file))), **scale)
 

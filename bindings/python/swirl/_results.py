@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-import fcntl
 import html
 import json
 import math
 import os
-import secrets
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, Optional, Union
@@ -398,16 +396,5 @@ class Result:
 
 
 def write_atomically(file: Union[str, os.PathLike[str]], content: bytes) -> None:
-    """Writes a temporary file and renames it, so that the file is never incomplete."""
-    name = os.fspath(file)
-    temporary = f"{name}.{secrets.token_hex(8)}.partial"
-    with open(temporary, "xb") as opened:
-        try:
-            fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            opened.write(content)
-            opened.flush()
-            os.fsync(opened.fileno())
-            os.replace(temporary, name)
-        except BaseException:
-            os.remove(temporary)
-            raise
+    """The file is never incomplete: the content goes to a temporary file first. Raises OSError."""
+    _engine.write_file(os.fspath(file), content)

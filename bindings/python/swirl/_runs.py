@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, Optional, Protocol, Union
 import numpy as np
 
 from . import _engine
+from ._files import exists
 from ._results import ArrayEstimate, Estimate, Measured, Result, Series, measured_of
 
 PathName = Union[str, "os.PathLike[str]"]
@@ -250,10 +251,10 @@ def _files(trajectory: Optional[PathName], frames: Optional[int], event_log: Opt
         files["resume"] = True
     if overwrite:
         files["overwrite"] = True
-    continues = resume and checkpoint is not None and os.path.exists(checkpoint)
+    continues = resume and checkpoint is not None and exists(checkpoint)
     if not overwrite and not continues:
         for path in (checkpoint, trajectory, event_log, series):
-            if path is not None and os.path.exists(path) and os.path.getsize(path) > 0:
+            if path is not None and exists(path) and os.path.getsize(path) > 0:
                 raise FileExistsError(f"'{os.fspath(path)}' already exists.\nhint: choose another name, "
                                       "or use overwrite=True to replace it.")
     return files

@@ -15,6 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _engine
+from ._files import exists
 from ._optional import optional
 from ._results import Result
 from ._runs import (Measure, PathName, Progress, call_text, run, split_measure, with_parameters)
@@ -95,7 +96,7 @@ def sweep(out: Optional[PathName] = None, *, points: Any = None, seeds: int = 1,
     elif given or rows or names or chain or series:
         _engine.Plan(given, _count("seeds", seeds, 1), names, _count("frames", frames, 0), chain or "",
                      bool(series), rows).write(folder)
-    elif not os.path.exists(os.path.join(folder, "plan.json")):
+    elif not exists(os.path.join(folder, "plan.json")):
         raise ValueError("there is no parameter to sweep over.\n"
                          "hint: give lists, such as discs=range(5, 49), mu=[0.1, 0.5, 1].")
     bar = Progress(progress if not callable(progress) else None, "sweep")
@@ -254,7 +255,7 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
             "mean_by_time", 16, 0.0, None, None, 0.5, "mean_by_time", None, None):
         raise ValueError("options of the map are given, but x is not.\nhint: give all options of the map, "
                          "or only out to continue it.")
-    elif not os.path.exists(os.path.join(folder, "plan.json")):
+    elif not exists(os.path.join(folder, "plan.json")):
         raise ValueError("x is missing.\nhint: give an axis, such as x='mu=0:1'.")
     csv, summary, failure = _engine.make_map(folder, threads, progress)
     if failure:

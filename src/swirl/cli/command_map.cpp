@@ -14,6 +14,7 @@
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/sweep_options.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/python_script.hpp"
 #include "swirl/run/reading.hpp"
@@ -60,8 +61,7 @@ SweepPlan map_in(const std::string& folder) {
 }
 
 SweepPlan existing_map_plan(const MapCall& call) {
-    std::error_code ignored;
-    if (!fs::exists(fs::path(call.out) / "plan.json", ignored))
+    if (!file_exists(fs::path(call.out) / "plan.json"))
         throw UsageError(
             "missing required option --x NAME=VALUES.\nhint: give, for example, --x mu=0:1.");
     return map_in(call.out);

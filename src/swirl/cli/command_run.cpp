@@ -14,6 +14,7 @@
 #include "swirl/cli/recording_options.hpp"
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
@@ -127,7 +128,7 @@ PreparedRun prepare(RunCall& call) {
 }
 
 void print_checkpoint_notes(const RunFiles& files) {
-    const bool exists = fs::exists(files.checkpoint);
+    const bool exists = file_exists(files.checkpoint);
     if (files.resume && !exists)
         print_note(fmt::format("there is no checkpoint '{}'; the run starts from the beginning.",
                                files.checkpoint.string()));
@@ -216,7 +217,7 @@ void finish_checkpoint(const RunCall& call, const RunFiles& files, bool complete
         if (!call.quiet) print_note_on_saved_state(files);
         return;
     }
-    if (!fs::exists(files.checkpoint)) throw Interrupted("stopped before the end of the run.");
+    if (!file_exists(files.checkpoint)) throw Interrupted("stopped before the end of the run.");
     throw Interrupted(
         fmt::format("stopped before the end of the run.\nhint: repeat the command with --resume to "
                     "continue from '{}'.",

@@ -14,6 +14,7 @@
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/sweep_options.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/python_script.hpp"
@@ -84,8 +85,7 @@ PlanOfCall grown_plan(const SweepCall& call) {
 }
 
 SweepPlan existing_plan(const SweepCall& call) {
-    std::error_code ignored;
-    if (!fs::exists(fs::path(call.out) / "plan.json", ignored))
+    if (!file_exists(fs::path(call.out) / "plan.json"))
         throw UsageError(
             "no parameters to sweep over.\nhint: give a plan (plan.toml), or lists, such as "
             "--discs 5:48 --mu 0.1,0.5,1.");
@@ -111,14 +111,12 @@ PlanOfCall plan_of(const SweepCall& call) {
 
 void warn_of_damaged_results(const SweepStatus& status, const std::string& folder) {
     if (status.damaged == 0) return;
-    print_warning(
-        fmt::format("{} not whole and count{} as not done; the first is '{}'.\nhint: run `swirl "
-                    "sweep --out {}` "
-                    "to repeat {}.",
-                    status.damaged == 1 ? "1 result file is"
-                                        : fmt::format("{} result files are", status.damaged),
-                    status.damaged == 1 ? "s" : "", status.first_damaged, shell_word(folder),
-                    status.damaged == 1 ? "its run" : "their runs"));
+    const bool one = status.damaged == 1;
+    print_warning(fmt::format(
+        "a file of {} is missing or not whole, and the run{} as not done; the first file is '{}'."
+        "\nhint: run `swirl sweep --out {}` to repeat {}.",
+        counted(std::int64_t(status.damaged), "run"), one ? " counts" : "s count",
+        status.first_damaged, shell_word(folder), one ? "the run" : "the runs"));
 }
 
 void print_status(const SweepCall& call, const SweepPlan& plan) {
@@ -306,7 +304,7 @@ void collect(const CollectCall& call) {
             "hint: use --chain NAME of `swirl sweep`, and then `swirl collect`.");
     const CollectedSweep collected = collect_sweep(folder, plan);
     const std::string crossings = call.crossings.empty() ? "" : crossings_in(plan, collected).csv();
-    const SweepStatus s = sweep_status(folder, plan);
+    const SweepStatus s = sweep_status(folder, plan, Counted::results);
     write_or_print(file, collected.table.csv());
     write_or_print(call.crossings, crossings);
     if (!call.loops.empty())

@@ -14,7 +14,9 @@
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/trial_reading.hpp"
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/checksum.hpp"
 #include "swirl/io/event_log.hpp"
+#include "swirl/io/recording.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -109,7 +111,8 @@ Json repeated_result(const std::string& file, const Json& json, bool quiet) {
     RunControl control;
     control.observation = &observation;
     std::optional<PeriodSeries> series;
-    if (json.contains("series")) control.series = &series.emplace(config, measured);
+    if (json.contains("series") || json.contains("series_checksum"))
+        control.series = &series.emplace(config, measured);
     RunResult run = repeat_run(
         config, quiet,
         [](Run& passed) {
@@ -135,7 +138,10 @@ Json repeated_result(const std::string& file, const Json& json, bool quiet) {
         result["config_text"] = "";
     }
     if (json.contains("measured")) result["measured"] = measured_json(observation.report());
-    if (series) {
+    if (json.contains("series_checksum"))
+        result["series_checksum"] =
+            fmt::format("{:016x}", checksum(series->header() + series->rows()));
+    if (json.contains("series")) {
         result["series"] = series_json(*series);
         if (json["series"].contains("file")) result["series"]["file"] = "";
     }
@@ -226,8 +232,9 @@ bool same_frame(const Snapshot& frame, const Snapshot& now) {
 }
 
 /// Compares the texts of a recording on its run. Returns the names of those that a repeated run
-/// cannot give.
-std::string verify_provenance(const std::string& file, auto& recording, const RunConfig& config) {
+/// cannot give. `verified`: the name of a text that the comparison of the frames confirms.
+std::string verify_provenance(const std::string& file, auto& recording, const RunConfig& config,
+                              const std::string& verified = "") {
     std::vector<std::string> unverifiable;
     const std::string by = recording.provenance("version");
     for (const auto& [name, now] : provenance_of(config, "", "")) {
@@ -245,6 +252,9 @@ std::string verify_provenance(const std::string& file, auto& recording, const Ru
                             name, there, now, version_note(by)));
         unverifiable.push_back(name);
     }
+    // The name of the run contains what it measured; an event log has no frames.
+    for (const std::string& name : {std::string(run_entry), std::string("frames")})
+        if (name != verified && !recording.provenance(name).empty()) unverifiable.push_back(name);
     return fmt::format("not verifiable: {}\n", fmt::join(unverifiable, ", "));
 }
 
@@ -318,8 +328,14 @@ FrameTimes frame_times_in(const std::string& file, const std::string& text) {
 void verify_trajectory(const std::string& file, bool quiet) {
     TrajectoryReader reader(file);
     const RunConfig config = config_in(file, reader.provenance("parameters"));
-    const std::string remark = verify_provenance(file, reader, config);
-    const FrameTimes times = frame_times_in(file, reader.provenance("frames"));
+    const std::string frames = reader.provenance("frames");
+    const FrameTimes times = frame_times_in(file, frames);
+    RunFiles files;
+    files.trajectory = file;
+    files.frames = times;
+    const bool says_only_times = frames == frames_entry(files);
+    const std::string remark =
+        verify_provenance(file, reader, config, says_only_times ? "frames" : "");
     Comparison comparison(file, "frame", reader.frames(), reader.complete(),
                           reader.provenance("version"));
     std::uint64_t events = 0;

@@ -10,6 +10,7 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/toml_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameter_files.hpp"
@@ -19,8 +20,7 @@ namespace {
 
 /// Errors in a configuration file are usage errors.
 Config parsed(const std::string& file, const std::string& command) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
+    if (!file_exists(file))
         throw UsageError(fmt::format(
             "the configuration file '{}' does not exist.\nhint: options begin with --, as in {}.",
             file,

@@ -123,7 +123,7 @@ void write_output(const std::filesystem::path& file, const std::string& text) {
     const auto kind = std::filesystem::status(file, ignored).type();
     if (kind == std::filesystem::file_type::regular ||
         kind == std::filesystem::file_type::not_found) {
-        write_file_and_clean_up(target.empty() ? file : target, text);
+        write_file_atomically(target.empty() ? file : target, text);
         return;
     }
     const int stream = open_for_writing(file);

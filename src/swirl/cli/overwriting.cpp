@@ -9,6 +9,7 @@
 
 #include "swirl/cli/output.hpp"
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/recording.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -21,22 +22,18 @@ namespace fs = std::filesystem;
 
 using Json = nlohmann::ordered_json;
 
-bool file_exists(const fs::path& file) {
-    std::error_code ignored;
-    return !file.empty() && fs::exists(file, ignored);
-}
+/// False for an output that the call does not write.
+bool is_there(const fs::path& file) { return !file.empty() && file_exists(file); }
 
 /// A regular file that is not empty: mktemp makes an empty one in advance.
 bool has_content(const fs::path& file) {
-    std::error_code ignored;
-    return !file.empty() && file != "-" && fs::is_regular_file(file, ignored) &&
-           fs::file_size(file, ignored) > 0;
+    return !file.empty() && file != "-" && regular_file_exists(file) && fs::file_size(file) > 0;
 }
 
 /// True if the recording belongs to this run and has these frame times. An event log has none, so
 /// `frames` is empty.
 bool is_recording_of(const fs::path& file, const RunConfig& config, const std::string& frames) {
-    return file_exists(file) && recorded_entry(file, "parameters") == config_json(config).dump() &&
+    return is_there(file) && recorded_entry(file, "parameters") == config_json(config).dump() &&
            (frames.empty() || recorded_entry(file, "frames") == frames);
 }
 
@@ -62,7 +59,7 @@ bool has_all(const Json& result, const std::vector<std::string>& names) {
 /// A resumed run may replace its own files, and those that it was started to overwrite.
 void reject_files_of_another_run(const RunFiles& files, const std::string& json) {
     const bool result = has_content(json);
-    if (!result && !file_exists(files.trajectory) && !file_exists(files.event_log) &&
+    if (!result && !is_there(files.trajectory) && !is_there(files.event_log) &&
         !has_content(files.series))
         return;
     const CheckpointedCall saved = call_in_checkpoint(files.checkpoint);
@@ -72,7 +69,7 @@ void reject_files_of_another_run(const RunFiles& files, const std::string& json)
     };
     for (const auto& [option, file] :
          {std::pair{"trajectory", files.trajectory}, std::pair{"log_events", files.event_log}})
-        if (file_exists(file) && !may_replace(option, file)) require_recording_of(file, saved.run);
+        if (is_there(file) && !may_replace(option, file)) require_recording_of(file, saved.run);
     const auto series = saved.options.find("series");
     if (has_content(files.series) &&
         (series == saved.options.end() || fs::path(series->second) != files.series))
@@ -109,12 +106,12 @@ bool may_replace(const RunFiles& files, const std::string& json, const Json& res
 bool is_done_already(const RunFiles& files, const std::string& json, const RunConfig& config,
                      const std::vector<std::string>& measured,
                      const std::vector<fs::path>& tables) {
-    if (!files.resume || file_exists(files.checkpoint) || !has_content(json)) return false;
+    if (!files.resume || is_there(files.checkpoint) || !has_content(json)) return false;
     const Json there = result_in(json);
     if (!there.is_object() || !there.value("complete", false) ||
         config_in(there) != config_json(config) || !has_all(there, measured))
         return false;
-    return std::all_of(tables.begin(), tables.end(), file_exists) &&
+    return std::all_of(tables.begin(), tables.end(), is_there) &&
            (files.trajectory.empty() ||
             is_recording_of(files.trajectory, config, frames_entry(files))) &&
            (files.event_log.empty() || is_recording_of(files.event_log, config, "")) &&
@@ -123,9 +120,8 @@ bool is_done_already(const RunFiles& files, const std::string& json, const RunCo
 
 void reject_overwriting(const RunFiles& files, const std::string& json) {
     if (files.overwrite) return;
-    if (files.resume && file_exists(files.checkpoint))
-        return reject_files_of_another_run(files, json);
-    if (file_exists(files.checkpoint))
+    if (files.resume && is_there(files.checkpoint)) return reject_files_of_another_run(files, json);
+    if (is_there(files.checkpoint))
         throw Failure(
             fmt::format("'{}' is the checkpoint of an interrupted run.\nhint: continue it with "
                         "--resume, or start "

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
@@ -135,7 +136,7 @@ class CameraFile {
 /// Fills options that were not given from the calibration next to `file`, if it exists.
 TrackTexts with_calibration(TrackTexts texts, const std::string& file) {
     const std::filesystem::path calibration = camera_file(file);
-    if (!std::filesystem::is_regular_file(calibration)) return texts;
+    if (!file_exists(calibration)) return texts;
     const CameraFile camera(calibration);
     for (const CameraNumber& number : camera_numbers) {
         const std::string found = fmt::format("{}", camera.number(number));
@@ -220,7 +221,7 @@ Tracks read_tracks(const std::string& file, const TrackScale& scale) {
 
 CameraRecord camera_record(const std::string& file) {
     const std::filesystem::path calibration = camera_file(file);
-    if (!std::filesystem::is_regular_file(calibration)) return {};
+    if (!file_exists(calibration)) return {};
     return CameraFile(calibration).record();
 }
 
@@ -244,7 +245,7 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
     scale.phase = parse_number(texts, "phase") * pi / 180.0;
     scale.container_radius = parse_number(texts, "container-radius");
     scale.clockwise = texts.clockwise;
-    scale.calibrated = given.scale.empty() && std::filesystem::is_regular_file(camera_file(file));
+    scale.calibrated = given.scale.empty() && file_exists(camera_file(file));
     if (texts.centre.empty()) return scale;
     const std::size_t comma = texts.centre.find(',');
     const auto x = read_number(texts.centre.substr(0, comma));

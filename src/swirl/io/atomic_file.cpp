@@ -9,12 +9,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <system_error>
 #include <utility>
 
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/system_calls.hpp"
 
 namespace swirl {
@@ -43,6 +45,55 @@ std::string target_of(const std::string& name) {
 }
 
 constexpr std::size_t buffer_size = 1 << 20;
+
+/// The temporary files that were in each folder when this process first wrote a file there. Those of
+/// other processes that are killed later are left to the next process: to list a folder of 10⁵
+/// results for each of them would take longer than the runs.
+class Leftovers {
+  public:
+    /// Removes those of a target that no process has locked.
+    void remove(const std::filesystem::path& target) {
+        const std::lock_guard lock(mutex_);
+        const std::filesystem::path folder = target.parent_path();
+        auto known = by_folder_.find(folder);
+        if (known == by_folder_.end()) known = by_folder_.emplace(folder, found_in(folder)).first;
+        const auto [begin, end] = known->second.equal_range(target.filename().string());
+        for (auto it = begin; it != end; ++it) remove_unlocked(folder / it->second);
+        known->second.erase(begin, end);
+    }
+
+  private:
+    using ByTarget = std::multimap<std::string, std::string>;
+
+    /// A folder that cannot be listed keeps its leftovers: it may still be written to.
+    static ByTarget found_in(const std::filesystem::path& folder) {
+        ByTarget found;
+        std::error_code unknown;
+        std::filesystem::directory_iterator it(folder, unknown);
+        for (const std::filesystem::directory_iterator end; !unknown && it != end;
+             it.increment(unknown)) {
+            std::string name = it->path().filename().string(), target = target_of(name);
+            if (!target.empty()) found.emplace(std::move(target), std::move(name));
+        }
+        return found;
+    }
+
+    /// A writer holds the lock of its file as long as it runs.
+    static void remove_unlocked(const std::filesystem::path& file) {
+        const int handle = ::open(file.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (handle < 0) return;
+        if (::flock(handle, LOCK_EX | LOCK_NB) == 0) ::unlink(file.c_str());
+        ::close(handle);
+    }
+
+    std::mutex mutex_;
+    std::map<std::filesystem::path, ByTarget> by_folder_;
+};
+
+void remove_leftovers_of(const std::filesystem::path& target) {
+    static Leftovers leftovers;
+    leftovers.remove(std::filesystem::absolute(target));
+}
 
 }  // namespace
 
@@ -117,6 +168,7 @@ void rename_durably(const std::filesystem::path& from, const std::filesystem::pa
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path) {
     require_replaceable(path);
+    remove_leftovers_of(path);
     // Tries again if the name is taken, or if another process removed the file as a leftover before
     // it was locked.
     constexpr int max_attempts = 100;
@@ -208,8 +260,10 @@ std::filesystem::path unused_name(const std::string& first) {
     return name;
 }
 
-void write_file_and_clean_up(const std::filesystem::path& path, std::string_view bytes) {
-    write_file_atomically(path, bytes);
+void remove_atomic_file(const std::filesystem::path& path) {
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT)
+        throw FileError(
+            fmt::format("'{}' could not be removed: {}.", path.string(), system_reason()));
     remove_leftovers_of(path);
 }
 
@@ -219,7 +273,7 @@ std::string read_to_the_end(int file, const std::filesystem::path& path, std::si
     std::string bytes;
     struct stat about;
     if (::fstat(file, &about) == 0 && about.st_size > 0)
-        bytes.reserve(std::min(static_cast<std::size_t>(about.st_size), maximum));
+        bytes.reserve(std::min(static_cast<std::size_t>(about.st_size), maximum + 1));
     char block[65536];
     ssize_t got;
     while (bytes.size() <= maximum && (got = ::read(file, block, sizeof block)) != 0) {
@@ -256,42 +310,9 @@ std::string read_whole_file(const std::filesystem::path& path, std::size_t maxim
 std::string read_regular_file(const std::filesystem::path& path) { return read_file(path, true); }
 
 std::string file_signature(const std::filesystem::path& path) {
-    std::error_code unknown;
-    if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))
-        throw_not_regular(path);
-    if (!std::filesystem::exists(path, unknown) && !unknown)
-        throw FileError(fmt::format("'{}' does not exist.", path.string()));
+    if (!file_exists(path)) throw FileError(fmt::format("'{}' does not exist.", path.string()));
     constexpr std::size_t size = 8;
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream) throw FileError(fmt::format("'{}' could not be opened.", path.string()));
-    std::string bytes(size, '\0');
-    stream.read(bytes.data(), size);
-    bytes.resize(static_cast<std::size_t>(stream.gcount()));
-    return bytes;
-}
-
-namespace {
-
-/// Removes the leftovers of one target, or of all if `target` is empty.
-void remove_leftovers_in(const std::filesystem::path& folder, std::string_view target) {
-    std::error_code error;
-    for (std::filesystem::directory_iterator it(folder.empty() ? "." : folder, error), end;
-         !error && it != end; it.increment(error)) {
-        const std::string found = target_of(it->path().filename().string());
-        if (found.empty() || (!target.empty() && found != target)) continue;
-        const int file = ::open(it->path().c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-        if (file < 0) continue;
-        // The lock of a file is held as long as its writer runs.
-        if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(it->path().c_str());
-        ::close(file);
-    }
-}
-
-}  // namespace
-
-void remove_leftovers(const std::filesystem::path& folder) { remove_leftovers_in(folder, {}); }
-void remove_leftovers_of(const std::filesystem::path& path) {
-    remove_leftovers_in(path.parent_path(), path.filename().string());
+    return read_file(path, true, size).substr(0, size);
 }
 
 }  // namespace swirl

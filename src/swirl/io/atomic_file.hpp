@@ -4,7 +4,8 @@
 //
 // Concurrent writers of one target use different temporary names, NAME.<random>.partial, and hold a
 // lock on them while they write; the last rename wins. A temporary file without a lock was left by
-// a writer that was killed: see remove_leftovers().
+// a writer that was killed. The next process that opens the target for writing, or removes it,
+// removes these leftovers: it lists each folder once, at the first file that it writes there.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +19,7 @@ namespace swirl {
 /// target is unchanged.
 class AtomicFile {
   public:
+    /// Removes what killed processes left of this target.
     explicit AtomicFile(const std::filesystem::path& path);
     ~AtomicFile();  // removes the temporary file if it was not published
     AtomicFile(const AtomicFile&) = delete;
@@ -47,9 +49,8 @@ class AtomicFile {
 };
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
-/// Like write_file_atomically(), and also removes temporary files of this target that killed
-/// writers left. It lists the folder, so it is meant for folders with few files.
-void write_file_and_clean_up(const std::filesystem::path& path, std::string_view bytes);
+/// Removes a file that was written atomically, if it is there, and its leftovers.
+void remove_atomic_file(const std::filesystem::path& path);
 
 /// Writes atomically, but only if no file has this name: otherwise returns false. Of several
 /// concurrent calls, one succeeds.
@@ -66,11 +67,6 @@ std::string read_regular_file(const std::filesystem::path& path);
 /// The first eight bytes of a regular file (or fewer, if it is shorter), which identify its format.
 /// Throws like read_regular_file().
 std::string file_signature(const std::filesystem::path& path);
-
-/// Removes temporary files in a folder that killed writers left.
-void remove_leftovers(const std::filesystem::path& folder);
-/// Removes only temporary files of this target.
-void remove_leftovers_of(const std::filesystem::path& path);
 
 /// Suffix of the name of a file that is not complete yet.
 inline constexpr std::string_view partial_suffix = ".partial";

@@ -40,7 +40,6 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
     }
     file.append(number(sum.value()));
     file.finish();
-    remove_leftovers_of(path);
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
@@ -49,6 +48,13 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
     const auto reject = [&](const std::string& problem) {
         throw FileError(fmt::format("'{}' {}.", path.string(), problem));
     };
+    const auto reject_damaged = [&] {
+        throw DamagedFile(fmt::format(
+            "'{}' is damaged: its checksum does not match its content.\nhint: remove it to start "
+            "its run again.",
+            path.string()));
+    };
+    if (first_line.starts_with(rest)) reject_damaged();
     if (!rest.starts_with(signature)) reject("is not a checkpoint of swirl");
     const std::size_t line = rest.find('\n');
     if (rest.substr(0, line + 1) != first_line)
@@ -57,16 +63,15 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
             "the program that wrote it",
             rest.substr(signature.size(), std::min<std::size_t>(line, 40) - signature.size()),
             first_line.substr(signature.size(), first_line.size() - signature.size() - 1)));
-    const std::string damaged = "is damaged: its checksum does not match its content";
     constexpr std::size_t numbers_size = 3 * sizeof(std::uint64_t);  // two lengths, checksum
-    if (rest.size() < first_line.size() + numbers_size) reject(damaged);
+    if (rest.size() < first_line.size() + numbers_size) reject_damaged();
     const std::uint64_t written = number_at(rest.substr(rest.size() - 8));
     rest.remove_suffix(8);
-    if (checksum(rest) != written) reject(damaged);
+    if (checksum(rest) != written) reject_damaged();
     rest.remove_prefix(first_line.size());
     Checkpoint checkpoint;
     for (std::string* part : {&checkpoint.about, &checkpoint.state}) {
-        if (rest.size() < 8 || number_at(rest) > rest.size() - 8) reject(damaged);
+        if (rest.size() < 8 || number_at(rest) > rest.size() - 8) reject_damaged();
         *part = rest.substr(8, number_at(rest));
         rest.remove_prefix(8 + part->size());
     }

@@ -360,10 +360,9 @@ void write_vtp(const SnapshotSeries& series, const std::filesystem::path& path,
     if (error)
         throw FileError(fmt::format("the folder '{}' could not be created: {}.", folder.string(),
                                     error.message()));
-    remove_leftovers(folder);
     require_replaceable(path);
     std::filesystem::remove(path, error);
-    write_file_and_clean_up(path, write_vtp_frames(series, folder, options));
+    write_file_atomically(path, write_vtp_frames(series, folder, options));
 }
 
 // --- GSD (gsd.readthedocs.io, "File layer", version 2.0) -----------------------------------------
@@ -541,7 +540,6 @@ void write_single_file(const SnapshotSeries& series, const std::filesystem::path
     AtomicFile file(path);
     write(series, file, options);
     file.finish();
-    remove_leftovers_of(path);
 }
 
 constexpr std::array formats{

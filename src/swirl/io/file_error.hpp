@@ -10,6 +10,11 @@ struct FileError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The content of a file is not what its writer wrote: the file was cut off, or changed since.
+struct DamagedFile : FileError {
+    using FileError::FileError;
+};
+
 /// A file that another process writes has changed while it was read. Opened again, it is readable.
 struct FileChanged : FileError {
     using FileError::FileError;

@@ -355,8 +355,9 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, JournaledFile::Mode mode) 
     state_->id = H5Fopen(path.c_str(), flags, access);
     if (state_->id >= 0) return;
     state_->reject_overtaken();
-    throw FileError(fmt::format("'{}' is not an HDF5 file, or is damaged ({}).", path.string(),
-                                library_reason()));
+    if (!state_->failure.empty()) throw FileError(state_->failure);
+    throw DamagedFile(fmt::format("'{}' is not an HDF5 file, or is damaged ({}).", path.string(),
+                                  library_reason()));
 }
 
 Hdf5File::~Hdf5File() {

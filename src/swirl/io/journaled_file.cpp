@@ -14,6 +14,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/system_calls.hpp"
 
 namespace swirl {
@@ -84,7 +85,7 @@ bool JournaledFile::is_overtaken() const {
 void JournaledFile::start_empty() {
     is_new_ = true;
     // An older journal must not be applied to the new file, also not after a power cut.
-    if (::access(journal_path_.c_str(), F_OK) == 0) {
+    if (file_exists(journal_path_)) {
         open_journal();
         empty_journal();
         if (!system::sync_file_data(journal_)) fail("could not be emptied");
@@ -109,14 +110,14 @@ void JournaledFile::reject_after_failure() const {
 }
 
 bool JournaledFile::load_journal() {
-    std::error_code absent;
-    if (!std::filesystem::exists(journal_path_, absent)) return false;
-    const std::string bytes = read_regular_file(journal_path_);
+    const std::optional<std::string> journal = read_optional_file(journal_path_);
+    if (!journal) return false;
+    const std::string_view bytes = *journal;
     JournalHead head;
     const std::size_t record = sizeof(std::uint64_t) + page_size;
     if (bytes.size() < sizeof head) return false;
     std::memcpy(&head, bytes.data(), sizeof head);
-    const std::string_view records = std::string_view(bytes).substr(sizeof head);
+    const std::string_view records = bytes.substr(sizeof head);
     if (std::memcmp(head.magic, journal_magic, 8) != 0 || head.pages > records.size() / record ||
         checksum(records.substr(0, head.pages * record)) != head.checksum)
         return false;  // stopped in step 2: the file is in the state of the last commit

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 #include "swirl/io/file_error.hpp"
 #include "swirl/physics/limits.hpp"
@@ -79,6 +82,36 @@ void require_possible(const Snapshot& snapshot, Spins spins, const std::string& 
     RangeCheck check(snapshot, spins, file);
     check.container();
     for (std::size_t i = 0; i < snapshot.size(); ++i) check.disc(i);
+}
+
+void require_separate_bodies(const Snapshot& s, const std::string& file) {
+    // A fraction of a distance. Bodies of a run overlap by less than 10⁻⁹.
+    constexpr double tolerance = 1e-6;
+    const auto reject = [&](const std::string& what) {
+        throw FileError(fmt::format("'{}' is not a recording of a run: {} in period {}.", file,
+                                    what, s.periods));
+    };
+    const auto distance = [](const Vec2& a, const Vec2& b) { return std::sqrt(dot(b - a, b - a)); };
+    std::vector<std::size_t> order(s.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t i, std::size_t j) { return s.x[i] < s.x[j]; });
+    const double largest =
+        s.radius.empty() ? 0.0 : *std::max_element(s.radius.begin(), s.radius.end());
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        const std::size_t i = order[a];
+        const double room = s.container_radius - s.radius[i];
+        if (distance(s.container_centre, s.position(i)) > room + tolerance * s.container_radius)
+            reject(fmt::format("disc {} is outside of the container", i));
+        for (std::size_t b = a + 1; b < order.size(); ++b) {
+            const std::size_t j = order[b];
+            if (s.x[j] - s.x[i] > s.radius[i] + largest) break;
+            // Spheres of two sizes that touch on a floor are this far apart in the plane, discs further.
+            const double least = 2.0 * std::sqrt(s.radius[i] * s.radius[j]);
+            if (distance(s.position(i), s.position(j)) < (1.0 - tolerance) * least)
+                reject(fmt::format("discs {} and {} overlap", std::min(i, j), std::max(i, j)));
+        }
+    }
 }
 
 }  // namespace swirl

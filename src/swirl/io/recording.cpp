@@ -7,6 +7,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/h5md.hpp"
+#include "swirl/io/optional_file.hpp"
 
 namespace swirl {
 
@@ -31,8 +32,7 @@ void require_recording_of(const std::filesystem::path& file, const std::string& 
 
 void reject_foreign_recording(const std::filesystem::path& path, const std::string& run) {
     const auto partial = partial_name(path);
-    std::error_code ignored;
-    if (!std::filesystem::exists(partial, ignored)) return;
+    if (!file_exists(partial)) return;
     // A run that is killed before its first commit leaves an empty file.
     if (JournaledFile(partial, JournaledFile::Mode::read).size() == 0) return;
     if (recorded_entry(partial, run_entry) != run)
@@ -44,9 +44,7 @@ void reject_foreign_recording(const std::filesystem::path& path, const std::stri
 
 Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run) {
     const auto partial = partial_name(path);
-    std::error_code ignored;
-    const bool is_finished =
-        !std::filesystem::exists(partial, ignored) && std::filesystem::exists(path, ignored);
+    const bool is_finished = !file_exists(partial) && file_exists(path);
     require_recording_of(is_finished ? path : partial, run);
     if (is_finished) rename_durably(path, partial);
     return {partial, JournaledFile::Mode::change};

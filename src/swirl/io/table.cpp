@@ -44,6 +44,6 @@ std::string Table::csv() const {
     return text;
 }
 
-void Table::write(const std::filesystem::path& file) const { write_file_and_clean_up(file, csv()); }
+void Table::write(const std::filesystem::path& file) const { write_file_atomically(file, csv()); }
 
 }  // namespace swirl

@@ -10,6 +10,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/h5md.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/range_checks.hpp"
 #include "swirl/io/recording.hpp"
 #include "swirl/io/series.hpp"
@@ -64,8 +65,7 @@ auto TrajectoryReader::reread(Read&& read) {
 /// The frames that were there remain. The file may have got its final name.
 void TrajectoryReader::reopen() {
     std::string path = path_;
-    std::error_code ignored;
-    if (path.ends_with(partial_suffix) && !std::filesystem::exists(path, ignored))
+    if (path.ends_with(partial_suffix) && !file_exists(path))
         path.resize(path.size() - partial_suffix.size());
     TrajectoryReader again(path);
     if (again.run_ != run_ || again.frames_ < frames_)
@@ -122,8 +122,23 @@ void TrajectoryReader::open_columns() {
     for (int k = 0; k < scalar_count(period_changes_); ++k)
         scalars_.push_back(frame_column(scalar_paths[k]).read<double>());
     frames_ = common_length(path_, complete_, lengths);
+    require_ascending_times();
     const Dimensions& chunk = series_[angle].chunk_shape();
     frames_per_block_ = chunk.empty() ? 1 : std::max<std::uint64_t>(1, chunk[0]);
+}
+
+/// Frames at events may have equal times.
+void TrajectoryReader::require_ascending_times() const {
+    for (std::uint64_t k = 1; k < frames_; ++k) {
+        const auto time = [&](std::uint64_t frame) {
+            return std::pair(counters_[periods][frame], scalars_[clock][frame]);
+        };
+        if (time(k) < time(k - 1) || counters_[events][k] < counters_[events][k - 1])
+            throw FileError(
+                fmt::format("'{}' is not a recording of a run: the clock of frame {} is before "
+                            "that of frame {}.",
+                            path_, k, k - 1));
+    }
 }
 
 /// Reads what is the same in all frames, and checks the shapes of the series against it.

@@ -96,6 +96,7 @@ class TrajectoryReader {
     std::uint64_t frames() const { return frames_; }
     std::size_t discs() const { return constants_.size(); }
     bool complete() const { return complete_; }
+    const std::string& path() const { return path_; }
     Snapshot frame(std::uint64_t k);
     std::uint64_t events_before(std::uint64_t k) const;
     /// Some datasets serve other programs only: id, particle, species, the numbers of the
@@ -116,6 +117,7 @@ class TrajectoryReader {
     template <class Read>
     auto reread(Read&& read);
     void open_columns();
+    void require_ascending_times() const;
     void read_constants();
     void load_block_of(std::uint64_t k);
     std::string inconsistent_index_or_time() const;

@@ -123,10 +123,7 @@ MovieResult make_movie(const MovieConfig& config, const MovieControl& control) t
     if (format)
         movie = std::make_unique<MovieWriter>(config.out, *format, config.appearance.size,
                                               config.frames_per_second);
-    if (!config.frames_folder.empty()) {
-        make_folder(config.frames_folder);
-        remove_leftovers(config.frames_folder);
-    }
+    if (!config.frames_folder.empty()) make_folder(config.frames_folder);
 
     const unsigned workers = std::max(1u, std::thread::hardware_concurrency());
     std::vector<std::unique_ptr<FrameCanvas>> canvases(workers);

@@ -65,7 +65,7 @@ void make_still(const StillConfig& config) try {
 }
 
 void write_image(const std::filesystem::path& file, const std::string& bytes) try {
-    write_file_and_clean_up(file, bytes);
+    write_file_atomically(file, bytes);
 } catch (const FileError& failure) {
     throw Failure(failure.what());
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swirl/io/range_checks.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/failure.hpp"
@@ -89,6 +90,11 @@ bool holds_tracks(const SnapshotSeries& series) {
 
 SnapshotSeries series_of_run(const std::shared_ptr<TrajectoryReader>& reader) {
     SnapshotSeries series = series_of(reader);
+    series.frame = [reader](std::uint64_t k) {
+        Snapshot s = reader->frame(k);
+        require_separate_bodies(s, reader->path());
+        return s;
+    };
     const std::string parameters = reader->provenance("parameters");
     if (parameters.empty()) return series;
     try {

@@ -9,6 +9,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/number_table.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
@@ -18,18 +19,12 @@ namespace {
 
 constexpr std::size_t max_table_bytes = 1 << 24;
 
-bool is_there(const std::string& file) {
-    std::error_code ignored;
-    return std::filesystem::exists(file, ignored);
-}
-
 }  // namespace
 
 std::string text_of_table_file(const std::string& option, const std::string& file) {
-    if (!is_there(file))
+    if (!file_exists(file))
         throw UsageError(fmt::format("{} is '{}', but there is no such file.", option, file));
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored))
+    if (!regular_file_exists(file))
         throw UsageError(fmt::format("{} is '{}', but that is not a regular file.", option, file));
     std::string text;
     try {
@@ -48,7 +43,7 @@ namespace {
 /// True if a file has this name, or if it looks like one: "a/b", "a.csv". A misspelled shape is not
 /// reported as a missing file.
 bool names_file(const std::string& text) {
-    if (is_there(text) || text.find('/') != text.npos) return true;
+    if (file_exists(text) || text.find('/') != text.npos) return true;
     const std::size_t dot = text.rfind('.');
     return dot != text.npos && dot + 1 < text.size() &&
            std::isalpha(static_cast<unsigned char>(text[dot + 1]));
@@ -117,7 +112,7 @@ std::string with_file_contents(std::string_view name, const std::string& text) {
                       : plain == "initial" ? initial_text
                                            : nullptr;
     if (!read) return text;
-    const bool is_one_file = is_there(text) || text.find(',') == text.npos;
+    const bool is_one_file = file_exists(text) || text.find(',') == text.npos;
     if (is_one_file) return read(text);
     std::string list;
     for (const std::string_view part : split(text, ","))

@@ -121,7 +121,7 @@ std::string PeriodSeries::rows(std::size_t first) const {
 }
 
 void PeriodSeries::write(const std::filesystem::path& file) const {
-    write_file_and_clean_up(file, header() + rows());
+    write_file_atomically(file, header() + rows());
 }
 
 }  // namespace swirl

@@ -13,8 +13,10 @@
 #include "swirl/io/checksum.hpp"
 #include "swirl/io/event_log.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/recording.hpp"
 #include "swirl/io/state_archive.hpp"
+#include "swirl/io/trajectory.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
@@ -156,8 +158,7 @@ class LiveSeries {
 
 /// Renames the checkpoint of an earlier run, so that it is not lost.
 void back_up(const std::filesystem::path& checkpoint) {
-    std::error_code ignored;
-    if (!checkpoint.empty() && std::filesystem::exists(checkpoint, ignored))
+    if (!checkpoint.empty() && file_exists(checkpoint))
         rename_durably(checkpoint, backup_name(checkpoint));
 }
 
@@ -173,7 +174,7 @@ class Recorder {
           overwrites_(files.overwrite),
           frame_times_(files.frames.per_period, config.period, files.frames.interval.value_or(0.0)),
           last_checkpoint_(Clock::now()) {
-        if (files.resume && std::filesystem::exists(files.checkpoint))
+        if (files.resume && file_exists(files.checkpoint))
             resume();
         else
             start(provenance, stop);
@@ -376,8 +377,18 @@ RunResult run_recorded(const RunConfig& config, const RunFiles& files, const Run
 }
 
 void remove_checkpoint(const RunFiles& files) {
-    std::error_code ignored;
-    if (!files.checkpoint.empty()) std::filesystem::remove(files.checkpoint, ignored);
+    if (!files.checkpoint.empty()) remove_atomic_file(files.checkpoint);
+}
+
+bool has_whole_trajectory(const RunConfig& config, const RunFiles& files) {
+    if (!file_exists(files.trajectory)) return false;
+    try {
+        TrajectoryReader reader(files.trajectory);
+        return reader.complete() && reader.provenance("frames") == frames_entry(files) &&
+               reader.provenance("parameters") == config_json(config).dump();
+    } catch (const DamagedFile&) {
+        return false;
+    }
 }
 
 std::string frames_entry(const RunFiles& files) { return frames_json(files).dump(); }

@@ -63,6 +63,10 @@ CheckpointedCall call_in_checkpoint(const std::filesystem::path& checkpoint);
 RunResult run_recorded(const RunConfig& config, const RunFiles& files, const RunControl& control,
                        const Provenance& provenance);
 
+/// True if the trajectory of this run is there, complete, and not cut off. Throws FileError if it
+/// cannot be read.
+bool has_whole_trajectory(const RunConfig& config, const RunFiles& files);
+
 /// The provenance entry `frames` of a trajectory with these frame times.
 std::string frames_entry(const RunFiles& files);
 

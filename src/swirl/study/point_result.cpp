@@ -6,10 +6,11 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
-#include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parallel_for.hpp"
@@ -27,6 +28,12 @@ std::string remove_and_repeat(const SweepPlan& plan) {
     return fmt::format("remove it and run `swirl {}` again.", plan.command());
 }
 
+[[noreturn]] void throw_incomplete(const fs::path& file, const SweepPlan& plan) {
+    throw FileError(
+        fmt::format("'{}' lacks a part of a result, or has a text instead of a number.\nhint: {}",
+                    file.string(), remove_and_repeat(plan)));
+}
+
 /// Skips the parts of a result that the table does not use, because building them would take most
 /// of the time.
 bool is_needed(int depth, std::string_view key) {
@@ -38,28 +45,55 @@ bool is_needed(int depth, std::string_view key) {
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
 
+bool identifies(int depth, std::string_view key) {
+    static constexpr std::string_view parts[] = {"format",    "version", "point",
+                                                 "replicate", "config",  "series_checksum"};
+    return depth != 1 || std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
+}
+
+/// A search chooses the length of its runs.
+Json without_chosen_length(Json config, const SweepPlan& plan) {
+    if (plan.search && config.is_object())
+        for (const char* name : {"events", "periods"}) config.erase(name);
+    return config;
+}
+
+void require_format(const fs::path& file, const Json& json, const SweepPlan& plan) {
+    if (json.value("format", Json()) == result_format) return;
+    throw FileError(fmt::format(
+        "'{}' is in format {} of swirl {}, but this program reads format {}.\nhint: collect with "
+        "the "
+        "program that wrote it, or {}",
+        file.string(), json.value("format", Json(0)).dump(),
+        json.value("version", std::string("?")), result_format, remove_and_repeat(plan)));
+}
+
 /// Detects a result that was copied to another point or into another sweep.
 void reject_result_of_another_point(const fs::path& file, const Json& json, const SweepPlan& plan,
                                     std::size_t point) {
     const bool belongs = json.at("point") == point && json.at("replicate") == plan.replica(point) &&
-                         json.at("config").at("seed") == plan.config(point).seed;
+                         without_chosen_length(json.at("config"), plan) ==
+                             without_chosen_length(config_json(plan.config(point)), plan);
     if (!belongs)
         throw FileError(fmt::format("'{}' is not the result of point {} of this {}.\nhint: {}",
                                     file.string(), point, plan.kind(), remove_and_repeat(plan)));
 }
 
-/// The text of a file; empty if it cannot be read.
-std::string readable_text(const fs::path& file) {
+/// Reads the parts of a result; nothing if there is none, or if its file is not whole.
+std::optional<Json> find_parts(const fs::path& folder, const SweepPlan& plan, std::size_t point,
+                               bool (*is_part)(int depth, std::string_view key)) {
+    const fs::path file = result_file(folder, plan, point);
+    const std::optional<std::string> text = read_optional_file(file);
+    if (!text) return {};
+    Json json = parse_json(*text, is_part);
+    if (!json.is_object()) return {};
     try {
-        return read_regular_file(file);
-    } catch (const FileError&) {
-        return "";
+        require_format(file, json, plan);
+        reject_result_of_another_point(file, json, plan, point);
+    } catch (const nlohmann::json::exception&) {
+        throw_incomplete(file, plan);
     }
-}
-
-bool is_whole_result(const fs::path& file) {
-    const std::string text = readable_text(file);
-    return text.starts_with('{') && Json::accept(text);
+    return json;
 }
 
 }  // namespace
@@ -72,33 +106,32 @@ std::vector<bool> whole_results(const fs::path& folder, const SweepPlan& plan,
     constexpr std::size_t batch = 256;
     parallel_for((whole.size() + batch - 1) / batch, [&](std::size_t b) {
         for (std::size_t p = b * batch; p < std::min(whole.size(), (b + 1) * batch); ++p)
-            whole[p] = exists[p] && matters(p) && is_whole_result(result_file(folder, plan, p));
+            whole[p] = exists[p] && matters(p) && has_whole_result(folder, plan, p);
     });
     return {whole.begin(), whole.end()};
 }
 
 bool has_whole_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
-    return is_whole_result(result_file(folder, plan, point));
+    return find_parts(folder, plan, point, identifies).has_value();
+}
+
+std::string series_checksum(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    const std::optional<Json> found = find_parts(folder, plan, point, identifies);
+    const Json checksum = found ? found->value("series_checksum", Json()) : Json();
+    return checksum.is_string() ? checksum.get<std::string>() : "";
 }
 
 PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
-    const fs::path file = result_file(folder, plan, point);
-    const Json json = parse_json(readable_text(file), is_needed);
+    const std::optional<Json> found = find_parts(folder, plan, point, is_needed);
     PointResult result;
-    if (json.is_discarded() || !json.is_object()) return result;
+    if (!found) return result;
+    const Json& json = *found;
     result.exists = true;
     result.quantities.reserve(rotation_rates.size());
     const auto number = [](const Json& value) {
         return value.is_null() ? not_available : value.get<double>();  // throws for a text
     };
     try {
-        if (json.value("format", 0) != result_format)
-            throw FileError(fmt::format(
-                "'{}' is in format {} of swirl {}, but this program reads format {}.\nhint: "
-                "collect with the program that wrote it, or {}",
-                file.string(), json.value("format", 0), json.value("version", std::string("?")),
-                result_format, remove_and_repeat(plan)));
-        reject_result_of_another_point(file, json, plan, point);
         for (const auto& [name, words] : rotation_rates) {
             const Json& rate = json.at("rotation").at(name);
             result.quantities.push_back(
@@ -118,9 +151,7 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
         result.version = json.at("version").get<std::string>();
         result.verdict = json.at("steady_state").at("verdict").get<std::string>();
     } catch (const nlohmann::json::exception&) {
-        throw FileError(fmt::format(
-            "'{}' lacks a part of a result, or has a text instead of a number.\nhint: {}",
-            file.string(), remove_and_repeat(plan)));
+        throw_incomplete(result_file(folder, plan, point), plan);
     }
     return result;
 }

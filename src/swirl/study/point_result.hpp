@@ -32,16 +32,22 @@ struct PointResult {
     }
 };
 
-/// A result file that was cut off, or that cannot be read, counts as missing: its run is repeated
-/// and replaces it.
+/// A result file that was cut off counts as missing: its run is repeated and replaces it. Throws
+/// FileError as read_result() does.
 bool has_whole_result(const std::filesystem::path& folder, const SweepPlan& plan,
                       std::size_t point);
 /// The same for all points that matter, on all cores; false for the others.
 std::vector<bool> whole_results(const std::filesystem::path& folder, const SweepPlan& plan,
                                 const std::function<bool(std::size_t point)>& matters);
 
+/// The checksum of the point's series that its result holds; "" without one, as in results of older
+/// versions.
+std::string series_checksum(const std::filesystem::path& folder, const SweepPlan& plan,
+                            std::size_t point);
+
 /// Reads DIR/results/NUMBER.json; the result does not exist if the file is not whole. Throws
-/// FileError if the file is in another format, lacks a part, or is the result of another point.
+/// FileError if the file cannot be read, is in another format, lacks a part, or is the result of
+/// another point.
 PointResult read_result(const std::filesystem::path& folder, const SweepPlan& plan,
                         std::size_t point);
 

@@ -75,6 +75,40 @@ void add_common(std::vector<PointRow>& rows, const ParameterTexts& common) {
     }
 }
 
+bool is_same_value(const std::string& a, const std::string& b) {
+    if (a == b) return true;
+    const auto x = read_number(a), y = read_number(b);
+    return x && y && *x == *y;
+}
+
+/// Adds the parameters that the plan has for all of its rows. A row may repeat them.
+void add_common_of_plan(std::vector<PointRow>& rows, const SweepPlan& plan) {
+    for (PointRow& row : rows)
+        for (const auto& [name, text] : plan.common)
+            if (const auto [cell, is_new] = row.parameters.emplace(name, text);
+                !is_new && !is_same_value(cell->second, text))
+                reject(row.where, fmt::format("{0} is {1}, but all rows of the sweep in the folder "
+                                              "have {0} {2}.\nhint: use another folder.",
+                                              name, cell->second, text));
+}
+
+/// A call that extends a table may repeat its common parameters, but not change or add any.
+void require_common_of_plan(const ParameterTexts& given, const SweepPlan& plan) {
+    for (const auto& [given_name, text] : given) {
+        const std::string name = plain_name(given_name);
+        const auto known = plan.common.find(name);
+        if (known != plan.common.end() && is_same_value(known->second, text)) continue;
+        throw UsageError(
+            known != plan.common.end()
+                ? fmt::format("{0} is {1}, but all rows of the sweep in the folder have {0} {2}."
+                              "\nhint: use another folder.",
+                              option_name(name), text, known->second)
+                : fmt::format("{} is {}, but the sweep in the folder has no common value of it."
+                              "\nhint: make it a column of the further points.",
+                              option_name(name), text));
+    }
+}
+
 /// Adds a row to the columns of the plan.
 void append(SweepPlan& plan, const PointRow& row) {
     const std::size_t before = plan.row_replicas.size();
@@ -112,6 +146,7 @@ std::vector<std::uint64_t> identities_of(const SweepPlan& plan, std::size_t row)
 SweepPlan table_plan(std::vector<PointRow> rows, const ParameterTexts& common) {
     add_common(rows, common);
     SweepPlan plan;
+    for (const auto& [given, text] : common) plan.common[plain_name(given)] = text;
     std::vector<std::string> where;
     for (const PointRow& row : rows) {
         append(plan, row);
@@ -196,7 +231,9 @@ SweepPlan make_plan(std::vector<PointRow> rows, const ParameterTexts& common) {
 SweepPlan grown(const SweepPlan& plan, std::vector<PointRow> rows, const ParameterTexts& common,
                 const std::vector<std::string>& measure) {
     require_table(plan);
-    const SweepPlan more = table_plan(std::move(rows), common);
+    require_common_of_plan(common, plan);
+    add_common_of_plan(rows, plan);
+    const SweepPlan more = table_plan(std::move(rows), {});
     const std::map<std::uint64_t, std::size_t> index = index_of_rows(plan);
     SweepPlan larger = plan;
     for (std::size_t row = 0; row < more.rows(); ++row) {
@@ -214,8 +251,9 @@ SweepPlan grown(const SweepPlan& plan, std::vector<PointRow> rows, const Paramet
 }
 
 std::vector<std::vector<std::size_t>> points_of_rows(const SweepPlan& plan,
-                                                     const std::vector<PointRow>& rows) {
+                                                     std::vector<PointRow> rows) {
     require_table(plan);
+    add_common_of_plan(rows, plan);
     const std::map<std::uint64_t, std::size_t> index = index_of_rows(plan);
     std::vector<std::vector<std::size_t>> points_of_plan(plan.rows()), points;
     for (std::size_t point = 0; point < plan.points(); ++point)

@@ -3,7 +3,8 @@
 // A row is a point. A column is a parameter, or `seeds`, the number of replicates of each row. A row
 // with the parameter `seed` has that seed and the following ones; the seeds of other rows follow
 // from their parameters, as in a product of lists. A table that grows gets further rows, and further
-// replicates of the rows that it has.
+// replicates of the rows that it has. Parameters that were given for all rows hold for further rows,
+// too.
 #pragma once
 
 #include <cstdint>
@@ -34,12 +35,13 @@ void validate_rows(const SweepPlan& plan, const std::vector<std::string>& where 
 /// for two rows with the same run.
 SweepPlan make_plan(std::vector<PointRow> rows, const ParameterTexts& common);
 
-/// The plan with further rows and replicates of rows. Throws UsageError.
+/// The plan with further rows and replicates of rows. Throws UsageError, also if the rows or `common`
+/// contradict the common parameters of the plan.
 SweepPlan grown(const SweepPlan& plan, std::vector<PointRow> rows, const ParameterTexts& common,
                 const std::vector<std::string>& measure);
 
 /// The points of each row; none if the row is not in the plan.
 std::vector<std::vector<std::size_t>> points_of_rows(const SweepPlan& plan,
-                                                     const std::vector<PointRow>& rows);
+                                                     std::vector<PointRow> rows);
 
 }  // namespace swirl

@@ -11,6 +11,7 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/child_process.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/shell_word.hpp"
@@ -121,9 +122,9 @@ std::string submit(const std::string& script, const fs::path& folder) {
 }
 
 std::optional<std::string> slurm_status(const fs::path& folder) {
-    std::error_code ignored;
-    if (!fs::exists(folder / "slurm_job", ignored)) return {};
-    std::string number = read_whole_file(folder / "slurm_job");
+    const std::optional<std::string> job = read_optional_file(folder / "slurm_job");
+    if (!job) return {};
+    std::string number = *job;
     number.erase(std::remove_if(number.begin(), number.end(),
                                 [](unsigned char c) { return !std::isdigit(c) && c != '_'; }),
                  number.end());

@@ -11,7 +11,9 @@
 #include <optional>
 
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/checksum.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/result_writer.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -56,6 +58,37 @@ double cost_of(const SweepPlan& plan, std::size_t point) {
     };
     if (!texts.contains("periods")) return value("events", double(RunConfig{}.events));
     return value("periods", 1.0) * std::pow(value("discs", double(RunConfig{}.discs)), 2.5);
+}
+
+RunFiles files_of_point(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    const std::string number = number_of_point(point);
+    RunFiles files;
+    files.checkpoint = part_of_sweep(folder, "checkpoints", plan) / (number + ".checkpoint");
+    files.resume = true;
+    files.overwrite = true;  // existing files of this number belong to this point
+    if (plan.frames > 0) files.trajectory = folder / "trajectories" / (number + ".h5");
+    if (plan.series) files.series = part_of_sweep(folder, "series", plan) / (number + ".csv");
+    files.frames.per_period = std::max(plan.frames, 1);
+    return files;
+}
+
+std::string checksum_of_series(const std::string& series) {
+    return fmt::format("{:016x}", checksum(series));
+}
+
+/// The first of the other files of a point with a result that is missing or not whole: its final state
+/// in a chain, its trajectory, its series. "" if all are whole.
+std::string damaged_part(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    const RunFiles files = files_of_point(folder, plan, point);
+    if (!plan.chain.empty() && !find_final_state(folder, plan, point))
+        return state_file(folder, plan, point).string();
+    if (!files.trajectory.empty() && !has_whole_trajectory(plan.config(point), files))
+        return files.trajectory.string();
+    if (files.series.empty()) return "";
+    const std::optional<std::string> series = read_optional_file(files.series);
+    const std::string expected = series_checksum(folder, plan, point);
+    const bool is_whole = series && (expected.empty() || expected == checksum_of_series(*series));
+    return is_whole ? "" : files.series.string();
 }
 
 class SweepWorker {
@@ -106,10 +139,18 @@ class SweepWorker {
         std::vector<bool> listed(share_.only ? plan_.points() : 0);
         if (share_.only)
             for (const std::size_t point : *share_.only) listed[point] = true;
-        return whole_results(folder_, plan_, [&](std::size_t point) {
+        std::vector<bool> done = whole_results(folder_, plan_, [&](std::size_t point) {
             if (share_.only) return bool(listed[point]);
             return share_.rest || !plan_.chain.empty() || point % share_.parts == share_.part - 1;
         });
+        for (std::size_t point = 0; point < done.size(); ++point)
+            done[point] = done[point] && damaged_part(folder_, plan_, point).empty();
+        return done;
+    }
+
+    bool is_done(std::size_t point) const {
+        return has_whole_result(folder_, plan_, point) &&
+               damaged_part(folder_, plan_, point).empty();
     }
 
     void work_on(const std::vector<std::vector<std::size_t>>& chains) {
@@ -119,19 +160,21 @@ class SweepWorker {
 
     /// Ends at the first point that this call cannot finish: the next one starts from its end.
     void run_chain(const std::vector<std::size_t>& chain) {
-        std::optional<FinalState> last;  // final state of the point before, if run by this call
         for (std::size_t k = 0; k < chain.size(); ++k) {
             if (done_before_[chain[k]]) continue;
             if (control_.stop && control_.stop->load(std::memory_order_relaxed)) return;
             ChainLink link;
             if (k > 0) {
                 link.from = chain[k - 1];
-                link.begin =
-                    last ? std::move(last) : read_final_state(folder_, plan_, chain[k - 1]);
-                last.reset();
+                link.begin = find_final_state(folder_, plan_, chain[k - 1]);
+                if (!link.begin)
+                    throw FileError(fmt::format(
+                        "the final state of point {} was removed from '{}' during this "
+                        "call.\nhint: "
+                        "run `swirl sweep --out {}` again, which repeats the run of this point.",
+                        chain[k - 1], folder_.string(), shell_word(folder_.string())));
             }
             if (!try_point(chain[k], link)) return;
-            if (!link.end.discs.empty()) last = std::move(link.end);
         }
     }
 
@@ -151,7 +194,7 @@ class SweepWorker {
             return false;
         }
         // Another process may have finished it in the meantime.
-        if (has_whole_result(folder_, plan_, point)) {
+        if (is_done(point)) {
             count(point, 1.0, 0);
             return true;
         }
@@ -181,7 +224,7 @@ class SweepWorker {
     bool do_point(std::size_t point, const std::shared_ptr<SweepLock>& point_lock,
                   ChainLink& link) {
         const RunConfig config = plan_.config(point);
-        const RunFiles files = files_of(point);
+        const RunFiles files = files_of_point(folder_, plan_, point);
         const std::string command = command_of(plan_, point, config.seed);
         Observation observation = observation_of(config, plan_.measure);
         const RunResult result = run_point(point, config, files, command, observation, link);
@@ -189,25 +232,14 @@ class SweepWorker {
         if (!plan_.chain.empty()) write_final_state(folder_, plan_, point, link.end);
         Json json = point_json(plan_, point, result, command);
         if (!plan_.chain.empty()) json["started_from"] = link.from ? Json(*link.from) : Json();
+        if (plan_.series)
+            json["series_checksum"] = checksum_of_series(read_regular_file(files.series));
         if (!plan_.measure.empty()) json["measured"] = measured_json(observation.report());
         writer_.write(number_of_point(point) + ".json", json.dump() + "\n",
                       [files, point_lock] { remove_checkpoint(files); });
         const std::lock_guard lock(mutex_);
         ++outcome_.done;
         return true;
-    }
-
-    RunFiles files_of(std::size_t point) const {
-        const std::string number = number_of_point(point);
-        RunFiles files;
-        files.checkpoint = part_of_sweep(folder_, "checkpoints", plan_) / (number + ".checkpoint");
-        files.resume = true;
-        files.overwrite = true;  // existing files of this number belong to this point
-        if (plan_.frames > 0) files.trajectory = folder_ / "trajectories" / (number + ".h5");
-        if (plan_.series)
-            files.series = part_of_sweep(folder_, "series", plan_) / (number + ".csv");
-        files.frames.per_period = std::max(plan_.frames, 1);
-        return files;
     }
 
     RunResult run_point(std::size_t point, const RunConfig& config, const RunFiles& files,
@@ -260,18 +292,20 @@ class SweepWorker {
 
 }  // namespace
 
-SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan) {
+SweepStatus sweep_status(const fs::path& folder, const SweepPlan& plan, Counted counted) {
     SweepStatus status;
     status.points = plan.points();
     const std::vector<bool> exists = numbered_files(part_of_sweep(folder, "results", plan), ".json",
                                                     status.points),
-                            done = whole_results(folder, plan, [](std::size_t) { return true; });
+                            whole = whole_results(folder, plan, [](std::size_t) { return true; });
     const std::vector<bool> failed = numbered_files(folder / "failures", ".txt", status.points);
     const std::vector<bool> locked = SweepLocks::locked(folder, status.points);
     for (std::size_t point = 0; point < status.points; ++point) {
-        if (exists[point] && !done[point] && status.damaged++ == 0)
-            status.first_damaged = result_file(folder, plan, point).string();
-        if (done[point])
+        std::string damaged;
+        if (exists[point] && !whole[point]) damaged = result_file(folder, plan, point).string();
+        if (whole[point] && counted == Counted::points) damaged = damaged_part(folder, plan, point);
+        if (!damaged.empty() && status.damaged++ == 0) status.first_damaged = damaged;
+        if (whole[point] && damaged.empty())
             ++status.done;
         else if (locked[point])
             ++status.running;
@@ -293,9 +327,6 @@ void require_sweep(const fs::path& folder, const SweepPlan& plan) {
 SweepOutcome run_sweep(const fs::path& folder, const SweepPlan& plan, const SweepShare& share,
                        const SweepControl& control) {
     if (!share.only) require_sweep(folder, plan);
-    for (const fs::path& part : {folder, part_of_sweep(folder, "results", plan),
-                                 folder / "failures", part_of_sweep(folder, "checkpoints", plan)})
-        remove_leftovers(part);
     return SweepWorker(folder, plan, share, control).run();
 }
 

@@ -6,11 +6,13 @@
 //     DIR/failures/000012.txt  the error message of point 12; the next call tries again
 //     DIR/checkpoints/         of points that take longer than a minute
 //     DIR/trajectories/000012.h5  recorded frames, if the plan asks for them
-//     DIR/series/000012.csv       averages of every period, if the plan asks for them
+//     DIR/series/000012.csv       averages of every period, if the plan asks for them; the result
+//                                 has its checksum
 //     DIR/states/                 final states of the runs of a chain (sweep_chain.hpp)
 //
 // Any number of processes, on any machines that share the folder, may work on it, be killed, and
-// start again. A point done twice gives the same bytes except for the time it took.
+// start again. A point done twice gives the same bytes except for the time it took. A point is done
+// if its result, its trajectory and its series are whole. Otherwise its run is repeated.
 #pragma once
 
 #include <atomic>
@@ -27,10 +29,13 @@ namespace swirl {
 
 struct SweepStatus {
     std::size_t points = 0, done = 0, running = 0, failed = 0;
-    std::size_t damaged = 0;  // result files that are not whole (point_result.hpp)
+    std::size_t damaged = 0;  // points with a result that are not done
     std::string first_damaged = {};
 };
-SweepStatus sweep_status(const std::filesystem::path& folder, const SweepPlan& plan);
+/// Counts what a table needs, the results, or also the recordings that a point needs to be done.
+enum class Counted { results, points };
+SweepStatus sweep_status(const std::filesystem::path& folder, const SweepPlan& plan,
+                         Counted counted = Counted::points);
 
 /// The points that this process works on: those with number ≡ part − 1 modulo parts. With `rest`,
 /// it then works on the others that no process has locked.

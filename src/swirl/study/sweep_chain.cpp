@@ -8,20 +8,16 @@
 
 #include "swirl/io/checkpoint.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/io/state_archive.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/reading.hpp"
-#include "swirl/run/shell_word.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path state_file(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
-    return part_of_sweep(folder, "states", plan) / (number_of_point(point) + ".state");
-}
 
 /// Identifies the run that led to the state: its configuration and its place in the chain.
 std::string identity_of_state(const SweepPlan& plan, std::size_t point) {
@@ -30,6 +26,10 @@ std::string identity_of_state(const SweepPlan& plan, std::size_t point) {
 }
 
 }  // namespace
+
+fs::path state_file(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+    return part_of_sweep(folder, "states", plan) / (number_of_point(point) + ".state");
+}
 
 std::vector<std::vector<std::size_t>> chains_of(const SweepPlan& plan) {
     std::vector<std::vector<std::size_t>> chains;
@@ -65,24 +65,20 @@ void write_final_state(const fs::path& folder, const SweepPlan& plan, std::size_
     write_checkpoint(file, {identity_of_state(plan, point), std::move(bytes).bytes()});
 }
 
-FinalState read_final_state(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
+std::optional<FinalState> find_final_state(const fs::path& folder, const SweepPlan& plan,
+                                           std::size_t point) {
     const fs::path file = state_file(folder, plan, point);
+    if (!file_exists(file)) return {};
     try {
         const Checkpoint saved = read_checkpoint(file);
-        if (saved.about != identity_of_state(plan, point))
-            throw FileError(fmt::format("'{}' is not the final state of point {} of this sweep.",
-                                        file.string(), point));
+        if (saved.about != identity_of_state(plan, point)) return {};
         FinalState state;
         StateReader bytes(saved.state);
         bytes(state);
         bytes.expect_end();
         return state;
-    } catch (const FileError& error) {
-        throw FileError(fmt::format(
-            "{}\nhint: remove '{}' and run `swirl sweep --out {}` again, which repeats the run "
-            "that "
-            "ends in this state.",
-            error.what(), result_file(folder, plan, point).string(), shell_word(folder.string())));
+    } catch (const DamagedFile&) {
+        return {};
     }
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "swirl/io/optional_file.hpp"
+
 namespace swirl {
 
 namespace fs = std::filesystem;
@@ -27,15 +29,13 @@ bool belongs_to_sweep(const fs::path& folder, const fs::path& file) {
     static constexpr std::string_view parts[] = {
         "plan.json",    "locks", "job.sh",   "slurm_job", "results", "checkpoints",
         "trajectories", "log",   "failures", "series",    "states"};
-    std::error_code error;
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
+    for (const std::string& name : names_in_folder(folder)) {
         // results-2 after the sweep got further measurements
         const bool is_part = std::any_of(std::begin(parts), std::end(parts), [&](auto part) {
             return name == part || name.starts_with(std::string(part) + "-");
         });
         std::error_code ignored;
-        const fs::path canonical = fs::weakly_canonical(it->path(), ignored);
+        const fs::path canonical = fs::weakly_canonical(folder / name, ignored);
         if (is_part &&
             std::mismatch(canonical.begin(), canonical.end(), file.begin(), file.end()).first ==
                 canonical.end())
@@ -47,9 +47,7 @@ bool belongs_to_sweep(const fs::path& folder, const fs::path& file) {
 std::vector<bool> numbered_files(const fs::path& folder, std::string_view ending,
                                  std::size_t points) {
     std::vector<bool> exists(points, false);
-    std::error_code error;
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        const std::string name = it->path().filename().string();
+    for (const std::string& name : names_in_folder(folder)) {
         std::size_t point = 0;
         const auto [stop, status] = std::from_chars(name.data(), name.data() + name.size(), point);
         if (status == std::errc() && point < points &&

@@ -28,7 +28,8 @@ std::filesystem::path failure_file(const std::filesystem::path& folder, std::siz
 /// of it. Tables made from the sweep are not part of it. `file`: its canonical name.
 bool belongs_to_sweep(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-/// Element k is true if the file of number k with this ending exists. Scans the folder once.
+/// Element k is true if the file of number k with this ending exists. Lists the folder once. Throws
+/// FileError.
 std::vector<bool> numbered_files(const std::filesystem::path& folder, std::string_view ending,
                                  std::size_t points);
 

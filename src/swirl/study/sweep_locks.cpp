@@ -9,6 +9,7 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 
 namespace swirl {
 namespace {
@@ -50,6 +51,7 @@ void SweepLocks::unlock(std::size_t point) {
 
 std::vector<bool> SweepLocks::locked(const fs::path& folder, std::size_t points) {
     std::vector<bool> locked(points, false);
+    if (!file_exists(lock_file(folder))) return locked;
     const int handle = ::open(lock_file(folder).c_str(), O_RDWR | O_CLOEXEC);
     for (std::size_t from = 0; handle >= 0 && from < points;) {
         struct flock range = byte_range(from, points - from, F_WRLCK);

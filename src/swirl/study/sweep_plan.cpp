@@ -16,6 +16,7 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/optional_file.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -201,6 +202,7 @@ Json plan_json(const SweepPlan& plan) {
     Json json{{"format", sweep_format},
               {plan.is_table() ? "columns" : "axes", axes},
               {"replicates", plan.is_table() ? Json(plan.row_replicas) : Json(plan.replicas)}};
+    if (!plan.common.empty()) json["common"] = plan.common;
     if (!plan.measure.empty()) json["measure"] = plan.measure;
     if (plan.frames > 0) json["frames"] = plan.frames;
     if (plan.series) json["series"] = true;
@@ -489,11 +491,11 @@ std::vector<std::string> varied_options(const SweepPlan& plan, const ParameterTe
 
 SweepPlan read_plan(const fs::path& folder) {
     const fs::path file = folder / "plan.json";
-    std::error_code ignored;
-    if (!fs::exists(file, ignored))
+    const std::optional<std::string> text = read_optional_file(file);
+    if (!text)
         throw FileError(fmt::format(
             "'{}' is not the folder of a sweep or map: it holds no plan.json.", folder.string()));
-    const Json json = parse_json(read_whole_file(file));
+    const Json json = parse_json(*text);
     SweepPlan plan;
     try {
         if (json.at("format") != sweep_format)
@@ -511,6 +513,7 @@ SweepPlan read_plan(const fs::path& folder) {
                     : *std::max_element(size.row_replicas.begin(), size.row_replicas.end());
         };
         read_replicas(json.at("replicates"), plan);
+        plan.common = json.value("common", ParameterTexts());
         plan.measure = json.value("measure", std::vector<std::string>());
         plan.frames = json.value("frames", 0);
         plan.series = json.value("series", false);
@@ -525,7 +528,10 @@ SweepPlan read_plan(const fs::path& folder) {
         if (const auto map = json.find("map"); map != json.end()) plan.map = map_target_of(*map);
     } catch (const nlohmann::json::exception&) {
         throw FileError(
-            fmt::format("'{}' is damaged: it is not the plan of a sweep or map.", file.string()));
+            fmt::format("'{}' is damaged: it is not the plan of a sweep or map.\nhint: remove it "
+                        "and repeat the "
+                        "call that made it; finished runs are kept.",
+                        file.string()));
     }
     if (plan.generation < 1)
         throw FileError(fmt::format("'{}' is damaged: it has the generation {}.", file.string(),
@@ -539,6 +545,10 @@ SweepPlan read_plan(const fs::path& folder) {
                 fmt::format("'{}' is damaged: {} has {} values, but the table has {} rows.",
                             file.string(), axis.name, axis.values.size(), plan.rows()));
     }
+    for (const auto& [name, value] : plan.common)
+        if (!plan.is_table() || !plan.axis(name))
+            throw FileError(fmt::format("'{}' is damaged: {} is common to all rows, but no column.",
+                                        file.string(), name));
     if (const double count = number_of_runs(plan); !(count >= 1.0 && count <= double(max_points)))
         throw FileError(
             fmt::format("'{}' is damaged: it plans {:.3g} runs with {} replicates of "
@@ -605,7 +615,7 @@ void write_plan(const fs::path& folder, const SweepPlan& plan, const SweepPlan* 
     if (grown_from != nullptr) return replace_plan(folder, plan, *grown_from);
     // If two sweeps start in this folder at the same time, the first one gets it.
     const fs::path file = folder / "plan.json";
-    if (!fs::exists(file) && write_new_file(file, plan_file_text(plan))) return;
+    if (!file_exists(file) && write_new_file(file, plan_file_text(plan))) return;
     const SweepPlan existing = read_plan(folder);
     if (existing == plan) return;
     const bool same_kind = existing.kind() == std::string_view(plan.kind());

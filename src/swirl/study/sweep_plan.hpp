@@ -64,6 +64,9 @@ struct SweepPlan {
     /// For a table of points, the replicas of each row. The axes are then the columns of the table,
     /// and an empty value is a parameter that its row does not give.
     std::vector<std::int64_t> row_replicas = {};
+    /// The parameters that a table was given for all of its rows. They are columns, too, and rows
+    /// that are added later get them.
+    ParameterTexts common = {};
     std::vector<std::string> measure;  // measurements of every run (measurements.hpp)
     int frames = 0;                    // frames per period of every trajectory; 0: none
     bool series = false;               // write the table of the periods of every run
