@@ -2,13 +2,15 @@
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
+import tempfile
 import unittest
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 
-from program import ALL, HANG, SOURCE, made_of_the_web, main, read_text, write_text
+from program import ALL, HANG, SOURCE, SWIRL, made_of_the_web, main, read_text, write_text
 
 SITE = os.path.join(SOURCE, "web", "site.sh")
 # With --all the notebooks are executed, with the Python module of this build. Else python.notebooks_test
@@ -63,8 +65,16 @@ class Links(HTMLParser):
 class Site(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        # With --all the movies of the gallery have their whole length, else half a second.
+        program = os.path.join(folder.name, "swirl")
+        write_text(program, "#!/bin/sh\n" + ("" if ALL else '[ "$1" != movie ] || set -- "$@" --seconds 0.5\n') +
+                   f'exec {shlex.quote(os.path.abspath(SWIRL))} "$@"\n')
+        os.chmod(program, 0o755)
         # It replaces an older site.
-        cls.site = made_of_the_web(cls, SITE, "site", before=(".swirl-site", "old.html"), env=ENVIRONMENT)
+        cls.site = made_of_the_web(cls, SITE, "site", before=(".swirl-site", "old.html"),
+                                   env={**ENVIRONMENT, "SWIRL": program})
         cls.pages = {}
         for place, _, names in os.walk(cls.site):
             for name in names:

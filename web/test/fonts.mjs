@@ -8,10 +8,10 @@ const widths = [320, 360, 412], height = 640;
 /** Calls look(where, width, height) in each font and width, and returns its answers by `where`. */
 export async function inEachFont(page, look) {
     const before = page.viewportSize(), seen = {}, samples = new Map();
-    for (const font of ["", ...ofTheSystem]) for (const width of widths) {
-        await page.setViewportSize({width, height});
-        await page.evaluate((name) => { document.documentElement.style.fontFamily = name && `"${name}"`; }, font);
-        samples.set(font, await page.evaluate(async () => {
+    for (const width of widths) for (const font of ["", ...ofTheSystem]) {
+        if (font === "") await page.setViewportSize({width, height}); // this takes the longest
+        samples.set(font, await page.evaluate(async (name) => {
+            document.documentElement.style.fontFamily = name && `"${name}"`;
             await document.fonts.ready;
             const sample = document.createElement("span");
             sample.textContent = "Scheiben drehen sich gegensinnig";
@@ -19,7 +19,7 @@ export async function inEachFont(page, look) {
             const {width} = sample.getBoundingClientRect();
             sample.remove();
             return width;
-        }));
+        }, font));
         const where = `${font || "Inter"}, ${width} pixels wide`;
         seen[where] = await look(where, width, height);
     }
