@@ -20,6 +20,6 @@ function(swirl_test name)
   endforeach()
   list(APPEND test_ENVIRONMENT SWIRL_SOURCE=${PROJECT_SOURCE_DIR})
   add_test(NAME ${name} COMMAND ${limited} ${processor_seconds${suite}} ${test_COMMAND})
-  set_tests_properties(${name} PROPERTIES TIMEOUT ${hang${suite}} SKIP_RETURN_CODE 77 LABELS "${test_LABELS}"
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${hang${suite}} LABELS "${test_LABELS}"
     ENVIRONMENT "${test_ENVIRONMENT}")
 endfunction()
