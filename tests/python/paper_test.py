@@ -28,7 +28,7 @@ def made(out, *figures, part=None):
     if part:
         points = [point for figure in paper.figures for point in figure.points(paper.settings)]
         return study.make(points, paper.settings, part=tuple(part))
-    paper.run(lambda fraction: None)
+    paper.run(lambda fraction, part="": None)
     return paper.counts
 
 
