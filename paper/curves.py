@@ -35,7 +35,7 @@ def with_error(average, error=None):
     """"0.123 ± 0.004" from an object with "mean" and "error", or from two numbers; "n/a" if there is none."""
     if isinstance(average, dict) or average is None:
         average, error = number(at(average, "mean")), number(at(average, "error"))
-    return swirl._engine.with_error(average, math.nan if error is None else error)
+    return swirl.with_error(average, math.nan if error is None else error)
 
 
 def listed(numbers):

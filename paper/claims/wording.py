@@ -13,17 +13,24 @@ SHORTEST, LONGEST = 40, 150  # characters of a headline
 
 
 def number(mean, error=math.nan):
-    """1.234 ± 0.012, with as many digits as the error supports; n/a if the mean is unknown."""
+    """1.234 ± 0.012, with as many digits as the error supports; n/a if the mean is unknown.
+
+    This is swirl.with_error() for claims, which are judged without the module; tests/python/paper_test.py compares them.
+    """
     if isinstance(mean, Value):
         mean, error = mean.mean, mean.error
-    if mean is None or mean != mean:
+    if mean is None or not math.isfinite(mean):
         return "n/a"
-    if not error or not error > 0:
-        return f"{mean:.3g}".replace("-", "−")
-    magnitude = math.floor(math.log10(error))
-    # An error that starts with 1 has two digits, others have one.
-    digits = max(0, -magnitude + (1 if error / 10 ** magnitude < 1.95 else 0))
-    return f"{mean:.{digits}f} ± {error:.{digits}f}".replace("-", "−")
+    if error is None or not 1e-14 * abs(mean) < error < math.inf:
+        text = f"{mean:.3g}"
+    elif error < 1e-9:
+        text = f"{mean:.2g} ± {error:.1g}"
+    else:
+        magnitude = math.floor(math.log10(error))
+        # An error that starts with 1 has two digits, others have one.
+        digits = min(12, max(0, (1 if error / 10.0 ** magnitude < 1.95 else 0) - magnitude))
+        text = f"{mean:.{digits}f} ± {error:.{digits}f}"
+    return f"−{text[1:]}" if text.startswith("-") else text
 
 
 def known(rows, name):

@@ -2,6 +2,7 @@
 
 import csv
 import fcntl
+import math
 import os
 import re
 import subprocess
@@ -9,6 +10,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 import swirl
 
 PAPER = os.path.join(os.environ["SWIRL_SOURCE"], "paper")
@@ -18,6 +22,7 @@ import command  # noqa: E402
 import console  # noqa: E402
 import figure  # noqa: E402
 import study  # noqa: E402
+from claims import wording  # noqa: E402
 
 EVENTS = 2000
 
@@ -215,3 +220,12 @@ def test_a_file_that_cannot_be_imported_fails_alone(tmp_path, monkeypatch):
     scratch, = catalogue.named(["scratch"])
     with pytest.raises(ImportError, match="scratch"):
         scratch.points(study.Settings())
+
+
+@settings(deadline=None)
+@given(st.floats(), st.floats() | st.none(), st.integers(-13, 6), st.booleans())
+def test_claims_round_as_reports_do(mean, error, power, is_near):
+    """Claims are judged without the module, so they round by themselves."""
+    if is_near and error is not None:
+        mean, error = math.remainder(mean, 100.0) if math.isfinite(mean) else mean, abs(error % 1.0) * 10.0**power
+    assert wording.number(mean, error) == swirl.with_error(mean, math.nan if error is None else error)

@@ -14,9 +14,10 @@ from . import plot as plot
 from ._engine import Event, Failure, FileError, Frames, Snapshot
 from ._engine import samples_per_period as samples_per_period
 from ._engine import version as _version
+from ._estimates import ArrayEstimate, Estimate, with_error
 from ._lab import Lab, lab
 from ._recordings import Analysis, Recording, Tracks, Trajectory, analyse
-from ._results import ArrayEstimate, Estimate, EventCounts, Measured, Result, Rotation, Series, Table
+from ._results import EventCounts, Measured, Result, Rotation, Series, Table
 from ._runs import Interrupted, Parameter, measurements, parameters, run
 from ._simulation import EventKind, Simulation, load
 from ._study import Crossing, SweepWarning, collect, crossing, parameter_map, sweep
@@ -30,5 +31,5 @@ __all__ = [
     "FileError", "Frames", "Interrupted", "Lab", "Measured", "Parameter", "Recording", "Result", "Rotation",
     "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "VideoTracks", "analyse",
     "collect", "crossing", "lab", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
-    "samples_per_period", "sweep", "track",
+    "samples_per_period", "sweep", "track", "with_error",
 ]

@@ -14,7 +14,8 @@ import numpy as np
 
 from . import _engine
 from ._files import exists
-from ._results import Estimate, Measured, Rotation, measured_of
+from ._estimates import Estimate
+from ._results import Measured, Rotation, measured_of, source_of_run
 from ._runs import Measure, CustomBlocks, PathName, split_measure
 
 
@@ -219,6 +220,9 @@ class Analysis:
     measured: Mapping[str, Measured]
     warnings: tuple[str, ...] = ()
 
+    def __str__(self) -> str:
+        return f"{self.rotation}, from {self.frames} frames"
+
 
 class _Sampled(Recording):
     """Frames in memory."""
@@ -248,16 +252,26 @@ def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measu
     names, custom = split_measure(measure)
     is_all = measure == "all"
     reports, mean_by_time, rigid, used, remark = recording._frames.analyse(names, is_all, float(warmup))
-    found = measured_of(reports)
+    source = _source_of(recording)
+    found = measured_of(reports, source)
     if custom:
         blocks = CustomBlocks(custom)
         for begin, end in _periods(recording, warmup):
             blocks.period_ended(recording[begin:end])
-        found.update(blocks.results())
-    no_events = Estimate(math.nan, unit="Ω")
-    rotation = Rotation(no_events, Estimate(*mean_by_time, unit="Ω"), no_events,
-                        Estimate(*rigid, unit="Ω"))
+        found.update(blocks.results(source))
+    sources = frozenset((source,))
+    no_events = Estimate(math.nan, unit="Ω", _sources=sources)
+    rotation = Rotation(no_events, Estimate(*mean_by_time, unit="Ω", _sources=sources), no_events,
+                        Estimate(*rigid, unit="Ω", _sources=sources))
     return Analysis(rotation, used, found, (remark,) if remark else ())
+
+
+def _source_of(recording: Recording) -> str:
+    """That of the run, or a name that every analysis of the same frames has."""
+    if isinstance(recording, Trajectory) and recording.parameters:
+        return source_of_run(recording.parameters)
+    ends = [recording[k].position.tobytes().hex() for k in (0, -1)] if len(recording) else []
+    return _engine.checksum(" ".join(ends))
 
 
 def _periods(recording: Recording, warmup: float) -> Iterator[tuple[int, int]]:

@@ -15,50 +15,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _engine
+from ._estimates import ArrayEstimate, Estimate, FloatArray, with_error
 from ._optional import optional
 
-FloatArray = npt.NDArray[np.float64]
 ReportRow = tuple[str, str, str, float, float, float, int, dict[str, float], bool]
 ReportTable = tuple[str, str, list[tuple[str, str]], FloatArray]
 Report = tuple[str, list[ReportRow], list[ReportTable]]
-
-
-@dataclasses.dataclass(frozen=True)
-class Estimate:
-    """A mean with its standard error, from blocks of whole periods.
-
-    A value that is not available is NaN, such as an error from too few blocks. `unit` is in terms of
-    docs/explanation/physics.md: r radius of a disc, m its mass, v speed of the container, Ω = 2π/T; "1" if there is
-    no unit.
-    """
-
-    mean: float
-    error: float = math.nan
-    effective_samples: float = math.nan
-    blocks: int = 0
-    unit: str = "1"
-    description: str = ""
-    details: Mapping[str, float] = dataclasses.field(default_factory=dict)
-
-    def __float__(self) -> float:
-        return self.mean
-
-    def __str__(self) -> str:
-        value = _engine.with_error(self.mean, self.error)
-        return value if self.unit == "1" else f"{value} {self.unit}"
-
-
-@dataclasses.dataclass(frozen=True)
-class ArrayEstimate:
-    """An array of means with their standard errors from blocks. All arrays have the same shape."""
-
-    mean: FloatArray
-    error: FloatArray
-    effective_samples: FloatArray
-    blocks: int
-
-    def __str__(self) -> str:
-        return f"{self.mean.shape} numbers with errors, from {self.blocks} blocks"
 
 
 class Table:
@@ -249,12 +211,12 @@ class Series(Mapping[str, FloatArray]):
         return f"<series of {self.periods} periods: {', '.join(self._names)}>"
 
 
-def measured_of(reports: list[Report]) -> dict[str, Measured]:
-    """Converts the reports of the engine."""
+def measured_of(reports: list[Report], source: str) -> dict[str, Measured]:
+    """Converts the reports of the engine on the run or recording `source`."""
     all_found = {}
     for measurement, rows, tables in reports:
         estimates = {
-            name: Estimate(mean, error, effective, blocks, unit, description, details)
+            name: Estimate(mean, error, effective, blocks, unit, description, details, frozenset((source,)))
             for name, unit, description, mean, error, effective, blocks, details, _ in rows}
         made = {name: Table(f"{measurement}.{name}" if name else measurement, description, columns,
                             values) for name, description, columns, values in tables}
@@ -275,6 +237,9 @@ class Rotation:
     rigid_by_event: Estimate
     rigid_by_time: Estimate
 
+    def __str__(self) -> str:
+        return f"ϖ/Ω = {with_error(*self.mean_by_time)}"
+
 
 @dataclasses.dataclass(frozen=True)
 class EventCounts:
@@ -288,14 +253,24 @@ class EventCounts:
     elastic_by_tc_model: int = 0
     begins_to_roll: int = 0
 
+    def __str__(self) -> str:
+        kinds = ", ".join(f"{number:,} {name}" for name, number in list(vars(self).items())[1:] if number)
+        return f"{self.total:,} events{': ' if kinds else ''}{kinds}"
+
 
 def _number(value: Optional[float]) -> float:
     return math.nan if value is None else float(value)
 
 
-def _estimate(value: Mapping[str, Any], unit: str) -> Estimate:
-    return Estimate(_number(value["mean"]), _number(value["error"]),
-                    _number(value["effective_samples"]), int(value["blocks"]), unit)
+def _estimate(value: Mapping[str, Any], unit: str, source: str) -> Estimate:
+    return Estimate(_number(value["mean"]), _number(value["error"]), _number(value["effective_samples"]),
+                    int(value["blocks"]), unit, _sources=frozenset((source,)))
+
+
+def source_of_run(config: Mapping[str, Any]) -> str:
+    """Runs that differ only in their length have the same events, as far as the shorter one goes."""
+    same = {name: value for name, value in config.items() if name not in ("events", "periods", "warmup")}
+    return _engine.checksum(json.dumps(same, sort_keys=True))
 
 
 class Result:
@@ -330,8 +305,9 @@ class Result:
         self._headline = headline
         self._report = report
         self.config: dict[str, Any] = found["config"]
+        source = source_of_run(self.config)
         self.complete: bool = found["complete"]
-        self.rotation = Rotation(**{name: _estimate(value, "Ω")
+        self.rotation = Rotation(**{name: _estimate(value, "Ω", source)
                                     for name, value in found["rotation"].items()})
         self.measured: Mapping[str, Measured] = dict(measured)
         self.series = series
@@ -339,7 +315,7 @@ class Result:
             name: _number(average["autocorrelation_time"])
             for name, average in found.get("series", {}).get("averages", {}).items()}
         self.fluctuations: dict[str, dict[str, Estimate]] = {
-            name: {row: _estimate({**average, **value}, "") for row, value
+            name: {row: _estimate({**average, **value}, "1", source) for row, value
                    in average["fluctuations"].items()}
             for name, average in found.get("series", {}).get("averages", {}).items()
             if "fluctuations" in average}
@@ -382,10 +358,9 @@ class Result:
         return self._report + "".join(f"{found}\n" for found in self.measured.values())
 
     def _repr_html_(self) -> str:
-        rows = [(f"ϖ/Ω {name.replace('_', ' ')}", _engine.with_error(e.mean, e.error))
-                for name, e in vars(self.rotation).items()]
-        rows += [("events", f"{self.events.total:,}"), ("periods", f"{self.periods:.1f}"),
-                 ("steady state", self.steady_state), ("state", self.state_hash)]
+        # The headline has the rotation.
+        rows = [("events", f"{self.events.total:,}"), ("periods", f"{self.periods:.1f}"),
+                ("steady state", self.steady_state), ("state", self.state_hash)]
         rows += [(f"{name}.{row}", str(value)) for name, found in self.measured.items()
                  for row, value in found.rows.items()]
         body = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th>"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import json
 import os
 import textwrap
 from collections.abc import Callable, Iterable, Mapping
@@ -12,7 +13,8 @@ import numpy as np
 
 from . import _engine
 from ._files import exists
-from ._results import ArrayEstimate, Estimate, Measured, Result, Series, measured_of
+from ._estimates import ArrayEstimate, Estimate
+from ._results import Measured, Result, Series, measured_of, source_of_run
 
 PathName = Union[str, "os.PathLike[str]"]
 #: Value of a parameter, as on the command line; a tuple is one value with several parts, an array is a
@@ -32,6 +34,10 @@ class Parameter(NamedTuple):
     lowest: float
     highest: float
     group: str
+
+    def __str__(self) -> str:
+        unit = f", in units of {self.unit}" if self.unit else ""
+        return f"{self.name}: {self.description}{unit}{f' [{self.default}]' if self.default else ''}"
 
 
 class SamplesSnapshots(Protocol):
@@ -123,17 +129,18 @@ class CustomBlocks:
             weights = is_valid.sum(axis=0).astype(np.float64)
             self._blocks[name].setdefault(row, []).append((sums, weights))
 
-    def results(self) -> dict[str, Measured]:
-        return {name: Measured(name, {row: _estimate_of(blocks) for row, blocks in rows.items()}, {})
+    def results(self, source: str) -> dict[str, Measured]:
+        """The estimates of the run or recording `source`."""
+        return {name: Measured(name, {row: _estimate_of(blocks, source) for row, blocks in rows.items()}, {})
                 for name, rows in self._blocks.items()}
 
 
-def _estimate_of(blocks: list[tuple[Any, Any]]) -> Union[Estimate, ArrayEstimate]:
+def _estimate_of(blocks: list[tuple[Any, Any]], source: str) -> Union[Estimate, ArrayEstimate]:
     sums, weights = (np.stack(column) for column in zip(*blocks))
     shape, n = sums.shape[1:], len(blocks)
     mean, error, effective = _engine.estimates(sums.reshape(n, -1), weights.reshape(n, -1))
     if shape == ():
-        return Estimate(float(mean[0]), float(error[0]), float(effective[0]), n)
+        return Estimate(float(mean[0]), float(error[0]), float(effective[0]), n, _sources=frozenset((source,)))
     return ArrayEstimate(mean.reshape(shape), error.reshape(shape), effective.reshape(shape), n)
 
 
@@ -219,7 +226,8 @@ def run(*, measure: Optional[Measure] = None, progress: Union[bool, ProgressCall
             blocks.period_ended if custom else None, files, bool(series))
     finally:
         bar.close()
-    result = Result(text, {**measured_of(reports), **blocks.results()}, headline, report,
+    source = source_of_run(json.loads(text)["config"])
+    result = Result(text, {**measured_of(reports, source), **blocks.results(source)}, headline, report,
                     Series(*found) if found is not None else None)
     if isinstance(raised, KeyboardInterrupt):
         raise Interrupted(result) from None
@@ -264,10 +272,7 @@ def parameter_lines() -> str:
     """All parameters with descriptions, units and defaults, for docstrings."""
     lines = []
     for p in parameters():
-        default = f" [{p.default}]" if p.default else ""
-        unit = f", in units of {p.unit}" if p.unit else ""
-        lines += textwrap.wrap(f"{p.name}: {p.description}{unit}{default}", 96,
-                               initial_indent="    ", subsequent_indent="        ")
+        lines += textwrap.wrap(str(p), 96, initial_indent="    ", subsequent_indent="        ")
     return "\n".join(lines)
 
 

@@ -16,7 +16,8 @@ import numpy as np
 
 from . import _engine
 from ._optional import optional
-from ._results import Estimate, Measured, Result, Table
+from ._estimates import Estimate
+from ._results import Measured, Result, Table
 from ._simulation import Simulation
 
 Axes = Any  # matplotlib has no types in Debian 12
