@@ -166,7 +166,8 @@ class InteractiveSimulation {
             }
             const Time time = normalised(
                 {begin->periods + k / per_period,
-                 begin->clock + scene_.path.period * double(k % per_period) / double(per_period)});
+                 begin->clock + scene_.path.period * double(k % per_period) / double(per_period)},
+                scene_.path.period);
             if (!advance_towards(time)) return true;
             if (k == count) return false;
             frames->add(simulation_, scene_.path, since_);
@@ -278,6 +279,8 @@ class InteractiveSimulation {
             if (!run_in_period(left)) return false;
             end_period();
         }
+        if (const auto problem = simulation_.problem_with_time(time.periods, time.clock))
+            throw UsageError(*problem);
         return simulation_.advance_to(time.periods, time.clock, left);
     }
 
@@ -303,9 +306,8 @@ class InteractiveSimulation {
                     "in period {}.\nhint: call sample() for one period at a time.",
                     begin.periods + k));
     }
-    /// The same time with a clock below the period.
-    Time normalised(const Time& time) const {
-        const double period = scene_.path.period;
+    /// The same time with a clock below the period, in periods of one length.
+    static Time normalised(const Time& time, double period) {
         if (time.clock < period) return time;
         const double whole = std::floor(time.clock / period);
         const std::int64_t periods = time.periods + static_cast<std::int64_t>(whole);
@@ -325,14 +327,13 @@ class InteractiveSimulation {
             for (; time.periods < ramp->end && time.clock >= period_in(time.periods);
                  ++time.periods)
                 time.clock -= period_in(time.periods);
-            const double period = period_in(time.periods), whole = std::floor(time.clock / period);
-            return {time.periods + static_cast<std::int64_t>(whole),
-                    std::max(0.0, time.clock - whole * period)};
+            return normalised(time, period_in(time.periods));
         }
         const double period = scene_.path.period;
         const double periods = std::floor(duration / period);
         return normalised({simulation_.periods() + static_cast<std::int64_t>(periods),
-                           simulation_.clock() + (duration - periods * period)});
+                           simulation_.clock() + (duration - periods * period)},
+                          period);
     }
 
     const RunConfig config_;

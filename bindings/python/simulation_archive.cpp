@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "custom_scene.hpp"
-#include "swirl/engine/continuation.hpp"
 #include "swirl/engine/validate.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/io/file_error.hpp"
@@ -118,11 +117,9 @@ ArchivedSimulation read_archive(std::string_view bytes) {
         require_path(segments, archived.scene.path, config, archived.is_custom);
         archived.scene.path.segments = std::move(segments);
         archived.scene.discs = std::move(discs);
-        if (const char* const reason = impossible_to_continue(archived.scene, progress))
-            reject_archive(reason);
-        require_discs(archived.scene, config, archived.is_custom, progress.clock);
         if (const auto problem = validate(archived.scene, progress))
             reject_archive(std::string_view(*problem).substr(0, problem->size() - 1));
+        require_discs(archived.scene, config, archived.is_custom, progress.clock);
         return archived;
     } catch (const UsageError& error) {
         reject_archive(error.what());

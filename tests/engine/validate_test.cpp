@@ -35,7 +35,7 @@ TEST(Validate, ReportsWhatIsWrong) {
         {"the period of the path is 0", [](InitialState& s) { s = InitialState{}; }},
         {"period of the path is nan", [](InitialState& s) { s.path.period = nan; }},
         {"no segments", [](InitialState& s) { s.path.segments.clear(); }},
-        {"segment 2 of the path has a number that is not finite",
+        {"velocity.y of segment 2 of the path is nan",
          [](InitialState& s) { s.path.segments[2].velocity.y = nan; }},
         {"segment 3 of the path ends at", [](InitialState& s) { s.path.segments[3].end = 0.0; }},
         {"but the next one begins at", [](InitialState& s) { s.path.segments[4].begin -= 1e-3; }},
@@ -51,9 +51,9 @@ TEST(Validate, ReportsWhatIsWrong) {
         {"mu of the discs is -0.1", [](InitialState& s) { s.disc_surface.mu = -0.1; }},
         {"restitution of the wall is 1.5",
          [](InitialState& s) { s.wall_surface.restitution = 1.5; }},
-        {"the floor has the deceleration nan", [](InitialState& s) { s.floor.deceleration = nan; }},
-        {"disc 3 has a number that is not finite",
-         [](InitialState& s) { s.discs[3].velocity.x = nan; }},
+        {"the deceleration by the floor is nan",
+         [](InitialState& s) { s.floor.deceleration = nan; }},
+        {"velocity.x of disc 3 is nan", [](InitialState& s) { s.discs[3].velocity.x = nan; }},
         {"inertia of disc 4 is 0", [](InitialState& s) { s.discs[4].inertia = 0.0; }},
         {"can_spin of disc 4 is 0.5", [](InitialState& s) { s.discs[4].can_spin = 0.5; }},
         {"disc 4 has the spin 2, but it cannot spin",
@@ -111,7 +111,7 @@ TEST(ValidateDeathTest, ASimulationOfAnInvalidSceneStopsWithTheReason) {
     scene.discs[2].position.x = nan;
     Progress progress;
     progress.periods = 1;
-    EXPECT_DEATH((Simulation{scene, progress}), "disc 2 has a number that is not finite");
+    EXPECT_DEATH((Simulation{scene, progress}), "position.x of disc 2 is nan");
 }
 
 }  // namespace

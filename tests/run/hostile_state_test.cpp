@@ -68,7 +68,7 @@ int outcome(const RunConfig& config, const std::string& state) {
         const Snapshot now = run.snapshot();
         for (std::size_t i = 0; i < now.size(); ++i) {
             const Vec2 from_centre = now.position(i) - now.container_centre;
-            // A hundredth of a radius: ten times the allowed overlap of a state (continuation.cpp).
+            // A hundredth of a radius: ten times the allowed overlap of a state (validate.cpp).
             if (!(std::hypot(from_centre.x, from_centre.y) + now.radius[i] <=
                   now.container_radius + 0.01 * now.radius[i]))
                 return impossible;

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "swirl/engine/validate.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/real.hpp"
 #include "swirl/math/unit_circle.hpp"
@@ -554,15 +555,23 @@ constexpr std::uint16_t smallest_known_containers[] = {
 /// Up to this many discs fit into the processor's nearest caches, so their order does not matter.
 constexpr std::size_t max_in_any_order = 4000;
 
+void require_radii(const std::vector<double>& radii, double container_radius,
+                   const char* function) {
+    if constexpr (preconditions_are_checked)
+        stop_if(problem_with_radii(radii, container_radius), function);
+}
+
 }  // namespace
 
 double max_discs_in_container(double radius, double container_radius) {
+    require_radii({radius}, container_radius, "max_discs_in_container");
     const double rho = (container_radius - radius) / (2.0 * radius);
     return std::floor(pi * rho * rho / row_height + pi * rho + 1.0);
 }
 
 std::optional<std::int64_t> discs_in_densest_known_arrangement(double radius,
                                                                double container_radius) {
+    require_radii({radius}, container_radius, "discs_in_densest_known_arrangement");
     // place_discs() finds no arrangement in a container narrower than this share of the smallest
     // known one, and finds one in a container wider by 0.4 %.
     constexpr double tolerance = 0.999;
@@ -577,6 +586,7 @@ std::optional<std::int64_t> discs_in_densest_known_arrangement(double radius,
 std::optional<std::vector<Vec2>> place_discs(const std::vector<double>& radii,
                                              double container_radius, std::uint64_t seed,
                                              const std::function<bool()>& is_stopped) {
+    require_radii(radii, container_radius, "place_discs");
     if (radii.empty()) return std::vector<Vec2>{};
     const double largest = *std::max_element(radii.begin(), radii.end());
     const double smallest = *std::min_element(radii.begin(), radii.end());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -12,20 +13,21 @@
 namespace swirl {
 namespace {
 
-/// The browser page makes scenes from validated parameters only, and moves the container by hand on
-/// paths that do not close. Its program is small without the messages.
-#ifdef __wasm__
-constexpr bool is_validated = false;
-#else
-constexpr bool is_validated = true;
-#endif
+/// The part of validate.hpp whose sentences do not depend on values, for functions that are called
+/// often.
+SWIRL_INLINE void require(bool holds, const char* problem, const char* function) {
+    if constexpr (preconditions_are_checked)
+        if (!holds) [[unlikely]]
+            stop(problem, function);
+}
 
-/// The scene, if it is valid or the caller has stopped its construction.
+/// The scene, if it and the other arguments are valid or the caller has stopped the construction.
 const InitialState& required(const InitialState& scene, const Progress& progress,
                              const Tuning& tuning) {
-    if constexpr (is_validated) {
+    if constexpr (preconditions_are_checked) {
+        stop_if(validate(tuning), "Simulation");
         const auto problem = validate(scene, progress);
-        if (problem && !(tuning.is_stopped && tuning.is_stopped())) stop_if(problem);
+        if (problem && !(tuning.is_stopped && tuning.is_stopped())) stop_if(problem, "Simulation");
     }
     return scene;
 }
@@ -81,6 +83,7 @@ void Simulation::run(std::uint64_t count) {
 }
 
 void Simulation::run_before(double clock, std::uint64_t maximum, EventSpan& span) {
+    require(!std::isnan(clock), "the clock is nan.", "Simulation::run_before");
     const EngineState& state = *storage_->state;
     const double end = std::min(clock, state.segments[state.segment_count - 1].end);
     // The largest double below `end`; −1 if `end` is 0, since no event is earlier than 0.
@@ -93,7 +96,13 @@ void Simulation::advance_to(std::int64_t periods, double clock) {
     advance_to(periods, clock, std::numeric_limits<std::uint64_t>::max());
 }
 
+std::optional<std::string> Simulation::problem_with_time(std::int64_t periods, double clock) const {
+    return swirl::problem_with_time(progress(), storage_->state->period, periods, clock);
+}
+
 bool Simulation::advance_to(std::int64_t periods, double clock, std::uint64_t maximum) {
+    if constexpr (preconditions_are_checked)
+        stop_if(problem_with_time(periods, clock), "Simulation::advance_to");
     EventSpan span;
     run(span, maximum, periods, clock);
     if (span.events == maximum) return false;
@@ -103,6 +112,9 @@ bool Simulation::advance_to(std::int64_t periods, double clock, std::uint64_t ma
 }
 
 void Simulation::change_surroundings(InitialState scene, const Tuning& tuning) {
+    if constexpr (preconditions_are_checked)
+        stop_if(problem_with_change(scene, storage_->segments.size(), progress()),
+                "Simulation::change_surroundings");
     const Vec2 shift = scene.path.segments.front().start - storage_->state->segments[0].start;
     scene.discs = storage_->current_scene().discs;
     shift_discs(scene.discs, shift);
@@ -123,7 +135,17 @@ LoopCounts Simulation::loop_counts() const {
             state.full_rebuilds, storage_->memory.bytes(), storage_->loop->width};
 }
 
-Disc Simulation::disc(std::size_t i) const { return storage_->disc(static_cast<std::uint32_t>(i)); }
+Disc Simulation::disc(std::size_t i) const {
+    require(i < size(), "there is no disc of this number.", "Simulation::disc");
+    return storage_->disc(static_cast<std::uint32_t>(i));
+}
+
+/// In a snapshot of another simulation, the columns might be shorter.
+SWIRL_INLINE void Simulation::require_same_discs(const Snapshot& s) const {
+    const EngineState& state = *storage_->state;
+    require(s.size() == state.size && s.are_spheres() == (state.spheres != nullptr),
+            "the snapshot is one of another simulation.", "Simulation::refresh");
+}
 
 /// `clock` is the time of the event that changed disc i, up to which its orientation is followed.
 SWIRL_INLINE void Simulation::copy_flight(Snapshot& s, std::uint32_t i, double clock) const {
@@ -176,6 +198,9 @@ Snapshot Simulation::snapshot() const {
 
 void Simulation::refresh(Snapshot& s, const Event& event) const {
     const EngineState& state = *storage_->state;
+    require_same_discs(s);
+    require(event.i < state.size && event.j < state.size,
+            "the event names a disc that does not exist.", "Simulation::refresh");
     if (event.kind != EventKind::path_vertex) {
         copy(s, event.i, event.clock);
         if (event.j != event.i) copy(s, event.j, event.clock);
@@ -186,6 +211,7 @@ void Simulation::refresh(Snapshot& s, const Event& event) const {
 }
 
 void Simulation::refresh(Snapshot& s, const EventSpan& span) const {
+    require_same_discs(s);
     const std::uint32_t size = storage_->state->size;
     const auto is_vertex = [](const EventDiscs& pair) { return pair.i == 0 && pair.j == 0; };
     const EventDiscs* const end = span.discs + std::min(span.events, EventSpan::capacity);
@@ -203,6 +229,7 @@ void Simulation::refresh(Snapshot& s, const EventSpan& span) const {
 }
 
 void Simulation::refresh_angles(Snapshot& s) const {
+    require_same_discs(s);
     for (std::uint32_t i = 0; i < storage_->state->size; ++i)
         s.angle[i] = storage_->state->cold(i).angle;
 }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "swirl/math/cpu_width.hpp"
@@ -36,9 +38,12 @@ struct Progress {
 /// method for the scene. Spheres have no lists.
 enum class SearchMethod : std::uint8_t { best, all_pairs, lists, cells };
 
+inline constexpr int max_cells_per_side = 30000;
+
 /// Settings that change the speed, never a result.
 struct Tuning {
     /// The grid in which neighbours for the lists are found: 1 is no grid, 0 chooses by density.
+    /// At most `max_cells_per_side`.
     int cells_per_side = 0;
     Width width = Width::best;
     /// If the scene does not allow the method, lists replace it, or cells for spheres. All pairs
@@ -60,9 +65,14 @@ struct LoopCounts {
     const char* width = "";
 };
 
+/// A function that stops the program does so with a sentence on standard error. The functions of
+/// validate.hpp return the same sentences. Nothing is checked in two cases, in which the behaviour is
+/// undefined: a simulation that was moved from, or stopped while it was constructed, can only be
+/// destroyed or assigned to; and two threads may not use one simulation at the same time, except that
+/// both call functions which are const.
 class Simulation {
   public:
-    /// Stops the program with a message if validate(scene) reports a problem (validate.hpp).
+    /// Stops the program if validate() reports a problem with the scene and progress, or the tuning.
     explicit Simulation(const InitialState& scene, const Progress& progress = {},
                         const Tuning& tuning = {});
     ~Simulation();
@@ -76,18 +86,22 @@ class Simulation {
     void run(std::uint64_t count);
 
     /// Executes all events up to and including the given time and sets the clock to it. Discs keep
-    /// their stored states, so the time of an observation never affects results.
+    /// their stored states, so the time of an observation never affects results. Stops the program if
+    /// the time is past or the clock is not from 0 to the period (problem_with_time()).
     void advance_to(std::int64_t periods, double clock);
     /// The same, but executes at most `maximum` events. Returns whether the time was reached.
     bool advance_to(std::int64_t periods, double clock, std::uint64_t maximum);
+    /// Why advance_to() cannot reach this time, as a sentence; nothing if it can.
+    std::optional<std::string> problem_with_time(std::int64_t periods, double clock) const;
 
     /// At the start of a period: replaces path, surfaces and floor by those of `scene`, whose discs
     /// are ignored. Time and counts of events continue. Discs keep their velocities, and their
     /// positions relative to the container: they are shifted by the difference of the two paths'
-    /// starting points.
+    /// starting points. Stops the program in the middle of a period, if the new path has another number
+    /// of segments, or if validate() reports a problem with the new scene.
     void change_surroundings(InitialState scene, const Tuning& tuning = {});
     /// Executes at most `maximum` events, all before this time of the present period and before its
-    /// end, and adds them to the span.
+    /// end, and adds them to the span. Stops the program if the clock is NaN.
     void run_before(double clock, std::uint64_t maximum, EventSpan& span);
 
     std::int64_t periods() const;
@@ -96,16 +110,19 @@ class Simulation {
     Progress progress() const;
     LoopCounts loop_counts() const;
     std::size_t size() const;
-    /// Disc i as stored: its state after its last collision, at its own time.
+    /// Disc i as stored: its state after its last collision, at its own time. Stops the program if
+    /// there is no disc i.
     Disc disc(std::size_t i) const;
 
     /// All discs, the container, and the time, now.
     Snapshot snapshot() const;
     /// Updates an earlier snapshot of this simulation after one step. Touches only the discs of
-    /// that event; or all discs, if a new period has begun.
+    /// that event; or all discs, if a new period has begun. After skipped steps, the other discs of
+    /// the snapshot are those before them. Stops the program if the snapshot has another number of
+    /// discs, or the event names a disc that does not exist.
     void refresh(Snapshot& snapshot, const Event& event) const;
     /// The same after a span of events, but without the angles, which few observers need. It does
-    /// not follow orientations.
+    /// not follow orientations. The span is one that run_before() filled.
     void refresh(Snapshot& snapshot, const EventSpan& span) const;
     /// Updates the angles of all discs.
     void refresh_angles(Snapshot& snapshot) const;
@@ -116,6 +133,7 @@ class Simulation {
   private:
     struct Storage;
     void run(EventSpan& span, std::uint64_t count, std::int64_t periods, double clock);
+    void require_same_discs(const Snapshot& snapshot) const;
     void copy(Snapshot& snapshot, std::uint32_t i, double clock) const;
     void copy_flight(Snapshot& snapshot, std::uint32_t i, double clock) const;
     void copy_sphere(Snapshot& snapshot, std::uint32_t i, double clock) const;

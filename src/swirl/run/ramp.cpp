@@ -201,7 +201,7 @@ InitialState surroundings_in(const RunConfig& config, std::int64_t period) {
                                 std::any_of(amplitudes->values.begin(), amplitudes->values.end(),
                                             [](double amplitude) { return amplitude != 0.0; });
     if (!rests_now_only) return without_discs(now, make_path(now));
-    // The number of path vertices must be the same in all periods (continuation.hpp).
+    // The number of path vertices must be the same in all periods (validate.hpp).
     RunConfig moving = now;
     moving.amplitude = 1.0;
     return without_discs(now, at_rest(make_path(moving)));

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <utility>
 
-#include "swirl/engine/continuation.hpp"
 #include "swirl/engine/validate.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/state_archive.hpp"
@@ -56,9 +55,8 @@ void begin_from(const FinalState& state, InitialState& initial) {
         throw FileError("the state to start from belongs to another run.");
     initial.discs = state.discs;
     shift_discs(initial.discs, initial.path.segments.front().start - state.container_centre);
-    if (const char* const what = impossible_to_continue(initial, Progress{}))
-        throw FileError(
-            fmt::format("the state to start from is inconsistent: it says that {}.", what));
+    if (const auto problem = validate(initial))
+        throw FileError("the state to start from is inconsistent: " + *problem);
 }
 
 /// The run in its initial state, or in the state to resume from.
@@ -73,12 +71,9 @@ CoreRun begin(const RunConfig& config, const RunControl& control) {
             throw FileError("the saved state belongs to another run.");
         if (!config.ramps.empty()) initial = surroundings_in(config, saved.progress.periods);
         initial.discs = saved.discs;
-        if (const char* const what = impossible_to_continue(initial, saved.progress))
-            throw FileError(fmt::format("the saved state is inconsistent: it says that {}.", what));
-    }
-    if (control.begin_from || control.resume)
         if (const auto problem = validate(initial, saved.progress))
-            throw FileError("the state to continue from is inconsistent: " + *problem);
+            throw FileError("the saved state is inconsistent: " + *problem);
+    }
     CoreRun run(config, initial, control.observation, saved.progress,
                 selected_tuning(control.stop));
     run.add_periods_to(control.series);

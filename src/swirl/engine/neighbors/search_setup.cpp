@@ -35,9 +35,8 @@ void set_up_queue(EventQueue& queue, std::uint32_t size, AlignedMemory& memory) 
 
 /// Sets the geometry of a grid whose cells are at least `min_width` wide; returns their width.
 double set_geometry(CellGrid& grid, double min_width, double side) {
-    constexpr double max_cells_per_side = 30000.0;
-    grid.cells_per_side =
-        static_cast<std::uint32_t>(larger(1.0, smaller(side / min_width, max_cells_per_side)));
+    grid.cells_per_side = static_cast<std::uint32_t>(
+        larger(1.0, smaller(side / min_width, double{max_cells_per_side})));
     grid.cells_per_length = grid.cells_per_side / side;
     grid.corner = -0.5 * side;
     return side / grid.cells_per_side;
