@@ -30,6 +30,12 @@ class PointTable : public testing::Test {
         }
         return "";
     }
+    static std::vector<std::uint64_t> identities(const SweepPlan& made) {
+        std::vector<std::uint64_t> all;
+        for (std::size_t row = 0; row < made.rows(); ++row)
+            all.push_back(identity_of(resolve(made.parameters_of_row(row))));
+        return all;
+    }
     Scratch scratch_;
 };
 
@@ -84,6 +90,14 @@ TEST_F(PointTable, GrowthKeepsTheNumbersOfPoints) {
                 ElementsAre(ElementsAre(0, 3), ElementsAre(1, 2), ElementsAre()));
 }
 
+TEST_F(PointTable, SpreadsheetsGiveTheSamePoints) {
+    const SweepPlan expected = plan("discs,mu,path,seeds\n30,0.5,line,2\n31,1,circle,1\n");
+    for (const char* text : {"Discs;MU;Path;Seeds\n30;0,5;line;2\n31;1,0;circle;1\n",
+                             "sep=;\r\ndiscs;mu;path;seeds\r\n30;0,5;line;2\r\n31;1;circle;1\r\n",
+                             "DISCS\tMu\tpath\tseeds\n30\t0,5\tline\t2\n31\t1\tcircle\t1\n"})
+        EXPECT_EQ(identities(plan(text)), identities(expected)) << text;
+}
+
 TEST_F(PointTable, InvalidTablesAreRejected) {
     for (const auto& [text, says] : std::initializer_list<std::pair<const char*, const char*>>{
              {"", "has no rows"},
@@ -104,6 +118,8 @@ TEST_F(PointTable, InvalidTablesAreRejected) {
              {"discs,mu\n30,1\n31,1\n30,1.0\n", "line 4: the run is that of '"},
              {"discs,seeds\n30,0\n", "seeds is '0'"},
              {"discs,seeds\n30,2.5\n", "seeds is '2.5'"},
+             {"discs;mu\n30;0,5\n31;0.5\n", "line 3: column 'mu' is '0.5', but it must be written"},
+             {"30,1\n31,1\n", "line 1: 2 columns without a header"},
              {"discs\n30", "no line break"}})
         EXPECT_THAT(error_of(text), HasSubstr(says)) << text;
     EXPECT_THAT(error_of("discs\n30\n", {{"mu", "0.1,1"}}), HasSubstr("--mu is a list"));

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "swirl/cli/output.hpp"
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/optional_file.hpp"
@@ -28,6 +29,11 @@ Config parsed(const std::string& file, const std::string& command) {
             : command == "crossing" ? "--mu 0.5"
                                     : "--discs 48"));
     std::string text = read_whole_file(file, largest_config);
+    if (!text.empty() && std::isalnum(static_cast<unsigned char>(text.back())))
+        print_warning(fmt::format(
+            "'{}' has no line break at its end, so its last value may be truncated.\nhint: if the "
+            "file is complete, append a line break.",
+            file));
     try {
         return parse_config(std::move(text), file);
     } catch (const FileError& wrong) {

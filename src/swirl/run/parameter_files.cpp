@@ -60,13 +60,11 @@ std::string table_rows(const std::string& option, const std::string& file,
                        const std::vector<TableColumn>& columns, std::size_t max_rows) {
     const std::string text = text_of_table_file(option, file);
     try {
-        TextLines lines(fmt::format("{} '{}'", option, file), text, false);
-        NumberTable table(lines, columns.size());
+        TextLines lines(fmt::format("{} '{}'", option, file), text);
+        NumberTable table(lines, NumberTable::Header::optional);
         std::vector<std::size_t> taken;
-        for (std::size_t k = 0; k < columns.size(); ++k) {
-            const auto& [names, is_optional] = columns[k];
-            if (!is_optional || table.find(names, k)) taken.push_back(table.column(names, k));
-        }
+        for (const auto& [names, is_optional] : columns)
+            if (!is_optional || table.find(names)) taken.push_back(table.column(names));
         std::string rows;
         std::size_t count = 0;
         for (; table.next(); ++count) {

@@ -8,6 +8,7 @@
 
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/number_table.hpp"
+#include "swirl/io/read_number.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameter_files.hpp"
 #include "swirl/run/reading.hpp"
@@ -28,7 +29,7 @@ std::vector<std::string> names_in_header(const TextLines& lines,
     known.emplace_back(replicas_column);
     std::vector<std::string> names;
     for (const std::string& given : header) {
-        const std::string name = plain_name(given);
+        const std::string name = plain_name(in_lower_case(given));
         if (name.empty()) lines.fail("a column has no name");
         if (std::find(known.begin(), known.end(), name) == known.end()) {
             const auto meant = nearest_name(name, known);
