@@ -5,16 +5,21 @@
 #include <unistd.h>
 
 #include "arrays.hpp"
+#include "swirl/io/short_values.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameter_files.hpp"
 
 namespace swirl::python {
 namespace {
 
+/// repr(), short and in one line (_arguments.py).
+std::string shown(const py::handle& value) {
+    return py::cast<std::string>(py::module_::import("swirl._arguments").attr("shown")(value));
+}
+
 [[noreturn]] void throw_wrong_type(const std::string& name, const py::handle& value,
                                    const char* expected) {
-    throw py::type_error(
-        fmt::format("{} is {}, but it must be {}.", name, std::string(py::repr(value)), expected));
+    throw py::type_error(fmt::format("{} is {}, but it must be {}.", name, shown(value), expected));
 }
 
 bool is_truth_value(const py::handle& value) {
@@ -28,9 +33,9 @@ std::string utf8_text(const std::string& name, const py::handle& value) {
     const char* const text = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
     if (text != nullptr) return {text, static_cast<std::size_t>(size)};
     PyErr_Clear();
-    throw UsageError(
-        fmt::format("{} is {}, but half of a surrogate pair is not a character.", name,
-                    std::string(py::str(py::module_::import("builtins").attr("ascii")(value)))));
+    throw UsageError(fmt::format(
+        "{} is {}, but half of a surrogate pair is not a character.", name,
+        shortened(std::string(py::str(py::module_::import("builtins").attr("ascii")(value))))));
 }
 
 /// As many digits as are needed to read the same number back.
@@ -122,7 +127,8 @@ ParameterTexts texts_by(const py::dict& given, auto&& text_of) {
         const Parameter* const row = find_parameter(name);
         if (row == nullptr || !row->is_settable() || name != row->name) {
             const auto similar = nearest_name(plain_name(name), parameter_names());
-            throw py::type_error(fmt::format("there is no parameter '{}'.\nhint: {}", name,
+            throw py::type_error(fmt::format("there is no parameter '{}'.\nhint: {}",
+                                             shortened(name),
                                              similar ? fmt::format("did you mean '{}'?", *similar)
                                                      : "swirl.parameters() lists all parameters."));
         }

@@ -10,6 +10,7 @@
 #include "frames.hpp"
 #include "reports.hpp"
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/short_values.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measurements.hpp"
@@ -218,6 +219,7 @@ void bind_runs(py::module_& module) {
     });
     module.def("estimates", &estimates);
     module.def("with_error", &with_error);
+    module.def("shortened", [](const std::string& text) { return shortened(text); });
     module.def("parameters", &parameter_table);
     module.def("version", &version);
     module.def("build_description", &build_description);

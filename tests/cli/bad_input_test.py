@@ -189,12 +189,23 @@ class BadCalls(ProgramTest):
         self.assertIn("mu=0.1:1@1..3;restitution=1:0.9@1..3", done.stdout)
 
     def test_very_long_values(self):
-        self.assertEqual(swirl("run", "--discs", "9" * 100000).returncode, 2)
+        long = "9" * 100000
+        for call in (["run", "--discs", long], ["run", "--" + long, 1], ["run", "--mu", long + "x"], [long],
+                     ["run", "--discs", 5, "--measure", long], ["run", "--path", "points " + "0:1:0 " * 9999 + "x"],
+                     ["sweep", "--discs", "1:" + long + "x", "--out", "s"], ["verify", long]):
+            done = swirl(*call)
+            self.assertIn(done.returncode, (1, 2), call[:1])
+            self.assertLess(len(done.stderr), 1000, done.stderr[:200])
         self.assert_works("run", "--mu", "0." + "3" * 100000, "--events", 10)
 
 
 class UsageErrors(InFolder):
     """Usage errors of commands other than run."""
+
+    def test_a_misspelled_command_is_the_error_and_not_its_options(self):
+        for options in (["--discs", 4], ["--out", "a"], ["a.json", "--frobnicate"], []):
+            self.assert_fails(2, "runn", *options, says=("error: there is no command 'runn'", "did you mean run?"))
+        self.assert_fails(2, "--discs", 4, says="there is no option --discs")
 
     def test_invalid_slurm_options_create_no_folder(self):
         call = ["sweep", "--discs", 5, "--slurm", "--out"]

@@ -11,6 +11,7 @@ guide.
 
 from . import _display as _display
 from . import plot as plot
+from ._arguments import closed as _closed
 from ._engine import Event, Failure, FileError, Frames, Snapshot
 from ._engine import samples_per_period as samples_per_period
 from ._engine import version as _version
@@ -33,3 +34,9 @@ __all__ = [
     "collect", "crossing", "lab", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
     "samples_per_period", "sweep", "track", "with_error",
 ]
+
+# sim.mu = 0 would have no effect. Exceptions are like those of Python, which take any attribute.
+for _name in __all__:
+    _public = globals()[_name]
+    if isinstance(_public, type) and not issubclass(_public, BaseException):
+        _closed(_public)

@@ -9,6 +9,7 @@ from typing import Optional
 from urllib.parse import urlencode
 
 from . import _engine
+from ._arguments import file_name
 from ._files import exists
 from ._runs import PathName, Value
 
@@ -21,13 +22,15 @@ class Lab:
     `html` is the document; save() writes it to a file, which runs without installation and network.
     """
 
+    __slots__ = ("html", "height", "__weakref__")
+
     def __init__(self, document: str, height: int) -> None:
         self.html = document
         self.height = height
 
     def save(self, path: PathName) -> None:
         """Writes the page to a file."""
-        with open(path, "w", encoding="utf-8") as opened:
+        with open(file_name("path", path), "w", encoding="utf-8") as opened:
             opened.write(self.html)
 
     def _repr_html_(self) -> str:
@@ -50,7 +53,7 @@ def lab(*, page: Optional[PathName] = None, height: int = 640, lang: Optional[st
     `height` is that of the frame in pixels, `lang` "en" or "de".
     """
     _engine.resolve(parameters)  # rejects what a run would reject
-    path = os.fsdecode(_path_of(page))
+    path = file_name("page", _path_of(page))
     with open(path, encoding="utf-8") as opened:
         document = opened.read()
     values = {name: _text_of(value) for name, value in parameters.items() if value is not None}
@@ -60,7 +63,7 @@ def lab(*, page: Optional[PathName] = None, height: int = 640, lang: Optional[st
     document = re.sub(r'<meta name="swirl-start"[^>]*>\s*', "", document)
     before, charset, after = document.partition('<meta charset="utf-8">')
     if not charset:
-        raise ValueError(f"{path!r} is not the browser page of swirl.")
+        raise ValueError(f"'{path}' is not the browser page of swirl.")
     document = f"{before}{charset}\n{start}{after}"
     return Lab(document, height)
 

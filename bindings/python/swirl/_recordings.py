@@ -13,6 +13,7 @@ from typing import Any, Optional, Union, overload
 import numpy as np
 
 from . import _engine
+from ._arguments import file_name, shown
 from ._files import exists
 from ._estimates import Estimate
 from ._results import Measured, Rotation, measured_of, source_of_run
@@ -25,6 +26,7 @@ class Recording:
     `len(recording)`, `recording[k]` (a Snapshot), `recording[10:200:5]` (Frames), iteration.
     """
 
+    __slots__ = ("_frames", "__weakref__")
     _frames: _engine.Recording
 
     def __len__(self) -> int:
@@ -42,7 +44,7 @@ class Recording:
                 raise ValueError(f"the step is {step}, but it must be 1 or more.")
             return self._frames.frames(begin, max(begin, end), step)
         if isinstance(k, bool) or not hasattr(k, "__index__"):
-            raise TypeError(f"the index is {k!r}, but it must be a whole number.")
+            raise TypeError(f"the index is {shown(k)}, but it must be a whole number.")
         number = k.__index__()
         if not -len(self) <= number < len(self):
             raise IndexError(f"index {number} is out of range: there are {len(self)} frames.")
@@ -69,8 +71,10 @@ class Trajectory(Recording):
     when it was opened. Open it again to see later ones.
     """
 
+    __slots__ = ("file",)
+
     def __init__(self, file: PathName) -> None:
-        self.file = os.fspath(file)
+        self.file = file_name("file", file)
         self._frames = _engine.Recording.open(self.file)
 
     @property
@@ -110,6 +114,8 @@ class Tracks(Recording):
     frames contradict these arguments.
     """
 
+    __slots__ = ()
+
     def __init__(self, table: Any, *, omega: float, container_radius: float, amplitude: float = 0.0,
                  camera_fps: float = 1.0, scale: float = 1.0,
                  centre: tuple[float, float] = (0.0, 0.0), phase: float = 0.0,
@@ -119,12 +125,15 @@ class Tracks(Recording):
                                    ("scale", scale, 1e-12), ("phase", phase, -1e9),
                                    ("max_invalid", max_invalid, 0.0)):
             if isinstance(value, bool) or not hasattr(value, "__float__"):
-                raise TypeError(f"{name} is {value!r}, but it must be a number.")
+                raise TypeError(f"{name} is {shown(value)}, but it must be a number.")
             if not minimum <= float(value) < math.inf:
                 raise ValueError(f"{name} is {value}, but it must be a number of at least {minimum:g}.")
+        if isinstance(table, (str, bytes)) or not hasattr(table, "__getitem__"):
+            raise TypeError(f"table is {shown(table)}, but it must be a DataFrame or a mapping with the columns frame, "
+                            "particle, x and y.\nhint: read a file with swirl.Tracks.read().")
         try:
             columns = {name: np.asarray(table[name]) for name in ("frame", "particle", "x", "y")}
-        except (KeyError, IndexError, ValueError):
+        except (KeyError, IndexError, TypeError, ValueError):
             raise ValueError("the tracks need the columns frame, particle, x and y.") from None
         for name, column in columns.items():
             if column.dtype.kind not in "iuf" or column.ndim != 1:
@@ -152,10 +161,11 @@ class Tracks(Recording):
     def read(cls, file: PathName, **scale: Any) -> "Tracks":
         """Reads a trackpy table in CSV format. Arguments that are not given come from
         NAME.camera.json next to NAME.csv, which `swirl track` writes."""
-        camera_file = pathlib.Path(file).with_suffix(".camera.json")
+        name = file_name("file", file)
+        camera_file = pathlib.Path(name).with_suffix(".camera.json")
         if exists(camera_file):
             scale = {**_camera(camera_file), **scale}
-        return cls(_ReadTracks(_engine.Recording.read_tracks(os.fspath(file))), **scale)
+        return cls(_ReadTracks(_engine.Recording.read_tracks(name)), **scale)
 
     @property
     def remarks(self) -> list[str]:
@@ -194,12 +204,12 @@ def _camera(file: pathlib.Path) -> dict[str, Any]:
                   for argument in (*numbers, "centre", "clockwise")}
         for name in numbers:
             if type(camera[name]) not in (int, float):
-                raise TypeError(f"{name} is {camera[name]!r}, but it must be a number")
+                raise TypeError(f"{name} is {shown(camera[name])}, but it must be a number")
         centre = camera["centre"]
         if type(centre) is not list or [type(part) in (int, float) for part in centre] != [True, True]:
-            raise TypeError(f"centre is {centre!r}, but it must be two numbers")
+            raise TypeError(f"centre is {shown(centre)}, but it must be two numbers")
         if type(camera["clockwise"]) is not bool:
-            raise TypeError(f"clockwise is {camera['clockwise']!r}, but it must be true or false")
+            raise TypeError(f"clockwise is {shown(camera['clockwise'])}, but it must be true or false")
         return camera
     except (ValueError, KeyError, TypeError, RecursionError) as wrong:
         raise _engine.Failure(f"'{file}' is not a valid file of `swirl track`: {wrong}.\n"
@@ -227,6 +237,8 @@ class Analysis:
 class _Sampled(Recording):
     """Frames in memory."""
 
+    __slots__ = ()
+
     def __init__(self, frames: _engine.Frames) -> None:
         self._frames = _engine.Recording.of_frames(frames)
 
@@ -245,10 +257,10 @@ def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measu
     if isinstance(recording, _engine.Frames):
         recording = _Sampled(recording)
     if not isinstance(recording, Recording):
-        raise TypeError(f"recording is {recording!r}, but it must be a swirl.Trajectory, "
+        raise TypeError(f"recording is {shown(recording)}, but it must be a swirl.Trajectory, "
                         "swirl.Tracks or swirl.Frames.")
     if isinstance(warmup, (bool, str)) or not hasattr(warmup, "__float__"):
-        raise TypeError(f"warmup is {warmup!r}, but it must be a number of periods.")
+        raise TypeError(f"warmup is {shown(warmup)}, but it must be a number of periods.")
     names, custom = split_measure(measure)
     is_all = measure == "all"
     reports, mean_by_time, rigid, used, remark = recording._frames.analyse(names, is_all, float(warmup))

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _engine
+from ._arguments import file_name
 from ._estimates import ArrayEstimate, Estimate, FloatArray, with_error
 from ._optional import optional
 
@@ -31,6 +32,8 @@ class Table:
     Otherwise it has one value per row. `axes` holds the coordinates along the axes, in their order.
     `units` maps columns to units of docs/explanation/physics.md.
     """
+
+    __slots__ = ("name", "description", "units", "_values", "_columns", "__weakref__")
 
     def __init__(self, name: str, description: str, columns: list[tuple[str, str]],
                  values: FloatArray) -> None:
@@ -117,6 +120,8 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
     If its only table has no name, indexing gives the table's columns: measured["density"]["by_time"].
     """
 
+    __slots__ = ("name", "rows", "tables", "__weakref__")
+
     def __init__(self, name: str, rows: Mapping[str, Union[Estimate, ArrayEstimate]],
                  tables: Mapping[str, Table]) -> None:
         self.name = name
@@ -173,6 +178,8 @@ class Series(Mapping[str, FloatArray]):
     ramps; "slip.cluster" and so on for the rows of `measure`. A missing value is NaN. It is a mapping
     of arrays, so `pandas.DataFrame(dict(series))` is a table of it.
     """
+
+    __slots__ = ("units", "descriptions", "_values", "_names", "__weakref__")
 
     def __init__(self, names: list[str], units: list[str], descriptions: list[str],
                  values: FloatArray) -> None:
@@ -298,6 +305,12 @@ class Result:
     events_per_second, simd, version, build
     """
 
+    __slots__ = ("config", "complete", "rotation", "measured", "series", "autocorrelation_times", "fluctuations",
+                 "events", "periods", "warmup", "warmup_events", "steady_state", "steady_state_found", "change",
+                 "spin_change", "max_overlap", "energy", "energy_at_start", "invariant", "invariant_at_start",
+                 "state_hash", "seconds", "events_per_second", "simd", "warnings", "version", "build",
+                 "_text", "_headline", "_report", "__weakref__")
+
     def __init__(self, text: str, measured: Mapping[str, Measured], headline: str,
                  report: str, series: Optional[Series] = None) -> None:
         found = json.loads(text)
@@ -372,4 +385,4 @@ class Result:
 
 def write_atomically(file: Union[str, os.PathLike[str]], content: bytes) -> None:
     """The file is never incomplete: the content goes to a temporary file first. Raises OSError."""
-    _engine.write_file(os.fspath(file), content)
+    _engine.write_file(file_name("file", file), content)

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, Optional, Protocol, Union
 import numpy as np
 
 from . import _engine
+from ._arguments import file_name, shown, text
 from ._files import exists
 from ._estimates import ArrayEstimate, Estimate
 from ._results import Measured, Result, Series, measured_of, source_of_run
@@ -160,19 +161,19 @@ def split_measure(measure: Optional[Measure]) -> tuple[list[str], list[CustomMea
     if measure is None:
         return [], []
     if isinstance(measure, str):
-        return (list(_engine.measurement_list(measure)) if measure else []), []
+        return (list(_engine.measurement_list(text("measure", measure))) if measure else []), []
     if not isinstance(measure, Iterable):
         measure = [measure]
     names: list[str] = []
     custom: list[CustomMeasurement] = []
     for each in measure:
         if isinstance(each, str):
-            names += [name for name in _engine.measurement_list(each) if name not in names]
+            names += [name for name in _engine.measurement_list(text("measure", each)) if name not in names]
             continue
         kind: Any = each  # a class or an object
         one = kind() if isinstance(each, type) else kind
         if not (hasattr(one, "block") or hasattr(one, "sample") or callable(one)):
-            raise TypeError(f"measure contains {one!r}, but each element must be a name or have a "
+            raise TypeError(f"measure contains {shown(one)}, but each element must be a name or have a "
                             "method sample(snapshot) or block(frames).\n"
                             "hint: swirl.measurements() lists the names.")
         custom.append(one)
@@ -182,7 +183,7 @@ def split_measure(measure: Optional[Measure]) -> tuple[list[str], list[CustomMea
 def call_text(function: str, arguments: Mapping[str, object]) -> str:
     """The call as Python code."""
     given = ", ".join(f"{name}={value!r}" for name, value in arguments.items() if value is not None)
-    return f"swirl.{function}({given})"
+    return f"swirl.{function}({given})".encode("utf-8", "backslashreplace").decode()
 
 
 class Progress:
@@ -239,7 +240,7 @@ def run(*, measure: Optional[Measure] = None, progress: Union[bool, ProgressCall
 def _files(trajectory: Optional[PathName], frames: Optional[int], event_log: Optional[PathName],
            checkpoint: Optional[PathName], series: Optional[PathName], resume: bool,
            overwrite: bool) -> dict[str, Any]:
-    files: dict[str, Any] = {name: os.fspath(path) for name, path in
+    files: dict[str, Any] = {name: file_name(name, path) for name, path in
                              (("trajectory", trajectory), ("event_log", event_log),
                               ("checkpoint", checkpoint), ("series", series))
                              if path is not None}
@@ -250,7 +251,7 @@ def _files(trajectory: Optional[PathName], frames: Optional[int], event_log: Opt
         if trajectory is None:
             raise ValueError("frames is given, but trajectory is not.")
         if not isinstance(frames, int) or not 1 <= frames <= 1_000_000:
-            raise ValueError(f"frames is {frames!r}, but it must be a whole number per period from "
+            raise ValueError(f"frames is {shown(frames)}, but it must be a whole number per period from "
                              "1 to 1000000.")
         files["frames"] = frames
     if resume and checkpoint is None:

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _engine
+from ._arguments import file_name, shown
 from ._results import EventCounts, write_atomically
 from ._runs import PathName, Value, call_text, with_parameters
 
@@ -34,6 +35,8 @@ def _is_array(value: object) -> bool:
 
 
 class Simulation:
+    __slots__ = ("_engine", "__weakref__")
+
     def __init__(self, *, position: Optional[Array] = None, velocity: Optional[Array] = None,
                  angle: Optional[Array] = None, spin: Optional[Array] = None,
                  path: Union[str, Array, None] = None, path_times: Optional[Array] = None,
@@ -227,17 +230,18 @@ class Simulation:
 
 def load(file: PathName) -> Simulation:
     """Reads a simulation written by Simulation.save(). Raises FileError for an invalid file."""
-    with open(file, "rb") as opened:
+    name = file_name("file", file)
+    with open(name, "rb") as opened:
         data = opened.read()
     try:
         return Simulation._from_bytes(data)
     except _engine.FileError as error:
-        raise _engine.FileError(f"'{os.fspath(file)}': {error}") from None
+        raise _engine.FileError(f"'{name}': {error}") from None
 
 
 def _number(name: str, value: object) -> float:
     if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
-        raise TypeError(f"{name} is {value!r}, but it must be a number.")
+        raise TypeError(f"{name} is {shown(value)}, but it must be a number.")
     number = float(value)
     if not math.isfinite(number):
         raise ValueError(f"{name} is {number}, but it must be a finite number.")
@@ -247,7 +251,7 @@ def _number(name: str, value: object) -> float:
 def _whole(name: str, value: object) -> int:
     number = _number(name, value)
     if number != math.floor(number) or not 0 <= number <= 2**53:
-        raise ValueError(f"{name} is {value!r}, but it must be a whole number from 0 to 2^53.")
+        raise ValueError(f"{name} is {shown(value)}, but it must be a whole number from 0 to 2^53.")
     return int(number)
 
 

@@ -8,6 +8,7 @@ import io
 import json
 import math
 import os
+import re
 import tempfile
 import threading
 import warnings
@@ -15,6 +16,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Optional, Union
 
 from . import _engine
+from ._arguments import file_name, shown, text as checked_text
 from ._files import exists
 from ._optional import optional
 from ._results import Result
@@ -36,7 +38,7 @@ def _names(measure: Optional[Measure], where: str) -> list[str]:
 
 def _count(name: str, value: object, lowest: int) -> int:
     if isinstance(value, bool) or not hasattr(value, "__index__"):
-        raise TypeError(f"{name} is {value!r}, but it must be a whole number.")
+        raise TypeError(f"{name} is {shown(value)}, but it must be a whole number.")
     number = int(value.__index__())
     if not lowest <= number <= 1_000_000:
         raise ValueError(f"{name} is {number}, but it must be a whole number from {lowest} to "
@@ -63,11 +65,25 @@ def _rows(points: Any) -> Optional[list[dict[str, Any]]]:
     elif isinstance(points, Sequence) and all(isinstance(row, Mapping) for row in points):
         rows = [dict(row) for row in points]
     else:
-        raise TypeError(f"points is {points!r}, but it must be a DataFrame, a list of dictionaries, or a dictionary "
+        raise TypeError(f"points is {shown(points)}, but it must be a DataFrame, a list of dictionaries, or a dictionary "
                         "of columns.\nhint: read a file with pandas.read_csv(\"points.csv\", comment=\"#\").")
     if not rows:
         raise ValueError("points has no rows.")
-    return rows
+    return [_row(number, row) for number, row in enumerate(rows, 1)]
+
+
+def _row(number: int, row: Mapping[Any, Any]) -> dict[str, Any]:
+    """As the reader of files takes it: names in lower case, and no decimal commas in texts."""
+    found: dict[str, Any] = {}
+    for given, value in row.items():
+        name = str(given).lower()
+        if name in found:
+            raise ValueError(f"points has two columns {name}.")
+        if isinstance(value, str) and re.fullmatch(r"\s*[-+]?\d+,\d+\s*", value):
+            raise ValueError(f"points, row {number}: {name} is {shown(value)}, but it must be a number.\n"
+                             "hint: read decimal commas with pandas.read_csv(file, sep=\";\", decimal=\",\").")
+        found[name] = value
+    return found
 
 
 def sweep(out: Optional[PathName] = None, *, points: Any = None, seeds: int = 1, measure: Optional[Measure] = None,
@@ -84,7 +100,7 @@ def sweep(out: Optional[PathName] = None, *, points: Any = None, seeds: int = 1,
         with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as folder:
             return sweep(folder, points=points, seeds=seeds, measure=measure, threads=threads, progress=progress,
                          chain=chain, **parameters)
-    folder = os.fspath(out)
+    folder = file_name("out", out)
     rows = _rows(points)
     names = _names(measure, "A sweep")
     given = {name: value for name, value in parameters.items() if value is not None}
@@ -126,7 +142,7 @@ def collect(out: PathName) -> Any:
     """
     pandas = optional("pandas", "swirl.collect()")
     csv, points, done, running, failed, disagreeing, not_steady, without, loops = _engine.collect(
-        os.fspath(out))
+        file_name("out", out))
     # As text: a hash such as 12345678e9012345 looks like a number.
     table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip",
                             dtype={"state_hash": str, "steady_state": str})
@@ -188,9 +204,9 @@ def crossing(out: Optional[PathName] = None, *, min_discs: int = 5, max_discs: i
     if rate != "mean_by_time":
         given["rate"] = rate
     if out is not None:
-        given["out"] = os.fspath(out)
-    text, sentence = _engine.crossing(None if out is None else os.fspath(out), parameters, _count("min_discs", min_discs, 1),
-                                      _count("max_discs", max_discs, 1), float(tolerance), rate,
+        given["out"] = file_name("out", out)
+    text, sentence = _engine.crossing(given.get("out"), parameters, _count("min_discs", min_discs, 1),
+                                      _count("max_discs", max_discs, 1), float(tolerance), checked_text("rate", rate),
                                       _count("threads", threads, 0), call_text("crossing", given),
                                       callback)
     found = json.loads(text)
@@ -215,7 +231,7 @@ def _axis(name: str, axis: Optional[Axis]) -> dict[str, Values]:
             return {parameter: values}
     elif isinstance(axis, tuple) and len(axis) == 2 and isinstance(axis[0], str):
         return {axis[0]: axis[1]}
-    raise TypeError(f"{name} is {axis!r}, but it must be a text such as 'mu=0:1' or a pair such as "
+    raise TypeError(f"{name} is {shown(axis)}, but it must be a text such as 'mu=0:1' or a pair such as "
                     "('mu', [0, 0.5, 1]).")
 
 
@@ -238,7 +254,7 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
     def counted(name: str, value: Optional[int]) -> Optional[int]:
         return None if value is None else _count(name, value, 1)
 
-    folder = os.fspath(out)
+    folder = file_name("out", out)
     _count("threads", threads, 0)
     given = {name: value for name, value in parameters.items() if value is not None}
     if grow:

@@ -10,6 +10,7 @@ import tempfile
 from typing import Any, Optional
 
 from . import _engine
+from ._arguments import file_name
 from ._optional import optional
 from ._program import program
 from ._recordings import Tracks, _ReadTracks, _camera
@@ -29,6 +30,8 @@ class VideoTracks(Tracks):
     each column. `quality` is the calibration with its errors, as in NAME.camera.json; `warnings` lists
     what looks wrong.
     """
+
+    __slots__ = ("table", "quality", "units", "warnings")
 
     def __init__(self, file: pathlib.Path, warnings: list[str]) -> None:
         pandas = optional("pandas", "swirl.track()")
@@ -68,7 +71,7 @@ def track(video: PathName, *, discs: Optional[int] = None, fps: Optional[float] 
                               "hint: install the program, or reinstall the package with pip.")
     with tempfile.TemporaryDirectory(prefix="swirl-track-") as folder:
         out = pathlib.Path(folder) / "tracks.csv"
-        call = [path, "track", os.fspath(video), "--out", str(out), "--quiet"]
+        call = [path, "track", file_name("video", video), "--out", str(out), "--quiet"]
         for name, value in (("--discs", discs), ("--fps", fps), ("--max-frames", frames)):
             if value is not None:
                 call += [name, str(value)]

@@ -15,6 +15,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _engine
+from ._arguments import shown
 from ._optional import optional
 from ._estimates import Estimate
 from ._results import Measured, Result, Table
@@ -40,6 +41,9 @@ def snapshot(source: Union[_engine.Snapshot, Simulation], *, axes: Optional[Axes
     EllipseCollection = optional("matplotlib.collections", "swirl.plot").EllipseCollection
     Circle = optional("matplotlib.patches", "swirl.plot").Circle
     s = source.snapshot() if isinstance(source, Simulation) else source
+    if not isinstance(s, _engine.Snapshot):
+        raise TypeError(f"source is {shown(source)}, but it must be a swirl.Snapshot or a swirl.Simulation.\n"
+                        "hint: sim.snapshot() and recording[k] are snapshots; a result has averages only.")
     if m_frame:
         s = s.m_frame()
     axes = _axes(axes)
@@ -82,7 +86,9 @@ def _table(found: Any, name: str) -> Table:
     if isinstance(found, Table):
         return found
     if not isinstance(found, Measured):
-        measured = getattr(found, "measured", {})
+        measured = getattr(found, "measured", None)
+        if measured is None:
+            raise TypeError(f"found is {shown(found)}, but it must be a result, a measurement or a table.")
         if name not in measured:
             raise ValueError(f"the result has no '{name}'.\nhint: use swirl.run(measure=[\"{name}\"]).")
         found = measured[name]
@@ -95,7 +101,7 @@ def density(found: Any, *, by: str = "time", axes: Optional[Axes] = None) -> Axe
     measurement "density"."""
     table = _table(found, "density")
     if by not in ("time", "event"):
-        raise ValueError(f"by is {by!r}, but it must be 'time' or 'event'.")
+        raise ValueError(f"by is {shown(by)}, but it must be 'time' or 'event'.")
     axes = _axes(axes)
     x, y = table.axes["x"], table.axes["y"]
     drawn = axes.pcolormesh(x, y, table[f"by_{by}"], cmap="magma", shading="nearest")
@@ -168,7 +174,7 @@ def rotation(runs: Any, *, against: str = "discs", by: Optional[str] = None,
 
 
 def _results(runs: Iterable[Result]) -> list[Result]:
-    results = list(runs)
+    results = list(runs) if isinstance(runs, Iterable) else [runs]
     if not all(isinstance(r, Result) for r in results):
         raise TypeError("runs must be the table of swirl.sweep() or results of runs.")
     return results

@@ -90,7 +90,11 @@ struct Message {
     std::string text, hint = {};
 };
 
-Message message_on_extras(const CLI::App& app, const CLI::App& selected) {
+Message message_on_extras(const CLI::App& app, const CLI::App& selected,
+                          const std::string& first_word) {
+    // The options after a misspelled command may be right.
+    if (&selected == &app && !first_word.starts_with('-'))
+        return {"there is no command '" + first_word + "'.", nearest_name_hint(app, first_word)};
     // The parser returns the words in reverse order; an unknown option comes before its value.
     auto extras = app.remaining(true);
     std::erase(extras, "--");
@@ -98,8 +102,6 @@ Message message_on_extras(const CLI::App& app, const CLI::App& selected) {
         if (extra.starts_with('-'))
             return {"there is no option " + extra + ".", nearest_name_hint(selected, extra)};
     const std::string extra = extras.empty() ? "" : without_mark(extras.front());
-    if (&selected == &app)
-        return {"there is no command '" + extra + "'.", nearest_name_hint(selected, extra)};
     return {"unexpected argument '" + extra + "'.", nearest_name_hint(selected, extra)};
 }
 
@@ -122,13 +124,13 @@ Message message_on_conversion(const std::string& what) {
 }
 
 Message message_on_missing_option(const CLI::App& app, const CLI::App& selected,
-                                  const std::string& what) {
+                                  const std::string& what, const std::string& first_word) {
     // An unknown option may be the missing one under another name.
     const auto extras = app.remaining(true);
     if (std::any_of(extras.begin(), extras.end(), [](const std::string& extra) {
             return extra.starts_with("--") && extra != "--";
         }))
-        return message_on_extras(app, selected);
+        return message_on_extras(app, selected, first_word);
     const std::string name = what.substr(0, what.find(' '));
     const CLI::Option* const option = selected.get_option_no_throw(name);
     const std::string form = option ? " " + option->get_type_name() : "";
@@ -136,17 +138,18 @@ Message message_on_missing_option(const CLI::App& app, const CLI::App& selected,
                                   : "missing required argument " + name + "."};
 }
 
-std::string error_text(const CLI::App& app, const CLI::ParseError& error) {
+std::string error_text(const CLI::App& app, const CLI::ParseError& error,
+                       const std::string& first_word) {
     const CLI::App& selected = selected_app(app);
     Message message{"invalid arguments."};
     if (dynamic_cast<const CLI::ExtrasError*>(&error))
-        message = message_on_extras(app, selected);
+        message = message_on_extras(app, selected, first_word);
     else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
         message = message_on_missing_value(error.what());
     else if (dynamic_cast<const CLI::ConversionError*>(&error))
         message = message_on_conversion(error.what());
     else if (dynamic_cast<const CLI::RequiredError*>(&error))
-        message = message_on_missing_option(app, selected, error.what());
+        message = message_on_missing_option(app, selected, error.what(), first_word);
     const std::string command = &selected == &app ? "swirl" : "swirl " + selected.get_name();
     return message.hint.empty()
                ? fmt::format("{}\nhint: see `{} --help`.", message.text, command)
@@ -294,7 +297,7 @@ Call parse(int argc, char** argv) {
     } catch (const CLI::Success&) {
         return {.act = {}, .text = help_of(app), .usage = {}};
     } catch (const CLI::ParseError& error) {
-        throw UsageError(error_text(app, error));
+        throw UsageError(error_text(app, error, argc > 1 ? argv[1] : ""));
     }
     Call call{.act = {}, .text = {}, .usage = app.help()};
     for (auto& [added, subcommand] : *subcommands)

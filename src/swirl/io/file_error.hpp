@@ -3,11 +3,15 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+
+#include "swirl/io/short_values.hpp"
 
 namespace swirl {
 
 struct FileError : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    explicit FileError(const std::string& message)
+        : std::runtime_error(with_short_values(message)) {}
 };
 
 /// The content of a file is not what its writer wrote: the file was cut off, or changed since.

@@ -5,18 +5,21 @@
 #include <stdexcept>
 #include <string>
 
+#include "swirl/io/short_values.hpp"
+
 namespace swirl {
 
 /// The call is not valid: exit code 2.
 class UsageError : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit UsageError(const std::string& message)
+        : std::runtime_error(with_short_values(message)) {}
 };
 
 /// The call is valid, but it failed: exit code 1.
 class Failure : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
+    explicit Failure(const std::string& message) : std::runtime_error(with_short_values(message)) {}
 };
 
 /// A signal stopped the work before its end: exit code 130.
