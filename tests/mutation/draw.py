@@ -8,7 +8,7 @@ import os
 import random
 import re
 
-LAYERS = ("math", "physics", "engine", "statistics", "measure", "run")
+LAYERS = ("math", "physics", "engine", "statistics", "measure", "run", "study")
 
 # The source is formatted: a binary operator stands between spaces, and the brackets of a template do not.
 SWAPS = {

@@ -12,15 +12,23 @@ At last, a warning of the compiler kills it, as it stops the build of the tests.
     mutate.py --every 6             the first of each six mutations
     mutate.py --check               only checks that each text occurs exactly once
     mutate.py --random 100 --seed 4 mutations drawn from a seed (draw.py)
+    mutate.py --random 60 --seed today --score 90
+                                    a sample for which no test was written: the seed is the date (UTC)
 
-The exit code is 1 if a mutation survives that the table (or equivalent.py) does not declare equivalent, if an
-equivalent one is killed, if a chosen one does not compile, or if the table no longer matches the sources.
+The score of a random sample is the share that a test notices, of the mutations that compile and are not in
+equivalent.py. A mutation that changes no result, and is not there yet, counts as missed.
+
+The exit code is 1 if a mutation survives that the table (or equivalent.py) does not declare equivalent (with
+--score: if the score is lower), if an equivalent one is killed, if a chosen one does not compile, or if the table
+no longer matches the sources.
 """
 
 import argparse
 import concurrent.futures
+import datetime
 import functools
 import hashlib
+import math
 import os
 import re
 import resource
@@ -281,7 +289,17 @@ def run_random(options, pool):
                 print(f"    - {before.strip()}\n    + {after.strip()}")
             sys.stdout.flush()
     print(f"seed {options.seed}: " + ", ".join(f"{n} {name}" for name, n in count.items()))
-    return count["survived"]
+    judged = count["killed"] + count["survived"]
+    if judged == 0:
+        return 0
+    score = count["killed"] / judged
+    print(f"score: {count['killed']} of {judged} noticed, {100 * score:.0f} % ± "
+          f"{100 * math.sqrt(score * (1 - score) / judged):.0f} %")
+    return count["survived"] if options.score is None else 100 * score < options.score
+
+
+def seed_in(text):
+    return int(f"{datetime.datetime.now(datetime.timezone.utc):%Y%m%d}" if text == "today" else text)
 
 
 def main():
@@ -291,7 +309,8 @@ def main():
     call.add_argument("--every", type=int, default=1, help="run one of so many mutations [1]")
     call.add_argument("--check", action="store_true", help="check the table only")
     call.add_argument("--random", type=int, default=0, metavar="COUNT", help="draw this many mutations")
-    call.add_argument("--seed", type=int, default=1, help="of the random mutations [1]")
+    call.add_argument("--seed", type=seed_in, default=1, help="of the random mutations, or today: the date [1]")
+    call.add_argument("--score", type=float, metavar="PERCENT", help="random ones: fail only below this score")
     call.add_argument("--own-layer", action="store_true", help="random ones: run the tests of the file's layer only")
     call.add_argument("--jobs", type=int, default=1, help="mutations at a time [1]")
     options = call.parse_args()

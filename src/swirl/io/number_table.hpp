@@ -79,7 +79,7 @@ class NumberTable {
     TextLines& lines_;
     char separator_ = '\0';  // ' ' stands for any number of spaces and tabs
     char decimal_sign_ = '\0';
-    std::vector<std::string> names_;       // as in the file; empty without a header
+    std::vector<std::string> names_;       // those of the header; empty if the table has none
     std::vector<std::string_view> cells_;  // cells of the current row
     std::size_t width_ = 0;
     bool is_first_row_read_ = false;
