@@ -19,6 +19,13 @@ class ConfigFiles(InFolder):
     def bytes_of(self, name):
         return read_bytes(self.path(name))
 
+    def test_a_file_that_may_be_truncated_gets_a_warning(self):
+        for text, warns in (("discs = 5\nevents = 10", True), ("discs = 5\nevents = 10\n", False),
+                            ('events = 10\npreset = "paper"', False)):
+            write_text(self.path("a.toml"), text)
+            said = self.assert_works("run", self.path("a.toml"), "--quiet").stderr
+            self.assertEqual("warning: '" + self.path("a.toml") + "' has no line break at its end" in said, warns, said)
+
     def test_an_image(self):
         options = ["--discs", 12, "--mu-wall", 0.25, "--frame", "m", "--angles", "--size", "320x240",
                    "--trail-length", 0.5, "--start", 2]

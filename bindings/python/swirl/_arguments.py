@@ -45,7 +45,8 @@ def closed(cls: type) -> None:
         kind = AttributeError
         try:
             if not is_enumeration:
-                return assign(self, name, value)
+                assign(self, name, value)
+                return
         except AttributeError as error:
             kind = type(error)
         raise kind(_sentence_on(self, name)) from None

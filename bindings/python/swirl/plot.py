@@ -173,7 +173,7 @@ def rotation(runs: Any, *, against: str = "discs", by: Optional[str] = None,
     return axes
 
 
-def _results(runs: Iterable[Result]) -> list[Result]:
+def _results(runs: Any) -> list[Result]:
     results = list(runs) if isinstance(runs, Iterable) else [runs]
     if not all(isinstance(r, Result) for r in results):
         raise TypeError("runs must be the table of swirl.sweep() or results of runs.")
