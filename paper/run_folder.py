@@ -8,6 +8,7 @@ import time
 
 import atomic_file
 import optional_file
+import other_versions
 from engine import swirl
 
 
@@ -41,7 +42,7 @@ def plan(out, tasks):
 
 def take(folder, tasks):
     """Takes the results of these tasks that are whole, of this version, and unchanged since they were first read. Any
-    other result is removed, so that its run is made again."""
+    other result is removed, so that its run is made again; those of another version are kept elsewhere."""
     list_of_checksums = os.path.join(folder, "checksums.json")
     known = atomic_file.stored(list_of_checksums) or {}
     before = dict(known)
@@ -52,10 +53,13 @@ def take(folder, tasks):
                 continue
             try:
                 stored, checksum = json.loads(text), swirl._engine.checksum(text)
+                if stored["version"] != swirl._engine.version():
+                    known.pop(name, None)
+                    other_versions.keep(file, stored["version"])
+                    continue
                 is_of_task = (stored["point"], stored["config"]["seed"]) == (int(name.removesuffix(".json")),
                                                                              task.parameters["seed"])
-                if (is_of_task and stored["version"] == swirl._engine.version() and
-                        known.setdefault(name, checksum) == checksum):
+                if is_of_task and known.setdefault(name, checksum) == checksum:
                     task.result, task.seconds = stored, stored["seconds"]
                     continue
             except (ValueError, KeyError, TypeError):

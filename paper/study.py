@@ -15,6 +15,7 @@ import time
 
 import atomic_file
 import combine
+import other_versions
 import run_folder
 from combine import at, failed
 from console import Problem
@@ -116,7 +117,9 @@ class Task:
     def find(self, out):
         """Takes the stored result of `work`, if it is of this version."""
         stored = atomic_file.stored(self.file(out))
-        if stored and (stored["identity"], stored["version"]) == (self.identity, swirl._engine.version()):
+        if stored and stored["version"] != swirl._engine.version():
+            other_versions.keep(self.file(out), stored["version"])
+        elif stored and stored["identity"] == self.identity:
             self.result, self.seconds = stored["result"], stored["seconds"]
 
 

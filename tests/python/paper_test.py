@@ -2,6 +2,7 @@
 
 import csv
 import fcntl
+import json
 import math
 import os
 import re
@@ -17,6 +18,7 @@ import swirl
 
 PAPER = os.path.join(os.environ["SWIRL_SOURCE"], "paper")
 sys.path.insert(0, PAPER)
+import atomic_file  # noqa: E402
 import catalogue  # noqa: E402
 import command  # noqa: E402
 import console  # noqa: E402
@@ -61,7 +63,6 @@ def test_runs_are_reused_and_a_damaged_result_is_made_again(tmp_path, name, fold
 
 
 def test_a_file_that_is_written_again_leaves_no_temporary_file(tmp_path):
-    import atomic_file
     left, other = (tmp_path / f"{name}.0123456789abcdef.partial" for name in ("a.json", "b.json"))
     for file in (left, other):
         file.write_text("half")
@@ -74,7 +75,6 @@ def test_a_file_that_is_written_again_leaves_no_temporary_file(tmp_path):
 
 
 def test_what_cannot_be_read_is_not_absent(tmp_path):
-    import atomic_file
     import optional_file
     atomic_file.store(str(tmp_path / "a.json"), [1])
     assert atomic_file.stored(str(tmp_path / "a.json")) == [1]
@@ -87,6 +87,24 @@ def test_what_cannot_be_read_is_not_absent(tmp_path):
     loop.symlink_to("loop")
     with pytest.raises(OSError):
         optional_file.exists(loop)
+
+
+@pytest.mark.parametrize("name, folder", (("restitution", "runs/rotation/results"), ("energy", "parts")))
+def test_results_of_another_version_are_kept(tmp_path, name, folder, capsys):
+    first, (version, kept) = made(tmp_path, name), ("0.0.9 (abc/d)", Path(tmp_path, f"{folder}_of_0.0.9_abc_d"))
+    table, file = rows(tmp_path, name), sorted(Path(tmp_path, folder).iterdir())[0]
+    text = file.read_text().replace(swirl._engine.version(), version)
+    if folder == "parts":
+        atomic_file.store(str(file), {**json.loads(text)["content"]})
+        text = file.read_text()
+    file.write_text(text)
+    capsys.readouterr()
+    assert made(tmp_path, name)["reused"] == first["tasks"] - 1
+    assert f"note: the results of swirl {version} are moved to '{kept}'" in capsys.readouterr().err
+    assert [(one.name, one.read_text()) for one in kept.iterdir()] == [(file.name, text)]
+    assert rows(tmp_path, name) == table
+    assert made(tmp_path, name)["reused"] == first["tasks"]
+    assert "note:" not in capsys.readouterr().err
 
 
 def test_parts_share_the_runs(tmp_path):
