@@ -21,7 +21,7 @@ class ConfigFiles(InFolder):
 
     def test_a_file_that_may_be_truncated_gets_a_warning(self):
         for text, warns in (("discs = 5\nevents = 10", True), ("discs = 5\nevents = 10\n", False),
-                            ('events = 10\npreset = "paper"', False)):
+                            ('events = 10\npreset = "experiment"', False)):
             write_text(self.path("a.toml"), text)
             said = self.assert_works("run", self.path("a.toml"), "--quiet").stderr
             self.assertEqual("warning: '" + self.path("a.toml") + "' has no line break at its end" in said, warns, said)
