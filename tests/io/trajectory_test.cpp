@@ -110,7 +110,7 @@ TEST(Trajectory, ReaderRejectsAFileThatGrewSinceItWasOpened) {
     TrajectoryWriter writer(scratch / "t.h5", known_frame(discs, 0), {});
     std::uint64_t written = 0;
     const auto grow = [&](std::uint64_t count) {
-        for (; count > 0; --count, ++written) writer.write(known_frame(discs, written % frames), 0);
+        for (; count > 0; --count, ++written) writer.write(known_frame(discs, written), 0);
         writer.flush();
     };
     grow(frames);
