@@ -161,9 +161,9 @@ struct Transfer {
     Vec2 begin, line;  // r_i and ℓ
     Vec2 impulse;      // J, on body j
     double torque_i = 0.0, torque_j = 0.0;
-    double taken_up = 0.0;  // torque on what holds particles that cannot spin (Disc::can_spin)
     bool at_wall = false;
-    double loss = 0.0;  // lost kinetic energy
+    double loss = 0.0;      // lost kinetic energy
+    double taken_up = 0.0;  // torque on what holds particles that cannot spin (Disc::can_spin)
 
     Vec2 end() const { return begin + line; }
 };
