@@ -44,7 +44,7 @@ def test_snapshot_shows_discs_at_their_positions():
 def test_given_axes_are_used():
     figure, axes = plt.subplots()
     for color in ("red", "speed", np.arange(7)):
-        assert swirl.plot.snapshot(swirl.Simulation(discs=7), axes=axes, color=color) is axes
+        assert swirl.plot.snapshot(swirl.Simulation(discs=7), ax=axes, color=color) is axes
     figure.canvas.draw()
     with pytest.raises(ValueError, match="color has 3 values, but there are 7 discs"):
         swirl.plot.snapshot(swirl.Simulation(discs=7), color=[1, 2, 3])

@@ -9,9 +9,9 @@ of a disc = 1, mass of a disc = 1, speed of the container = 1 (docs/explanation/
 guide.
 """
 
-from . import _display as _display
 from . import plot as plot
 from ._arguments import closed as _closed
+from ._display import shown_in_notebooks as _shown_in_notebooks
 from ._engine import Event, Failure, FileError, Frames, Snapshot
 from ._engine import samples_per_period as samples_per_period
 from ._engine import version as _version
@@ -35,8 +35,9 @@ __all__ = [
     "samples_per_period", "sweep", "track", "with_error",
 ]
 
-# sim.mu = 0 would have no effect. Exceptions are like those of Python, which take any attribute.
 for _name in __all__:
     _public = globals()[_name]
     if isinstance(_public, type) and not issubclass(_public, BaseException):
+        _shown_in_notebooks(_public)
+        # sim.mu = 0 would have no effect. Exceptions are like those of Python, which take any attribute.
         _closed(_public)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import html
 import math
 from typing import Any
 
 from . import _engine
+from ._tables import frames_to_pandas, frames_to_xarray, snapshot_to_pandas, snapshot_to_xarray
 
 
 def snapshot_svg(snapshot: _engine.Snapshot, width: int = 320) -> str:
@@ -58,6 +60,26 @@ def _frames_reduced(self: _engine.Frames) -> Any:
     return _frames_of, (self.to_bytes(),)
 
 
+def _snapshot_plot(self: _engine.Snapshot, *, ax: Any = None, **style: Any) -> Any:
+    from . import plot
+    return plot.snapshot(self, ax=ax, **style)
+
+
+def _text_as_html(self: object) -> str:
+    return f"<p>{html.escape(str(self)).replace(chr(10), '<br>')}</p>"
+
+
+def shown_in_notebooks(kind: type) -> None:
+    """Notebooks show the text of an object instead of its repr, unless its class has HTML or a picture."""
+    if not hasattr(kind, "_repr_html_") and not hasattr(kind, "_repr_svg_"):
+        setattr(kind, "_repr_html_", _text_as_html)
+
+
+for kind, to_pandas, to_xarray in ((_engine.Snapshot, snapshot_to_pandas, snapshot_to_xarray),
+                                   (_engine.Frames, frames_to_pandas, frames_to_xarray)):
+    setattr(kind, "to_pandas", to_pandas)
+    setattr(kind, "to_xarray", to_xarray)
+setattr(_engine.Snapshot, "plot", _snapshot_plot)
 setattr(_engine.Snapshot, "_repr_svg_", snapshot_svg)
 setattr(_engine.Snapshot, "__repr__", _snapshot_repr)
 setattr(_engine.Frames, "__repr__", _frames_repr)

@@ -82,6 +82,12 @@ class Snapshot:
     def rotation(self) -> tuple[float, float]:
         """The cluster's rotation rate in units of Ω: the paper's mean over discs, and that of the
         best-fitting rigid body (src/swirl/measure/cluster_rotation.hpp)."""
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, one row per disc."""
+    def to_xarray(self) -> Any:
+        """An xarray Dataset with the dimensions disc and xy."""
+    def plot(self, *, ax: Any = None, **style: Any) -> Any:
+        """Draws the discs; returns the axes. `style` is that of swirl.plot.snapshot()."""
     def to_bytes(self) -> bytes: ...
     def _repr_svg_(self) -> str: ...
     def __len__(self) -> int: ...
@@ -139,6 +145,10 @@ class Frames:
         """[frame]"""
     def m_frame(self) -> Frames:
         """All frames in the M-frame, as Snapshot.m_frame()."""
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame, one row per disc of each frame."""
+    def to_xarray(self) -> Any:
+        """An xarray Dataset with the dimensions frame, disc and xy."""
     def to_bytes(self) -> bytes: ...
     def __len__(self) -> int: ...
     def __getitem__(self, k: int) -> Snapshot: ...

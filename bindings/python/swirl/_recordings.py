@@ -8,7 +8,7 @@ import math
 import os
 import pathlib
 from collections.abc import Iterator, Mapping
-from typing import Any, Optional, Union, overload
+from typing import Any, Optional, Protocol, Union, overload
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from ._arguments import file_name, shown
 from ._files import exists
 from ._estimates import Estimate
 from ._results import Measured, Rotation, measured_of, source_of_run
+from ._tables import numbers_to_pandas, numbers_to_xarray, rows_of
 from ._runs import Measure, CustomBlocks, PathName, split_measure
 
 
@@ -59,6 +60,9 @@ class Recording:
     def same_discs(self) -> bool:
         """True if every frame has the same discs in the same order."""
         return self._frames.same_discs
+
+    def __repr__(self) -> str:
+        return f"<swirl.{type(self).__name__.lstrip('_')}: {len(self)} frames>"
 
 
 class Trajectory(Recording):
@@ -172,9 +176,6 @@ class Tracks(Recording):
         """Remarks on filled gaps, on the noise of positions, and on misfits with the container."""
         return self._frames.remarks.splitlines()
 
-    def __repr__(self) -> str:
-        return f"<swirl.Tracks: {len(self)} frames>"
-
 
 class _ReadTracks(dict[str, Any]):
     """The columns of a file. A column radius is that of `swirl track`."""
@@ -233,6 +234,19 @@ class Analysis:
     def __str__(self) -> str:
         return f"{self.rotation}, from {self.frames} frames"
 
+    def to_pandas(self) -> Any:
+        """The rotation and all measured numbers as a pandas DataFrame, as Result.to_pandas()."""
+        return numbers_to_pandas([*self.rotation.rows(), *rows_of(self.measured)])
+
+    def to_xarray(self) -> Any:
+        """The same as an xarray Dataset along the dimension quantity."""
+        return numbers_to_xarray([*self.rotation.rows(), *rows_of(self.measured)])
+
+    def plot(self, what: Optional[str] = None, *, ax: Any = None) -> Any:
+        """Draws a measurement or one of its tables; returns the axes. The default is the first one."""
+        from . import plot
+        return plot.result(self, what, ax=ax)
+
 
 class _Sampled(Recording):
     """Frames in memory."""
@@ -243,17 +257,33 @@ class _Sampled(Recording):
         self._frames = _engine.Recording.of_frames(frames)
 
 
-def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measure] = None, *,
-            warmup: float = 0.0) -> Analysis:
+class Columns(Protocol):
+    """A table of tracks: a pandas DataFrame or a mapping."""
+
+    def __getitem__(self, column: str, /) -> Any: ...
+
+
+def analyse(recording: Union[Recording, _engine.Frames, Columns], measure: Optional[Measure] = None, *,
+            warmup: float = 0.0, **camera: Any) -> Analysis:
     """Measures a recording, like `swirl measure`.
 
+        swirl.analyse(swirl.Trajectory("frames.h5"), measure=["density"])
+        swirl.analyse(table, omega=3.1, container_radius=8.5, camera_fps=25, scale=40.0)
+
     recording: a Trajectory, Tracks, or Frames from Simulation.sample(), also with custom discs or a
-    custom path. measure: as for swirl.run(); "all" selects every measurement that frames allow. warmup:
-    periods at the start that are ignored. Each period is one block of the error estimate.
+    custom path; or a table of tracks, a DataFrame with the columns frame, particle, x and y. camera: the
+    arguments of swirl.Tracks, for a table only. measure: as for swirl.run(); "all" selects every
+    measurement that frames allow. warmup: periods at the start that are ignored. Each period is one
+    block of the error estimate.
 
     Raises ValueError for a measurement that the recording does not allow, and TypeError if `recording`
     is not a recording.
     """
+    if _is_table(recording):
+        recording = _tracks_of(recording, camera)
+    elif camera:
+        raise TypeError(f"{next(iter(camera))} is given, but only a table of tracks needs it: a recording has its own "
+                        "scale.\nhint: use swirl.analyse(recording, measure=..., warmup=...).")
     if isinstance(recording, _engine.Frames):
         recording = _Sampled(recording)
     if not isinstance(recording, Recording):
@@ -276,6 +306,20 @@ def analyse(recording: Union[Recording, _engine.Frames], measure: Optional[Measu
     rotation = Rotation(no_events, Estimate(*mean_by_time, unit="Ω", _sources=sources), no_events,
                         Estimate(*rigid, unit="Ω", _sources=sources))
     return Analysis(rotation, used, found, (remark,) if remark else ())
+
+
+def _is_table(recording: object) -> bool:
+    """True for a mapping or a DataFrame."""
+    return isinstance(recording, Mapping) or hasattr(recording, "columns") and hasattr(recording, "__getitem__")
+
+
+def _tracks_of(table: Any, camera: dict[str, Any]) -> Tracks:
+    missing = [name for name in ("omega", "container_radius") if name not in camera]
+    if missing:
+        raise TypeError(f"a table of tracks needs {' and '.join(missing)}.\n"
+                        "hint: use swirl.analyse(table, omega=..., container_radius=...); help(swirl.Tracks) explains "
+                        "all arguments.")
+    return Tracks(table, **camera)
 
 
 def _source_of(recording: Recording) -> str:

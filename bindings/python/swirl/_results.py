@@ -18,6 +18,7 @@ from . import _engine
 from ._arguments import file_name
 from ._estimates import ArrayEstimate, Estimate, FloatArray, with_error
 from ._optional import optional
+from ._tables import Rows, numbers_to_pandas, numbers_to_xarray, rows_of
 
 ReportRow = tuple[str, str, str, float, float, float, int, dict[str, float], bool]
 ReportTable = tuple[str, str, list[tuple[str, str]], FloatArray]
@@ -86,9 +87,11 @@ class Table:
         return f"<table of {self.name}: {len(self)} rows of {', '.join(self._columns)}>"
 
     def to_pandas(self) -> Any:
-        """The table as a pandas DataFrame."""
+        """The table as a pandas DataFrame; `frame.attrs["units"]` has the units."""
         pandas = optional("pandas", "to_pandas()")
-        return pandas.DataFrame(np.array(self._values), columns=self._columns)
+        frame = pandas.DataFrame(np.array(self._values), columns=self._columns)
+        frame.attrs["units"] = dict(self.units)
+        return frame
 
     def to_xarray(self) -> Any:
         """The table as an xarray Dataset: each column that is not an axis is a variable with its unit."""
@@ -100,6 +103,14 @@ class Table:
         coordinates = {name: (name, values, {"units": self.units[name]})
                        for name, values in axes.items()}
         return xarray.Dataset(variables, coords=coordinates, attrs={"description": self.description})
+
+    def plot(self, column: Optional[str] = None, *, ax: Any = None) -> Any:
+        """Draws a column, a map in colours or a line with its error; returns the axes. See swirl.plot.table()."""
+        from . import plot
+        return plot.table(self, column, ax=ax)
+
+    def _repr_html_(self) -> str:
+        return _html_table(repr(self), self._columns, self._values)
 
     def _column(self, name: str) -> FloatArray:
         return self._values[:, self._columns.index(name)]
@@ -162,6 +173,19 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
     def __len__(self) -> int:
         return sum(1 for _ in self)
 
+    def to_pandas(self) -> Any:
+        """The numbers as a pandas DataFrame, one row per number. The tables have a to_pandas() of their own."""
+        return numbers_to_pandas(rows_of({self.name: self}))
+
+    def to_xarray(self) -> Any:
+        """The numbers as an xarray Dataset along the dimension quantity."""
+        return numbers_to_xarray(rows_of({self.name: self}))
+
+    def plot(self, column: Optional[str] = None, *, ax: Any = None) -> Any:
+        """Draws the first table; returns the axes. See swirl.plot.measured()."""
+        from . import plot
+        return plot.measured(self, column, ax=ax)
+
     def __repr__(self) -> str:
         return f"<{self.name}: {', '.join(self)}>"
 
@@ -175,8 +199,7 @@ class Series(Mapping[str, FloatArray]):
 
     Columns: period, counted (1 after the warm-up), the rotation rates mean_by_event, mean_by_time,
     rigid_by_event and rigid_by_time, spin, energy, centre_x, centre_y, events; "ramp.mu" and so on for
-    ramps; "slip.cluster" and so on for the rows of `measure`. A missing value is NaN. It is a mapping
-    of arrays, so `pandas.DataFrame(dict(series))` is a table of it.
+    ramps; "slip.cluster" and so on for the rows of `measure`. A missing value is NaN.
     """
 
     __slots__ = ("units", "descriptions", "_values", "_names", "__weakref__")
@@ -212,7 +235,25 @@ class Series(Mapping[str, FloatArray]):
     def to_pandas(self) -> Any:
         """The series as a pandas DataFrame, one row per period."""
         pandas = optional("pandas", "to_pandas()")
-        return pandas.DataFrame(np.array(self._values), columns=self._names)
+        frame = pandas.DataFrame(np.array(self._values), columns=self._names)
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def to_xarray(self) -> Any:
+        """The series as an xarray Dataset along the dimension period; each column is a variable with its unit."""
+        xarray = optional("xarray", "to_xarray()")
+        variables = {name: ("period", np.array(self[name]), {"units": self.units[name],
+                                                             "description": self.descriptions[name]})
+                     for name in self._names if name != "period"}
+        return xarray.Dataset(variables, {"period": np.array(self["period"])})
+
+    def plot(self, column: str = "mean_by_time", *, ax: Any = None) -> Any:
+        """Draws a column against the period; returns the axes. See swirl.plot.series()."""
+        from . import plot
+        return plot.series(self, column, ax=ax)
+
+    def _repr_html_(self) -> str:
+        return _html_table(repr(self), self._names, self._values)
 
     def __repr__(self) -> str:
         return f"<series of {self.periods} periods: {', '.join(self._names)}>"
@@ -247,6 +288,18 @@ class Rotation:
     def __str__(self) -> str:
         return f"ϖ/Ω = {with_error(*self.mean_by_time)}"
 
+    def rows(self) -> Rows:
+        """The four rates with their complete names."""
+        return [(f"rotation.{name}", rate) for name, rate in vars(self).items()]
+
+    def to_pandas(self) -> Any:
+        """The four rates as a pandas DataFrame, one row per rate."""
+        return numbers_to_pandas(self.rows())
+
+    def to_xarray(self) -> Any:
+        """The four rates as an xarray Dataset along the dimension quantity."""
+        return numbers_to_xarray(self.rows())
+
 
 @dataclasses.dataclass(frozen=True)
 class EventCounts:
@@ -263,6 +316,17 @@ class EventCounts:
     def __str__(self) -> str:
         kinds = ", ".join(f"{number:,} {name}" for name, number in list(vars(self).items())[1:] if number)
         return f"{self.total:,} events{': ' if kinds else ''}{kinds}"
+
+
+def _html_table(caption: str, columns: list[str], values: FloatArray, shown: int = 6) -> str:
+    """The first rows and columns of a table, for notebooks."""
+    names = columns[:shown] + ["…"] * (len(columns) > shown)
+    rows = [[f"{value:.4g}" for value in row[:shown]] + ["…"] * (len(columns) > shown) for row in values[:shown]]
+    if len(values) > shown:
+        rows.append(["…"] * len(names))
+    head = "".join(f"<th>{html.escape(name)}</th>" for name in names)
+    body = "".join(f"<tr>{''.join(f'<td>{value}</td>' for value in row)}</tr>" for row in rows)
+    return f"<p>{html.escape(caption)}</p><table><tr>{head}</tr>{body}</table>"
 
 
 def _number(value: Optional[float]) -> float:
@@ -363,6 +427,24 @@ class Result:
     def save(self, file: Union[str, os.PathLike[str]]) -> None:
         """Writes to_json() to a file. `swirl verify FILE` repeats the run and compares."""
         write_atomically(file, (self._text + "\n").encode())
+
+    def to_pandas(self) -> Any:
+        """The rotation and all measured numbers as a pandas DataFrame, one row per number: quantity, unit, mean, error,
+        effective_samples, blocks."""
+        return numbers_to_pandas(self._numbers())
+
+    def to_xarray(self) -> Any:
+        """The same as an xarray Dataset along the dimension quantity."""
+        return numbers_to_xarray(self._numbers())
+
+    def _numbers(self) -> Rows:
+        return [*self.rotation.rows(), *rows_of(self.measured)]
+
+    def plot(self, what: Optional[str] = None, *, ax: Any = None) -> Any:
+        """Draws "series", a measurement or one of its tables; returns the axes. The default is the first of these that
+        the result has, and otherwise the rotation. See swirl.plot.result()."""
+        from . import plot
+        return plot.result(self, what, ax=ax)
 
     def __repr__(self) -> str:
         return self._headline

@@ -212,6 +212,11 @@ class Simulation:
     def _repr_svg_(self) -> str:
         return str(self.snapshot()._repr_svg_())
 
+    def plot(self, *, ax: Any = None, **style: Any) -> Any:
+        """Draws the discs; returns the axes. `style` is that of swirl.plot.snapshot()."""
+        from . import plot
+        return plot.snapshot(self, ax=ax, **style)
+
     # --- saving -------------------------------------------------------------------------------
 
     def save(self, file: PathName) -> None:

@@ -186,6 +186,23 @@ class Crossing:
     def __float__(self) -> float:
         return self.discs
 
+    def to_pandas(self) -> Any:
+        """The points as a pandas DataFrame, one row for each number of discs."""
+        pandas = optional("pandas", "to_pandas()")
+        return pandas.DataFrame(list(self.points))
+
+    def to_xarray(self) -> Any:
+        """The points as an xarray Dataset along the dimension discs."""
+        xarray = optional("xarray", "to_xarray()")
+        names = [name for name in (self.points[0] if self.points else ()) if name != "discs"]
+        return xarray.Dataset({name: ("discs", [point[name] for point in self.points]) for name in names},
+                              {"discs": [point["discs"] for point in self.points]})
+
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draws the points with N_c; returns the axes. See swirl.plot.crossing()."""
+        from . import plot
+        return plot.crossing(self, ax=ax)
+
     def __str__(self) -> str:
         return self.sentence
 
