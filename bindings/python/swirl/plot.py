@@ -254,7 +254,7 @@ def result(found: Any, what: Optional[str] = None, *, ax: Optional[Axes] = None)
         raise ValueError("there is no table to plot.\nhint: use measure=[\"density\"].")
     name = names[0] if what is None else what
     if name not in names:
-        raise ValueError(f"the result has no '{name}' to plot; it has {', '.join(names)}.")
+        raise ValueError(f"the result has no '{_engine.shortened(str(name))}' to plot; it has {', '.join(names)}.")
     if name == "series":
         return series(found, ax=ax)
     return measured(found.measured[name], ax=ax) if name in found.measured else table(tables[name], ax=ax)
