@@ -14,7 +14,7 @@ import claims_page
 from claims import rotation, thresholds
 from claims.claim import BOTH, DISCS, NOTHING, SPHERES, UNTESTED, Claim
 from claims.wording import number
-from verdicts import FAILS, HOLDS, MISSING, UNDECIDED, UNTESTABLE, Value, above
+from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Value, above
 
 
 def claim_that(words):
@@ -56,6 +56,13 @@ class Catalogue(HandMadeTables):
         self.assertEqual([int(count) for _, count, _ in rows], [len(numbers.split(", ")) for _, _, numbers in rows])
         stored = read_rows(os.path.join(SOURCE, "docs", "data", "claims.csv"))
         self.assertEqual({int(row["claim"]): row["verdict"] for row in stored}, page)
+
+    def test_the_readme_has_the_same_counts(self):
+        verdicts = [row["verdict"] for row in read_rows(os.path.join(SOURCE, "docs", "data", "claims.csv"))]
+        holds, in_part, fails = (verdicts.count(verdict) for verdict in (HOLDS, IN_PART, FAILS))
+        text = " ".join(read_text(os.path.join(SOURCE, "README.md")).split())
+        self.assertIn(f"Of {len(verdicts)} statements of the paper {holds} hold, {in_part} hold in part, and {fails} do not; "
+                      f"{len(verdicts) - holds - in_part - fails} are undecided, not tested or not testable", text)
 
     def test_page_gets_its_tables_from_the_verdicts(self):
         page = read_text(os.path.join(SOURCE, "docs", "results", "paper.md"))
