@@ -195,6 +195,58 @@ def test_a_table_needs_the_scale_of_its_camera(tracks):
         swirl.analyse([1, 2])
 
 
+def with_cell(table, row, column, value):
+    changed = table.astype(object)
+    changed.loc[row, column] = value
+    return changed
+
+
+WRONG_TABLES = {
+    "a second header": (lambda t: with_cell(t, 17, "frame", "frame"), TypeError, "must hold numbers, but row 17 has 'frame'"),
+    "a missing value": (lambda t: with_cell(t, 17, "particle", None), TypeError, "particle of .* but row 17 has None"),
+    "NaN in x": (lambda t: with_cell(t, 17, "x", math.nan), ValueError, "row 17 of the tracks has no finite position"),
+    "NaN in frame": (lambda t: with_cell(t, 9, "frame", math.nan), ValueError, "whole numbers, but row 9 has nan"),
+    "half a frame": (lambda t: t.assign(frame=t["frame"] / 2), ValueError, "whole numbers, but row 8 has 0.5"),
+    "a decimal comma": (lambda t: with_cell(t, 3, "y", "1,5"), TypeError, "column y of .* but row 3 has '1,5'"),
+    "no y": (lambda t: t.drop(columns="y"), ValueError, "there is no y.\nhint: it has frame, particle, x."),
+    "upper case": (lambda t: t.rename(columns=str.upper), ValueError, "there is no frame.\nhint: rename 'FRAME' to 'frame'"),
+    "two columns x": (lambda t: t.rename(columns={"y": "x"}), TypeError, "column x of the tracks must hold numbers, but it"),
+    "a row twice": (lambda t: pandas.concat([t, t.iloc[[5]]]), ValueError, "particle 5 appears twice in frame 0"),
+    "metres": (lambda t: t.assign(x=t["x"] / 1e3, y=t["y"] / 1e3), swirl.Failure, "scale 30 is too large.\nhint: "),
+    "complex": (lambda t: t.assign(x=t["x"] * 1j), TypeError, "column x of the tracks must hold numbers, but row 0 has"),
+    "truth values": (lambda t: t.assign(particle=t["particle"] > 2), TypeError, "particle of .* but row 0 has False"),
+    "no rows": (lambda t: t.iloc[:0], ValueError, "the tracks are empty"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG_TABLES)
+def test_a_wrong_table_raises_what_is_wrong_and_where(case, tracks):
+    table, camera = tracks
+    change, kind, says = WRONG_TABLES[case]
+    with pytest.raises(kind, match=says):
+        swirl.analyse(change(table), **camera)
+
+
+@pytest.mark.parametrize("given, kind, says", [
+    ({"warmpu": 3}, TypeError, "there is no argument 'warmpu'.\nhint: .*omega, container_radius"),
+    ({"clockwise": "no"}, TypeError, "clockwise is 'no', but it must be True or False"),
+    ({"centre": 5}, TypeError, "centre is 5, but it must be two numbers"),
+    ({"omega": "1"}, TypeError, "omega is '1', but it must be a number"),
+    ({"scale": 1.0}, swirl.Failure, "scale, centre, .*is wrong.\nhint: .*with scale 33.3 they would touch")])
+def test_a_wrong_scale_raises_what_is_wrong(given, kind, says, tracks):
+    table, camera = tracks
+    with pytest.raises(kind, match=says):
+        swirl.analyse(table, **{**camera, **given})
+
+
+def test_any_order_and_any_type_of_numbers_will_do(tracks):
+    table, camera = tracks
+    expected = repr(swirl.analyse(table, **camera))
+    for same in (table.sample(frac=1, random_state=1), table.astype(float), table.astype(object),
+                 table.astype({"frame": "Int64", "particle": "Int64", "x": "Float64"})):
+        assert repr(swirl.analyse(same, **camera)) == expected
+
+
 # --- plots ----------------------------------------------------------------------------------------
 
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import json
 import math
+import numbers
 import os
 import pathlib
 from collections.abc import Iterator, Mapping
 from typing import Any, Optional, Protocol, Union, overload
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _engine
 from ._arguments import file_name, shown
@@ -100,6 +103,29 @@ class Trajectory(Recording):
         return f"<swirl.Trajectory '{self.file}': {len(self)} frames>"
 
 
+_COLUMNS = ("frame", "particle", "x", "y")
+
+
+def _column(table: Any, name: str) -> npt.NDArray[Any]:
+    """A column of a table of tracks. It may have any type of numbers, such as those of pandas with missing values."""
+    try:
+        column = np.asarray(table[name])
+    except (KeyError, IndexError, TypeError, ValueError):
+        there = [str(each) for each in table] if hasattr(table, "keys") else []
+        renamed = [each for each in there if each.strip().lower() == name]
+        hint = (f"\nhint: rename '{renamed[0]}' to '{name}'." if renamed else
+                f"\nhint: it has {_engine.shortened(', '.join(there))}." if there else "")
+        raise ValueError(f"the tracks need the columns frame, particle, x and y, but there is no {name}.{hint}") from None
+    if column.ndim != 1:
+        raise TypeError(f"column {name} of the tracks must hold numbers, but it has {column.ndim} dimensions.")
+    if column.dtype.kind in "iuf":
+        return column
+    for row, value in enumerate(column):
+        if not isinstance(value, numbers.Real) or isinstance(value, (bool, np.bool_)):
+            raise TypeError(f"column {name} of the tracks must hold numbers, but row {row} has {shown(value)}.")
+    return column.astype(float)
+
+
 class Tracks(Recording):
     """Tracks of a camera: a table of trackpy (columns frame, particle, x, y; pixels, y downwards).
 
@@ -135,17 +161,18 @@ class Tracks(Recording):
         if isinstance(table, (str, bytes)) or not hasattr(table, "__getitem__"):
             raise TypeError(f"table is {shown(table)}, but it must be a DataFrame or a mapping with the columns frame, "
                             "particle, x and y.\nhint: read a file with swirl.Tracks.read().")
-        try:
-            columns = {name: np.asarray(table[name]) for name in ("frame", "particle", "x", "y")}
-        except (KeyError, IndexError, TypeError, ValueError):
-            raise ValueError("the tracks need the columns frame, particle, x and y.") from None
-        for name, column in columns.items():
-            if column.dtype.kind not in "iuf" or column.ndim != 1:
-                raise TypeError(f"column {name} of the tracks must hold numbers.")
+        columns = {name: _column(table, name) for name in _COLUMNS}
         for name in ("frame", "particle"):
-            if np.any(columns[name] != np.floor(columns[name])):
-                raise ValueError(f"column {name} of the tracks must hold whole numbers.")
-        x0, y0 = (float(part) for part in centre)
+            wrong = np.flatnonzero(columns[name] != np.floor(columns[name]))
+            if wrong.size:
+                raise ValueError(f"column {name} of the tracks must hold whole numbers, but row {wrong[0]} has "
+                                 f"{columns[name][wrong[0]]}.")
+        if not isinstance(clockwise, (bool, np.bool_)):
+            raise TypeError(f"clockwise is {shown(clockwise)}, but it must be True or False.")
+        try:
+            x0, y0 = (float(part) for part in centre)
+        except (TypeError, ValueError):
+            raise TypeError(f"centre is {shown(centre)}, but it must be two numbers.") from None
         if not (math.isfinite(x0) and math.isfinite(y0)):
             raise ValueError(f"centre is {centre}, but it must be two finite numbers.")
         radius = np.asarray(table["radius"], float) if _is_of_swirl_track(table) else np.empty(0)
@@ -319,6 +346,11 @@ def _tracks_of(table: Any, camera: dict[str, Any]) -> Tracks:
         raise TypeError(f"a table of tracks needs {' and '.join(missing)}.\n"
                         "hint: use swirl.analyse(table, omega=..., container_radius=...); help(swirl.Tracks) explains "
                         "all arguments.")
+    arguments = inspect.signature(Tracks).parameters
+    unknown = next((name for name in camera if name not in arguments or name == "table"), None)
+    if unknown is not None:
+        raise TypeError(f"there is no argument '{_engine.shortened(unknown)}'.\n"
+                        f"hint: a table of tracks takes {', '.join(list(arguments)[1:])}.")
     return Tracks(table, **camera)
 
 
