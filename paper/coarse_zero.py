@@ -1,4 +1,4 @@
-"""The zero of a curve whose points are several N apart. swirl._engine.zero_crossing() decides whether there is one, and
+"""The zero of a curve whose points are several N apart. swirl.zero_crossing() decides whether there is one, and
 reports no N for such curves, because the curve between the points is unknown. Here it is interpolated.
 
 Between the points k and k + 1, of opposite signs, a parabola through these two and a third point has exactly one zero.
@@ -72,7 +72,7 @@ def zero_of_curve(curve, k):
 
 def changes_of_sign(curve):
     """The certain changes of sign: dictionaries with "before", "after" and "to_counterrotation"."""
-    return swirl._engine.zero_crossing(*map(list, zip(*curve)))["changes"] if curve else []
+    return swirl.zero_crossing(*map(list, zip(*curve)))["changes"] if curve else []
 
 
 def middle_zero(curve, change):
@@ -96,7 +96,7 @@ def crossing_of_curve(curve):
     neighbours, N_c is that of all figures. In a coarse curve the error contains that of the interpolation."""
     if not curve:
         return None
-    found = swirl._engine.zero_crossing(*map(list, zip(*curve)))
+    found = swirl.zero_crossing(*map(list, zip(*curve)))
     if math.isfinite(found["discs"]):
         return found["discs"], found["error"]
     changes = [change for change in found["changes"] if change["to_counterrotation"]]

@@ -109,8 +109,8 @@ class Curve:
     def __init__(self, name, points, rate="mean_by_time"):
         self.name, self.rate = name, rate
         self.by_rate = {each: [rate_of(p, each) for p in points] for each in RATES}
-        self.crossings = {each: swirl._engine.zero_crossing(*map(list, zip(*curve))) if curve else
-                          swirl._engine.zero_crossing([], [], []) for each, curve in self.by_rate.items()}
+        self.crossings = {each: swirl.zero_crossing(*map(list, zip(*curve))) if curve else
+                          swirl.zero_crossing([], [], []) for each, curve in self.by_rate.items()}
 
     @property
     def points(self):

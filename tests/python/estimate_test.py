@@ -127,3 +127,22 @@ def test_what_has_no_error_raises(runs):
                 combine()
     with pytest.raises(TypeError):
         1 / a
+
+
+def test_a_zero_crossing_of_estimates_is_that_of_numbers(runs):
+    discs, means, errors = [40, 34, 36, 38], [-0.02, 0.02, 0.01, -0.01], [0.001] * 4
+    found = swirl.zero_crossing(discs, means, errors)
+    same = swirl.zero_crossing(discs, [swirl.Estimate(*each) for each in zip(means, errors)])
+    assert repr(same) == repr(found)  # NaN is not equal to itself
+    assert found["verdict"] == "crosses" and (found["lower"], found["upper"]) == (36, 38)
+    assert swirl.zero_crossing([24] * 3, [rate(r) for r in runs])["points"] == 3
+    assert swirl.zero_crossing([], [])["verdict"] == "undecided"
+    with pytest.raises(TypeError, match="errors of their own"):
+        swirl.zero_crossing([24], [rate(runs[0])], [0.1])
+
+
+def test_the_zero_crossing_is_that_of_a_search():
+    search = swirl.crossing(min_discs=34, max_discs=42, tolerance=5, events=2000)
+    points = search.to_pandas()
+    found = swirl.zero_crossing(points["discs"], points["mean"], points["error"])
+    assert (found["discs"], found["error"], found["verdict"]) == (search.discs, search.error, search.verdict)

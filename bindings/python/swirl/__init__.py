@@ -24,6 +24,7 @@ from ._simulation import EventKind, Simulation, load
 from ._study import Crossing, SweepWarning, collect, crossing, parameter_map, sweep
 from ._study import map_runs as map
 from ._track import VideoTracks, track
+from ._zero_crossing import zero_crossing
 
 __version__ = _version().split()[0]
 
@@ -32,7 +33,7 @@ __all__ = [
     "FileError", "Frames", "Interrupted", "Lab", "Measured", "Parameter", "Recording", "Result", "Rotation",
     "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "VideoTracks", "analyse",
     "collect", "crossing", "lab", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
-    "samples_per_period", "sweep", "track", "with_error",
+    "samples_per_period", "sweep", "track", "with_error", "zero_crossing",
 ]
 
 for _name in __all__:

@@ -193,7 +193,7 @@ def table(found: Table, column: Optional[str] = None, *, ax: Optional[Axes] = No
     x, y = found.axes["x"], found.axes["y"]
     drawn = axes.pcolormesh(x, y, found[column], cmap="viridis", shading="nearest")
     axes.figure.colorbar(drawn, ax=axes, label=f"{column} ({found.units[column]})")
-    _round(axes, x, y)
+    axes.set(aspect="equal", xlabel=f"x ({found.units['x']})", ylabel=f"y ({found.units['y']})")
     return axes
 
 
