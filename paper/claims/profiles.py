@@ -113,6 +113,8 @@ def loose_peak(study, setting):
     """Profiles are shifted so that their peaks coincide, and compared with the mean over N. What counts is |ϖ_M|
     above that of the wall: |ϖ_M| itself is nearly 1 everywhere, and similar in any case."""
     found = [(discs, *aligned(rows)) for discs, rows in by_discs(study.curve("3a", setting=setting))]
+    if not found:
+        raise ValueError("no run of this setting")
     shared = set.intersection(*(set(shape) for _, _, shape in found))
     mean = {offset: mean_of([shape[offset] for _, _, shape in found]).mean for offset in shared}
     allowed = size.SIMILAR * abs(mean[0])

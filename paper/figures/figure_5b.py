@@ -5,6 +5,7 @@ import math
 
 import style
 import tables
+from combine import at, number, over_seeds, too_short_to_average
 from curves import curve_tables, curves_by, lowest_of, with_error
 from figure import Figure
 from paper_parameters import LAST_N
@@ -47,7 +48,17 @@ def start_points(settings):
             for friction in (NO_WALL, NO_DISC) for discs in numbers_of_discs(settings)]
 
 
+def between_seeds(point):
+    """The mean over the seeds with the error between them. The error within a run counts its transient as noise, but the
+    transient is part of what is averaged here."""
+    found = over_seeds([number(at(run, "rotation", "mean_by_event", "mean")) for run in point.runs if not too_short_to_average(run)])
+    return {"mean": float(found[0]), "error": float(found[1])}
+
+
 def start_table(points, settings):
+    for point in points:
+        if at(point.result, "rotation", "mean_by_event"):
+            point.result["rotation"]["mean_by_event"] |= between_seeds(point)
     curves = curves_by(points, "setting", "mean_by_event")
     return curve_tables(points, curves), [f"{WITHOUT[curve.name].words}: {curve.sentence()}" for curve in curves]
 
