@@ -194,6 +194,7 @@ class InteractiveSimulation {
     }
 
     std::string config() const { return config_text(config_); }
+    bool is_custom() const { return is_custom_; }
     double period() const { return scene_.path.period; }
     double time() {
         return exclusively([&](Simulation& s) { return time_at(s.periods(), s.clock()); });
@@ -446,6 +447,7 @@ void bind_simulation(py::module_& module) {
         .def_static("from_bytes",
                     [](const py::bytes& b) { return Self::from_bytes(std::string_view(b)); })
         .def("config", &Self::config)
+        .def_property_readonly("is_custom", &Self::is_custom)
         .def_property_readonly("period", &Self::period)
         .def_property_readonly("time", &Self::time)
         .def_property_readonly("container_radius", &Self::container_radius)

@@ -1,13 +1,17 @@
 """swirl.lab(): the browser page inside a notebook."""
 
 import html
+import json
 import os
+import pickle
 import re
 from urllib.parse import parse_qs
 
+import numpy as np
 import pytest
 
 import swirl
+from scenes import SCENES
 from swirl import _lab
 
 PAGE = '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<title>swirl</title>\n</head></html>\n'
@@ -45,6 +49,40 @@ def test_a_notebook_shows_the_document_in_a_frame_of_its_own_origin(page):
     assert 'height="500"' in frame
     sandbox, = re.findall(r'sandbox="([^"]*)"', frame)
     assert "allow-scripts" in sandbox and "allow-same-origin" not in sandbox
+
+
+SHOWN = [*SCENES, dict(preset="experiment", discs=24, direction="clockwise"), dict(mixture="20%:1.3"),
+         dict(discs=5, sizes=np.linspace(0.8, 1.2, 5)), dict(discs=40, cannot_spin=0.5), dict(path="ellipse:0.5"),
+         dict(ramp="amplitude=1:2@20..220")]
+
+
+@pytest.mark.parametrize("scene", SHOWN, ids=str)
+def test_the_page_of_a_simulation_has_its_parameters(page, scene):
+    scene = {name: value for name, value in scene.items() if name != "warmup"}
+    sim = swirl.Simulation(**scene)
+    sim.advance(events=100)
+    given = {name: value for name, (value,) in start_of(sim.show(page=page).html).items()} if scene else {}
+    again = json.loads(swirl._engine.resolve(given))
+    assert {name: value for name, value in again.items() if again[name] != sim.config[name]} == {}
+
+
+def test_the_page_of_a_result_has_its_parameters(page):
+    shown = swirl.run(discs=5, mu=0.3, seed=4, events=300).show(page=page, lang="de", height=300)
+    assert start_of(shown.html) == {"discs": ["5"], "mu_disc": ["0.3"], "mu_wall": ["0.3"], "seed": ["4"], "lang": ["de"]}
+    assert shown.height == 300
+
+
+def test_custom_discs_cannot_be_shown(page):
+    sim = swirl.Simulation(position=[[0, 0], [3, 0]], container_radius=8)
+    for one in (sim, pickle.loads(pickle.dumps(sim))):
+        with pytest.raises(ValueError, match="discs or a path of its own.\nhint: plot"):
+            one.show(page=page)
+
+
+def test_an_array_becomes_a_text(page):
+    entry, = start_of(swirl.lab(discs=3, sizes=np.array([0.5, 1.0, 1.5]), page=page).html)["sizes"]
+    assert json.loads(swirl._engine.resolve({"discs": 3, "sizes": entry})) == json.loads(
+        swirl._engine.resolve({"discs": 3, "sizes": np.array([0.5, 1.0, 1.5])}))
 
 
 def test_values_are_checked_as_for_a_run(page):

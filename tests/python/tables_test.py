@@ -14,12 +14,10 @@ import pytest
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
+import objects  # noqa: E402
 import swirl  # noqa: E402
+from objects import MEASURE, SCENE  # noqa: E402
 from scenes import command, options  # noqa: E402
-
-SCENE = {"discs": 16, "periods": 12, "warmup": 2}
-MEASURE = ["density", "flow", "profile", "slip", "wall"]
-CAMERA = {"omega": 1.0, "container_radius": 8.0}
 
 
 @pytest.fixture(autouse=True)
@@ -29,64 +27,33 @@ def closed():
 
 
 @pytest.fixture(scope="module")
-def result():
-    return swirl.run(**SCENE, measure=[*MEASURE, speeds], series=True)
-
-
-def speeds(snapshot):
-    return np.hypot(*snapshot.velocity[:2].T)
-
-
-@pytest.fixture(scope="module")
-def found():
-    return swirl.crossing(min_discs=34, max_discs=42, tolerance=5, events=2000)
-
-
-@pytest.fixture(scope="module")
-def instances(result, found, tmp_path_factory):
+def instances(tmp_path_factory):
     """An object of each public class."""
-    sim = swirl.Simulation(discs=16)
-    frames = sim.sample(periods=3, per_period=100)
-    file = tmp_path_factory.mktemp("tables") / "a.h5"
-    swirl.run(discs=3, periods=2, trajectory=file)
-    columns = {"frame": [0, 0, 1, 1], "particle": [0, 1, 0, 1], "x": [0.0, 3.0, 0.0, 3.0], "y": [0.0, 0.0, 0.1, 0.1]}
-    video = swirl.VideoTracks.__new__(swirl.VideoTracks)
-    tracks = swirl.Tracks(columns, **CAMERA)
-    video._frames, video.quality = tracks._frames, {"discs": 2}
-    recording = swirl.Recording.__new__(swirl.Recording)
-    recording._frames = tracks._frames
-    objects = [
-        sim, sim.snapshot(), next(sim.events(1)), frames, result, result.rotation, result.rotation.mean_by_time,
-        result.measured["slip"], result.measured["density"].table, result.series, result.events, found,
-        swirl.analyse(frames, ["density"]), result.measured["speeds"]["value"], swirl.parameters()[0],
-        swirl.Lab("<html></html>", 100), swirl.Trajectory(file), tracks, recording, video]
-    return {type(one): one for one in objects}
+    return objects.instances(tmp_path_factory.mktemp("tables"))
 
 
-def public_classes():
-    """Exceptions and enumerations have the text of Python."""
-    kinds = [getattr(swirl, name) for name in swirl.__all__]
-    return [kind for kind in kinds if isinstance(kind, type) and not issubclass(kind, (BaseException, enum.Enum))]
+@pytest.fixture
+def result(instances):
+    return instances[swirl.Result]
 
 
-def in_order(kind, instances):
-    assert kind in instances, f"add an object of {kind.__name__} to the fixture instances"
-    return instances[kind]
+def shown_classes():
+    return [kind for kind in objects.public_classes() if not issubclass(kind, enum.Enum)]
 
 
 # --- text and HTML --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", public_classes(), ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("kind", shown_classes(), ids=lambda kind: kind.__name__)
 def test_every_class_has_one_line(kind, instances):
-    one = in_order(kind, instances)
+    one = instances[kind]
     texts = (str(one), repr(one))
     assert any("\n" not in text and len(text) < 400 and "object at 0x" not in text for text in texts), texts
 
 
-@pytest.mark.parametrize("kind", public_classes(), ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("kind", shown_classes(), ids=lambda kind: kind.__name__)
 def test_every_class_has_a_view_in_notebooks(kind, instances):
-    one = in_order(kind, instances)
+    one = instances[kind]
     shown = one._repr_svg_() if hasattr(one, "_repr_svg_") else one._repr_html_()
     assert re.match(r"<(p|svg|iframe)\b", shown) and "object at 0x" not in shown
     assert len(re.findall(r"<table\b", shown)) == shown.count("</table>")
@@ -106,7 +73,7 @@ def test_html_shows_one_rate(result):
 @pytest.mark.parametrize("kind", [swirl.Table, swirl.Series, swirl.Measured, swirl.Rotation, swirl.Result, swirl.Analysis,
                                   swirl.Crossing, swirl.Snapshot, swirl.Frames], ids=lambda kind: kind.__name__)
 def test_every_table_has_both_forms(kind, instances):
-    one = in_order(kind, instances)
+    one = instances[kind]
     frame, data = one.to_pandas(), one.to_xarray()
     assert isinstance(frame, pandas.DataFrame) and len(frame) > 0
     known = set(data.variables)
@@ -253,7 +220,7 @@ def test_any_order_and_any_type_of_numbers_will_do(tracks):
 @pytest.mark.parametrize("kind", [swirl.Table, swirl.Series, swirl.Result, swirl.Analysis, swirl.Crossing,
                                   swirl.Snapshot, swirl.Simulation], ids=lambda kind: kind.__name__)
 def test_what_can_be_drawn_draws_into_the_given_axes(kind, instances):
-    one = in_order(kind, instances)
+    one = instances[kind]
     _, ax = plt.subplots()
     assert one.plot(ax=ax) is ax and (ax.has_data() or ax.collections)
     assert one.plot() is not ax
@@ -278,7 +245,8 @@ def test_a_result_draws_what_it_has(result):
     assert (point.lines[0].get_xdata(), point.lines[0].get_ydata()) == ([5], [alone.rotation.mean_by_time.mean])
 
 
-def test_a_crossing_is_drawn_with_its_number(found):
+def test_a_crossing_is_drawn_with_its_number(instances):
+    found = instances[swirl.Crossing]
     ax = found.plot()
     np.testing.assert_array_equal(ax.containers[0].lines[0].get_ydata(), [point["mean"] for point in found.points])
     assert swirl.with_error(found.discs, found.error) in ax.get_legend().get_texts()[0].get_text()

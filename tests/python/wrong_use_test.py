@@ -7,44 +7,19 @@ import pickle
 import numpy as np
 import pytest
 
+import objects
 import swirl
 import swirl.plot
+from objects import COLUMNS, DISH, public_classes
 
 HALF = "\ud800"
 LONG = "x" * 100_000
-COLUMNS = {"frame": [0, 0, 1, 1], "particle": [0, 1, 0, 1], "x": [0.0, 3.0, 0.0, 3.0], "y": [0.0, 0.0, 0.1, 0.1]}
-DISH = {"omega": 1.0, "container_radius": 8.0}
 
 
 @pytest.fixture(scope="module")
-def result():
-    return swirl.run(discs=3, periods=3, measure=["density"], series=True)
-
-
-@pytest.fixture(scope="module")
-def instances(result, tmp_path_factory):
+def instances(tmp_path_factory):
     """An object of each public class."""
-    sim = swirl.Simulation(discs=3)
-    frames = sim.sample(periods=2)
-    file = tmp_path_factory.mktemp("wrong_use") / "a.h5"
-    swirl.run(discs=3, periods=2, trajectory=file)
-    estimate = result.rotation.mean_by_time
-    measured = result.measured["density"]
-    numbers = np.zeros(2)
-    objects = [
-        sim, sim.snapshot(), next(sim.events(1)), frames, result, result.rotation, estimate, measured, measured.table,
-        result.series, result.events, swirl.analyse(frames), swirl.ArrayEstimate(numbers, numbers, numbers, 1),
-        swirl.Crossing("undecided", 0.0, 0.0, 0.0, 0.0, False, "mean_by_time", {}, [], "", {}),
-        swirl.EventKind.disc_disc, swirl.parameters()[0], swirl.Lab("", 1), swirl.Trajectory(file),
-        swirl.Tracks(COLUMNS, **DISH), swirl.Recording.__new__(swirl.Recording),
-        swirl.VideoTracks.__new__(swirl.VideoTracks)]
-    return {type(one): one for one in objects}
-
-
-def public_classes():
-    kinds = [getattr(swirl, name) for name in swirl.__all__]
-    # An exception takes any attribute, as those of Python do.
-    return [kind for kind in kinds if isinstance(kind, type) and not issubclass(kind, BaseException)]
+    return objects.instances(tmp_path_factory.mktemp("wrong_use"))
 
 
 @pytest.mark.parametrize("kind", public_classes(), ids=lambda kind: kind.__name__)
@@ -74,7 +49,8 @@ def test_subclasses_have_attributes_of_their_own():
     assert Mine(discs=3).note == "mine"
 
 
-def test_objects_without_a_dictionary_are_copied_and_pickled(result, instances):
+def test_objects_without_a_dictionary_are_copied_and_pickled(instances):
+    result = instances[swirl.Result]
     for one in (result, instances[swirl.Lab], instances[swirl.Trajectory].parameters):
         for other in (copy.copy(one), copy.deepcopy(one), pickle.loads(pickle.dumps(one))):
             assert type(other) is type(one)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import html
+import json
 import os
 import re
-from typing import Optional
+from collections.abc import Mapping
+from typing import Any, Optional
 from urllib.parse import urlencode
 
 from . import _engine
@@ -52,11 +54,12 @@ def lab(*, page: Optional[PathName] = None, height: int = 640, lang: Optional[st
     variable SWIRL_LAB, or from the folder of the sources, where `./swirl lab` builds it.
     `height` is that of the frame in pixels, `lang` "en" or "de".
     """
-    _engine.resolve(parameters)  # rejects what a run would reject
+    config = json.loads(_engine.resolve(parameters))  # rejects what a run would reject
     path = file_name("page", _path_of(page))
     with open(path, encoding="utf-8") as opened:
         document = opened.read()
-    values = {name: _text_of(value) for name, value in parameters.items() if value is not None}
+    values = {name: config[name] if hasattr(value, "dtype") else _text_of(value)
+              for name, value in parameters.items() if value is not None}
     query = urlencode({**values, **({"lang": lang} if lang else {})})
     start = f'<meta name="swirl-start" content="{html.escape(query)}">'
     # A page that `swirl lab --out` wrote with parameters has such an entry, which is replaced.
@@ -66,6 +69,19 @@ def lab(*, page: Optional[PathName] = None, height: int = 640, lang: Optional[st
         raise ValueError(f"'{path}' is not the browser page of swirl.")
     document = f"{before}{charset}\n{start}{after}"
     return Lab(document, height)
+
+
+def parameters_of(config: Mapping[str, Any]) -> dict[str, Value]:
+    """The parameters of a run from its config, without its length and what follows from others."""
+    standard = json.loads(_engine.resolve({}))
+    settable = {row[0] for row in _engine.parameters()} - {"events", "periods", "warmup", "speed"}
+    found = {name: value for name, value in config.items()
+             if name in settable and value is not None and value != standard.get(name)}
+    if "mixture" in found:
+        mixture = found["mixture"]
+        number = f"{mixture['percent']}%" if "percent" in mixture else mixture["count"]
+        found["mixture"] = (number, mixture["radius"], mixture["mass"])
+    return found
 
 
 def _text_of(value: Value) -> str:

@@ -446,6 +446,13 @@ class Result:
         from . import plot
         return plot.result(self, what, ax=ax)
 
+    def show(self, *, page: Union[str, "os.PathLike[str]", None] = None, height: int = 640,
+             lang: Optional[str] = None) -> Any:
+        """Shows the browser page with the parameters of this run in a notebook: a swirl.Lab. page, height, lang: as for
+        swirl.lab()."""
+        from ._lab import lab, parameters_of
+        return lab(page=page, height=height, lang=lang, **parameters_of(self.config))
+
     def __repr__(self) -> str:
         return self._headline
 

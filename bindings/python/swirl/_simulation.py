@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from . import _engine
 from ._arguments import file_name, shown
+from ._lab import Lab, lab, parameters_of
 from ._results import EventCounts, write_atomically
 from ._runs import PathName, Value, call_text, with_parameters
 
@@ -211,6 +212,17 @@ class Simulation:
 
     def _repr_svg_(self) -> str:
         return str(self.snapshot()._repr_svg_())
+
+    def show(self, *, page: Optional[PathName] = None, height: int = 640, lang: Optional[str] = None) -> Lab:
+        """Shows the browser page with the parameters of this simulation in a notebook. It begins at time 0.
+
+        page, height, lang: as for swirl.lab(). Raises ValueError for custom discs or a custom path, which the page cannot
+        place.
+        """
+        if self._engine.is_custom:
+            raise ValueError("the page places the discs by the parameters, but this simulation has discs or a path of "
+                             "its own.\nhint: plot() draws the discs.")
+        return lab(page=page, height=height, lang=lang, **parameters_of(self.config))
 
     def plot(self, *, ax: Any = None, **style: Any) -> Any:
         """Draws the discs; returns the axes. `style` is that of swirl.plot.snapshot()."""
