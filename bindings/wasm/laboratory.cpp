@@ -98,7 +98,8 @@ Request parse_request(std::string_view lines) {
     }
     RunConfig config = resolve(given);
     // The page shows maps in the M-frame.
-    if (!has_m_frame(config)) throw_usage_error("this path has no M-frame, which the page needs.");
+    if (!has_m_frame(config) || config.turns_clockwise())
+        throw_usage_error("the page needs a path that is nearly a circle, counter-clockwise.");
     if (config.frictionless == Frictionless::boundary || config.frictionless == Frictionless::bulk)
         throw_usage_error(
             "the page has no --frictionless boundary or bulk.\n"

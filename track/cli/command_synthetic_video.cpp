@@ -230,6 +230,7 @@ using Json = nlohmann::ordered_json;
 Json truth_json(const SyntheticVideoCall& call, const RunConfig& config,
                 const CameraSettings& camera, const Vec2& path_centre, std::int64_t frames,
                 double phase) {
+    const bool is_round = has_m_frame(config) && !config.turns_clockwise();
     return {{"video", fs::path(call.out).filename().string()},
             {"frames", frames},
             {"discs", config.discs},
@@ -238,8 +239,8 @@ Json truth_json(const SyntheticVideoCall& call, const RunConfig& config,
             {"amplitude", config.amplitude * camera.scale},
             {"container_radius", config.container_radius * camera.scale},
             {"omega", 2.0 * pi / double(camera.frames_per_period)},
-            {"phase", has_m_frame(config) ? Json(phase) : Json()},
-            {"clockwise", has_m_frame(config) ? Json(camera.mirrored) : Json()},
+            {"phase", is_round ? Json(phase) : Json()},
+            {"clockwise", is_round ? Json(camera.mirrored) : Json()},
             {"distortion", camera.distortion},
             {"tilt", camera.tilt},
             {"tilt_towards", camera.towards},

@@ -64,6 +64,7 @@ nlohmann::ordered_json camera_sampled_run(const RunConfig& config, const CameraS
     scale.frames_per_time = sampling.frames_per_period / config.period;
     scale.amplitude = config.amplitude;
     scale.container_radius = config.container_radius;
+    scale.clockwise = config.turns_clockwise();
     TrackSmoothing smoothing;
     const SnapshotSeries series = smoothed_series(std::move(tracks), scale, smoothing);
     MeasuringControl measuring;

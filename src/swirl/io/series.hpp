@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "swirl/physics/mirrored.hpp"
 #include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
@@ -31,9 +32,16 @@ struct SnapshotSeries {
     double missing_energy = 0.0;
     /// False if the path of the container is known to have no M-frame.
     bool has_m_frame = true;
+    /// The container goes round clockwise.
+    bool clockwise = false;
 
     /// Null if these states are known in no frame. The result is valid until the next call.
     std::function<const PinnedColumns&(std::uint64_t frame)> pinned = nullptr;
+
+    /// The frame as measurements see it: a clockwise dish in its mirror image.
+    Snapshot observed(std::uint64_t k) const {
+        return clockwise ? mirrored(frame(k)) : frame(k);
+    }
 
     /// True if every frame has the same discs in the same order.
     bool same_discs() const { return breaks.empty(); }

@@ -113,20 +113,20 @@ RotationSample ClusterRotation::sample(const Snapshot& snapshot) {
     if (snapshot.on_floor || centre_.discs != static_cast<std::ptrdiff_t>(snapshot.size()))
         centre_ = centre_of(snapshot, *kernel_);
     const RotationSample sample = sample_of(snapshot, centre_, *kernel_);
-    event_.add(sample, snapshot.period);
+    event_.add(sample, swirl_sign_ * snapshot.period);
     return sample;
 }
 
 RotationSample ClusterRotation::sample_alone(const Snapshot& snapshot) {
     centre_ = centre_of(snapshot, *kernel_);
     const RotationSample sample = sample_of(snapshot, centre_, *kernel_);
-    event_.add(sample, snapshot.period);
+    event_.add(sample, swirl_sign_ * snapshot.period);
     return sample;
 }
 
 RotationSample ClusterRotation::sample_by_time(const Snapshot& snapshot) {
     const RotationSample sample = sample_of(snapshot, centre_of(snapshot, *kernel_), *kernel_);
-    time_.add(sample, snapshot.period);
+    time_.add(sample, swirl_sign_ * snapshot.period);
     return sample;
 }
 
@@ -150,7 +150,8 @@ void ClusterRotation::end_angles(const Snapshot& snapshot) {
     time_.individual = angles_.end(snapshot, centre) * time_.samples;
 }
 
-ClusterRotation::ClusterRotation(Width width) : kernel_(&kernel_for(width)) {}
+ClusterRotation::ClusterRotation(Width width, bool clockwise)
+    : kernel_(&kernel_for(width)), swirl_sign_(clockwise ? -1.0 : 1.0) {}
 
 void ClusterRotation::OpenBlock::close_into(BlockSeries& individual_series,
                                             BlockSeries& rigid_series, double weight_of_a_sample) {

@@ -1,5 +1,6 @@
-// How fast the cluster rotates about its own centre of mass. Lab frame; positive is rotation (in
-// the direction of the swirl), negative is counterrotation.
+// How fast the cluster rotates about its own centre of mass. Lab frame. Averages are positive with
+// the swirl and negative for counterrotation, in a clockwise dish, too; a RotationSample is
+// counter-clockwise.
 //
 //   individual   ϖ = (1/N) Σ_i ϖ_i,   ϖ_i = (r_i − r_cm) × (v_i − v_cm) / |r_i − r_cm|²
 //                the paper's (main text, definition of ϖ, in the limit of frames infinitely close)
@@ -127,7 +128,8 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
                         s.rigid_by_time_);
     }
 
-    explicit ClusterRotation(Width width = Width::best);
+    /// `clockwise`: the direction of the swirl in the snapshots to come.
+    explicit ClusterRotation(Width width = Width::best, bool clockwise = false);
 
     /// Call after every event, with the snapshot brought up to date.
     void follow(const Snapshot& snapshot, const Event& event) {
@@ -181,13 +183,14 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
 
   private:
     struct OpenBlock {
-        double individual = 0.0, rigid = 0.0, samples = 0.0, period = not_available;
+        double individual = 0.0, rigid = 0.0, samples = 0.0;
+        double period = not_available;  // below 0 if the swirl is clockwise
 
-        void add(const RotationSample& sample, double snapshot_period) {
+        void add(const RotationSample& sample, double period_with_sign) {
             individual += sample.individual;
             rigid += sample.rigid;
             samples += 1.0;
-            period = snapshot_period;
+            period = period_with_sign;
         }
         void close_into(BlockSeries& individual_series, BlockSeries& rigid_series,
                         double weight_of_a_sample);
@@ -201,6 +204,7 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     void follow_angles(const Snapshot& snapshot, const Event& event);
 
     const RotationKernel* kernel_;  // fits this processor's vector width
+    double swirl_sign_;             // 1, or −1 if the swirl is clockwise
     RotationCentre centre_{};       // value after the last wall impulse or path vertex
     SweptAngles angles_;
     OpenBlock event_, time_;

@@ -17,6 +17,7 @@
 #include "swirl/run/collapse_guard.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/measured_series.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/simd.hpp"
@@ -179,6 +180,7 @@ FrameSource simulated(const RunConfig& config, const std::atomic<bool>* stop) {
     source.container_radius = config.container_radius;
     source.amplitude = path_reach(config);
     source.period = config.period;
+    source.clockwise = config.turns_clockwise();
     source.caption = caption_of(config);
     source.parameters = parameter_labels(config);
     source.has_slip = config.floor;
@@ -280,6 +282,7 @@ FrameSource recorded(const SnapshotSeries& series, const std::string& caption) {
     source.container_radius = first.container_radius;
     source.amplitude = std::max(series.reach - first.container_radius, 0.0);
     source.period = first.period;
+    source.clockwise = series.clockwise;
     if (source.amplitude > 0.0) source.path = outline(circular_path(source.amplitude, 1.0));
     source.caption = caption;
     source.parameters = {fmt::format("$N$ = {}", first.size()),
@@ -304,7 +307,7 @@ FrameSource recorded(const std::string& file) try {
     auto reader = std::make_shared<TrajectoryReader>(file);
     if (reader->frames() == 0) throw Failure(fmt::format("'{}' has no frames.", file));
     const std::string name = std::filesystem::path(file).filename().string();
-    FrameSource source = recorded(series_of(reader), escaped(name));
+    FrameSource source = recorded(series_of_run(reader), escaped(name));
     // With the parameters of its run, the recording is titled like the run itself.
     if (const auto config = config_in(reader->provenance("parameters"))) {
         source.caption = caption_of(*config);

@@ -29,6 +29,7 @@ struct FrameSource {
     std::function<Playback()> open;
     std::vector<Vec2> path;  // path of C in the lab frame; empty if unknown
     double container_radius = 0.0, amplitude = 0.0, period = 0.0;
+    bool clockwise = false;               // direction of the path
     std::string caption;                  // "48 discs"
     std::vector<std::string> parameters;  // list of parameters (render/label.hpp)
     /// The range of a recording in periods. Empty: from 0 on, without end.

@@ -8,7 +8,7 @@ namespace swirl {
 namespace {
 
 /// A piece of text in one font face, size and height.
-struct Run {
+struct TextRun {
     std::string text;
     bool italic = false;
     int level = 0;  // −1 lowered, +1 raised
@@ -19,14 +19,14 @@ bool is_symbol(unsigned char c) {
     return c >= 0x80 || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-void append(std::vector<Run>& runs, char c, bool italic, int level) {
+void append(std::vector<TextRun>& runs, char c, bool italic, int level) {
     if (runs.empty() || runs.back().italic != italic || runs.back().level != level)
         runs.push_back({"", italic, level});
     runs.back().text += c;
 }
 
-std::vector<Run> parse(std::string_view text) {
-    std::vector<Run> runs;
+std::vector<TextRun> parse(std::string_view text) {
+    std::vector<TextRun> runs;
     bool math = false;
     int level = 0;
     for (std::size_t k = 0; k < text.size(); ++k) {
@@ -48,7 +48,7 @@ std::vector<Run> parse(std::string_view text) {
     return runs;
 }
 
-void select_face(cairo_t* cairo, const Run& run, const LabelStyle& style) {
+void select_face(cairo_t* cairo, const TextRun& run, const LabelStyle& style) {
     constexpr double subscript_scale = 0.72;
     cairo_select_font_face(cairo, "DejaVu Sans",
                            run.italic ? CAIRO_FONT_SLANT_ITALIC : CAIRO_FONT_SLANT_NORMAL,
@@ -56,11 +56,11 @@ void select_face(cairo_t* cairo, const Run& run, const LabelStyle& style) {
     cairo_set_font_size(cairo, style.size * (run.level != 0 ? subscript_scale : 1.0));
 }
 
-bool is_digit(const Run& run) {
+bool is_digit(const TextRun& run) {
     return run.text.size() == 1 && run.text[0] >= '0' && run.text[0] <= '9';
 }
 
-double advance_of(cairo_t* cairo, const Run& run, const LabelStyle& style) {
+double advance_of(cairo_t* cairo, const TextRun& run, const LabelStyle& style) {
     select_face(cairo, run, style);
     cairo_text_extents_t extents;
     const bool even = style.even_digits && is_digit(run);
@@ -68,11 +68,11 @@ double advance_of(cairo_t* cairo, const Run& run, const LabelStyle& style) {
     return extents.x_advance;
 }
 
-std::vector<Run> runs_of(std::string_view text, const LabelStyle& style) {
-    const std::vector<Run> runs = parse(text);
+std::vector<TextRun> runs_of(std::string_view text, const LabelStyle& style) {
+    const std::vector<TextRun> runs = parse(text);
     if (!style.even_digits) return runs;
-    std::vector<Run> single;
-    for (const Run& run : runs) {
+    std::vector<TextRun> single;
+    for (const TextRun& run : runs) {
         for (char c : run.text) {
             const bool digit = c >= '0' && c <= '9';
             if (digit || single.empty() || is_digit(single.back()) ||
@@ -85,9 +85,9 @@ std::vector<Run> runs_of(std::string_view text, const LabelStyle& style) {
 }
 
 /// Calls visit(run, left) for each run, with its face selected; the first starts at `x`.
-void for_each_run(cairo_t* cairo, const std::vector<Run>& runs, const LabelStyle& style, double x,
+void for_each_run(cairo_t* cairo, const std::vector<TextRun>& runs, const LabelStyle& style, double x,
                   auto&& visit) {
-    for (const Run& run : runs) {
+    for (const TextRun& run : runs) {
         const double advance = advance_of(cairo, run, style);
         double left = x;
         if (style.even_digits && is_digit(run)) {
@@ -105,24 +105,24 @@ void for_each_run(cairo_t* cairo, const std::vector<Run>& runs, const LabelStyle
 
 double label_width(const Canvas& canvas, std::string_view text, const LabelStyle& style) {
     double width = 0.0;
-    for (const Run& run : runs_of(text, style)) width += advance_of(canvas.cairo(), run, style);
+    for (const TextRun& run : runs_of(text, style)) width += advance_of(canvas.cairo(), run, style);
     return width;
 }
 
 double draw_label(const Canvas& canvas, std::string_view text, Vec2 position,
                   const LabelStyle& style) {
     cairo_t* cairo = canvas.cairo();
-    const std::vector<Run> runs = runs_of(text, style);
+    const std::vector<TextRun> runs = runs_of(text, style);
     const double width = label_width(canvas, text, style);
     double left = position.x;
     if (style.align == Align::center) left -= 0.5 * width;
     if (style.align == Align::right) left -= width;
-    const auto move_to_run = [&](const Run& run, double x) {
+    const auto move_to_run = [&](const TextRun& run, double x) {
         const double lift = run.level * (run.level > 0 ? 0.38 : 0.22) * style.size;
         cairo_move_to(cairo, x, position.y - lift);
     };
     if (style.halo) {
-        for_each_run(cairo, runs, style, left, [&](const Run& run, double x) {
+        for_each_run(cairo, runs, style, left, [&](const TextRun& run, double x) {
             move_to_run(run, x);
             cairo_text_path(cairo, run.text.c_str());
         });
@@ -132,7 +132,7 @@ double draw_label(const Canvas& canvas, std::string_view text, Vec2 position,
         cairo_stroke(cairo);
     }
     canvas.set(style.color, style.opacity);
-    for_each_run(cairo, runs, style, left, [&](const Run& run, double x) {
+    for_each_run(cairo, runs, style, left, [&](const TextRun& run, double x) {
         move_to_run(run, x);
         cairo_show_text(cairo, run.text.c_str());
     });

@@ -41,7 +41,7 @@ struct Survey {
 
     Curve scan(const FrameSource& source, Frame frame, double start, double end) {
         const Playback playback = source.open();
-        const double omega = 2.0 * pi / source.period;
+        const double omega = (source.clockwise ? -2.0 : 2.0) * pi / source.period;
         Curve curve;
         // One period earlier if the source has it, so that the running mean exists at `start`.
         const double begin = std::max(source.from.value_or(0.0), start - 1.0);
@@ -242,7 +242,9 @@ void Page::draw(const Canvas& canvas, std::span<const Moment> moments, double pe
                              .backdrop = moment.backdrop ? &*moment.backdrop : nullptr,
                              .ids = moment.now->ids,
                              .past_ids = pointers[k].past_ids};
-        if (appearance_.turned) content.turns = turns_until(curves_[k], start_, periods);
+        if (appearance_.turned)
+            content.turns = (sources_[k].clockwise ? -1.0 : 1.0) *
+                            turns_until(curves_[k], start_, periods);
         for (std::size_t f = 0; f < appearance_.frames.size(); ++f) contents.push_back(content);
     }
     sheet_->draw_frame(canvas, contents, curves_, periods);

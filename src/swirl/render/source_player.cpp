@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swirl/physics/mirrored.hpp"
+
 namespace swirl {
 
 namespace {
@@ -13,7 +15,8 @@ constexpr int trail_points = 96;  // points per period
 
 PinnedPlayback::PinnedPlayback(const FrameSource& source, double first)
     : playback_(source.open_interpolated ? source.open_interpolated() : source.open()),
-      to_(source.to) {
+      to_(source.to),
+      clockwise_(source.clockwise) {
     // One period earlier if the source has it: a disc counts as pinned only after eight frames at
     // the wall.
     const double begin = std::max(source.from.value_or(0.0), first - 1.0);
@@ -26,7 +29,7 @@ const std::vector<std::uint8_t>& PinnedPlayback::at(double periods) {
     for (; next_ <= last; ++next_) {
         const double time = static_cast<double>(next_) / frames_per_period;
         if (to_ && time > *to_) break;
-        view_.update(playback_(time));
+        view_.update(clockwise_ ? mirrored(playback_(time)) : playback_(time));
         pinned_.sample(view_);
     }
     return pinned_.pinned();

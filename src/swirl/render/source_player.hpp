@@ -44,6 +44,7 @@ class PinnedPlayback {
 
     Playback playback_;
     std::optional<double> to_;
+    bool clockwise_;
     PinnedLoose pinned_;
     MFrameView view_;
     std::int64_t next_;

@@ -11,27 +11,28 @@
 namespace swirl {
 
 /// Kinetic energy K in the lab frame, including spins, and the invariant K − ΩL with the angular
-/// momentum L about the swirl centre. The invariant is conserved on the exact circle without
-/// friction (docs/explanation/physics.md).
+/// momentum L about the swirl centre, positive with the swirl. The invariant is conserved on the
+/// exact circle without friction (docs/explanation/physics.md). `swirl_sign` is −1 for a clockwise
+/// swirl.
 struct Budget {
     double energy = 0.0, invariant = 0.0;
 };
 
-inline Budget budget_of(const Snapshot& s) {
+inline Budget budget_of(const Snapshot& s, double swirl_sign = 1.0) {
     double K = 0.0, L = 0.0;
     for (std::size_t i = 0; i < s.size(); ++i) {
         const Disc d = s.disc(i);
         K += kinetic_energy(d);
         L += d.mass * cross(s.position(i), d.velocity) + d.inertia * d.spin;
     }
-    return {K, K - 2.0 * pi / s.period * L};
+    return {K, K - 2.0 * pi / s.period * (swirl_sign * L)};
 }
 
-/// Mean spin of the discs, in units of Ω.
-inline double mean_spin(const Snapshot& s) {
+/// Mean spin of the discs, in units of Ω, positive with the swirl.
+inline double mean_spin(const Snapshot& s, double swirl_sign) {
     double sum = 0.0;
     for (const double spin : s.spin) sum += spin;
-    return sum / static_cast<double>(s.size()) * s.period / (2.0 * pi);
+    return swirl_sign * sum / static_cast<double>(s.size()) * s.period / (2.0 * pi);
 }
 
 }  // namespace swirl

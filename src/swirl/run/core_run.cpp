@@ -7,6 +7,7 @@
 #include <new>
 
 #include "swirl/measure/observation.hpp"
+#include "swirl/physics/mirrored.hpp"
 #include "swirl/run/budget.hpp"
 #include "swirl/run/collapse_guard.hpp"
 #include "swirl/run/particle_sizes.hpp"
@@ -42,7 +43,7 @@ CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, Observation
       warm_up_(config, tuning.width),
       events_to_check_(events_until_check()),
       watch_(simulation_.size(), mark()) {
-    const Budget start = budget_of(snapshot());
+    const Budget start = budget_of(snapshot(), config.swirl_sign());
     result_.config = config;
     result_.energy_at_start = start.energy;
     result_.invariant_at_start = start.invariant;
@@ -76,12 +77,12 @@ void CoreRun::sample_by_time(double clock) {
     SampleTimes& times = follows_angles() ? few_rotation_times_ : rotation_times_;
     while (times.next(snapshot_, path(), clock)) {
         rotation().sample_by_time(snapshot_);
-        warm_up_.spin().add(mean_spin(snapshot_));
-        if (series_.exists()) series_.sample(snapshot());
+        warm_up_.spin().add(mean_spin(snapshot_, config_.swirl_sign()));
+        if (series_.exists()) series_.sample(observed());
     }
     if (!samples_observations()) return;
     while (observation_times_.next(snapshot_, path(), clock)) {
-        const Snapshot& now = snapshot();
+        const Snapshot& now = observed();
         if (observes()) observation_->sample(now);
         series_.sample_measured(now);
     }
@@ -94,9 +95,22 @@ void CoreRun::pass_event() {
     if (by_event_.samples_every_event() || period_ended) rotation().follow(snapshot_, event_);
     by_event_.count(1);
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
-    if (observes_events()) observation_->sample(event_, snapshot());
-    if (series_.samples_events()) series_.sample_measured(event_, snapshot());
+    if (observes_events() || series_.samples_events()) pass_to_measurements();
     if (period_ended) begin_period();
+}
+
+void CoreRun::pass_to_measurements() {
+    const Event event = config_.turns_clockwise() ? mirrored(event_) : event_;
+    const Snapshot& after = observed();
+    if (observes_events()) observation_->sample(event, after);
+    if (series_.samples_events()) series_.sample_measured(event, after);
+}
+
+const Snapshot& CoreRun::observed() {
+    if (!config_.turns_clockwise()) return snapshot();
+    mirrored_ = snapshot();
+    mirror(mirrored_);
+    return mirrored_;
 }
 
 /// True if a measurement needs samples now; otherwise the sample times of the observation are
@@ -257,7 +271,7 @@ RunResult CoreRun::result() {
     result_.steady_spin = steady_state_of(warm_up_.spin().series());
     result_.events = simulation_.events();
     result_.periods = periods();
-    const Budget end = budget_of(snapshot());
+    const Budget end = budget_of(snapshot(), config_.swirl_sign());
     result_.energy = end.energy;
     result_.invariant = end.invariant;
     result_.state_hash = simulation_.state_hash();

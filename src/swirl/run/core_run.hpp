@@ -134,6 +134,9 @@ class CoreRun {
     std::optional<std::string> overlap_problem() const;
     void sample_by_event();
     std::uint64_t execute_span(double due, std::uint64_t maximum);
+    /// What measurements see: a clockwise dish in its mirror image.
+    const Snapshot& observed();
+    void pass_to_measurements();
     void update_flights();
     void update_snapshot();
     void sample_by_time(double clock);
@@ -149,7 +152,7 @@ class CoreRun {
     const Tuning tuning_;
     Simulation simulation_;
     RampSchedule ramps_;
-    Snapshot snapshot_, synchronised_;
+    Snapshot snapshot_, synchronised_, mirrored_;
     Event event_;
     SampleTimes rotation_times_, few_rotation_times_, observation_times_;
     EventSampler by_event_;  // the rotation's samples by event

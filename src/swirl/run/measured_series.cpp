@@ -98,7 +98,9 @@ SnapshotSeries series_of_run(const std::shared_ptr<TrajectoryReader>& reader) {
     const std::string parameters = reader->provenance("parameters");
     if (parameters.empty()) return series;
     try {
-        series.has_m_frame = has_m_frame(resolve(parameters_in(parameters)));
+        const RunConfig config = resolve(parameters_in(parameters));
+        series.has_m_frame = has_m_frame(config);
+        series.clockwise = config.turns_clockwise();
     } catch (const UsageError&) {
         // The recording of another version, whose paths all have an M-frame.
     }
@@ -131,7 +133,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     for (std::uint64_t k = 0; k < series.frames; ++k) {
         if (control.stop && control.stop->load())
             throw Interrupted("stopped before the last frame.");
-        const Snapshot s = series.frame(k);
+        const Snapshot s = series.observed(k);
         const bool new_discs = next_break != series.breaks.end() && *next_break == k;
         if (new_discs) ++next_break;
         if (s.time() < skip * s.period) continue;

@@ -155,8 +155,7 @@ void require_m_frame_for(const std::vector<std::string>& names) {
         if (find_measurement(name)->needs_m_frame)
             throw UsageError(fmt::format(
                 "--measure has '{}' in its list, but it is defined in the M-frame, which this path "
-                "does not have.\nhint: use {}. The M-frame needs a counter-clockwise path that is "
-                "nearly a circle.",
+                "does not have.\nhint: use {}. The M-frame needs a path that is nearly a circle.",
                 name, fmt::join(possible, ", ")));
 }
 

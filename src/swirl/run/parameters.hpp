@@ -37,6 +37,14 @@ struct PathCurve {
     std::int64_t x_cycles = 1, y_cycles = 1;  // Lissajous figure: cycles per period
     double y_lead = 0.0;                      // Lissajous figure: degrees
     std::vector<PathPoint> points;            // not yet scaled to amplitude and period
+
+    /// True if the points go round clockwise: their polygon has a negative area.
+    bool turns_clockwise() const {
+        double twice_area = 0.0;
+        for (std::size_t k = 0; k + 1 < points.size(); ++k)
+            twice_area += cross(points[k].at, points[k + 1].at);
+        return twice_area < 0.0;
+    }
 };
 
 /// The paper's experiment: spheres of r = 3 mm in a container of R = 25.5 mm, with Ω = 11.81 /s.
@@ -158,6 +166,11 @@ struct RunConfig {
         return nullptr;
     }
     double omega() const { return 2.0 * pi / period; }
+    /// The direction in which the container goes round. A path without one counts as
+    /// counter-clockwise, and its mirror image as clockwise.
+    bool turns_clockwise() const { return clockwise != curve.turns_clockwise(); }
+    /// The sign of a counter-clockwise rotation that is counted with the swirl.
+    double swirl_sign() const { return turns_clockwise() ? -1.0 : 1.0; }
     /// Parameters of the floor get their defaults, since they must not be set without a floor.
     void remove_floor();
     /// Discs on a floor are coins.

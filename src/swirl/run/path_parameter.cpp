@@ -322,10 +322,11 @@ double path_reach(const RunConfig& c) {
 
 bool has_m_frame(const RunConfig& c) {
     if (c.amplitude == 0.0) return true;
-    if (c.clockwise) return false;
     if (c.path == PathShape::polygon || c.path == PathShape::circle) return true;
     if (c.path == PathShape::ellipse) return c.curve.axis_ratio == 1.0;
-    return c.path == PathShape::points && is_nearly_circular(make_path(c), c.amplitude);
+    if (c.path != PathShape::points) return false;
+    const ContainerPath path = make_path(c);
+    return is_nearly_circular(c.turns_clockwise() ? mirrored(path) : path, c.amplitude);
 }
 
 void keep_path_or_sides(ParameterTexts& texts, const ParameterTexts& command_line) {

@@ -31,8 +31,8 @@ std::int64_t path_vertices(const RunConfig& config);
 /// Largest distance of the container's centre from the swirl centre.
 double path_reach(const RunConfig& config);
 
-/// The M-frame exists if the container moves counter-clockwise round the swirl centre at a nearly
-/// constant distance and angular velocity: on the polygon, on the circle, and on a path from points
+/// The M-frame exists if the container moves round the swirl centre at a nearly constant distance
+/// and angular velocity: on the polygon, on the circle, and on a path from points
 /// that is within 10 % of such a circle. A container at rest has one by convention.
 bool has_m_frame(const RunConfig& config);
 

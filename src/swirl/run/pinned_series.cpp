@@ -43,7 +43,7 @@ void PinnedSeries::find(std::uint64_t begin) {
     std::vector<Stay> stays;
     MFrameView view;
     for (std::uint64_t k = first_; k < last; ++k) {
-        view.update(series_.frame(k));
+        view.update(series_.observed(k));
         const std::size_t n = view.size();
         const bool breaks =
             std::binary_search(series_.breaks.begin(), series_.breaks.end(), k) || k == first_;

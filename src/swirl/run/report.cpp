@@ -38,7 +38,7 @@ bool energy_grows_without_bound(const RunConfig& c) {
 std::string energy_warning(const RunResult& r) {
     const double growth = r.invariant - r.invariant_at_start;
     const double per_period = r.periods > 0.0 ? growth / r.periods : 0.0;
-    if (r.config.path == PathShape::circle && !r.config.clockwise)
+    if (r.config.path == PathShape::circle)
         return fmt::format(
             "without friction, K − ΩL (kinetic energy K, angular momentum L) is conserved on the "
             "circle: it was {:.6g} at the start and changed by {:.1e}.",
@@ -272,19 +272,24 @@ std::string series_text(const PeriodSeries& series) {
     return text;
 }
 
+const char* turning(bool clockwise) {
+    return clockwise ? "rotate clockwise" : "rotate counter-clockwise";
+}
+
 int direction_of(const Estimate& e) {
     constexpr double rounding = 1e-12;
     const double resolution = std::isnan(e.error) ? rounding : std::max(2.0 * e.error, rounding);
     return e.mean > resolution ? 1 : e.mean < -resolution ? -1 : 0;
 }
 
-std::string rotation_words(const Estimate& e, bool with_a_swirl) {
+std::string rotation_words(const Estimate& e, bool with_a_swirl, bool clockwise) {
     if (std::isnan(e.mean)) return "have no rotation about their own centre";
     switch (direction_of(e)) {
         case 1:
-            return with_a_swirl ? "rotate with the swirl" : "rotate counter-clockwise";
+            return with_a_swirl ? "rotate with the swirl" : turning(clockwise);
         case -1:
-            return with_a_swirl ? "rotate against the swirl (counterrotation)" : "rotate clockwise";
+            return with_a_swirl ? "rotate against the swirl (counterrotation)"
+                                : turning(!clockwise);
         default:
             return "stall, no rotation beyond the error";
     }
@@ -314,7 +319,8 @@ std::string headline(const RunResult& r) {
         return fmt::format("{} {}s completed no whole period{}, so there are no averages.",
                            r.config.discs, body, r.warmup > 0 ? " after the warm-up" : "");
     const std::string motion =
-        fmt::format("{} {}s {}", r.config.discs, body, rotation_words(e, has_m_frame(r.config)));
+        fmt::format("{} {}s {}", r.config.discs, body,
+                    rotation_words(e, has_m_frame(r.config), r.config.turns_clockwise()));
     if (std::isnan(e.mean)) return motion + ".";
     const std::string rate = "ϖ/Ω = " + with_error(e);
     if (!r.config.ramps.empty())
@@ -363,7 +369,8 @@ std::string report(const RunResult& r, bool verbose) {
     const bool has_averages = r.config.discs > 1 && r.has_whole_period();
     if (has_averages && !has_m_frame(r.config))
         text += report_line(
-            "Ω", "2π/T, only a unit, because this path has no M-frame; ϖ > 0 is counter-clockwise");
+            "Ω", fmt::format("2π/T, only a unit, because this path has no M-frame; ϖ > 0 is {}",
+                             r.config.turns_clockwise() ? "clockwise" : "counter-clockwise"));
     if (const std::string rounded = rounded_share_text(r.config); !rounded.empty())
         text += report_line("mixture", rounded);
     if (has_averages) text += rigid_body_line(corrected(r.rotation));

@@ -15,7 +15,9 @@ namespace swirl {
 
 struct WarmUp {
     WarmUp(const RunConfig& config, Width width)
-        : is_over(config.warmup == 0), rotation_before(width), rotation_after(width) {}
+        : is_over(config.warmup == 0),
+          rotation_before(width, config.turns_clockwise()),
+          rotation_after(width, config.turns_clockwise()) {}
 
     ClusterRotation& rotation() { return is_over ? rotation_after : rotation_before; }
     BlockMean& spin() { return is_over ? spin_after : spin_before; }

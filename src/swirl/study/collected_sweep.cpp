@@ -258,9 +258,9 @@ Table crossings_in(const SweepPlan& plan, const CollectedSweep& collected) {
             groups.push_back(group);
             require_crossing(config);
         }
-        const double sign = swirl_sign(config), discs = double(config.discs);
+        const double discs = double(config.discs);
         for (std::size_t r = 0; r < all.size(); ++r)
-            all[r].push_back({discs, sign * row.rotation[r].mean, row.rotation[r].error});
+            all[r].push_back({discs, row.rotation[r].mean, row.rotation[r].error});
     }
     std::vector<std::string> columns = others;
     for (const std::string& name : crossing_columns()) columns.push_back(name);

@@ -62,7 +62,6 @@ class Searcher {
             config.events = settings_.config.events << task.doublings;
             config.seed = search_seed(config, task.replica);
             SearchRun run = long_enough_run(config, task);
-            for (Estimate& rate : run.rotation) rate.mean *= swirl_sign(config);
             report_progress(run.events);
             return {run, ""};
         } catch (const Failure& failure) {
@@ -188,9 +187,7 @@ void validate(const CrossingSettings& settings) {
 }
 
 void require_crossing(const RunConfig& config) {
-    RunConfig mirrored = config;
-    mirrored.clockwise = false;
-    if (!has_m_frame(mirrored))
+    if (!has_m_frame(config))
         throw UsageError(
             "on this path there is no swirl with which the discs could rotate or counterrotate, so "
             "there is no N_c.\nhint: use a path that is nearly a circle.");

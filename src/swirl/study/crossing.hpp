@@ -127,8 +127,6 @@ void require_crossing(const RunConfig& config);
 /// number.
 void reject_listed_particles(const ParameterTexts& given);
 
-/// The sign of a rotation with the swirl: −1 on a clockwise path.
-inline double swirl_sign(const RunConfig& config) { return config.clockwise ? -1.0 : 1.0; }
 
 /// Validates the settings and searches. Throws StoppedSearch when stopped. The result has no points
 /// if every run failed.

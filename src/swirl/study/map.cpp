@@ -58,7 +58,6 @@ class MapResults {
             const MapTarget& target = *plan_.map;
             const std::string& name = target.is_of_crossing() ? target.rate : target.of;
             run.value = result.quantity(0, name);
-            if (target.is_of_crossing()) run.value.mean *= swirl_sign(plan_.config(point));
             run.periods = result.periods;
             for (const MeasuredNumber& number : result.quantities)
                 if (number.name == name) run.direction = number.direction;
