@@ -156,6 +156,7 @@ std::unique_ptr<Recording> recording_of(const std::shared_ptr<const Frames>& fra
     SnapshotSeries series;
     series.frames = frames->size();
     series.frame = [frames](std::uint64_t k) { return frames->frame(k); };
+    if (series.frames > 0) series.units = units_in(series.frame(0));
     return std::make_unique<Recording>(std::move(series));
 }
 

@@ -18,7 +18,7 @@ py::list reports_in_python(const MeasurementReports& reports) {
         for (const ReportTable& table : report.tables) {
             py::list columns;
             for (const ReportColumn& column : table.columns)
-                columns.append(py::make_tuple(column.name, column.unit));
+                columns.append(py::make_tuple(column.name, column.unit()));
             tables.append(py::make_tuple(
                 table.name, table.description, columns,
                 owned_array(table.values, {static_cast<py::ssize_t>(table.rows()),

@@ -20,6 +20,7 @@
 #include "swirl/run/run.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/statistics/block_average.hpp"
+#include "swirl/statistics/few_blocks.hpp"
 
 namespace swirl::python {
 namespace {
@@ -158,7 +159,7 @@ py::tuple estimates(const Numbers& sums, const Numbers& weights) {
         BlockSeries series;
         for (std::size_t b = 0; b < blocks; ++b)
             series.add(sums.data()[b * columns + c], weights.data()[b * columns + c]);
-        const Estimate e = series.estimate();
+        const Estimate e = corrected(series.estimate());
         means.push_back(e.mean);
         errors.push_back(e.error);
         effective.push_back(e.effective_samples);

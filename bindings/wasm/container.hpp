@@ -46,7 +46,7 @@ class Container {
     Container(const RunConfig& config, const InitialState& begin, std::vector<std::string> measured)
         : config_(config),
           measured_(std::move(measured)),
-          observation_(config.container_radius, config.period, measured_),
+          observation_(dish_of(config), measured_),
           run_(endless(config), begin, measured_.empty() ? nullptr : &observation_),
           shown_(run_.stored_snapshot()),
           turned_times_(rotation_samples, config.period),
@@ -76,8 +76,7 @@ class Container {
     /// simulation. They are taken only while they are shown, from the next period on.
     void show_maps(bool shown) {
         if (shown && !maps_)
-            maps_.emplace(config_.container_radius, config_.period,
-                          std::vector<std::string>{"density", "flow", "profile"});
+            maps_.emplace(dish_of(config_), std::vector<std::string>{"density", "flow", "profile"});
         if (shown && !maps_are_shown_) {
             maps_begin_ = run_.stored_snapshot().periods + 1;
             pinned_ = PinnedFrames();

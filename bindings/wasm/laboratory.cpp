@@ -445,7 +445,7 @@ EXPORTED(state_hash) std::uint64_t state_hash() { return simulated->simulation()
 /// discs and the rigid-body rate by time in blocks, with the warm-up; the number of blocks in the
 /// warm-up; the periods per block in the warm-up and after it.
 EXPORTED(rotation) std::uint32_t rotation() {
-    const RotationEstimates e = simulated->rotation().estimates();
+    const RotationEstimates e = corrected(simulated->rotation().estimates());
     std::string blocks, rigid_blocks;
     const auto add = [](std::string& list, const BlockSeries& series) {
         for (const double mean : series.block_means())
@@ -604,6 +604,7 @@ EXPORTED(search) std::uint32_t search(double from, double to, double tolerance, 
 EXPORTED(result) std::uint32_t result() {
     simulated->pass_found_event();
     const RunResult r = simulated->result();
+    const MeasuredUnits units = units_of(r.config);
     JsonObject given, events, warmup, rotation, steady, others, measured;
     for (const Parameter& p : run_parameters) {
         if (!p.is_written()) continue;
@@ -631,19 +632,21 @@ EXPORTED(result) std::uint32_t result() {
     std::string joined;
     for (const std::string& warning : warnings(r))
         joined += (joined.empty() ? "" : ",") + json_text(warning);
-    return answer(JsonObject()
-                      .add("format", fmt::format("{}", result_format))
-                      .add("config", given.text())
-                      .add("complete", "true")
-                      .add("events", events.text())
-                      .add("periods", r.periods)
-                      .add("warmup", warmup.text())
-                      .add("rotation", rotation.text())
-                      .add("steady_state", steady.text())
-                      .add(others)
-                      .add("state_hash", json_text(fmt::format("{:016x}", r.state_hash)))
-                      .add("warnings", '[' + joined + ']')
-                      .add("generator", json_text(random_generator))
-                      .add("measured", measured.text())
-                      .text());
+    return answer(
+        JsonObject()
+            .add("format", fmt::format("{}", result_format))
+            .add("config", given.text())
+            .add("units", JsonObject().add("r", units.r).add("v", units.v).add("m", units.m).text())
+            .add("complete", "true")
+            .add("events", events.text())
+            .add("periods", r.periods)
+            .add("warmup", warmup.text())
+            .add("rotation", rotation.text())
+            .add("steady_state", steady.text())
+            .add(others)
+            .add("state_hash", json_text(fmt::format("{:016x}", r.state_hash)))
+            .add("warnings", '[' + joined + ']')
+            .add("generator", json_text(random_generator))
+            .add("measured", measured.text())
+            .text());
 }

@@ -286,20 +286,22 @@ def read_table():
     import pandas
     table = pandas.read_csv(FILE, float_precision="round_trip")
     assert len(table) == DISCS * FRAMES
+    # The units are those of the first disc, and the speed of the container in the first frame.
+    r, v, m = SIZES[0], 0.5, MASSES[0]
     for k, frame in table.groupby("frame"):
         x, y, vx, vy, angle, spin = expected(k)
         same(frame["disc"], np.arange(DISCS), "disc")
-        same(frame["time (r/v)"], np.full(DISCS, time(k)), "time")
-        same(frame["container x (r)"], np.full(DISCS, 0.1 * k), "container")
-        for name, values in {"x (r)": x, "y (r)": y, "v_x (v)": vx, "v_y (v)": vy,
-                             "angle (rad)": angle, "spin (v/r)": spin, "radius (r)": SIZES,
-                             "mass (m)": MASSES,
-                             "moment of inertia (m r²)": 10.0 + np.arange(DISCS)}.items():
-            same(frame[name], values, name)
+        almost(frame["time (r/v)"], np.full(DISCS, time(k)) * v / r, "time")
+        almost(frame["container x (r)"], np.full(DISCS, 0.1 * k) / r, "container")
+        for name, values in {"x (r)": x / r, "y (r)": y / r, "v_x (v)": vx / v, "v_y (v)": vy / v,
+                             "angle (rad)": angle, "spin (v/r)": spin * r / v, "radius (r)": SIZES / r,
+                             "mass (m)": MASSES / m,
+                             "moment of inertia (m r²)": (10.0 + np.arange(DISCS)) / (m * r ** 2)}.items():
+            almost(frame[name], values, name)
         assert ("turned w" in table.columns) == SPHERES
         if SPHERES:
             for name, values in zip(("spin x (v/r)", "spin y (v/r)"), rolling(k)):
-                same(frame[name], values, name)
+                almost(frame[name], values * r / v, name)
             almost(frame[["turned " + part for part in "wxyz"]], turned(k), "turned")
 
 

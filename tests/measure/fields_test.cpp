@@ -12,7 +12,7 @@ namespace {
 
 std::size_t index_of(std::string_view name) {
     for (std::size_t k = 0; k < field_quantities.size(); ++k)
-        if (field_quantities[k].name == name) return k;
+        if (name == field_quantities[k]->key()) return k;
     ADD_FAILURE() << "no field " << name;
     return 0;
 }
@@ -193,7 +193,7 @@ TEST(Fields, MergedEqualOneLongRunAndManyPeriodsAreGrouped) {
         EXPECT_LT(a[0].blocks, FieldGrid::max_groups);
         EXPECT_GE(a[0].blocks, FieldGrid::max_groups / 2);
         for (std::size_t k = 0; k < a.size(); ++k) {
-            EXPECT_NEAR(a[k].mean, b[k].mean, 1e-13) << field_quantities[k].name;
+            EXPECT_NEAR(a[k].mean, b[k].mean, 1e-13) << field_quantities[k]->key();
             // The error of about ten groups scatters by a fifth; that of few collisions scatters
             // more.
             if (a[k].error > 0.0) {

@@ -41,7 +41,7 @@ void observe(Observation& observation, int periods, int per_period) {
 
 Observation observation_of(std::vector<std::string> names) {
     const Snapshot s = random_discs(12, 7);
-    return Observation(s.container_radius, s.period, std::move(names));
+    return Observation({s.container_radius, s.period}, std::move(names));
 }
 
 TEST(Observation, NeedsFollowFromTheFunctionsOfTheClass) {
@@ -87,7 +87,7 @@ TEST(Observation, UsesEveryFrameAndEvery32ndEvent) {
 // or one, and could not have the error of five.
 TEST(Observation, UsesEveryFrameIfThereAreFewerThan511) {
     const Snapshot s = random_discs(12, 7);
-    Observation observation(s.container_radius, s.period,
+    Observation observation({s.container_radius, s.period},
                             {"order", "packing", "slip", "pair_correlation", "contact_network"},
                             true, 1.0);
     for (int period = 0; period < 5; ++period) {
@@ -121,7 +121,7 @@ TEST(Observation, UsesEveryFrameIfThereAreFewerThan511) {
 TEST(Observation, ValuesAreMissingBelowTheFrameRateThatTheyNeed) {
     const Snapshot s = random_discs(12, 7);
     const auto known = [&](double rate) {
-        Observation observation(s.container_radius, s.period, everything(), true, rate);
+        Observation observation({s.container_radius, s.period}, everything(), true, rate);
         observe(observation, 4, static_cast<int>(rate));
         std::set<std::string> names;
         for (const auto& [name, report] : observation.report())
@@ -161,7 +161,7 @@ TEST(Observation, RowsAndColumnsAreCompleteWithoutSamples) {
         for (const ReportTable& table : report.tables)
             for (const ReportColumn& column : table.columns) {
                 EXPECT_NE(column.name, "") << name;
-                EXPECT_STRNE(column.unit, "") << column.name;
+                EXPECT_STRNE(column.unit(), "") << column.name;
             }
     }
 }
@@ -182,11 +182,11 @@ std::vector<double> numbers_in(const Report& report) {
 TEST(Observation, AMeasurementReportsTheSameAloneAndAmongAll) {
     for (const bool same_discs : {true, false}) {
         const Snapshot s = random_discs(12, 7);
-        Observation all(s.container_radius, s.period, everything(), same_discs);
+        Observation all({s.container_radius, s.period}, everything(), same_discs);
         observe(all, 3, 210);
         const auto among_all = all.report();
         for (const std::string& name : everything()) {
-            Observation one(s.container_radius, s.period, {name}, same_discs);
+            Observation one({s.container_radius, s.period}, {name}, same_discs);
             observe(one, 3, 210);
             const auto alone = one.report();
             EXPECT_THAT(numbers_in(report_of(alone, name)),
@@ -216,7 +216,7 @@ TEST(PinnedFrames, EarlierIsTheFrameOfSevenSamplesAgo) {
 
 TEST(Observation, WithoutTracksCellsAreThoseOfThePresentFrame) {
     const Snapshot s = random_discs(12, 7);
-    Observation observation(s.container_radius, s.period, {"packing"}, false);
+    Observation observation({s.container_radius, s.period}, {"packing"}, false);
     observe(observation, 2, 100);
     const auto reports = observation.report();
     const Report& packing = report_of(reports, "packing");

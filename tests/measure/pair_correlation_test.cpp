@@ -25,7 +25,7 @@ TEST(PairCorrelation, DistancesInACircleHaveTheirMean) {
 Snapshot ideal_gas(std::size_t n, std::uint64_t seed) { return random_discs(n, seed, 0.3); }
 
 TEST(PairCorrelation, IsOneForAnIdealGas) {
-    PairCorrelation correlation(R, 1);
+    PairCorrelation correlation({R, 1.0}, 1);
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         correlation.sample(ideal_gas(60, seed));
         correlation.close_block();
@@ -47,7 +47,7 @@ TEST(PairCorrelation, IsOneForAnIdealGas) {
 }
 
 TEST(PairCorrelation, SumsToOneOverAllDistances) {
-    PairCorrelation correlation(R, 1);
+    PairCorrelation correlation({R, 1.0}, 1);
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         correlation.sample(ideal_gas(30, seed));
         correlation.close_block();
@@ -69,7 +69,7 @@ TEST(PairCorrelation, ContactIsTheParabolaThroughThreeCells) {
     const double density = 2.0 / (pi * 0.25 * R * R);
     constexpr double weights[] = {11.0 / 6.0, -7.0 / 6.0, 2.0 / 6.0, 0.0};
     for (int cell = 0; cell < 4; ++cell) {
-        PairCorrelation correlation(R, 1);
+        PairCorrelation correlation({R, 1.0}, 1);
         Snapshot s = empty_container(0.1);
         const double distance = 2.04 + 0.1 * cell;
         for (const double x : {-0.5 * distance, 0.5 * distance})
@@ -84,7 +84,7 @@ TEST(PairCorrelation, ContactIsTheParabolaThroughThreeCells) {
 }
 
 TEST(PairCorrelation, IsNaNBeyondTheContainerAndForASingleDisc) {
-    PairCorrelation correlation(R, 1);
+    PairCorrelation correlation({R, 1.0}, 1);
     EXPECT_TRUE(std::isnan(correlation.g(30).mean));
     Snapshot one = empty_container();
     add_disc(one, one.container_centre, {0.0, 0.0});

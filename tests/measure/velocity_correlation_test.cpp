@@ -13,7 +13,7 @@ namespace {
 // −½ Σ δu_i², for each component: −1/(N − 1) of its mean square, at every distance.
 TEST(VelocityCorrelation, IndependentVelocitiesHaveTheValueOfTheirSumRule) {
     constexpr std::size_t n = 20;
-    VelocityCorrelation correlation(R, 1);
+    VelocityCorrelation correlation({R, 1.0}, 1);
     for (std::uint64_t seed = 1; seed <= 500; ++seed) {
         correlation.sample(random_discs(n, seed, 0.2));
         correlation.close_block();
@@ -41,7 +41,7 @@ Snapshot two_discs(const Vec2& a, const Vec2& b, double spin_a, double spin_b) {
 
 TEST(VelocityCorrelation, GearsHaveMinusOneAndARigidBodyOne) {
     for (const double sign : {-1.0, 1.0}) {
-        VelocityCorrelation correlation(R, 1);
+        VelocityCorrelation correlation({R, 1.0}, 1);
         correlation.sample(two_discs({0.0, 0.0}, {0.0, 0.0}, 0.7, sign * 0.7));
         correlation.close_block();
         EXPECT_DOUBLE_EQ(row_of(correlation, "near_spin").mean, sign);
@@ -50,7 +50,7 @@ TEST(VelocityCorrelation, GearsHaveMinusOneAndARigidBodyOne) {
 }
 
 TEST(VelocityCorrelation, DistinguishesAlongAndAcross) {
-    VelocityCorrelation correlation(R, 1);
+    VelocityCorrelation correlation({R, 1.0}, 1);
     Snapshot s = two_discs({0.3, 0.5}, {0.3, 0.5}, 1.0, 3.0);
     add_disc(s, s.container_centre + Vec2{0.0, 6.0}, s.container_velocity + Vec2{-0.6, 0.7});
     correlation.sample(s);
@@ -60,7 +60,7 @@ TEST(VelocityCorrelation, DistinguishesAlongAndAcross) {
     EXPECT_NEAR(row_of(correlation, "near_across").mean, 1.0, 1e-12);
     EXPECT_NEAR(row_of(correlation, "near_spin").mean, 3.0 / 5.0, 1e-14);
     // Opposite velocities along the line: −1; nothing across it.
-    VelocityCorrelation opposite(R, 1);
+    VelocityCorrelation opposite({R, 1.0}, 1);
     opposite.sample(two_discs({0.3, 0.0}, {-0.3, 0.0}, 0.0, 0.0));
     opposite.close_block();
     EXPECT_NEAR(row_of(opposite, "near_along").mean, -1.0, 1e-14);
@@ -69,7 +69,7 @@ TEST(VelocityCorrelation, DistinguishesAlongAndAcross) {
 
 TEST(VelocityCorrelation, DoesNotDependOnTheVelocityOfTheContainer) {
     const auto value = [](double u) {
-        VelocityCorrelation correlation(R, 1);
+        VelocityCorrelation correlation({R, 1.0}, 1);
         Snapshot s = empty_container(u);
         const MFrame f = m_frame(s);
         for (const double x : {-2.0, 0.1, 2.2})
@@ -83,7 +83,7 @@ TEST(VelocityCorrelation, DoesNotDependOnTheVelocityOfTheContainer) {
 }
 
 TEST(VelocityCorrelation, IsNaNForMissingSpinsOnly) {
-    VelocityCorrelation correlation(R, 1);
+    VelocityCorrelation correlation({R, 1.0}, 1);
     correlation.sample(two_discs({0.3, 0.0}, {0.1, 0.0}, not_available, 1.0));
     correlation.close_block();
     EXPECT_TRUE(std::isnan(row_of(correlation, "near_spin").mean));

@@ -187,7 +187,7 @@ InnerMean inner_mean(const FieldGrid& grid) {
     }
     const auto value = [&](const auto& fields, std::string_view name) {
         for (std::size_t k = 0; k < field_quantities.size(); ++k)
-            if (field_quantities[k].name == name) return fields[k].mean / n;
+            if (name == field_quantities[k]->key()) return fields[k].mean / n;
         return not_available;
     };
     for (std::size_t cell = 0; cell < grid.grid().cells(); ++cell) {

@@ -57,7 +57,7 @@ class HardDiscs : public ::testing::TestWithParam<double> {};
 TEST_P(HardDiscs, HaveHendersonsPairCorrelationAtContact) {
     constexpr std::size_t n = 800;
     const double packing = GetParam();
-    PairCorrelation correlation(std::sqrt(n / packing), 1);
+    PairCorrelation correlation({std::sqrt(n / packing), 1.0}, 1);
     sample_gas(
         n, packing, 1200, 1.0, [&](const Snapshot& s) { correlation.sample(s); },
         [&] { correlation.close_block(); });
@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(PackingFractions, HardDiscs, ::testing::Values(0.1, 0.3
 TEST(IdealGas, HasMaxwellsDistributionAndIndependentVelocities) {
     constexpr std::size_t n = 500;
     VelocityDistribution distribution(1);
-    VelocityCorrelation correlation(std::sqrt(n / 0.2), 1);
+    VelocityCorrelation correlation({std::sqrt(n / 0.2), 1.0}, 1);
     sample_gas(
         n, 0.2, 600, 2.0,
         [&](const Snapshot& s) {

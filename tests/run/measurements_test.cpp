@@ -65,106 +65,6 @@ TEST(Measurements, DensityTimesAreaIsTheNumberOfDiscs) {
     EXPECT_NEAR(sum(density["by_event"]) * area, 30.0, 1e-9);
 }
 
-/// The factor of a quantity with this unit, such as "m v²/r³", if those of r, v and m are given.
-double factor_of(std::string_view unit, double r, double v, double m) {
-    double factor = 1.0;
-    bool divides = false;
-    if (unit.starts_with("rad")) return 1.0;
-    for (std::size_t k = 0; k < unit.size(); ++k) {
-        if (unit[k] == '/') divides = true;
-        const double base = unit[k] == 'r' ? r : unit[k] == 'v' ? v : unit[k] == 'm' ? m : 1.0;
-        const std::string_view next = unit.substr(k + 1, 2);
-        const int power = next == "²" ? 2 : next == "³" ? 3 : 1;
-        factor *= std::pow(base, divides ? -power : power);
-    }
-    return factor;
-}
-
-/// The same run in a container of twice the size, with twice the frequency and 32 times the masses:
-/// r is 2, v is 4, and every number is that of the first run times a power of two.
-RunConfig in_other_units(RunConfig config) {
-    config.radius *= 2.0;
-    config.container_radius *= 2.0;
-    config.amplitude *= 2.0;
-    config.period *= 0.5;
-    config.contact_duration *= 0.5;
-    if (config.floor) config.gravity *= 8.0;
-    config.mass *= 32.0;
-    config.inertia *= 32.0 * 4.0;
-    return config;
-}
-/// The placement stops at an absolute distance, so the second run starts from the discs of the first.
-InitialState in_other_units(const InitialState& first, const RunConfig& config) {
-    InitialState scene = make_initial_state(config);
-    for (std::size_t i = 0; i < scene.discs.size(); ++i) {
-        scene.discs[i].position = 2.0 * first.discs[i].position;
-        scene.discs[i].velocity = 4.0 * first.discs[i].velocity;
-    }
-    return scene;
-}
-
-MeasurementReports reports_of(const InitialState& scene, const RunConfig& config) {
-    Observation observation = observation_of(config, everything());
-    Simulation simulation(scene);
-    Snapshot s = simulation.snapshot();
-    SampleTimes times(samples_per_period, config.period);
-    while (simulation.periods() < *config.periods) {
-        const Event event = simulation.step();
-        while (times.next(s, scene.path, event.clock)) observation.sample(s);
-        simulation.refresh(s, event);
-        observation.sample(event, s);
-        if (simulation.periods() > event.periods) observation.close_block();
-    }
-    return observation.report();
-}
-
-// A number without its unit, such as a length that should be one of mean radii, changes here.
-TEST(Measurements, FollowTheirUnits) {
-    RunConfig discs = thirty_periods(),
-              spheres = resolve({{"preset", "experiment"}, {"discs", "30"}});
-    discs.restitution = 0.95;
-    spheres.periods = 12;
-    for (const RunConfig& config : {discs, spheres}) {
-        const RunConfig other = in_other_units(config);
-        const InitialState scene = make_initial_state(config);
-        const MeasurementReports before = reports_of(scene, config),
-                                 after = reports_of(in_other_units(scene, other), other);
-        ASSERT_EQ(before.size(), after.size());
-        std::size_t numbers = 0;
-        const auto compare = [&](double a, double b, std::string_view unit,
-                                 const std::string& what) {
-            const double expected = a * factor_of(unit, 2.0, 4.0, 32.0);
-            EXPECT_EQ(std::isnan(b), std::isnan(expected)) << what;
-            // The factors are powers of two, so nothing is rounded; sums of angles are.
-            if (std::isnan(b)) return;
-            EXPECT_NEAR(b, expected, 1e-9 * (1e-9 + std::fabs(expected))) << what;
-            ++numbers;
-        };
-        for (std::size_t m = 0; m < before.size(); ++m) {
-            const Report &a = before[m].report, &b = after[m].report;
-            for (std::size_t k = 0; k < a.rows.size(); ++k) {
-                const std::string what = before[m].name + "." + a.rows[k].name;
-                compare(a.rows[k].estimate.mean, b.rows[k].estimate.mean, a.rows[k].unit, what);
-                compare(a.rows[k].estimate.error, b.rows[k].estimate.error, a.rows[k].unit, what);
-                for (std::size_t d = 0; d < a.rows[k].details.size(); ++d)
-                    compare(a.rows[k].details[d].value, b.rows[k].details[d].value,
-                            a.rows[k].details[d].unit, what + " " + a.rows[k].details[d].name);
-            }
-            for (std::size_t t = 0; t < a.tables.size(); ++t) {
-                // Distances have bins of 0.1, whatever the radius of the discs (pair_distances.hpp).
-                if (a.tables[t].name == std::string("function")) continue;
-                for (std::size_t v = 0; v < a.tables[t].values.size(); ++v) {
-                    const ReportColumn& column =
-                        a.tables[t].columns[v % a.tables[t].columns.size()];
-                    compare(a.tables[t].values[v], b.tables[t].values[v], column.unit,
-                            before[m].name + " " + a.tables[t].name + " " + column.name);
-                }
-            }
-        }
-        EXPECT_GT(numbers, 10'000u);
-    }
-}
-
 TEST(Measurements, Take511SamplesPerPeriodAfterTheWarmUp) {
     const auto flow = measured_run(thirty_periods(), {"flow"}).measured["flow"];
     EXPECT_EQ(sum(flow["visits"]), 30.0 * 511.0 * 25.0);
@@ -215,7 +115,7 @@ TEST(MeasuredText, CountsMissingAveragesOnceTheyAreMostOfThem) {
         MeasurementReport report{"speeds", {}};
         for (std::size_t k = 0; k < 5; ++k)
             report.report.rows.push_back(
-                {"mean", "v", "", {k < missing ? std::nan("") : 1.0, 0.1}});
+                {quantity("rolling.floor_slip"), {k < missing ? std::nan("") : 1.0, 0.1}});
         const std::string text = measured_text({report});
         EXPECT_EQ(text.find("3 of 5 averages") != std::string::npos, missing == 3) << text;
         EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), missing == 3 ? 3 : 5) << text;
@@ -248,7 +148,7 @@ TEST(Measurements, NumbersThatDoNotExistAreMissingInEveryFile) {
     }
     // A disc in the middle of a large container: frames, and vertices of the path as events.
     Snapshot s = make_snapshot_of_one_disc();
-    Observation at_rest(s.container_radius, s.period, everything());
+    Observation at_rest({s.container_radius, s.period}, everything());
     Event vertex{};
     vertex.kind = EventKind::path_vertex;
     for (int period = 0; period < 2; ++period) {

@@ -76,7 +76,7 @@ TEST_P(MergedObservation, EqualsOneObservationOfBothContainers) {
     const Part part = GetParam();
     const auto observation = [&] {
         const RunConfig config = container(part, 1);
-        return Observation(config.container_radius, config.period, names_of(part));
+        return Observation(dish_of(config), names_of(part));
     };
     Observation whole = observation(), first = observation(), second = observation();
     observe(part, 1, {&whole, &first});

@@ -178,10 +178,8 @@ TEST(MFrame, ItsMeasurementsAreRejectedElsewhere) {
 }
 
 TEST(Headline, OfAPathWithoutAnMFrameNamesTheDirection) {
-    ParameterTexts texts{{"discs", "20"},
-                         {"periods", "40"},
-                         {"path", "ellipse:0.8"},
-                         {"direction", "clockwise"}};
+    ParameterTexts texts{
+        {"discs", "20"}, {"periods", "40"}, {"path", "ellipse:0.8"}, {"direction", "clockwise"}};
     const RunResult result = run(resolve(texts));
     EXPECT_GT(result.rotation.mean_by_time.mean, 0.0);
 }

@@ -86,7 +86,7 @@ TEST(PeriodSeries, TheAutocorrelationTimeIsThatOfAnAutoregressiveSeries) {
     double x = 0.0;
     for (int k = 0; k < 20'000; ++k) {
         x = a * x + random.uniform() - 0.5;
-        series.add_period({k, true, {x, x, x, x}, random.uniform(), 0});
+        series.add_period({k, true, {x, x, x, x}, {1, 1, 1, 1}, random.uniform(), 0});
     }
     for (const SeriesAverage& average : series.averages()) {
         // The estimate of τ over a window of W lags has a relative error of sqrt(2 (2W + 1) / n),
@@ -103,7 +103,7 @@ TEST(PeriodSeries, TheAutocorrelationTimeOfUncorrelatedPeriodsIsOne) {
     PeriodSeries series(RunConfig{}, {});
     Random random(3);
     for (int k = 0; k < 1'000; ++k)
-        series.add_period({k, k >= 100, {0, 0, 0, 0}, random.uniform(), 0});
+        series.add_period({k, k >= 100, {0, 0, 0, 0}, {1, 1, 1, 1}, random.uniform(), 0});
     for (const SeriesAverage& average : series.averages()) {
         if (average.name != "spin") continue;
         EXPECT_EQ(average.estimate.blocks, 900u);
@@ -116,7 +116,7 @@ TEST(PeriodSeries, TheAutocorrelationTimeOfUncorrelatedPeriodsIsOne) {
 
 TEST(PeriodSeries, TheFileReadsBackAsTheSameNumbers) {
     PeriodSeries series(RunConfig{}, {});
-    series.add_period({0, false, {0.1, -1.0 / 3.0, not_available, 2e-300}, 1.0, 17});
+    series.add_period({0, false, {0.1, -1.0 / 3.0, not_available, 2e-300}, {1, 1, 1, 1}, 1.0, 17});
     const Scratch folder;
     series.write(folder / "s.csv");
     const std::string text = read_whole_file(folder / "s.csv");

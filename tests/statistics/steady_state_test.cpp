@@ -197,11 +197,11 @@ TEST(SteadyState, LinesCostTwoDegreesOfFreedomEach) {
     both = half;
     both.insert(both.end(), half.begin(), half.end());
     ASSERT_EQ(estimate_of(half).effective_samples, 20.0);
-    EXPECT_NEAR(error_of_difference(both, 20).freedom, 2.0 * (20.0 - 2.0), 1e-9);
+    EXPECT_NEAR(errors_of_difference(both, 20).separate.freedom, 2.0 * (20.0 - 2.0), 1e-9);
     // With a correlation over both, all of them are one sample, less two lines.
     std::vector<double> drift;
     for (int k = 0; k < 40; ++k) drift.push_back(k < 20 ? 1.0 : -1.0);
-    const DifferenceError slow = error_of_difference(drift, 20);
+    const DifferenceError slow = errors_of_difference(drift, 20).joint;
     EXPECT_EQ(slow.freedom, estimate_of(drift).effective_samples - 4.0);
 }
 

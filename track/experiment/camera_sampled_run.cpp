@@ -62,8 +62,9 @@ nlohmann::ordered_json camera_sampled_run(const RunConfig& config, const CameraS
     for (TrackFrame& frame : tracks.frames) frame.number -= first;
     scale.period = config.period;
     scale.frames_per_time = sampling.frames_per_period / config.period;
-    scale.amplitude = config.amplitude;
-    scale.container_radius = config.container_radius;
+    scale.pixels_per_radius = config.radius;  // a pixel is the unit of length of the run
+    scale.amplitude = config.amplitude / config.radius;
+    scale.container_radius = config.container_radius / config.radius;
     scale.clockwise = config.turns_clockwise();
     TrackSmoothing smoothing;
     const SnapshotSeries series = smoothed_series(std::move(tracks), scale, smoothing);

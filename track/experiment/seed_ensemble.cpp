@@ -49,15 +49,18 @@ Estimate estimate_in(const Json& json) {
     return e;
 }
 
-Ensemble ensemble_of(const Nodes& averages, std::span<const double> weights) {
+/// `name` is that of the registry, measure/quantities.hpp.
+Ensemble ensemble_of(const Nodes& averages, std::span<const double> weights,
+                     const std::string& name) {
     std::vector<Estimate> estimates;
     for (const Json* average : averages) estimates.push_back(estimate_in(*average));
-    return is_direction(*averages.front()) ? several_directions(estimates, weights)
-                                           : ensemble(estimates, weights);
+    return is_direction(name) ? several_directions(estimates, weights)
+                              : ensemble(estimates, weights);
 }
 
-Json average_json(const Nodes& averages, std::span<const double> weights) {
-    const Ensemble all = ensemble_of(averages, weights);
+Json average_json(const Nodes& averages, std::span<const double> weights,
+                  const std::string& full_name) {
+    const Ensemble all = ensemble_of(averages, weights, full_name);
     Json json{{"mean", all.estimate.mean},
               {"error", all.estimate.error},
               {"effective_samples", all.estimate.effective_samples},
@@ -90,9 +93,7 @@ std::vector<double> cells_of(const Nodes& tables, const std::string& column, std
 
 /// Adds the combined rows of a column; errors are in the column NAME_error.
 void add_column_with_errors(Json& json, const std::string& name, const Nodes& tables,
-                            std::span<const double> weights) {
-    // Angles in tables are recognised by their names.
-    const bool angle = name.starts_with("becoming_");
+                            std::span<const double> weights, bool angle) {
     for (std::size_t row = 0; row < tables.front()->at(name).size(); ++row) {
         const std::vector<double> means = cells_of(tables, name, row),
                                   errors = cells_of(tables, name + "_error", row);
@@ -106,12 +107,12 @@ void add_column_with_errors(Json& json, const std::string& name, const Nodes& ta
     }
 }
 
-Json table_json(const Nodes& tables, std::span<const double> weights) {
+Json table_json(const Nodes& tables, std::span<const double> weights, const std::string& table) {
     Json json = Json::object();
     for (const auto& [name, first] : tables.front()->items()) {
         if (json.contains(name)) continue;  // an error, added with its mean
         if (tables.front()->contains(name + "_error")) {
-            add_column_with_errors(json, name, tables, weights);
+            add_column_with_errors(json, name, tables, weights, is_direction(table + "." + name));
             continue;
         }
         for (std::size_t row = 0; row < first.size(); ++row) {
@@ -123,13 +124,14 @@ Json table_json(const Nodes& tables, std::span<const double> weights) {
     return json;
 }
 
-/// Combines averages, tables and numbers, at any depth.
-Json measured_ensemble(const Nodes& nodes, std::span<const double> weights) {
+/// Combines averages, tables and numbers, at any depth. `path` is their common name.
+Json measured_ensemble(const Nodes& nodes, std::span<const double> weights,
+                       const std::string& path = "") {
     const Json& first = *nodes.front();
-    if (is_average(first)) return average_json(nodes, weights);
+    if (is_average(first)) return average_json(nodes, weights, path);
     if (first.is_object() && !first.empty() && first.begin()->is_array() &&
         !first.begin()->empty() && !first.begin()->front().is_structured())
-        return table_json(nodes, weights);
+        return table_json(nodes, weights, path);
     if (!first.is_object()) {
         std::vector<double> cells;
         for (const Json* node : nodes) cells.push_back(number(*node));
@@ -137,7 +139,8 @@ Json measured_ensemble(const Nodes& nodes, std::span<const double> weights) {
     }
     Json json = Json::object();
     for (const auto& [name, value] : first.items())
-        json[name] = measured_ensemble(inside(nodes, name), weights);
+        json[name] = measured_ensemble(inside(nodes, name), weights,
+                                       path.empty() ? name : path + "." + name);
     return json;
 }
 
@@ -209,7 +212,8 @@ Json seed_ensemble(const std::vector<Json>& results) {
         const bool samples_events = std::string_view(which).ends_with("by_event");
         all["rotation"][which] = average_json(
             inside(inside(runs, "rotation"), which),
-            samples_events ? std::span<const double>() : std::span<const double>(periods));
+            samples_events ? std::span<const double>() : std::span<const double>(periods),
+            std::string("rotation.") + which);
     }
     if (at(*runs.front(), {"measured"}).is_object())
         all["measured"] = measured_ensemble(inside(runs, "measured"), periods);

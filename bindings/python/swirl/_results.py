@@ -348,6 +348,7 @@ class Result:
     """The result of one run.
 
     config                  all resolved parameters
+    units                   r, v and m, the units of all numbers, in the units of the config
     complete                False if it was stopped before its end
     rotation                Rotation: .mean_by_time.mean, .mean_by_time.error, .mean_by_event, …
     measured                {"density": …}: results of the argument `measure`
@@ -383,6 +384,7 @@ class Result:
         self._report = report
         self.config: dict[str, Any] = found["config"]
         source = source_of_run(self.config)
+        self.units: dict[str, float] = found["units"]
         self.complete: bool = found["complete"]
         self.rotation = Rotation(**{name: _estimate(value, "Ω", source)
                                     for name, value in found["rotation"].items()})

@@ -164,18 +164,11 @@ nlohmann::ordered_json json_of(const RunResult& result, const PreparedRun& prepa
     return json;
 }
 
-/// The averages as text. Errors from few periods are larger than in the files (few_blocks.hpp).
-std::string averages_text(MeasurementReports measured) {
-    for (auto& [name, report] : measured)
-        for (ReportRow& row : report.rows) row.estimate = corrected(row.estimate);
-    return measured_text(measured);
-}
-
 /// Writes the tables, the result and the report; the warnings come last.
 void write_outputs(const RunCall& call, const PreparedRun& prepared, const RunResult& result) {
     const MeasurementReports measured = prepared.observation.report();
     std::string text = call.quiet ? headline(result) + "\n"
-                                  : report(result, call.verbose) + averages_text(measured);
+                                  : report(result, call.verbose) + measured_text(measured);
     if (prepared.series && !call.quiet)
         text += (prepared.config.ramps.empty() ? series_text(*prepared.series) : "") +
                 fmt::format("wrote {}\n", prepared.files.series.string());

@@ -124,8 +124,9 @@ Json repeated_result(const std::string& file, const Json& json, bool quiet) {
     const Json seconds = json.value("seconds", Json());
     run.seconds = seconds.is_number() ? seconds.get<double>() : -1.0;
     Json result = result_json(run);
-    // Older versions wrote no format number (result.hpp).
-    if (version_of(json) != version() && !json.contains("format")) result.erase("format");
+    // Older versions wrote no format number (result.hpp) and no units.
+    for (const char* key : {"format", "units"})
+        if (version_of(json) != version() && !json.contains(key)) result.erase(key);
     result["command"] = "";
     if (json.contains("point")) {  // a result of a sweep
         result["point"] = 0;

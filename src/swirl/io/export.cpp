@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <iterator>
 #include <span>
+#include <vector>
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/file_error.hpp"
@@ -158,6 +160,22 @@ void write_csv(const SnapshotSeries& series, AtomicFile& file, const ExportOptio
 
 void add_cell(Text& text, double value) { add(text, ",{}", cell_text(value)); }
 
+/// Positions, velocities, spins and particles in r, v and m; times stay.
+Snapshot in_printed_units(Snapshot s, const MeasuredUnits& units) {
+    const auto divide = [](std::initializer_list<std::vector<double>*> columns, double unit) {
+        for (std::vector<double>* column : columns)
+            for (double& value : *column) value /= unit;
+    };
+    s = s.up_to_date();
+    divide({&s.x, &s.y, &s.radius}, units.r);
+    divide({&s.vx, &s.vy}, units.v);
+    divide({&s.spin, &s.spin_x, &s.spin_y}, units.of("v/r"));
+    divide({&s.mass}, units.m);
+    divide({&s.inertia}, units.of("m r²"));
+    s.container_centre = (1.0 / units.r) * s.container_centre;
+    return s;
+}
+
 void write_table(const SnapshotSeries& series, AtomicFile& file, const ExportOptions& options) {
     const bool spheres = has_spheres(series);
     file.append(
@@ -166,19 +184,21 @@ void write_table(const SnapshotSeries& series, AtomicFile& file, const ExportOpt
     if (spheres) file.append(",spin x (v/r),spin y (v/r),turned w,turned x,turned y,turned z");
     if (series.pinned) file.append(",pinned,resident");
     file.append("\n");
-    write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& s) {
+    const double time_unit = series.units.of("r/v");
+    write_text_frames(series, file, options, [&](Text& text, std::uint64_t k, const Snapshot& raw) {
         const PinnedColumns* const states = states_of(series, k);
+        const Snapshot s = in_printed_units(raw, series.units);
         for (std::size_t i = 0; i < s.size(); ++i) {
             options.check_stop_at(i);
-            const Vec2 p = s.position(i);
-            add(text, "{},{},{},{},{},{},{},{}", k, s.time(),
+            const Vec2 p{s.x[i], s.y[i]};
+            add(text, "{},{},{},{},{},{},{},{}", k, s.time() / time_unit,
                 double(s.periods) + s.clock / s.period, s.container_centre.x, s.container_centre.y,
                 i, p.x, p.y);
-            for (const double value : {s.vx[i], s.vy[i], s.orientation(i), s.spin[i], s.radius[i],
-                                       s.mass[i], s.inertia[i]})
+            for (const double value :
+                 {s.vx[i], s.vy[i], s.angle[i], s.spin[i], s.radius[i], s.mass[i], s.inertia[i]})
                 add_cell(text, value);
             if (spheres) {
-                const Quaternion q = s.quaternion(i);
+                const Quaternion q = s.turned[i];
                 add(text, ",{},{},{},{},{},{}", s.spin_x[i], s.spin_y[i], q.w, q.x, q.y, q.z);
             }
             if (states)

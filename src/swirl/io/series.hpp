@@ -2,13 +2,17 @@
 // another program's dump. Input of exports and measurements.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "swirl/math/real.hpp"
+#include "swirl/measure/quantity.hpp"
 #include "swirl/physics/mirrored.hpp"
 #include "swirl/physics/snapshot.hpp"
 
@@ -34,18 +38,45 @@ struct SnapshotSeries {
     bool has_m_frame = true;
     /// The container goes round clockwise.
     bool clockwise = false;
+    /// r, v and m of the frames.
+    MeasuredUnits units = {};
 
     /// Null if these states are known in no frame. The result is valid until the next call.
     std::function<const PinnedColumns&(std::uint64_t frame)> pinned = nullptr;
 
     /// The frame as measurements see it: a clockwise dish in its mirror image.
-    Snapshot observed(std::uint64_t k) const {
-        return clockwise ? mirrored(frame(k)) : frame(k);
-    }
+    Snapshot observed(std::uint64_t k) const { return clockwise ? mirrored(frame(k)) : frame(k); }
+
+    /// True if frames are not at equal steps of time: after every n-th event.
+    bool has_uneven_times() const;
 
     /// True if every frame has the same discs in the same order.
     bool same_discs() const { return breaks.empty(); }
 };
+
+/// r, v and m of frames whose configuration is unknown: those of their first disc, and the speed of
+/// the container with 24 bits (run/config.hpp).
+inline MeasuredUnits units_in(const Snapshot& s) {
+    const double speed = square_root(dot(s.container_velocity, s.container_velocity));
+    MeasuredUnits units;
+    if (speed > 0.0) units.v = static_cast<double>(static_cast<float>(speed));
+    if (s.size() == 0) return units;
+    units.r = s.radius.front();
+    units.m = s.mass.front();
+    return units;
+}
+
+inline bool SnapshotSeries::has_uneven_times() const {
+    constexpr std::uint64_t compared = 8;
+    if (frames < compared || !same_discs()) return false;
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+    for (std::uint64_t k = 1; k < compared; ++k) {
+        const double step = frame(k).time() - frame(k - 1).time();
+        shortest = std::min(shortest, step);
+        longest = std::max(longest, step);
+    }
+    return longest > 1.01 * shortest;
+}
 
 class TrajectoryReader;
 

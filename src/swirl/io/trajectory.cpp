@@ -227,8 +227,12 @@ double TrajectoryReader::reach() const {
 }
 
 SnapshotSeries series_of(std::shared_ptr<TrajectoryReader> reader) {
-    return {reader->frames(), reader->reach(),
-            [reader](std::uint64_t k) { return reader->frame(k); }};
+    SnapshotSeries series;
+    series.frames = reader->frames();
+    series.reach = reader->reach();
+    series.frame = [reader](std::uint64_t k) { return reader->frame(k); };
+    if (series.frames > 0) series.units = units_in(series.frame(0));
+    return series;
 }
 
 std::uint64_t TrajectoryReader::events_before(std::uint64_t k) const {

@@ -27,6 +27,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 
 namespace swirl {
 
@@ -56,13 +57,13 @@ class AngularProfile {
     void report(Visitor&& visit) const {
         ReportTable table{"",
                           "angular velocity about the centre of mass, in slices of θ",
-                          {{"theta", "°"},
-                           {"visits", "1"},
-                           {"varpi_m", "Ω", with_error_column},
-                           {"wall", "Ω"},
-                           {"normalised", "1", with_error_column},
-                           {"distance", "r", with_error_column},
-                           {"speed", "v", with_error_column}}};
+                          {{quantity("profile.theta")},
+                           {quantity("profile.visits")},
+                           {quantity("profile.varpi_m"), with_error_column},
+                           {quantity("profile.wall")},
+                           {quantity("profile.normalised"), with_error_column},
+                           {quantity("profile.distance"), with_error_column},
+                           {quantity("profile.speed"), with_error_column}}};
         for (std::size_t s = 0; s < slices(); ++s)
             table.add(theta(s) * degrees_per_radian, visits(s), plain(s), wall(s).mean,
                       normalised(s), distance(s), speed(s));

@@ -39,6 +39,7 @@ struct RatioSums {
         e.blocks = blocks;
         if (w == 0.0) return e;
         e.mean = s / w;
+        e.weight = w;
         e.effective_samples = n;
         if (n < 2.0) return e;
         const double square = ss - 2.0 * e.mean * sw + e.mean * e.mean * ww;
@@ -87,6 +88,10 @@ class CellMeans {
         const Sums& t = sums_[cell];
         return RatioSums{t.s[quantity], t.w, t.ss[quantity], t.sw[quantity], t.ww}.estimate(blocks_,
                                                                                             t.n);
+    }
+    void forget_blocks() {
+        std::fill(sums_.begin(), sums_.end(), Sums{});
+        blocks_ = 0;
     }
     /// The other must have as many cells.
     void merge(const CellMeans& other) {
@@ -157,6 +162,11 @@ class CellRates {
     double mean(std::size_t cell) const { return w_ != 0.0 ? s_[cell] / w_ : not_available; }
     Estimate estimate(std::size_t cell) const {
         return RatioSums{s_[cell], w_, ss_[cell], sw_[cell], ww_}.estimate(blocks_, used_);
+    }
+    void forget_blocks() {
+        for (auto* column : {&s_, &ss_, &sw_}) std::fill(column->begin(), column->end(), 0.0);
+        w_ = ww_ = used_ = 0.0;
+        blocks_ = 0;
     }
     /// The other must have as many cells.
     void merge(const CellRates& other) {

@@ -24,6 +24,7 @@
 #include "swirl/measure/direction_histogram.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 #include "swirl/statistics/block_average.hpp"
 #include "swirl/statistics/circular_mean.hpp"
@@ -75,27 +76,17 @@ class ClusterCentre : public BlockAverages<ClusterCentre>, public Strided {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"x", "r", "centre of mass in the M-frame; left of M is negative",
-                        x_.estimate()});
-        visit(ReportRow{"y", "r", "centre of mass in the M-frame; M is at −R", y_.estimate()});
-        visit(ReportRow{"distance", "r", "distance of the centre of mass from C",
-                        distance_.estimate()});
-        visit(direction_row("theta", "direction of the centre of mass; it lags by 270° − θ",
-                            direction_));
-        visit(ReportRow{"left", "1", "share of the discs left of the line from C to M",
-                        left_.estimate()});
-        visit(ReportRow{"elongation", "1", "ratio of the cluster's length to its width",
-                        elongation_.estimate()});
-        visit(ReportRow{"centrifugal", "v²/r", "centrifugal force on a disc, per mass",
-                        centrifugal_.estimate()});
-        visit(ReportRow{"coriolis", "v²/r", "Coriolis force on a disc, per mass",
-                        coriolis_.estimate()});
-        const auto maximum = [&](const char* name, const char* description, double value) {
-            const Estimate e{.mean = samples_ > 0 ? value : not_available};
-            visit(ReportRow{name, "v²/r", description, e, {}, false});
-        };
-        maximum("max_centrifugal", "maximum centrifugal force", max_centrifugal_);
-        maximum("max_coriolis", "maximum Coriolis force", max_coriolis_);
+        visit(ReportRow{quantity("centre.x"), x_.estimate()});
+        visit(ReportRow{quantity("centre.y"), y_.estimate()});
+        visit(ReportRow{quantity("centre.distance"), distance_.estimate()});
+        visit(direction_row(quantity("centre.theta"), direction_));
+        visit(ReportRow{quantity("centre.left"), left_.estimate()});
+        visit(ReportRow{quantity("centre.elongation"), elongation_.estimate()});
+        visit(ReportRow{quantity("centre.centrifugal"), centrifugal_.estimate()});
+        visit(ReportRow{quantity("centre.coriolis"), coriolis_.estimate()});
+        const auto maximum = [&](double value) { return samples_ > 0 ? value : not_available; };
+        visit(number_row(quantity("centre.max_centrifugal"), maximum(max_centrifugal_)));
+        visit(number_row(quantity("centre.max_coriolis"), maximum(max_coriolis_)));
     }
     void merge(const ClusterCentre& other) {
         BlockAverages::merge(other);

@@ -124,9 +124,9 @@ RotationSample ClusterRotation::sample_alone(const Snapshot& snapshot) {
     return sample;
 }
 
-RotationSample ClusterRotation::sample_by_time(const Snapshot& snapshot) {
+RotationSample ClusterRotation::sample_by_time(const Snapshot& snapshot, double weight) {
     const RotationSample sample = sample_of(snapshot, centre_of(snapshot, *kernel_), *kernel_);
-    time_.add(sample, swirl_sign_ * snapshot.period);
+    time_.add(sample, swirl_sign_ * snapshot.period, weight);
     return sample;
 }
 
@@ -174,6 +174,13 @@ std::array<double, rotation_rates.size()> ClusterRotation::open_means() const {
     };
     return {mean(event_.individual, event_), mean(time_.individual, time_),
             mean(event_.rigid, event_), mean(time_.rigid, time_)};
+}
+
+std::array<double, rotation_rates.size()> ClusterRotation::open_weights(
+    std::uint64_t events_of_a_sample, double weight_by_time) const {
+    const double by_event = event_.samples * static_cast<double>(events_of_a_sample);
+    const double by_time = time_.samples * weight_by_time;
+    return {by_event, by_time, by_event, by_time};
 }
 
 RotationEstimates ClusterRotation::estimates() const {

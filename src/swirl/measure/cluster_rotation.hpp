@@ -42,6 +42,7 @@
 #include "swirl/math/cpu_width.hpp"
 #include "swirl/measure/cluster_rotation_kernel.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/swept_angles.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
@@ -112,14 +113,20 @@ struct RotationEstimates {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"mean_by_event", "Ω", "rotation ϖ, averaged over events", mean_by_event});
-        visit(ReportRow{"mean_by_time", "Ω", "rotation ϖ, averaged over time", mean_by_time});
-        visit(ReportRow{"rigid_by_event", "Ω", "rotation of the fitted rigid body, over events",
-                        rigid_by_event});
-        visit(ReportRow{"rigid_by_time", "Ω", "rotation of the fitted rigid body, over time",
-                        rigid_by_time});
+        visit(ReportRow{quantity("rotation.mean_by_event"), mean_by_event});
+        visit(ReportRow{quantity("rotation.mean_by_time"), mean_by_time});
+        visit(ReportRow{quantity("rotation.rigid_by_event"), rigid_by_event});
+        visit(ReportRow{quantity("rotation.rigid_by_time"), rigid_by_time});
     }
 };
+
+/// With errors for few blocks (few_blocks.hpp).
+inline RotationEstimates corrected(RotationEstimates e) {
+    for (Estimate* const rate :
+         {&e.mean_by_event, &e.mean_by_time, &e.rigid_by_event, &e.rigid_by_time})
+        *rate = corrected(*rate);
+    return e;
+}
 
 class ClusterRotation : public MergedAverages<ClusterRotation> {
   public:
@@ -156,8 +163,8 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     }
     /// The same, not after every event: it sums up the centre of mass and needs no follow().
     RotationSample sample_alone(const Snapshot& snapshot);
-    /// One sample of the average by time; call it at equal time steps.
-    RotationSample sample_by_time(const Snapshot& snapshot);
+    /// One sample of the average by time; call it at equal time steps, or with weights.
+    RotationSample sample_by_time(const Snapshot& snapshot, double weight = 1.0);
 
     /// Call at the end of every period. The samples since the last call become a block; an open
     /// block does not count. Blocks by event are weighted with their events, and blocks by time with
@@ -167,6 +174,9 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     /// The means over the samples since the last close_block(), in units of Ω, in the order of
     /// rotation_rates.
     std::array<double, rotation_rates.size()> open_means() const;
+    /// What they count, with the arguments of close_block().
+    std::array<double, rotation_rates.size()> open_weights(std::uint64_t events_of_a_sample,
+                                                           double weight_by_time) const;
 
     RotationEstimates estimates() const;
     /// Blocks in units of Ω, for the test of the steady state and as time series.
@@ -184,12 +194,12 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
   private:
     struct OpenBlock {
         double individual = 0.0, rigid = 0.0, samples = 0.0;
-        double period = not_available;  // below 0 if the swirl is clockwise
+        double period = not_available;  // its sign is − if the swirl is clockwise
 
-        void add(const RotationSample& sample, double period_with_sign) {
-            individual += sample.individual;
-            rigid += sample.rigid;
-            samples += 1.0;
+        void add(const RotationSample& sample, double period_with_sign, double weight = 1.0) {
+            individual += weight * sample.individual;
+            rigid += weight * sample.rigid;
+            samples += weight;
             period = period_with_sign;
         }
         void close_into(BlockSeries& individual_series, BlockSeries& rigid_series,

@@ -25,6 +25,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 
@@ -81,26 +82,24 @@ class CollisionAngles : public MergedAverages<CollisionAngles> {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"impact", "1", "mean impact parameter |b| of discs: 0 head-on, 1 grazing",
-                        size_.estimate()});
-        visit(ReportRow{"orbit", "1", "mean b of discs: positive if they orbit counter-clockwise",
-                        b_.estimate()});
-        visit(ReportRow{"wall_impact", "1", "mean |b| of collisions with the wall",
-                        wall_size_.estimate()});
-        visit(ReportRow{"wall_orbit", "1",
-                        "mean b at the wall: positive if discs move counter-clockwise",
-                        wall_b_.estimate()});
+        visit(ReportRow{quantity("collision_angles.impact"), size_.estimate()});
+        visit(ReportRow{quantity("collision_angles.orbit"), b_.estimate()});
+        visit(ReportRow{quantity("collision_angles.wall_impact"), wall_size_.estimate()});
+        visit(ReportRow{quantity("collision_angles.wall_orbit"), wall_b_.estimate()});
         ReportTable table{
             "impact_parameter",
             "density of the impact parameter b: ½ if no direction is preferred",
-            {{"b", "1"}, {"discs", "1", with_error_column}, {"wall", "1", with_error_column}}};
+            {{quantity("collision_angles.impact_parameter.b")},
+             {quantity("collision_angles.impact_parameter.discs"), with_error_column},
+             {quantity("collision_angles.impact_parameter.wall"), with_error_column}}};
         for (std::size_t bin = 0; bin < bins; ++bin)
             table.add(b_of(bin), density(bin), wall_density(bin));
         visit(std::move(table));
         ReportTable directions{
             "directions",
             "density of the line of centres in the M-frame: 1 if no direction is preferred",
-            {{"angle", "°"}, {"density", "1", with_error_column}}};
+            {{quantity("collision_angles.directions.angle")},
+             {quantity("collision_angles.directions.density"), with_error_column}}};
         for (std::size_t bin = 0; bin < direction_bins; ++bin)
             directions.add(direction_of(bin), direction_density(bin));
         visit(std::move(directions));

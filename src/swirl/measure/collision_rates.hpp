@@ -14,6 +14,7 @@
 #include <tuple>
 
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/statistics/block_average.hpp"
 
@@ -39,6 +40,7 @@ class CollisionRates : public MergedAverages<CollisionRates> {
     }
     Estimate mean_free_time() const {
         Estimate e = rate_.estimate();
+        e.weight *= e.mean;  // what it is averaged over: the collisions
         e.error /= e.mean * e.mean;
         e.mean = 1.0 / e.mean;
         return e;
@@ -46,12 +48,9 @@ class CollisionRates : public MergedAverages<CollisionRates> {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"disc_disc_rate", "v/r", "collisions of a disc with discs per time",
-                        disc_rate_.estimate()});
-        visit(ReportRow{"disc_wall_rate", "v/r", "collisions of a disc with the wall per time",
-                        wall_rate_.estimate()});
-        visit(ReportRow{"mean_free_time", "r/v", "time from one collision of a disc to its next",
-                        mean_free_time()});
+        visit(ReportRow{quantity("collisions.disc_disc_rate"), disc_rate_.estimate()});
+        visit(ReportRow{quantity("collisions.disc_wall_rate"), wall_rate_.estimate()});
+        visit(ReportRow{quantity("collisions.mean_free_time"), mean_free_time()});
     }
     template <class Visitor>
     void fields(Visitor&& visit) {

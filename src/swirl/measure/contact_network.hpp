@@ -26,6 +26,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 #include "swirl/measure/touching_pairs.hpp"
 
@@ -50,20 +51,20 @@ class ContactNetwork : public BlockAverages<ContactNetwork>, public Strided {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        const auto row = [&](const char* name, const char* description, const BlockMean& average) {
-            visit(ReportRow{name, "1", description, average.estimate()});
+        const auto row = [&](const Quantity& its_quantity, const BlockMean& average) {
+            visit(ReportRow{its_quantity, average.estimate()});
         };
-        row("coordination", "touching discs of a disc", coordination_);
-        row("wall", "share of the discs that touch the wall", wall_);
-        row("isolated", "share of the discs that touch nothing", isolated_);
-        row("rattlers", "share of the discs with fewer than two contacts, wall included",
-            rattlers_);
-        row("groups", "connected groups of discs, per disc", groups_);
-        row("largest", "share of the discs in the largest group", largest_);
-        row("loops", "independent loops of contacts, per disc", loops_);
+        row(quantity("contact_network.coordination"), coordination_);
+        row(quantity("contact_network.wall"), wall_);
+        row(quantity("contact_network.isolated"), isolated_);
+        row(quantity("contact_network.rattlers"), rattlers_);
+        row(quantity("contact_network.groups"), groups_);
+        row(quantity("contact_network.largest"), largest_);
+        row(quantity("contact_network.loops"), loops_);
         ReportTable table{"contacts",
                           "share of the discs with a number of touching discs",
-                          {{"contacts", "1"}, {"share", "1", with_error_column}}};
+                          {{quantity("contact_network.contacts.contacts")},
+                           {quantity("contact_network.contacts.share"), with_error_column}}};
         for (std::size_t k = 0; k < contacts_.size(); ++k)
             table.add(static_cast<double>(k), share(k));
         visit(std::move(table));

@@ -21,6 +21,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/square_grid.hpp"
 
 namespace swirl {
@@ -73,10 +74,10 @@ class DensityMaps : public BlockAverages<DensityMaps> {
     void report(Visitor&& visit) const {
         ReportTable table{"",
                           "discs per area, in cells of the container's bounding square",
-                          {{"x", "r"},
-                           {"y", "r"},
-                           {"by_time", "1/r²", with_error_column},
-                           {"by_event", "1/r²", with_error_column}}};
+                          {{quantity("density.x")},
+                           {quantity("density.y")},
+                           {quantity("density.by_time"), with_error_column},
+                           {quantity("density.by_event"), with_error_column}}};
         for (std::size_t c = 0; c < by_time_.grid().cells(); ++c) {
             const Vec2 p = by_time_.grid().centre_of(c);
             table.add(p.x, p.y, by_time_.density(c), by_event_.density(c));

@@ -22,6 +22,7 @@
 
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/statistics/block_average.hpp"
 
@@ -154,10 +155,10 @@ class DiffusionLags {
     void report(Visitor&& visit) const {
         ReportTable table{"",
                           "squared displacement and rotation of a disc against the lag",
-                          {{"lag", "r/v"},
-                           {"displacement", "r²", with_error_column},
-                           {"rotation", "rad", with_error_column},
-                           {"rotation_variance", "rad²", with_error_column}}};
+                          {{quantity("diffusion.lag")},
+                           {quantity("diffusion.displacement"), with_error_column},
+                           {quantity("diffusion.rotation"), with_error_column},
+                           {quantity("diffusion.rotation_variance"), with_error_column}}};
         for (const Diffusion* d : {&within_, &across_})
             for (std::size_t k = 0; k < d->lags(); ++k) {
                 const Estimate displacement = d->square_displacement(k);

@@ -12,6 +12,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/statistics/circular_mean.hpp"
 
 namespace swirl {
@@ -45,8 +46,11 @@ class DirectionHistogram {
 /// The table of the positions where discs pin and depin.
 inline ReportTable positions_table(const char* description, const DirectionHistogram& pinned,
                                    const DirectionHistogram& free) {
-    ReportTable table{
-        "positions", description, {{"theta", "°"}, {"pinning", "1"}, {"depinning", "1"}}};
+    ReportTable table{"positions",
+                      description,
+                      {{quantity("positions.theta")},
+                       {quantity("positions.pinning")},
+                       {quantity("positions.depinning")}}};
     for (std::size_t k = 0; k < DirectionHistogram::slices; ++k)
         table.add(360.0 * (static_cast<double>(k) + 0.5) / DirectionHistogram::slices,
                   pinned.share(k), free.share(k));
@@ -54,11 +58,8 @@ inline ReportTable positions_table(const char* description, const DirectionHisto
 }
 
 /// The row of a mean direction.
-inline ReportRow direction_row(const char* name, const char* description,
-                               const CircularMean& mean) {
-    return {name,
-            "°",
-            description,
+inline ReportRow direction_row(const Quantity& quantity, const CircularMean& mean) {
+    return {quantity,
             scaled(mean.angle(), degrees_per_radian),
             {{"concentration", "1", mean.concentration()}, {"count", "1", mean.count()}}};
 }

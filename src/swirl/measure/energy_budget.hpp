@@ -36,6 +36,7 @@
 #include <tuple>
 
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/statistics/block_average.hpp"
@@ -60,17 +61,12 @@ class EnergyBudget : public ReportedAverages<EnergyBudget, MergedAverages> {
     static constexpr bool any_path = true;
 
     static auto rows(auto& s) {
-        return std::tuple{
-            AverageRow{"wall_power", "m v³/r", "work of the wall per time", s.work_},
-            AverageRow{"disc_friction_power", "m v³/r", "lost in friction between discs",
-                       s.disc_friction_},
-            AverageRow{"wall_friction_power", "m v³/r", "lost in friction at the wall",
-                       s.wall_friction_},
-            AverageRow{"inelastic_power", "m v³/r", "lost in inelastic collisions", s.inelastic_},
-            AverageRow{"floor_power", "m v³/r", "work of the floor on spheres per time",
-                       s.floor_work_},
-            AverageRow{"floor_friction_power", "m v³/r",
-                       "lost on the floor by sliding and rolling resistance", s.floor_friction_}};
+        return std::tuple{AverageRow{quantity("energy.wall_power"), s.work_},
+                          AverageRow{quantity("energy.disc_friction_power"), s.disc_friction_},
+                          AverageRow{quantity("energy.wall_friction_power"), s.wall_friction_},
+                          AverageRow{quantity("energy.inelastic_power"), s.inelastic_},
+                          AverageRow{quantity("energy.floor_power"), s.floor_work_},
+                          AverageRow{quantity("energy.floor_friction_power"), s.floor_friction_}};
     }
 
     void sample_event(const Event& event, const Snapshot& after);
@@ -92,8 +88,7 @@ class EnergyBudget : public ReportedAverages<EnergyBudget, MergedAverages> {
     template <class Visitor>
     void report(Visitor&& visit) const {
         ReportedAverages::report(visit);
-        visit(
-            unaccounted_row("share of the energy that is not accounted for", unaccounted_share()));
+        visit(number_row(quantity("energy.unaccounted_share"), unaccounted_share()));
     }
     void merge(const EnergyBudget& other);
     template <class Visitor>

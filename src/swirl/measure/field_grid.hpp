@@ -38,51 +38,48 @@
 #include <vector>
 
 #include "swirl/measure/coarse_graining.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/square_grid.hpp"
 #include "swirl/statistics/block_average.hpp"
 
 namespace swirl {
 
 /// What a grid reports at each point, in this order.
-struct FieldQuantity {
-    const char* name;
-    const char* unit;
-};
 inline constexpr std::array field_quantities{
-    FieldQuantity{"density", "m/r²"},
-    FieldQuantity{"packing", "1"},
-    FieldQuantity{"momentum_x", "m v/r²"},
-    FieldQuantity{"momentum_y", "m v/r²"},
-    FieldQuantity{"u_x", "v"},
-    FieldQuantity{"u_y", "v"},
-    FieldQuantity{"temperature", "m v²"},
-    FieldQuantity{"spin_density", "m v/r"},
-    FieldQuantity{"spin", "v/r"},
-    FieldQuantity{"spin_temperature", "m v²"},
-    FieldQuantity{"vorticity", "v/r"},
-    FieldQuantity{"divergence", "v/r"},
-    FieldQuantity{"strain_xx", "v/r"},
-    FieldQuantity{"strain_xy", "v/r"},
-    FieldQuantity{"spin_gradient_x", "v/r²"},
-    FieldQuantity{"spin_gradient_y", "v/r²"},
-    FieldQuantity{"pressure", "m v²/r²"},
-    FieldQuantity{"kinetic_xx", "m v²/r²"},
-    FieldQuantity{"kinetic_xy", "m v²/r²"},
-    FieldQuantity{"kinetic_yy", "m v²/r²"},
-    FieldQuantity{"collisional_xx", "m v²/r²"},
-    FieldQuantity{"collisional_xy", "m v²/r²"},
-    FieldQuantity{"collisional_yx", "m v²/r²"},
-    FieldQuantity{"collisional_yy", "m v²/r²"},
-    FieldQuantity{"torque", "m v²/r²"},
-    FieldQuantity{"kinetic_couple_x", "m v²/r"},
-    FieldQuantity{"kinetic_couple_y", "m v²/r"},
-    FieldQuantity{"collisional_couple_x", "m v²/r"},
-    FieldQuantity{"collisional_couple_y", "m v²/r"},
-    FieldQuantity{"dissipation", "m v³/r³"},
-    FieldQuantity{"wall_force_x", "m v²/r³"},
-    FieldQuantity{"wall_force_y", "m v²/r³"},
-    FieldQuantity{"floor_force_x", "m v²/r³"},
-    FieldQuantity{"floor_force_y", "m v²/r³"},
+    &quantity("fields.density"),
+    &quantity("fields.packing"),
+    &quantity("fields.momentum_x"),
+    &quantity("fields.momentum_y"),
+    &quantity("fields.u_x"),
+    &quantity("fields.u_y"),
+    &quantity("fields.temperature"),
+    &quantity("fields.spin_density"),
+    &quantity("fields.spin"),
+    &quantity("fields.spin_temperature"),
+    &quantity("fields.vorticity"),
+    &quantity("fields.divergence"),
+    &quantity("fields.strain_xx"),
+    &quantity("fields.strain_xy"),
+    &quantity("fields.spin_gradient_x"),
+    &quantity("fields.spin_gradient_y"),
+    &quantity("fields.pressure"),
+    &quantity("fields.kinetic_xx"),
+    &quantity("fields.kinetic_xy"),
+    &quantity("fields.kinetic_yy"),
+    &quantity("fields.collisional_xx"),
+    &quantity("fields.collisional_xy"),
+    &quantity("fields.collisional_yx"),
+    &quantity("fields.collisional_yy"),
+    &quantity("fields.torque"),
+    &quantity("fields.kinetic_couple_x"),
+    &quantity("fields.kinetic_couple_y"),
+    &quantity("fields.collisional_couple_x"),
+    &quantity("fields.collisional_couple_y"),
+    &quantity("fields.dissipation"),
+    &quantity("fields.wall_force_x"),
+    &quantity("fields.wall_force_y"),
+    &quantity("fields.floor_force_x"),
+    &quantity("fields.floor_force_y"),
 };
 using FieldValues = std::array<double, field_quantities.size()>;
 

@@ -75,11 +75,8 @@ void Fields::close_event_block(double duration) {
 }
 
 ReportTable Fields::table(const char* name, const char* description, std::size_t grid) const {
-    ReportTable table{name, description, {{"x", "r"}, {"y", "r"}}};
-    for (const FieldQuantity& quantity : field_quantities) {
-        table.columns.push_back({quantity.name, quantity.unit});
-        table.columns.push_back({std::string(quantity.name) + "_error", quantity.unit});
-    }
+    ReportTable table{name, description, {{quantity("fields.x")}, {quantity("fields.y")}}};
+    for (const Quantity* column : field_quantities) table.add_column({*column, with_error_column});
     const FieldGrid none({side_, container_radius_}, {});
     const FieldGrid& shown = known_ ? grids_[grid] : none;
     for (std::size_t cell = 0; cell < shown.grid().cells(); ++cell) {

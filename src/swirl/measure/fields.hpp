@@ -30,6 +30,7 @@
 #include "swirl/measure/field_balance.hpp"
 #include "swirl/measure/field_grid.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 
 namespace swirl {
 
@@ -55,17 +56,9 @@ class Fields {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        const std::array<const char*, 3> names{"mass_residual", "momentum_residual",
-                                               "spin_residual"};
-        const std::array<const char*, 3> texts{"largest residual of the balance of mass",
-                                               "largest residual of the balance of momentum",
-                                               "largest residual of the balance of spin"};
-        for (std::size_t k = 0; k < names.size(); ++k)
-            visit(ReportRow{.name = names[k],
-                            .unit = "1",
-                            .description = texts[k],
-                            .estimate = {.mean = residuals_[k]},
-                            .has_error = false});
+        visit(number_row(quantity("fields.mass_residual"), residuals_[0]));
+        visit(number_row(quantity("fields.momentum_residual"), residuals_[1]));
+        visit(number_row(quantity("fields.spin_residual"), residuals_[2]));
         visit(table("m_frame_2", "fields in the M-frame, kernel of 2 mean radii", 0));
         visit(table("m_frame_4", "fields in the M-frame, kernel of 4 mean radii", 1));
         visit(table("lab_2", "fields in the lab frame, kernel of 2 mean radii", 2));

@@ -19,6 +19,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/square_grid.hpp"
 
 namespace swirl {
@@ -46,11 +47,11 @@ class FlowMap {
     void report(Visitor&& visit) const {
         ReportTable table{"",
                           "velocity relative to the container, in cells of its bounding square",
-                          {{"x", "r"},
-                           {"y", "r"},
-                           {"visits", "1"},
-                           {"u_x", "v", with_error_column},
-                           {"u_y", "v", with_error_column}}};
+                          {{quantity("flow.x")},
+                           {quantity("flow.y")},
+                           {quantity("flow.visits")},
+                           {quantity("flow.u_x"), with_error_column},
+                           {quantity("flow.u_y"), with_error_column}}};
         for (std::size_t c = 0; c < grid_.cells(); ++c) {
             const Vec2 p = grid_.centre_of(c);
             table.add(p.x, p.y, visits(c), flow_x(c), flow_y(c));

@@ -26,6 +26,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/square_grid.hpp"
 #include "swirl/measure/strided.hpp"
 
@@ -78,8 +79,8 @@ class GranularTemperature : public BlockAverages<GranularTemperature>, public St
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"granular", "m v²", "granular temperature T of the motion", granular()});
-        visit(ReportRow{"of_the_spin", "m v²", "temperature of the spins", of_the_spin()});
+        visit(ReportRow{quantity("temperature.granular"), granular()});
+        visit(ReportRow{quantity("temperature.of_the_spin"), of_the_spin()});
     }
     template <class Visitor>
     void fields(Visitor&& visit) {

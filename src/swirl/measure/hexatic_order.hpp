@@ -18,6 +18,7 @@
 
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/region_averages.hpp"
 #include "swirl/measure/voronoi.hpp"
 
@@ -64,13 +65,11 @@ class HexaticOrder : public RegionAverages {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"all", "1", "hexatic order ψ6 of all discs", all()});
-        visit(ReportRow{"pinned", "1", "hexatic order ψ6 of the pinned discs", pinned()});
-        visit(ReportRow{"resident", "1", "hexatic order ψ6 of the discs resident at the wall",
-                        resident()});
-        visit(ReportRow{"six", "1", "share with six neighbours, of the discs away from the wall",
-                        six()});
-        visit(ReportRow{"six_pinned", "1", "the same of the pinned discs", six_pinned()});
+        visit(ReportRow{quantity("order.all"), all()});
+        visit(ReportRow{quantity("order.pinned"), pinned()});
+        visit(ReportRow{quantity("order.resident"), resident()});
+        visit(ReportRow{quantity("order.six"), six()});
+        visit(ReportRow{quantity("order.six_pinned"), six_pinned()});
     }
     void merge(const HexaticOrder& other) {
         RegionAverages::merge(other);

@@ -12,6 +12,7 @@
 
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/region_averages.hpp"
 #include "swirl/measure/voronoi.hpp"
 
@@ -30,10 +31,9 @@ class LocalPacking : public RegionAverages {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"all", "1", "local packing fraction φ of all discs", all()});
-        visit(ReportRow{"pinned", "1", "local packing fraction φ of the pinned discs", pinned()});
-        visit(ReportRow{"resident", "1",
-                        "local packing fraction φ of the discs resident at the wall", resident()});
+        visit(ReportRow{quantity("packing.all"), all()});
+        visit(ReportRow{quantity("packing.pinned"), pinned()});
+        visit(ReportRow{quantity("packing.resident"), resident()});
     }
 };
 

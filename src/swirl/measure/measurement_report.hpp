@@ -1,18 +1,19 @@
-// The results of a measurement: rows, each a quantity with its unit and its error, and tables of
-// such quantities. A measurement hands them over one by one,
+// The results of a measurement: rows, each a quantity with its error, and tables of such quantities.
+// A measurement hands them over one by one,
 //
 //     template <class Visitor> void report(Visitor&& visit) const {
-//         visit(ReportRow{"granular", "m v²", "granular temperature", granular()});
+//         visit(ReportRow{quantity("temperature.granular"), granular()});
 //     }
 //
-// This is the only place where names, units and descriptions are given. JSON, CSV, the terminal and
-// the documentation visit the rows; none of them knows a measurement by its name. Rows and columns
-// do not depend on the data: a measurement without samples reports the same ones, with NaN.
+// The registry (quantities.hpp) has their names, units and words. JSON, CSV, the terminal and the
+// documentation visit the rows; none of them knows a measurement by its name. Rows and columns do
+// not depend on the data: a measurement without samples reports the same ones, with NaN.
 //
-// Units are those of docs/explanation/physics.md: r the radius of a disc, m its mass, v the speed
-// of the container, Ω = 2π/T; ° for angles, 1 for none.
+// A measurement reports in the units of its snapshots. in_printed_units() divides by the units of
+// docs/explanation/physics.md: r the radius of a disc, m its mass, v the speed of the container.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -22,7 +23,9 @@
 #include <vector>
 
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/measure/quantity.hpp"
 #include "swirl/statistics/block_average.hpp"
+#include "swirl/statistics/few_blocks.hpp"
 
 namespace swirl {
 
@@ -34,33 +37,42 @@ struct ReportDetail {
 };
 
 struct ReportRow {
-    const char* name;
-    const char* unit;
-    const char* description;
+    ReportRow(const Quantity& row, const Estimate& value, std::vector<ReportDetail> more = {})
+        : quantity(&row),
+          name(row.key()),
+          unit(row.unit.text),
+          description(row.words),
+          estimate(value),
+          details(std::move(more)) {}
+
+    const Quantity* quantity;
+    const char *name, *unit, *description;  // those of the quantity
     Estimate estimate;
-    std::vector<ReportDetail> details{};
+    std::vector<ReportDetail> details;
     bool has_error = true;  // false: a number that is not an average
 };
 
-/// The row of a measurement that checks a balance.
-inline ReportRow unaccounted_row(const char* description, double share) {
-    return {.name = "unaccounted_share",
-            .unit = "1",
-            .description = description,
-            .estimate = {.mean = share},
-            .has_error = false};
+/// A number that is not an average.
+inline ReportRow number_row(const Quantity& quantity, double value) {
+    ReportRow row(quantity, {.mean = value});
+    row.has_error = false;
+    return row;
 }
 
 struct ReportColumn {
     std::string name;
-    const char* unit;
+    const Quantity* quantity;
+    bool is_error = false;
+
+    const char* unit() const { return quantity->unit.text; }
 };
 
 /// Declares a column, or with `has_error` two: the second, NAME_error, for the error of an average.
 struct ColumnSpec {
-    const char* name;
-    const char* unit;
-    bool has_error = false;
+    ColumnSpec(const Quantity& column, bool with_error = false)  // NOLINT: implicit on purpose
+        : quantity(&column), has_error(with_error) {}
+    const Quantity* quantity;
+    bool has_error;
 };
 inline constexpr bool with_error_column = true;
 
@@ -69,14 +81,17 @@ struct ReportTable {
     const char* description;
     std::vector<ReportColumn> columns{};
     std::vector<double> values{};  // row by row
+    std::size_t blocks = 0;        // largest number behind an average
 
     ReportTable(const char* table_name, const char* table_description,
                 std::initializer_list<ColumnSpec> specs)
         : name(table_name), description(table_description) {
-        for (const ColumnSpec& spec : specs) {
-            columns.push_back({spec.name, spec.unit});
-            if (spec.has_error) columns.push_back({std::string(spec.name) + "_error", spec.unit});
-        }
+        for (const ColumnSpec& spec : specs) add_column(spec);
+    }
+    void add_column(const ColumnSpec& spec) {
+        const std::string key = spec.quantity->key();
+        columns.push_back({key, spec.quantity});
+        if (spec.has_error) columns.push_back({key + "_error", spec.quantity, true});
     }
     std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
     double at(std::size_t row, std::size_t column) const {
@@ -90,7 +105,10 @@ struct ReportTable {
 
   private:
     void push(double value) { values.push_back(value); }
-    void push(const Estimate& e) { values.insert(values.end(), {e.mean, e.error}); }
+    void push(const Estimate& e) {
+        values.insert(values.end(), {e.mean, e.error});
+        blocks = std::max(blocks, e.blocks);
+    }
 };
 
 inline double finite_or_missing(double value) {
@@ -115,12 +133,37 @@ struct Report {
     }
 };
 
+/// Divides every number by its unit.
+inline void in_printed_units(Report& report, const MeasuredUnits& units) {
+    for (ReportRow& row : report.rows)
+        row.estimate = scaled(row.estimate, 1.0 / units.of(row.quantity->unit));
+    for (ReportTable& table : report.tables)
+        for (std::size_t c = 0; c < table.columns.size(); ++c) {
+            const double unit = units.of(table.columns[c].quantity->unit);
+            for (std::size_t r = 0; r < table.rows(); ++r)
+                table.values[r * table.columns.size() + c] /= unit;
+        }
+}
+
+/// Corrects all errors for few blocks (few_blocks.hpp). No number has more than `at_most`
+/// independent blocks. All columns of a table are averages over the same blocks.
+inline void correct_errors(Report& report, std::size_t at_most) {
+    for (ReportRow& row : report.rows) row.estimate = corrected(row.estimate, at_most);
+    for (ReportTable& table : report.tables) {
+        const double factor = few_blocks_factor(std::min(table.blocks, at_most));
+        for (std::size_t c = 0; c < table.columns.size(); ++c) {
+            if (!table.columns[c].is_error) continue;
+            for (std::size_t r = 0; r < table.rows(); ++r)
+                table.values[r * table.columns.size() + c] *= factor;
+        }
+    }
+}
+
 /// An average of a measurement, and its row in the report.
 template <class Average>
 struct AverageRow {
-    AverageRow(const char* row_name, const char* row_unit, const char* text, Average& its_average)
-        : name(row_name), unit(row_unit), description(text), average(its_average) {}
-    const char *name, *unit, *description;
+    AverageRow(const Quantity& row, Average& its_average) : quantity(row), average(its_average) {}
+    const Quantity& quantity;
     Average& average;
 };
 
@@ -128,7 +171,7 @@ struct AverageRow {
 /// of the report and of its checkpoint:
 ///
 ///     static auto rows(auto& s) {
-///         return std::tuple{AverageRow{"cluster", "1", "slip of all discs", s.cluster_}};
+///         return std::tuple{AverageRow{quantity("slip.cluster"), s.cluster_}};
 ///     }
 template <class M, template <class> class Averages = BlockAverages>
 class ReportedAverages : public Averages<M> {
@@ -139,7 +182,7 @@ class ReportedAverages : public Averages<M> {
     template <class Visitor>
     void report(Visitor&& visit) const {
         const auto visit_row = [&](const auto& row) {
-            visit(ReportRow{row.name, row.unit, row.description, row.average.estimate()});
+            visit(ReportRow{row.quantity, row.average.estimate()});
         };
         std::apply([&](const auto&... row) { (visit_row(row), ...); },
                    M::rows(static_cast<const M&>(*this)));

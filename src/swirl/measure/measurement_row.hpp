@@ -11,19 +11,26 @@ struct MeasurementRow {
     const char* name;
     const char* header;  // file with the definition, in src/swirl/measure/
     const char* description;
-    M (*make)(double container_radius);
+    M (*make)(const ObservedDish& dish);
 };
 
 template <class M>
 constexpr MeasurementRow<M> measurement(const char* name, const char* header,
                                         const char* description) {
-    return {name, header, description, [](double) { return M(); }};
+    return {name, header, description, [](const ObservedDish&) { return M(); }};
 }
 /// For a class whose constructor needs the radius of the container.
 template <class M>
 constexpr MeasurementRow<M> measurement_in_container(const char* name, const char* header,
                                                      const char* description) {
-    return {name, header, description, [](double radius) { return M(radius); }};
+    return {name, header, description,
+            [](const ObservedDish& dish) { return M(dish.container_radius); }};
+}
+/// For one that also needs r.
+template <class M>
+constexpr MeasurementRow<M> measurement_in_dish(const char* name, const char* header,
+                                                const char* description) {
+    return {name, header, description, [](const ObservedDish& dish) { return M(dish); }};
 }
 
 }  // namespace swirl

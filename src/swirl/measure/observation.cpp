@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "swirl/measure/forget_blocks.hpp"
+
 namespace swirl {
 namespace {
 
@@ -64,9 +66,10 @@ const MFrameView* PinnedFrames::earlier() const {
     return &recent_[(frames_ - 1 - delay()) % recent_.size()];
 }
 
-Observation::Observation(double container_radius, double period, std::vector<std::string> names,
-                         bool same_discs, double frames_per_period)
-    : period_(period),
+Observation::Observation(const ObservedDish& dish, std::vector<std::string> names, bool same_discs,
+                         double frames_per_period)
+    : period_(dish.period),
+      units_(dish.units),
       frames_per_period_(frames_per_period),
       names_(std::move(names)),
       pinned_(frames_per_period) {
@@ -78,7 +81,7 @@ Observation::Observation(double container_radius, double period, std::vector<std
     std::erase_if(names_, [](const std::string& name) { return !find_measurement(name); });
     each_row(chosen_, [&]<class M>(const MeasurementRow<M>& row, std::optional<M>& chosen) {
         for (const std::string& name : names_)
-            if (name == row.name) chosen.emplace(row.make(container_radius));
+            if (name == row.name) chosen.emplace(row.make(dish));
         if (!chosen) return;
         if constexpr (requires { chosen->use_every_sample(); }) {
             if (uses_every_frame) chosen->use_every_sample();
@@ -174,14 +177,22 @@ void Observation::close_block() {
     block_begins_ = true;
 }
 
-std::vector<MeasurementReport> Observation::report() const {
+std::vector<MeasurementReport> Observation::report(std::size_t whole_periods) const {
     std::vector<MeasurementReport> reports;
     for (const std::string& name : names_)
         each_row(chosen_, [&](const auto& row, const auto& chosen) {
-            if (name == row.name)
-                reports.push_back({name, report_of(*chosen, pinned_.pinned_loose())});
+            if (name != row.name) return;
+            Report report = report_of(*chosen, pinned_.pinned_loose());
+            in_printed_units(report, units_);
+            correct_errors(report, whole_periods);
+            reports.push_back({name, std::move(report)});
         });
     return reports;
+}
+
+void Observation::forget_blocks() {
+    pinned_.fields(ForgetBlocks());
+    each([](auto& m) { m.fields(ForgetBlocks()); });
 }
 
 void Observation::merge(const Observation& other) {

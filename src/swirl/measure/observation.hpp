@@ -1,7 +1,7 @@
 // Samples any choice of the measurements in measurement_list.hpp. A source of snapshots (a run, a
 // recording, a camera's tracks) hands over what it has, in order of time:
 //
-//     Observation observation(container_radius, period, names);
+//     Observation observation({container_radius, period, units}, names);
 //     observation.sample(snapshot);       at equal time steps, samples_per_period of them
 //     observation.sample(event, after);   after every event, if events are known at all
 //     observation.close_block();          at the end of every period
@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -99,13 +100,13 @@ class PinnedFrames {
 
 class Observation {
   public:
-    /// The names are those of measurement_kinds(), each once; other names are ignored. Radius and
-    /// period are those of the snapshots to come. `same_discs` is false if no disc can be followed
+    /// The names are those of measurement_kinds(), each once; other names are ignored. `dish` is
+    /// that of the snapshots to come. `same_discs` is false if no disc can be followed
     /// for some frames in a row: then it is never known which discs are pinned. The same holds if
     /// there are too few frames per period. With fewer than 511 every frame is used; otherwise
     /// expensive measurements use a part of them (strided.hpp).
-    Observation(double container_radius, double period, std::vector<std::string> names,
-                bool same_discs = true, double frames_per_period = samples_per_period);
+    Observation(const ObservedDish& dish, std::vector<std::string> names, bool same_discs = true,
+                double frames_per_period = samples_per_period);
 
     const std::vector<std::string>& names() const { return names_; }
     bool empty() const { return names_.empty(); }
@@ -120,8 +121,12 @@ class Observation {
     /// For smoothed velocities: ½⟨u²⟩ of a disc, relative to the container, is larger by `missing`.
     void add_energy(double missing);
 
-    /// One report for each measurement, in the order of their names.
-    std::vector<MeasurementReport> report() const;
+    /// One report for each measurement, in the order of their names: in r, v and m, with errors
+    /// for few periods (few_blocks.hpp). A recording has at most `whole_periods` independent blocks.
+    std::vector<MeasurementReport> report(
+        std::size_t whole_periods = std::numeric_limits<std::size_t>::max()) const;
+    /// Removes all closed blocks; what is followed across periods stays (forget_blocks.hpp).
+    void forget_blocks();
 
     /// Adds the closed blocks of another observation with the same names.
     void merge(const Observation& other);
@@ -156,6 +161,7 @@ class Observation {
     }
 
     double period_;  // the present one
+    MeasuredUnits units_;
     double frames_per_period_;
     int per_structure_ = samples_per_structure, per_position_ = samples_per_position;
     std::vector<std::string> names_;

@@ -23,7 +23,7 @@
 // By default only every 64th sample is used: neighbouring samples hardly differ. Units: none.
 // Errors: from blocks of periods; that of ρ is added to those of g_inner. Limits: bins that reach
 // out of the circles (r > 2a for g, r > R/2 − (mean radius) for g_inner) and fewer than two discs
-// give NaN. Distances are at most 20. Overlapping discs (a camera's errors) do not count at
+// give NaN. Distances are at most 20 r. Overlapping discs (a camera's errors) do not count at
 // contact. If radii differ, a is that of their mean, and g shows the distances of all species.
 #pragma once
 
@@ -37,6 +37,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pair_distances.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 
 namespace swirl {
@@ -51,11 +52,11 @@ class PairCorrelation : public BlockAverages<PairCorrelation>, public Strided {
         return std::tie(s.pairs_, s.partners_, s.contact_, s.inside_, s.packing_, s.radius_);
     }
 
-    explicit PairCorrelation(double container_radius, int every = 64)
+    explicit PairCorrelation(const ObservedDish& dish, int every = 64)
         : Strided(every),
-          inner_radius_(0.5 * container_radius),
-          container_radius_(container_radius),
-          bins_(container_radius),
+          inner_radius_(0.5 * dish.container_radius),
+          container_radius_(dish.container_radius),
+          bins_(dish.container_radius, dish.units.r),
           pairs_(bins_.count),
           partners_(bins_.count) {}
 
@@ -70,16 +71,14 @@ class PairCorrelation : public BlockAverages<PairCorrelation>, public Strided {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"contact", "1", "pair correlation at contact, in the inner circle",
-                        contact()});
-        visit(ReportRow{"inner_packing", "1", "packing fraction of the inner circle of radius R/2",
-                        inner_packing()});
+        visit(ReportRow{quantity("pair_correlation.contact"), contact()});
+        visit(ReportRow{quantity("pair_correlation.inner_packing"), inner_packing()});
         ReportTable table{"function",
                           "pair correlation g in the whole container, and g_inner about discs in "
                           "its inner circle",
-                          {{"distance", "r"},
-                           {"g", "1", with_error_column},
-                           {"g_inner", "1", with_error_column}}};
+                          {{quantity("pair_correlation.function.distance")},
+                           {quantity("pair_correlation.function.g"), with_error_column},
+                           {quantity("pair_correlation.function.g_inner"), with_error_column}}};
         for (std::size_t bin = 0; bin < bins_.count; ++bin)
             table.add(bins_.middle(bin), g(bin), inner_g(bin));
         visit(std::move(table));

@@ -14,9 +14,10 @@ namespace swirl {
 /// Bins of the distance between two centres, from 0 to the container's diameter, but not beyond 20.
 /// They are 0.1 wide, less in a small container.
 struct DistanceBins {
-    explicit DistanceBins(double container_radius)
-        : width(std::min(0.1, container_radius / 80.0)),
-          reach(std::min(2.0 * container_radius, 20.0)),
+    /// `r` is the radius of a disc.
+    DistanceBins(double container_radius, double r)
+        : width(std::min(0.1 * r, container_radius / 80.0)),
+          reach(std::min(2.0 * container_radius, 20.0 * r)),
           count(static_cast<std::size_t>(std::ceil(reach / width - 1e-9))) {}
 
     double width;

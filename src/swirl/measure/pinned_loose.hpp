@@ -51,6 +51,7 @@
 #include "swirl/measure/direction_histogram.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/statistics/block_average.hpp"
@@ -181,13 +182,11 @@ class PinnedByCollisions {
     /// The results from collisions, next to those from the tracks of the same discs.
     template <class Visitor>
     void report(Visitor&& visit, const PinnedLoose& by_tracks) const {
-        visit(direction_row("pinning", "θ where discs pin, by tracks", by_tracks.pinning()));
-        visit(direction_row("depinning", "θ where discs depin, by tracks", by_tracks.depinning()));
-        visit(
-            direction_row("pinning_by_collisions", "θ where discs pin, by collisions", pinning()));
-        visit(direction_row("depinning_by_collisions", "θ where discs depin, by collisions",
-                            depinning()));
-        visit(ReportRow{"share", "1", "share of the discs that is pinned", by_tracks.share()});
+        visit(direction_row(quantity("pinned.pinning"), by_tracks.pinning()));
+        visit(direction_row(quantity("pinned.depinning"), by_tracks.depinning()));
+        visit(direction_row(quantity("pinned.pinning_by_collisions"), pinning()));
+        visit(direction_row(quantity("pinned.depinning_by_collisions"), depinning()));
+        visit(ReportRow{quantity("pinned.share"), by_tracks.share()});
         visit(positions_table("distribution over θ of pinning and depinning, by tracks",
                               by_tracks.pinned_positions(), by_tracks.free_positions()));
     }

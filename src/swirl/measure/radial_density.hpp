@@ -16,6 +16,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 
 namespace swirl {
 
@@ -44,10 +45,11 @@ class RadialDensity {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        ReportTable table{
-            "",
-            "discs per area, in rings about the container's centre",
-            {{"inner_radius", "r"}, {"outer_radius", "r"}, {"density", "1/r²", with_error_column}}};
+        ReportTable table{"",
+                          "discs per area, in rings about the container's centre",
+                          {{quantity("radial.inner_radius")},
+                           {quantity("radial.outer_radius")},
+                           {quantity("radial.density"), with_error_column}}};
         for (std::size_t ring = 0; ring < rings(); ++ring)
             table.add(inner_radius(ring), outer_radius(ring), density(ring));
         visit(std::move(table));

@@ -33,6 +33,7 @@
 
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 #include "swirl/measure/touching_pairs.hpp"
 #include "swirl/physics/event.hpp"
@@ -46,19 +47,11 @@ class Rolling : public ReportedAverages<Rolling>, public Strided {
     static constexpr bool any_path = true;
 
     static auto rows(auto& s) {
-        return std::tuple{
-            AverageRow{"rolling_share", "1", "share of the spheres that roll on the floor",
-                       s.rolls_},
-            AverageRow{"wall_rolling_share", "1", "share of the spheres at the wall that roll",
-                       s.rolls_at_wall_},
-            AverageRow{"floor_slip", "v", "magnitude of the slip on the floor", s.slip_},
-            AverageRow{"axis_correlation", "1",
-                       "correlation of touching spheres' horizontal spins: 1 if they are equal",
-                       s.axes_},
-            AverageRow{"contact_correlation", "1",
-                       "correlation of their rolling along the line of centres: −1 without slip, 1 "
-                       "if they slip with both speeds",
-                       s.contacts_}};
+        return std::tuple{AverageRow{quantity("rolling.rolling_share"), s.rolls_},
+                          AverageRow{quantity("rolling.wall_rolling_share"), s.rolls_at_wall_},
+                          AverageRow{quantity("rolling.floor_slip"), s.slip_},
+                          AverageRow{quantity("rolling.axis_correlation"), s.axes_},
+                          AverageRow{quantity("rolling.contact_correlation"), s.contacts_}};
     }
 
     explicit Rolling(double gap = 0.1, int every = 7) : Strided(every), gap_(gap) {}
@@ -71,20 +64,13 @@ class Rolling : public ReportedAverages<Rolling>, public Strided {
     template <class Visitor>
     void report(Visitor&& visit) const {
         ReportedAverages::report(visit);
-        visit(ReportRow{"vertical_share", "1", "vertical share of friction between spheres",
-                        between_.share.estimate()});
-        visit(ReportRow{"vertical_share_at_wall", "1", "the same at the wall",
-                        at_wall_.share.estimate()});
-        visit(ReportRow{"vertical_friction", "1",
-                        "ratio of vertical to normal impulse between spheres, at most μ",
-                        between_.friction.estimate()});
-        visit(ReportRow{"vertical_friction_at_wall", "1", "the same at the wall",
-                        at_wall_.friction.estimate()});
-        visit(ReportRow{"vertical_power", "m v³/r",
-                        "lost by a sphere to vertical friction between spheres",
-                        between_.power.estimate()});
-        visit(ReportRow{"vertical_power_at_wall", "m v³/r", "the same at the wall",
-                        at_wall_.power.estimate()});
+        visit(ReportRow{quantity("rolling.vertical_share"), between_.share.estimate()});
+        visit(ReportRow{quantity("rolling.vertical_share_at_wall"), at_wall_.share.estimate()});
+        visit(ReportRow{quantity("rolling.vertical_friction"), between_.friction.estimate()});
+        visit(
+            ReportRow{quantity("rolling.vertical_friction_at_wall"), at_wall_.friction.estimate()});
+        visit(ReportRow{quantity("rolling.vertical_power"), between_.power.estimate()});
+        visit(ReportRow{quantity("rolling.vertical_power_at_wall"), at_wall_.power.estimate()});
     }
     void merge(const Rolling& other) {
         ReportedAverages::merge(other);

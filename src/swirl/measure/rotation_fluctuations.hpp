@@ -22,36 +22,37 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 #include "swirl/statistics/fluctuations.hpp"
 
 namespace swirl {
 
-/// A quantity of Fluctuations: its name in JSON, its row for each estimator, and its unit.
+/// A quantity of Fluctuations: its row for the rigid body, and that for the mean over the discs.
 struct FluctuationRow {
     Estimate Fluctuations::*quantity;
-    const char *name, *discs_name, *unit, *description;
+    const Quantity *rigid, *discs;
 };
 // clang-format off
 inline constexpr std::array<FluctuationRow, 9> fluctuation_rows{{
-    {&Fluctuations::variance, "n_variance", "discs_n_variance", "Ω²",
-     "number of discs × variance of the means of the periods"},
-    {&Fluctuations::skewness, "skewness", "discs_skewness", "1",
-     "their skewness: 0 if symmetric"},
-    {&Fluctuations::excess_kurtosis, "excess_kurtosis", "discs_excess_kurtosis", "1",
-     "their excess kurtosis: 0 if normal"},
-    {&Fluctuations::binder, "binder", "discs_binder", "1",
-     "their Binder cumulant: 0 if normal, 2/3 for two equal states"},
-    {&Fluctuations::autocorrelation_time, "correlation_time", "discs_correlation_time",
-     "T", "their integrated autocorrelation time, at least 1"},
-    {&Fluctuations::low, "low", "discs_low", "Ω",
-     "ϖ in the lower of two states"},
-    {&Fluctuations::high, "high", "discs_high", "Ω",
-     "ϖ in the higher of two states"},
-    {&Fluctuations::low_lifetime, "low_lifetime", "discs_low_lifetime", "T",
-     "mean lifetime of the lower state"},
-    {&Fluctuations::high_lifetime, "high_lifetime", "discs_high_lifetime", "T",
-     "mean lifetime of the higher state"},
+    {&Fluctuations::variance, &quantity("fluctuations.n_variance"),
+     &quantity("fluctuations.discs_n_variance")},
+    {&Fluctuations::skewness, &quantity("fluctuations.skewness"),
+     &quantity("fluctuations.discs_skewness")},
+    {&Fluctuations::excess_kurtosis, &quantity("fluctuations.excess_kurtosis"),
+     &quantity("fluctuations.discs_excess_kurtosis")},
+    {&Fluctuations::binder, &quantity("fluctuations.binder"),
+     &quantity("fluctuations.discs_binder")},
+    {&Fluctuations::autocorrelation_time, &quantity("fluctuations.correlation_time"),
+     &quantity("fluctuations.discs_correlation_time")},
+    {&Fluctuations::low, &quantity("fluctuations.low"),
+     &quantity("fluctuations.discs_low")},
+    {&Fluctuations::high, &quantity("fluctuations.high"),
+     &quantity("fluctuations.discs_high")},
+    {&Fluctuations::low_lifetime, &quantity("fluctuations.low_lifetime"),
+     &quantity("fluctuations.discs_low_lifetime")},
+    {&Fluctuations::high_lifetime, &quantity("fluctuations.high_lifetime"),
+     &quantity("fluctuations.discs_high_lifetime")},
 }};
 // clang-format on
 
@@ -90,9 +91,9 @@ class RotationFluctuations : public Strided {
         Fluctuations rigid_body = rigid(), discs = individual();
         for (Fluctuations* f : {&rigid_body, &discs}) f->variance = scaled(f->variance, discs_);
         for (const FluctuationRow& row : fluctuation_rows)
-            visit(ReportRow{row.name, row.unit, row.description, rigid_body.*row.quantity});
+            visit(ReportRow{*row.rigid, rigid_body.*row.quantity});
         for (const FluctuationRow& row : fluctuation_rows)
-            visit(ReportRow{row.discs_name, row.unit, row.description, discs.*row.quantity});
+            visit(ReportRow{*row.discs, discs.*row.quantity});
     }
 
     template <class Visitor>

@@ -34,6 +34,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/voronoi.hpp"
 #include "swirl/statistics/block_average.hpp"
 
@@ -58,19 +59,10 @@ class Segregation : public ReportedAverages<Segregation> {
     static constexpr bool any_path = true;
 
     static auto rows(auto& s) {
-        return std::tuple{
-            AverageRow{"radial", "1",
-                       "larger particles are farther from the centre: 1 all, 0 random mixture, −1 "
-                       "none",
-                       s.radial_},
-            AverageRow{"neighbours", "1", "neighbours are of like size: 1 all, 0 random mixture",
-                       s.neighbours_},
-            AverageRow{"small_distance", "r",
-                       "mean distance of the smaller half of the particles from the centre",
-                       s.small_},
-            AverageRow{"large_distance", "r",
-                       "mean distance of the larger half of the particles from the centre",
-                       s.large_}};
+        return std::tuple{AverageRow{quantity("segregation.radial"), s.radial_},
+                          AverageRow{quantity("segregation.neighbours"), s.neighbours_},
+                          AverageRow{quantity("segregation.small_distance"), s.small_},
+                          AverageRow{quantity("segregation.large_distance"), s.large_}};
     }
 
     void sample(const MFrameView& view, const Voronoi& cells, PinnedFlags pinned = {});

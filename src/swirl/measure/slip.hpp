@@ -36,6 +36,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 #include "swirl/statistics/block_average.hpp"
 
@@ -49,14 +50,11 @@ inline double pancake_rotation(double cluster_perimeter, double container_perime
 class Slip : public ReportedAverages<Slip>, public Strided {
   public:
     static auto rows(auto& s) {
-        return std::tuple{
-            AverageRow{"cluster", "1", "slip parameter s of all discs", s.cluster_},
-            AverageRow{"pinned_region", "1", "slip parameter s of the pinned discs", s.pinned_},
-            AverageRow{"resident", "1", "slip parameter s of the discs resident at the wall",
-                       s.resident_},
-            AverageRow{"cluster_perimeter", "r", "perimeter of the cluster", s.perimeter_},
-            AverageRow{"pancake", "Ω", "rotation of a pancake of that perimeter that does not slip",
-                       s.pancake_}};
+        return std::tuple{AverageRow{quantity("slip.cluster"), s.cluster_},
+                          AverageRow{quantity("slip.pinned_region"), s.pinned_},
+                          AverageRow{quantity("slip.resident"), s.resident_},
+                          AverageRow{quantity("slip.cluster_perimeter"), s.perimeter_},
+                          AverageRow{quantity("slip.pancake"), s.pancake_}};
     }
 
     explicit Slip(int every = 64) : Strided(every) {}

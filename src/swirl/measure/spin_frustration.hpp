@@ -36,6 +36,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pinned_loose.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 #include "swirl/measure/touching_pairs.hpp"
 #include "swirl/physics/event.hpp"
@@ -47,35 +48,20 @@ class SpinFrustration : public ReportedAverages<SpinFrustration>, public Strided
   public:
     static auto rows(auto& s) {
         return std::tuple{
-            AverageRow{"wall_spin", "Ω", "magnitude of the spin of the discs at the wall",
-                       s.wall_spin_},
-            AverageRow{"pinned_wall_spin", "Ω",
-                       "magnitude of the spin of the pinned discs at the wall",
-                       s.pinned_wall_spin_},
-            AverageRow{"resident_spin", "Ω",
-                       "magnitude of the spin of the discs resident at the wall", s.resident_spin_},
-            AverageRow{"spin_correlation", "1", "spin correlation of touching discs: −1 for gears",
-                       s.correlation_},
-            AverageRow{"pinned_correlation", "1", "the same for two pinned discs",
-                       s.pinned_correlation_},
-            AverageRow{"resident_correlation", "1",
-                       "the same for a resident disc and any that it touches",
-                       s.resident_correlation_},
-            AverageRow{"along_wall", "1", "the same for two resident discs", s.along_wall_},
-            AverageRow{"triangle_correlation", "1", "the same for pairs with a common neighbour",
-                       s.in_triangle_},
-            AverageRow{"chain_correlation", "1", "the same for pairs without a common neighbour",
-                       s.in_chain_},
-            AverageRow{"correlation_by_impulse", "1",
-                       "the same over collisions, each weighted with its normal impulse",
-                       s.by_impulse_},
-            AverageRow{"triangles", "1", "share of the touching pairs with a common neighbour",
-                       s.triangles_},
-            AverageRow{"coordination", "1", "touching neighbours of a disc", s.coordination_},
-            AverageRow{"disc_sticking", "1", "share of the disc–disc collisions that stop the slip",
-                       s.disc_sticking_},
-            AverageRow{"wall_sticking", "1", "share of the disc–wall collisions that stop the slip",
-                       s.wall_sticking_}};
+            AverageRow{quantity("frustration.wall_spin"), s.wall_spin_},
+            AverageRow{quantity("frustration.pinned_wall_spin"), s.pinned_wall_spin_},
+            AverageRow{quantity("frustration.resident_spin"), s.resident_spin_},
+            AverageRow{quantity("frustration.spin_correlation"), s.correlation_},
+            AverageRow{quantity("frustration.pinned_correlation"), s.pinned_correlation_},
+            AverageRow{quantity("frustration.resident_correlation"), s.resident_correlation_},
+            AverageRow{quantity("frustration.along_wall"), s.along_wall_},
+            AverageRow{quantity("frustration.triangle_correlation"), s.in_triangle_},
+            AverageRow{quantity("frustration.chain_correlation"), s.in_chain_},
+            AverageRow{quantity("frustration.correlation_by_impulse"), s.by_impulse_},
+            AverageRow{quantity("frustration.triangles"), s.triangles_},
+            AverageRow{quantity("frustration.coordination"), s.coordination_},
+            AverageRow{quantity("frustration.disc_sticking"), s.disc_sticking_},
+            AverageRow{quantity("frustration.wall_sticking"), s.wall_sticking_}};
     }
 
     explicit SpinFrustration(double gap = 0.1, int every = 64) : Strided(every), gap_(gap) {}

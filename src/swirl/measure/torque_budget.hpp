@@ -48,6 +48,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/long_residence.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/statistics/block_average.hpp"
@@ -73,31 +74,29 @@ AngularImpulse angular_impulse(const Event& event, const Snapshot& after);
 class TorqueBudget : public ReportedAverages<TorqueBudget, MergedAverages> {
   public:
     static auto rows(auto& s) {
-        const char* const unit = "m v²";
-        const auto row = [&](const char* name, const char* text, auto k) {
-            return AverageRow{name, unit, text, s.series_[k]};
+        const auto row = [&](const Quantity& its_quantity, auto k) {
+            return AverageRow{its_quantity, s.series_[k]};
         };
-        return std::tuple{
-            row("wall_normal", "normal force of the wall, about the centre of mass", 0),
-            row("wall_tangential", "friction at the wall, about the centre of mass", 1),
-            row("transfer", "friction between discs, on their orbital motion", 2),
-            row("wall_on_spins", "friction at the wall, on the spins", 3),
-            row("discs_on_spins", "friction between discs, on their spins", 4),
-            row("orbital", "change of the orbital angular momentum per time", 5),
-            row("spins", "change of the angular momentum of the spins per time", 6),
-            row("wall_about_centre", "friction at the wall, about the container's centre", 7),
-            row("container_torque", "acceleration of the container, about its centre", 8),
-            row("wall_sticking", "part of wall_tangential from sticking contacts", 9),
-            row("wall_sliding", "part of wall_tangential from sliding contacts", 10),
-            row("transfer_sticking", "part of transfer from sticking contacts", 11),
-            row("transfer_sliding", "part of transfer from sliding contacts", 12),
-            row("wall_normal_pinned", "part of wall_normal from pinned discs", 13),
-            row("wall_normal_loose", "part of wall_normal from loose discs", 14),
-            row("wall_tangential_pinned", "part of wall_tangential from pinned discs", 15),
-            row("wall_tangential_loose", "part of wall_tangential from loose discs", 16),
-            row("transfer_pinned", "part of transfer from two pinned discs", 17),
-            row("transfer_mixed", "part of transfer from a pinned and a loose disc", 18),
-            row("transfer_loose", "part of transfer from two loose discs", 19)};
+        return std::tuple{row(quantity("torque.wall_normal"), 0),
+                          row(quantity("torque.wall_tangential"), 1),
+                          row(quantity("torque.transfer"), 2),
+                          row(quantity("torque.wall_on_spins"), 3),
+                          row(quantity("torque.discs_on_spins"), 4),
+                          row(quantity("torque.orbital"), 5),
+                          row(quantity("torque.spins"), 6),
+                          row(quantity("torque.wall_about_centre"), 7),
+                          row(quantity("torque.container_torque"), 8),
+                          row(quantity("torque.wall_sticking"), 9),
+                          row(quantity("torque.wall_sliding"), 10),
+                          row(quantity("torque.transfer_sticking"), 11),
+                          row(quantity("torque.transfer_sliding"), 12),
+                          row(quantity("torque.wall_normal_pinned"), 13),
+                          row(quantity("torque.wall_normal_loose"), 14),
+                          row(quantity("torque.wall_tangential_pinned"), 15),
+                          row(quantity("torque.wall_tangential_loose"), 16),
+                          row(quantity("torque.transfer_pinned"), 17),
+                          row(quantity("torque.transfer_mixed"), 18),
+                          row(quantity("torque.transfer_loose"), 19)};
     }
 
     explicit TorqueBudget(std::size_t slices = 36)
@@ -115,14 +114,13 @@ class TorqueBudget : public ReportedAverages<TorqueBudget, MergedAverages> {
     template <class Visitor>
     void report(Visitor&& visit) const {
         ReportedAverages::report(visit);
-        visit(unaccounted_row("share of the angular momentum that is not accounted for",
-                              unaccounted_share()));
+        visit(number_row(quantity("torque.unaccounted_share"), unaccounted_share()));
         ReportTable table{"profile",
                           "torques about the centre of mass in slices of θ",
-                          {{"theta", "°"},
-                           {"wall_normal", "m v²", with_error_column},
-                           {"wall_tangential", "m v²", with_error_column},
-                           {"transfer", "m v²", with_error_column}}};
+                          {{quantity("torque.profile.theta")},
+                           {quantity("torque.profile.wall_normal"), with_error_column},
+                           {quantity("torque.profile.wall_tangential"), with_error_column},
+                           {quantity("torque.profile.transfer"), with_error_column}}};
         const std::size_t slices = wall_normal_.size();
         for (std::size_t k = 0; k < slices; ++k)
             table.add(360.0 * (static_cast<double>(k) + 0.5) / static_cast<double>(slices),

@@ -13,7 +13,7 @@
 //
 // Neighbours: pairs with a gap below half the mean radius. By default only every 64th sample is
 // used. Units: none. The ratios are of sums over samples. Errors: from blocks of periods. Limits: a
-// bin without pairs, discs at rest, and missing spins give NaN. Distances are at most 20.
+// bin without pairs, discs at rest, and missing spins give NaN. Distances are at most 20 r.
 #pragma once
 
 #include <cstddef>
@@ -25,6 +25,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
 #include "swirl/measure/pair_distances.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 
 namespace swirl {
@@ -36,9 +37,9 @@ class VelocityCorrelation : public BlockAverages<VelocityCorrelation>, public St
         return std::tie(s.along_, s.across_, s.spin_, s.near_along_, s.near_across_, s.near_spin_);
     }
 
-    explicit VelocityCorrelation(double container_radius, int every = 64)
+    explicit VelocityCorrelation(const ObservedDish& dish, int every = 64)
         : Strided(every),
-          bins_(container_radius),
+          bins_(dish.container_radius, dish.units.r),
           along_(bins_.count),
           across_(bins_.count),
           spin_(bins_.count),
@@ -75,18 +76,15 @@ class VelocityCorrelation : public BlockAverages<VelocityCorrelation>, public St
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"near_along", "1", "velocity correlation of neighbours, along their line",
-                        near_along_.estimate(0)});
-        visit(ReportRow{"near_across", "1", "velocity correlation of neighbours, across their line",
-                        near_across_.estimate(0)});
-        visit(ReportRow{"near_spin", "1", "spin correlation of neighbours: −1 for gears",
-                        near_spin_.estimate(0)});
+        visit(ReportRow{quantity("velocity_correlation.near_along"), near_along_.estimate(0)});
+        visit(ReportRow{quantity("velocity_correlation.near_across"), near_across_.estimate(0)});
+        visit(ReportRow{quantity("velocity_correlation.near_spin"), near_spin_.estimate(0)});
         ReportTable table{"function",
                           "correlation of velocities and spins against the distance of two discs",
-                          {{"distance", "r"},
-                           {"along", "1", with_error_column},
-                           {"across", "1", with_error_column},
-                           {"spin", "1", with_error_column}}};
+                          {{quantity("velocity_correlation.function.distance")},
+                           {quantity("velocity_correlation.function.along"), with_error_column},
+                           {quantity("velocity_correlation.function.across"), with_error_column},
+                           {quantity("velocity_correlation.function.spin"), with_error_column}}};
         for (std::size_t bin = 0; bin < bins_.count; ++bin)
             table.add(bins_.middle(bin), along(bin), across(bin), spin(bin));
         visit(std::move(table));

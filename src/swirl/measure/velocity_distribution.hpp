@@ -26,6 +26,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/measure/strided.hpp"
 
 namespace swirl {
@@ -58,24 +59,22 @@ class VelocityDistribution : public BlockAverages<VelocityDistribution>, public 
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"speed", "v", "root mean square speed relative to the centre of mass",
-                        root_of(square_.estimate())});
-        visit(ReportRow{"kurtosis", "1",
-                        "kurtosis of the velocity's components: 3 for a normal distribution",
-                        kurtosis_.estimate()});
-        visit(ReportRow{"spin", "Ω", "standard deviation of the spins",
-                        root_of(spin_square_.estimate())});
-        visit(ReportRow{"spin_kurtosis", "1", "kurtosis of the spins: 3 for a normal distribution",
-                        spin_kurtosis_.estimate()});
+        visit(ReportRow{quantity("velocity_distribution.speed"), root_of(square_.estimate())});
+        visit(ReportRow{quantity("velocity_distribution.kurtosis"), kurtosis_.estimate()});
+        visit(ReportRow{quantity("velocity_distribution.spin"), root_of(spin_square_.estimate())});
+        visit(
+            ReportRow{quantity("velocity_distribution.spin_kurtosis"), spin_kurtosis_.estimate()});
         ReportTable speeds{"speeds",
                            "density of the speed, in units of its root mean square",
-                           {{"speed", "1"}, {"density", "1", with_error_column}}};
+                           {{quantity("velocity_distribution.speeds.speed")},
+                            {quantity("velocity_distribution.speeds.density"), with_error_column}}};
         for (std::size_t bin = 0; bin < speed_bins; ++bin)
             speeds.add(speed_of(bin), speed_density(bin));
         visit(std::move(speeds));
         ReportTable spins{"spins",
                           "density of the spin less its mean, in units of its standard deviation",
-                          {{"spin", "1"}, {"density", "1", with_error_column}}};
+                          {{quantity("velocity_distribution.spins.spin")},
+                           {quantity("velocity_distribution.spins.density"), with_error_column}}};
         for (std::size_t bin = 0; bin < spin_bins; ++bin)
             spins.add(spin_of(bin), spin_density(bin));
         visit(std::move(spins));

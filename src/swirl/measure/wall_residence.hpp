@@ -43,6 +43,7 @@
 #include "swirl/measure/long_residence.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/statistics/block_average.hpp"
 #include "swirl/statistics/circular_mean.hpp"
 
@@ -82,20 +83,20 @@ class WallResidences {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(direction_row("pinning", "θ where residences in the wall layer begin", pinning()));
-        visit(direction_row("depinning", "θ where residences in the wall layer end", depinning()));
-        visit(ReportRow{"share", "1", "share of the discs that reside in the wall layer", share()});
-        visit(ReportRow{"length", "T", "length of a residence, in periods", length()});
+        visit(direction_row(quantity("residence.pinning"), pinning()));
+        visit(direction_row(quantity("residence.depinning"), depinning()));
+        visit(ReportRow{quantity("residence.share"), share()});
+        visit(ReportRow{quantity("residence.length"), length()});
         ReportTable sensitivity{
             "sensitivity",
             "these quantities for other layers and minimum lengths of a residence",
-            {{"layer", "1"},
-             {"min_length", "T"},
-             {"pinning", "°", with_error_column},
-             {"pinned_concentration", "1"},
-             {"depinning", "°", with_error_column},
-             {"free_concentration", "1"},
-             {"share", "1", with_error_column}}};
+            {{quantity("residence.sensitivity.layer")},
+             {quantity("residence.sensitivity.min_length")},
+             {quantity("residence.sensitivity.pinning"), with_error_column},
+             {quantity("residence.sensitivity.pinned_concentration")},
+             {quantity("residence.sensitivity.depinning"), with_error_column},
+             {quantity("residence.sensitivity.free_concentration")},
+             {quantity("residence.sensitivity.share"), with_error_column}}};
         for (std::size_t l = 0; l < layers.size(); ++l)
             for (std::size_t d = 0; d < minimum.size(); ++d) {
                 const Averages& a = averages_[l][d];
@@ -107,7 +108,9 @@ class WallResidences {
         ReportTable lengths{"lengths",
                             "distribution of the lengths of all residences; the last row also "
                             "counts longer ones",
-                            {{"from", "T"}, {"to", "T"}, {"share", "1", with_error_column}}};
+                            {{quantity("residence.lengths.from")},
+                             {quantity("residence.lengths.to")},
+                             {quantity("residence.lengths.share"), with_error_column}}};
         for (std::size_t bin = 0; bin < length_bins; ++bin) {
             const double from = static_cast<double>(bin) * length_bin;
             lengths.add(from, bin + 1 < length_bins ? from + length_bin : not_available,

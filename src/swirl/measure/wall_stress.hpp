@@ -18,6 +18,7 @@
 #include "swirl/measure/cell_averages.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/statistics/block_average.hpp"
 
@@ -72,15 +73,13 @@ class WallStress : public MergedAverages<WallStress> {
 
     template <class Visitor>
     void report(Visitor&& visit) const {
-        visit(ReportRow{"pressure", "m v²/r²", "pressure on the wall, averaged along it",
-                        mean_pressure()});
-        visit(ReportRow{"traction", "m v²/r²",
-                        "traction along the wall, averaged, counter-clockwise", mean_traction()});
+        visit(ReportRow{quantity("wall.pressure"), mean_pressure()});
+        visit(ReportRow{quantity("wall.traction"), mean_traction()});
         ReportTable table{"profile",
                           "pressure and traction in slices of θ",
-                          {{"theta", "°"},
-                           {"pressure", "m v²/r²", with_error_column},
-                           {"traction", "m v²/r²", with_error_column}}};
+                          {{quantity("wall.profile.theta")},
+                           {quantity("wall.profile.pressure"), with_error_column},
+                           {quantity("wall.profile.traction"), with_error_column}}};
         for (std::size_t s = 0; s < slices(); ++s)
             table.add(theta(s) * degrees_per_radian, pressure(s), traction(s));
         visit(std::move(table));

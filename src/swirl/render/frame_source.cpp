@@ -285,10 +285,11 @@ FrameSource recorded(const SnapshotSeries& series, const std::string& caption) {
     source.clockwise = series.clockwise;
     if (source.amplitude > 0.0) source.path = outline(circular_path(source.amplitude, 1.0));
     source.caption = caption;
-    source.parameters = {fmt::format("$N$ = {}", first.size()),
-                         "$R$ = " + plain(rounded(first.container_radius)) + " $r$",
-                         "$A$ = " + plain(rounded(source.amplitude)) + " $r$",
-                         fmt::format("{} recorded frames", series.frames)};
+    source.parameters = {
+        fmt::format("$N$ = {}", first.size()),
+        "$R$ = " + plain(rounded(first.container_radius / series.units.r)) + " $r$",
+        "$A$ = " + plain(rounded(source.amplitude / series.units.r)) + " $r$",
+        fmt::format("{} recorded frames", series.frames)};
     source.from = periods_of(first);
     source.to = periods_of(last);
     const auto has_values = [](const std::vector<double>& values) {

@@ -85,8 +85,8 @@ std::vector<TextRun> runs_of(std::string_view text, const LabelStyle& style) {
 }
 
 /// Calls visit(run, left) for each run, with its face selected; the first starts at `x`.
-void for_each_run(cairo_t* cairo, const std::vector<TextRun>& runs, const LabelStyle& style, double x,
-                  auto&& visit) {
+void for_each_run(cairo_t* cairo, const std::vector<TextRun>& runs, const LabelStyle& style,
+                  double x, auto&& visit) {
     for (const TextRun& run : runs) {
         const double advance = advance_of(cairo, run, style);
         double left = x;

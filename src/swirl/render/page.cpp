@@ -243,8 +243,8 @@ void Page::draw(const Canvas& canvas, std::span<const Moment> moments, double pe
                              .ids = moment.now->ids,
                              .past_ids = pointers[k].past_ids};
         if (appearance_.turned)
-            content.turns = (sources_[k].clockwise ? -1.0 : 1.0) *
-                            turns_until(curves_[k], start_, periods);
+            content.turns =
+                (sources_[k].clockwise ? -1.0 : 1.0) * turns_until(curves_[k], start_, periods);
         for (std::size_t f = 0; f < appearance_.frames.size(); ++f) contents.push_back(content);
     }
     sheet_->draw_frame(canvas, contents, curves_, periods);

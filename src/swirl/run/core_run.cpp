@@ -227,14 +227,17 @@ void CoreRun::begin_period() {
     const bool exact = follows_angles();
     if (exact) rotation().end_angles(snapshot_);
     const std::uint64_t events = simulation_.events().total();
-    if (series_.exists())  // the blocks of the period are still open
-        series_.add_period({.period = simulation_.periods() - 1,
-                            .is_counted = is_warm(),
-                            .rotation = rotation().open_means(),
-                            .spin = warm_up_.spin().open_mean(),
-                            .events = events});
     constexpr double few = rotation_samples_of_few;
-    rotation().close_block(by_event_.interval(), exact ? rotation_samples / few : 1.0);
+    const double weight_by_time = exact ? rotation_samples / few : 1.0;
+    if (series_.exists())  // the blocks of the period are still open
+        series_.add_period(
+            {.period = simulation_.periods() - 1,
+             .is_counted = is_warm(),
+             .rotation = rotation().open_means(),
+             .rotation_weights = rotation().open_weights(by_event_.interval(), weight_by_time),
+             .spin = warm_up_.spin().open_mean(),
+             .events = events});
+    rotation().close_block(by_event_.interval(), weight_by_time);
     warm_up_.spin().close_block();
     if (observes()) observation_->close_block();
     if (warm_up_.ends(config_, simulation_.periods(), fraction())) {
@@ -254,8 +257,19 @@ void CoreRun::begin_angles(std::uint64_t events) {
         rotation().begin_angles(snapshot_);
 }
 
+/// Smaller spins, in units of Ω, are none: those of discs that cannot spin, but for a huge moment of
+/// inertia. Their changes mean nothing.
+constexpr double smallest_spin = 1e-6;
+
+std::vector<double> without_tiny_values(std::vector<double> blocks) {
+    const bool all_tiny = std::all_of(blocks.begin(), blocks.end(),
+                                      [](double b) { return std::fabs(b) < smallest_spin; });
+    if (all_tiny) std::fill(blocks.begin(), blocks.end(), 0.0);
+    return blocks;
+}
+
 SteadyState CoreRun::steady_state_of(const BlockSeries& series) const {
-    SteadyState state = find_steady_state(series.block_means());
+    SteadyState state = find_steady_state(without_tiny_values(series.block_means()));
     if (!std::isnan(state.change.size))
         state.period = static_cast<double>(result_.warmup) +
                        static_cast<double>(state.change.at * series.periods_per_block());
@@ -265,7 +279,7 @@ SteadyState CoreRun::steady_state_of(const BlockSeries& series) const {
 RunResult CoreRun::result() {
     sample_by_event();
     result_.complete = complete();
-    result_.rotation = rotation().estimates();
+    result_.rotation = corrected(rotation().estimates());
     result_.events_per_rotation_sample = by_event_.interval();
     result_.steady = steady_state_of(rotation().mean_by_event());
     result_.steady_spin = steady_state_of(warm_up_.spin().series());
@@ -276,7 +290,14 @@ RunResult CoreRun::result() {
     result_.invariant = end.invariant;
     result_.state_hash = simulation_.state_hash();
     result_.simd = simulation_.loop_counts().width;
-    return result_;
+    // Sums and checkpoints are in the units of the configuration.
+    const MeasuredUnits units = units_of(config_);
+    RunResult printed = result_;
+    printed.max_overlap /= units.r;
+    for (double* energy : {&printed.energy, &printed.energy_at_start, &printed.invariant,
+                           &printed.invariant_at_start})
+        *energy /= units.of("m v²");
+    return printed;
 }
 
 }  // namespace swirl

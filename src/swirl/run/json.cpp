@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parse_json.hpp"
 #include "swirl/run/report.hpp"
@@ -108,12 +109,16 @@ Json fluctuations_json(const Fluctuations& fluctuations, double discs) {
     for (const FluctuationRow& row : fluctuation_rows) {
         const bool is_variance = row.quantity == &Fluctuations::variance;
         const Estimate e = scaled(fluctuations.*row.quantity, is_variance ? discs : 1.0);
-        json[row.name] = {{"mean", e.mean}, {"error", e.error}};
+        json[row.rigid->key()] = {{"mean", e.mean}, {"error", e.error}};
     }
     return json;
 }
 
 }  // namespace
+
+Json units_json(const MeasuredUnits& units) {
+    return {{"r", units.r}, {"v", units.v}, {"m", units.m}};
+}
 
 Json series_json(const PeriodSeries& series) {
     Json averages = Json::object();
@@ -132,6 +137,7 @@ Json result_json(const RunResult& r) {
     Json json = object_of(32);
     json["format"] = result_format;
     json["config"] = config_json(r.config);
+    json["units"] = units_json(units_of(r.config));
     json["complete"] = r.complete;
     json["events"] = counts_json(r.events);
     json["periods"] = r.periods;

@@ -32,6 +32,9 @@ nlohmann::ordered_json row_json(const ReportRow& row);
 
 nlohmann::ordered_json result_json(const RunResult& result);
 
+/// {"r", "v", "m"}: the units of all numbers, in the units of the configuration.
+nlohmann::ordered_json units_json(const MeasuredUnits& units);
+
 /// {"periods", "averages": {NAME: estimate_json() with "unit", "autocorrelation_time" and, without
 /// ramps, "fluctuations"}}
 nlohmann::ordered_json series_json(const PeriodSeries& series);

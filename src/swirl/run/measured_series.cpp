@@ -9,6 +9,7 @@
 #include "swirl/io/range_checks.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/measure/observation.hpp"
+#include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/path_parameter.hpp"
@@ -45,29 +46,54 @@ std::string rate_remark(const std::vector<std::string>& names, double rate) {
         fmt::join(missing, "; "), samples_per_period);
 }
 
-/// The whole periods that the frames show; each frame stands for a step of time.
+/// The whole periods that the frames show; each frame stands for a step of time. A recording begins
+/// and ends within a period, and parts of periods count as no block.
 std::size_t whole_periods(const MeasuredSeries& measured) {
     constexpr double rounding = 0.02;  // periods: the period of a video is measured
     const double step = measured.frames_per_period > 0.0 ? 1.0 / measured.frames_per_period : 0.0;
     return static_cast<std::size_t>(std::max(measured.periods, 0.0) + step + rounding);
 }
 
-/// Corrects the errors for few blocks. A recording begins and ends within a period, and parts of
-/// periods count as no block. All columns of a table are averages over the same blocks.
-void correct_errors(MeasuredSeries& measured) {
-    const std::size_t all = whole_periods(measured);
-    for (Estimate* const e : {&measured.rotation.mean_by_time, &measured.rotation.rigid_by_time})
-        *e = corrected(*e, all);
-    for (MeasurementReport& measurement : measured.reports) {
-        for (ReportRow& row : measurement.report.rows) row.estimate = corrected(row.estimate, all);
-        for (ReportTable& table : measurement.report.tables)
-            for (std::size_t c = 0; c < table.columns.size(); ++c) {
-                if (!table.columns[c].name.ends_with("_error")) continue;
-                for (std::size_t r = 0; r < table.rows(); ++r)
-                    table.values[r * table.columns.size() + c] *= few_blocks_factor(all);
-            }
+/// ϖ by time from frames at any times: each stands for half of the steps before and after it.
+class RotationByTime {
+  public:
+    explicit RotationByTime(bool uneven) : uneven_(uneven), rotation_(selected_width()) {}
+
+    void sample(const Snapshot& s) {
+        if (!uneven_) {
+            rotation_.sample_by_time(s);
+            return;
+        }
+        if (is_held_) pass(s.time() - held_.time());
+        held_ = s;
+        is_held_ = true;
     }
-}
+    /// The next frame is in another period.
+    void close_block() {
+        closes_ = uneven_;
+        if (!uneven_) rotation_.close_block();
+    }
+    RotationEstimates estimates() {
+        if (uneven_) pass(step_before_);
+        rotation_.close_block();
+        return rotation_.estimates();
+    }
+
+  private:
+    /// Counts the held frame, whose successor is one step later.
+    void pass(double step) {
+        rotation_.sample_by_time(held_, 0.5 * (step_before_ + step));
+        step_before_ = step;
+        if (closes_) rotation_.close_block();
+        closes_ = false;
+    }
+
+    bool uneven_;
+    ClusterRotation rotation_;
+    Snapshot held_;
+    bool is_held_ = false, closes_ = false;
+    double step_before_ = 0.0;
+};
 
 }  // namespace
 
@@ -101,6 +127,7 @@ SnapshotSeries series_of_run(const std::shared_ptr<TrajectoryReader>& reader) {
         const RunConfig config = resolve(parameters_in(parameters));
         series.has_m_frame = has_m_frame(config);
         series.clockwise = config.turns_clockwise();
+        series.units = units_of(config);
     } catch (const UsageError&) {
         // The recording of another version, whose paths all have an M-frame.
     }
@@ -125,9 +152,10 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     MeasuredSeries measured;
     measured.frames_per_period = frames_per_period(series);
     measured.remark = rate_remark(names, measured.frames_per_period);
-    Observation observation(first.container_radius, first.period, names,
+    Observation observation({first.container_radius, first.period, series.units}, names,
                             series.has_m_frame && holds_tracks(series), measured.frames_per_period);
-    ClusterRotation rotation(selected_width());
+    const bool uneven = series.has_uneven_times();
+    RotationByTime rotation(uneven);
     std::int64_t period = first.periods;
     auto next_break = series.breaks.begin();
     for (std::uint64_t k = 0; k < series.frames; ++k) {
@@ -144,25 +172,34 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
         if (new_discs) observation.begin_tracks();
         period = s.periods;
         measured.discs = std::max(measured.discs, s.size());
-        rotation.sample_by_time(s);
+        rotation.sample(s);
         observation.sample(s);
         ++measured.frames;
         if (control.progress) control.progress(k + 1, series.frames);
     }
     if (measured.frames == 0)
         throw Failure(fmt::format("no frame is left after the first {:g} periods.", skip));
-    rotation.close_block();
     observation.close_block();
     observation.add_energy(series.missing_energy);
     measured.rotation = rotation.estimates();
-    measured.reports = observation.report();
     measured.periods = series.frame(series.frames - 1).time() / first.period - skip;
-    correct_errors(measured);
+    const std::size_t periods = whole_periods(measured);
+    measured.reports = observation.report(periods);
+    for (Estimate* const e : {&measured.rotation.mean_by_time, &measured.rotation.rigid_by_time})
+        *e = corrected(*e, periods);
+    const auto add_remark = [&](const std::string& remark) {
+        measured.remark += (measured.remark.empty() ? "" : "\n") + remark;
+    };
+    if (uneven && !names.empty())
+        add_remark(
+            "frames are not at equal steps of time: the rotation is averaged by time, but the "
+            "measurements count every frame the same, as an average by event does.\nhint: record "
+            "--frames per period.");
     if (measured.frames > 1 && whole_periods(measured) < min_blocks_of_an_error)
-        measured.remark += fmt::format(
-            "{}errors are n/a, because {:.1f} periods are too few for an error: {} are needed, and "
+        add_remark(fmt::format(
+            "errors are n/a, because {:.1f} periods are too few for an error: {} are needed, and "
             "twenty make it reliable.",
-            measured.remark.empty() ? "" : "\n", measured.periods, min_blocks_of_an_error);
+            measured.periods, min_blocks_of_an_error));
     return measured;
 }
 

@@ -33,7 +33,7 @@ const MeasurementKind& require_measurement(std::string_view name) {
 
 /// Rows and tables without data: names, units, descriptions.
 MeasurementReports empty_reports() {
-    return Observation(1.0, 1.0, read_measurement_list("all")).report();
+    return Observation({1.0, 1.0}, read_measurement_list("all")).report();
 }
 
 /// "slip.cluster"; "density" for a table without a name, "energy" for a row without a group.
@@ -51,10 +51,10 @@ std::string columns_text(const ReportTable& table) {
     std::string text;
     for (const ReportColumn& column : table.columns) {
         const std::string_view name = column.name;
-        if (name.ends_with("_error")) continue;
+        if (column.is_error) continue;
         if (!text.empty()) text += ", ";
-        text += std::string_view(column.unit) == "1" ? std::string(name)
-                                                     : fmt::format("{} ({})", name, column.unit);
+        text += column.quantity->unit.is_number() ? std::string(name)
+                                                  : fmt::format("{} ({})", name, column.unit());
     }
     return text;
 }
@@ -167,7 +167,7 @@ Observation observation_of(const RunConfig& config, std::vector<std::string> nam
         std::erase_if(names,
                       [](const auto& name) { return find_measurement(name)->needs_m_frame; });
     if (!m_frame) require_m_frame_for(names);
-    return Observation(config.container_radius, config.period, std::move(names), m_frame);
+    return Observation(dish_of(config), std::move(names), m_frame);
 }
 
 Json measured_json(const MeasurementReports& reports) {
@@ -181,16 +181,14 @@ Json measured_json(const MeasurementReports& reports) {
     return measured;
 }
 
-// Only directions report how well their angles agree (circular_mean.hpp).
-bool is_direction(const Json& row) { return row.is_object() && row.contains("concentration"); }
-
 std::vector<MeasuredNumber> measured_numbers(const Json& measured) {
     std::vector<MeasuredNumber> numbers;
     for (const auto& [name, result] : measured.items()) {
         if (is_table(result)) continue;
         for (const auto& [quantity, value] : result.items())
             if (!is_table(value))
-                numbers.push_back({name + "." + quantity, estimate_in(value), is_direction(value)});
+                numbers.push_back({name + "." + quantity, estimate_in(value),
+                                   is_direction(name + "." + quantity)});
     }
     return numbers;
 }
@@ -226,7 +224,7 @@ std::vector<fs::path> measured_table_files(const std::vector<std::string>& names
                                            const fs::path& folder) {
     std::vector<fs::path> files;
     bool has_rows = false;
-    for (const auto& [name, report] : Observation(1.0, 1.0, names).report()) {
+    for (const auto& [name, report] : Observation({1.0, 1.0}, names).report()) {
         for (const ReportTable& table : report.tables)
             files.push_back(folder / (full_name(name, table.name) + ".csv"));
         has_rows |= !report.rows.empty();

@@ -48,8 +48,11 @@ struct MeasuredNumber {
 };
 /// Every row in the JSON of measured_json().
 std::vector<MeasuredNumber> measured_numbers(const nlohmann::ordered_json& measured);
-/// True if this is the JSON of a row that is a direction.
-bool is_direction(const nlohmann::ordered_json& row);
+/// True if the number with this name is an angle, whose mean is that of unit vectors.
+inline bool is_direction(std::string_view name) {
+    const Quantity* const quantity = find_quantity(name);
+    return quantity && quantity->combines == Combines::as_direction;
+}
 
 /// One line for every row and every table. Missing values are summarized: a measurement without any
 /// value is one line, and if most values are missing, one line counts them.

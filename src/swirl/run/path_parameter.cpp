@@ -312,6 +312,14 @@ double container_speed(const RunConfig& c) {
     return length / c.period;
 }
 
+MeasuredUnits units_of(const RunConfig& c) {
+    const double speed =
+        c.amplitude > 0.0 ? container_speed(c) : c.radius * (paper_period / c.period);
+    return {.r = c.radius, .v = static_cast<double>(static_cast<float>(speed)), .m = c.mass};
+}
+
+ObservedDish dish_of(const RunConfig& c) { return {c.container_radius, c.period, units_of(c)}; }
+
 double path_reach(const RunConfig& c) {
     if (c.path != PathShape::ellipse && c.path != PathShape::lissajous) return c.amplitude;
     double square = 0.0;

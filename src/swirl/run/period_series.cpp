@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/table.hpp"
+#include "swirl/math/unit_circle.hpp"
 #include "swirl/run/budget.hpp"
+#include "swirl/run/config.hpp"
+#include "swirl/statistics/circular_mean.hpp"
+#include "swirl/statistics/few_blocks.hpp"
 
 namespace swirl {
 namespace {
@@ -22,32 +28,31 @@ std::string series_cell(double value) {
 }  // namespace
 
 PeriodSeries::PeriodSeries(const RunConfig& config, std::vector<std::string> measurements)
-    : config_(config), measured_(config.container_radius, config.period, std::move(measurements)) {
+    : config_(config),
+      units_(units_of(config)),
+      measured_(dish_of(config), std::move(measurements)) {
     add_columns();
 }
 
 void PeriodSeries::add_columns() {
-    columns_ = {{"period", "1", "number of the period, from 0"},
-                {"counted", "1", "1 if the period counts in the averages of the run"}};
-    RotationEstimates().report([&](const ReportRow& row) {
-        columns_.push_back({row.name, row.unit, row.description});
-    });
-    columns_.push_back({"spin", "Ω", "mean spin of the particles"});
-    columns_.push_back({"energy", "m v²", "mean kinetic energy in the lab frame, with spins"});
-    columns_.push_back({"centre_x", "r", "mean centre of mass in the M-frame, x"});
-    columns_.push_back({"centre_y", "r", "mean centre of mass in the M-frame, y"});
-    columns_.push_back({"events", "1", "number of events of all kinds"});
+    const auto own = [&](const Quantity& q) {
+        columns_.push_back({q.key(), q.unit.text, q.words, &q});
+    };
+    own(quantity("series.period"));
+    own(quantity("series.counted"));
+    RotationEstimates().report([&](const ReportRow& row) { own(*row.quantity); });
+    own(quantity("series.spin"));
+    own(quantity("series.energy"));
+    own(quantity("series.centre_x"));
+    own(quantity("series.centre_y"));
+    own(quantity("series.events"));
     for (const Ramp& ramp : config_.ramps)
         columns_.push_back(
             {"ramp." + ramp.name, find_parameter(ramp.name)->unit, "value of the ramp"});
     first_measured_ = columns_.size();
     for (const auto& [name, report] : measured_.report())
         for (const ReportRow& row : report.rows)
-            columns_.push_back({name + "." + row.name, row.unit, row.description});
-}
-
-Observation PeriodSeries::empty_observation() const {
-    return Observation(config_.container_radius, config_.period, measured_.names());
+            columns_.push_back({row.quantity->name, row.unit, row.description, row.quantity});
 }
 
 void PeriodSeries::sample(const Snapshot& snapshot) {
@@ -57,15 +62,20 @@ void PeriodSeries::sample(const Snapshot& snapshot) {
     samples_ += 1.0;
 }
 
+void PeriodSeries::add(double value, double weight) {
+    values_.push_back(finite_or_missing(value));
+    weights_.push_back(weight);
+}
+
 void PeriodSeries::add_period(const PeriodAverages& averages) {
-    const auto add = [&](double value) { values_.push_back(finite_or_missing(value)); };
     add(static_cast<double>(averages.period));
     add(averages.is_counted ? 1.0 : 0.0);
-    for (const double rate : averages.rotation) add(rate);
+    for (std::size_t r = 0; r < rotation_rates.size(); ++r)
+        add(averages.rotation[r], averages.rotation_weights[r]);
     add(averages.spin);
-    add(energy_ / samples_);
-    add(centre_.x / samples_);
-    add(centre_.y / samples_);
+    add(energy_ / samples_ / units_.of("m v²"));
+    add(centre_.x / samples_ / units_.r);
+    add(centre_.y / samples_ / units_.r);
     add(static_cast<double>(averages.events - events_));
     for (const Ramp& ramp : config_.ramps) add(ramp.value_in(averages.period));
     events_ = averages.events;
@@ -74,8 +84,11 @@ void PeriodSeries::add_period(const PeriodAverages& averages) {
     if (!measures()) return;
     measured_.close_block();
     for (const auto& [name, report] : measured_.report())
-        for (const ReportRow& row : report.rows) add(row.estimate.mean);
-    measured_ = empty_observation();
+        for (const ReportRow& row : report.rows) {
+            const bool has_value = row.quantity->combines != Combines::not_at_all;
+            add(has_value ? row.estimate.mean : not_available, row.estimate.weight);
+        }
+    measured_.forget_blocks();
 }
 
 std::vector<double> PeriodSeries::counted(std::size_t column) const {
@@ -91,15 +104,32 @@ std::vector<double> PeriodSeries::counted(std::string_view column_name) const {
     return {};
 }
 
+SeriesAverage PeriodSeries::average(std::size_t column) const {
+    const SeriesColumn& named = columns_[column];
+    std::vector<double> values, weights;
+    CircularMean direction;
+    for (std::size_t k = 0; k < periods(); ++k) {
+        const double value = at(k, column), weight = weights_[k * columns_.size() + column];
+        if (at(k, 1) == 0.0 || std::isnan(value)) continue;
+        values.push_back(value);
+        weights.push_back(weight);
+        direction.add_block(weight * unit_circle(value / 360.0));
+    }
+    // Equal weights must not be rounded.
+    if (std::adjacent_find(weights.begin(), weights.end(), std::not_equal_to<>()) == weights.end())
+        weights.clear();
+    SeriesEstimate found = estimate_of_series(values, weights);
+    if (named.quantity->combines == Combines::as_direction)
+        found = {scaled(direction.angle(), degrees_per_radian), not_available};
+    return {named.name, named.unit, corrected(found.estimate), found.autocorrelation_time,
+            fluctuations_of({&values, 1})};
+}
+
 std::vector<SeriesAverage> PeriodSeries::averages() const {
     std::vector<SeriesAverage> all;
-    const std::size_t first_ramp = first_measured_ - config_.ramps.size();
-    for (std::size_t c = 2; c < columns_.size(); ++c) {
-        if (c >= first_ramp && c < first_measured_) continue;
-        const std::vector<double> values = counted(c);
-        const auto [estimate, time] = estimate_of_series(values);
-        all.push_back(
-            {columns_[c].name, columns_[c].unit, estimate, time, fluctuations_of({&values, 1})});
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+        const Quantity* const quantity = columns_[c].quantity;
+        if (quantity && quantity->combines != Combines::as_axis) all.push_back(average(c));
     }
     return all;
 }

@@ -3,8 +3,13 @@
 // Fixed columns: the number of the period, from 0; whether it counts in the averages of the run
 // (after the warm-up); the four rotation rates; the mean spin; the mean kinetic energy; the mean
 // centre of mass in the M-frame; the number of events. Then one column for each parameter with a
-// ramp, and one for each row of the measurements of the run, evaluated for this period alone. The
-// value is n/a if a measurement needs more than one period.
+// ramp, and one for each row of the measurements of the run, with what this period contributes. The
+// measurements follow the discs across the ends of periods: a residence counts in the period in
+// which it ends. A number that is no mean over periods (Combines::not_at_all in quantity.hpp), such
+// as a temperature, which is a difference of means, is n/a in every period.
+//
+// The average of a column over the periods is that of the run: values are weighted with what they
+// count (a mean by event with the events of the period), and angles are averaged as unit vectors.
 //
 // Energy and centre are means over the samples by time of the rotation, 64 or 16 per period
 // (cluster_rotation.hpp).
@@ -29,6 +34,7 @@ namespace swirl {
 
 struct SeriesColumn {
     std::string name, unit, description;
+    const Quantity* quantity = nullptr;  // null for a ramp
 };
 
 /// The mean of a column over the periods that count and have a value, its correlations, and its
@@ -44,7 +50,7 @@ struct SeriesAverage {
 struct PeriodAverages {
     std::int64_t period;
     bool is_counted;
-    std::array<double, rotation_rates.size()> rotation;
+    std::array<double, rotation_rates.size()> rotation, rotation_weights;
     double spin;
     std::uint64_t events;  // count since the start of the run
 };
@@ -91,19 +97,23 @@ class PeriodSeries {
     std::string rows(std::size_t first = 0) const;
 
     void fields(auto&& visit) {
-        visit(values_, events_, energy_, centre_.x, centre_.y, samples_);
+        visit(values_, weights_, events_, energy_, centre_.x, centre_.y, samples_);
         if (measures()) visit(measured_);
     }
-    bool is_consistent() const { return values_.size() % columns_.size() == 0; }
+    bool is_consistent() const {
+        return values_.size() % columns_.size() == 0 && weights_.size() == values_.size();
+    }
 
   private:
     void add_columns();
-    Observation empty_observation() const;
+    void add(double value, double weight = 1.0);
+    SeriesAverage average(std::size_t column) const;
 
     RunConfig config_;
     std::vector<SeriesColumn> columns_;
     std::size_t first_measured_ = 0;  // index of the first column of a measurement
-    std::vector<double> values_;
+    std::vector<double> values_, weights_;
+    MeasuredUnits units_;
     std::uint64_t events_ = 0;  // up to the last period
 
     // Sums over the present period.

@@ -10,7 +10,6 @@
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/ramp.hpp"
 #include "swirl/run/reading.hpp"
-#include "swirl/statistics/few_blocks.hpp"
 #include "swirl/statistics/zero_crossing.hpp"
 
 namespace swirl {
@@ -21,14 +20,6 @@ std::string with_minus(const std::string& text) {
 }
 
 std::string with_error(const Estimate& e) { return swirl::with_error(e.mean, e.error); }
-
-/// Few periods determine the error itself badly.
-RotationEstimates corrected(RotationEstimates e) {
-    for (Estimate* const rate :
-         {&e.mean_by_event, &e.mean_by_time, &e.rigid_by_event, &e.rigid_by_time})
-        *rate = swirl::corrected(*rate);
-    return e;
-}
 
 /// On straight segments, the vertices of the path add energy on average.
 bool energy_grows_without_bound(const RunConfig& c) {
@@ -115,19 +106,19 @@ std::string too_short_warning(const RunResult& r) {
         length);
 }
 
-/// In disc radii. Rounding errors of positions are about 10⁻¹⁴ in the experiment's container and at
+/// Unit r. Rounding errors of positions are about 10⁻¹⁴ in the experiment's container and at
 /// most 10⁻¹²; a larger overlap grew with the number of bounces.
 constexpr double max_rounding_overlap = 1e-12;
 
 bool sinks_into_the_wall(const RunResult& r) {
     const RunConfig& c = r.config;
-    return c.floor && c.contact_duration == 0.0 && r.max_overlap > max_rounding_overlap * c.radius;
+    return c.floor && c.contact_duration == 0.0 && r.max_overlap > max_rounding_overlap;
 }
 
 std::string sinking_warning(const RunResult& r) {
     return fmt::format(
         "without a contact duration, {}s that the floor drives along the wall bounce ever lower "
-        "and sink into it by a rounding error per bounce: {:.1e} so far.\nhint: use a "
+        "and sink into it by a rounding error per bounce: {:.1e} r so far.\nhint: use a "
         "--contact-duration, such as 1e-3.",
         body_word(r.config), r.max_overlap);
 }
@@ -204,7 +195,7 @@ std::string events_text(const RunResult& r) {
 /// The lines that only --verbose prints.
 std::string details(const RunResult& r) {
     std::string text;
-    const RotationEstimates e = corrected(r.rotation);
+    const RotationEstimates& e = r.rotation;
     if (r.config.discs > 1 && r.has_whole_period()) {
         text += report_line("by time",
                             fmt::format("{} mean over the discs, {} rigid body",
@@ -311,7 +302,7 @@ std::string rigid_body_line(const RotationEstimates& e) {
 }
 
 std::string headline(const RunResult& r) {
-    const Estimate e = swirl::corrected(r.rotation.mean_by_time);
+    const Estimate e = r.rotation.mean_by_time;
     const char* const body = body_word(r.config);
     if (r.config.discs == 1)
         return fmt::format("1 {} has no rotation about its own centre of mass.", body);
@@ -373,7 +364,7 @@ std::string report(const RunResult& r, bool verbose) {
                              r.config.turns_clockwise() ? "clockwise" : "counter-clockwise"));
     if (const std::string rounded = rounded_share_text(r.config); !rounded.empty())
         text += report_line("mixture", rounded);
-    if (has_averages) text += rigid_body_line(corrected(r.rotation));
+    if (has_averages) text += rigid_body_line(r.rotation);
     if (r.has_whole_period()) text += report_line("average", average_text(r));
     if (r.config.ramps.empty()) text += report_line("steady", steady_text(r));
     text += report_line("repeat", fmt::format("seed {} gives final state {:016x} on every machine",

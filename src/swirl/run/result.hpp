@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/statistics/steady_state.hpp"
 
@@ -27,8 +29,8 @@ struct RunResult {
     std::uint64_t events_per_rotation_sample = 1;  // value of the last period
     SteadyState steady;        // test of the rotation by event, after the warm-up
     SteadyState steady_spin;   // test of the mean spin, which may relax much more slowly
-    double max_overlap = 0.0;  // largest overlap at a contact: a rounding error
-    /// Kinetic energy in the lab frame, including spins, at the start and at the end.
+    double max_overlap = 0.0;  // largest overlap at a contact: a rounding error; unit r
+    /// Kinetic energy in the lab frame, including spins, at the start and at the end; unit m v².
     double energy_at_start = 0.0, energy = 0.0;
     /// K − ΩL (run/budget.hpp).
     double invariant_at_start = 0.0, invariant = 0.0;
@@ -48,41 +50,28 @@ struct RunResult {
     /// docs/reference/measurements.md use it; a group is an object in JSON, rows without group are
     /// plain keys.
     void report(auto&& visit) const {
-        const auto number = [&](const char* group, const char* name, const char* unit,
-                                const char* description, double value) {
-            visit(group, ReportRow{name, unit, description, {.mean = value}, {}, false});
+        const auto number = [&](const Quantity& its_quantity, double value) {
+            visit(std::string(its_quantity.group()), number_row(its_quantity, value));
         };
         rotation.report([&](const ReportRow& row) { visit("rotation", row); });
-        number("", "events_per_rotation_sample", "1", "of averages by event, in the last period",
+        number(quantity("events_per_rotation_sample"),
                static_cast<double>(events_per_rotation_sample));
-        number("steady_state", "change", "1",
-               "most likely change of the rotation, in standard errors", steady.change.size);
-        number("steady_state", "change_limit", "1", "limit of a change that may be random",
-               steady.change.max_size);
-        number("steady_state", "change_period", "1", "period at which the rotation changes",
-               steady.period);
-        number("steady_state", "change_before", "Ω", "rotation before the change",
-               steady.change.before);
-        number("steady_state", "change_after", "Ω", "rotation after the change",
-               steady.change.after);
+        number(quantity("steady_state.change"), steady.change.size);
+        number(quantity("steady_state.change_limit"), steady.change.max_size);
+        number(quantity("steady_state.change_period"), steady.period);
+        number(quantity("steady_state.change_before"), steady.change.before);
+        number(quantity("steady_state.change_after"), steady.change.after);
         const TwoStates states = steady.states.found() ? steady.states : TwoStates{};
-        number("steady_state", "low_state", "Ω", "rotation in the lower of two states", states.low);
-        number("steady_state", "high_state", "Ω", "rotation in the higher of two states",
-               states.high);
-        number("steady_state", "switches", "1", "changes between the two states",
-               static_cast<double>(states.changes));
-        number("steady_state", "spin_change", "1",
-               "most likely change of the mean spin, in standard errors", steady_spin.change.size);
-        number("steady_state", "spin_change_limit", "1", "limit of a change that may be random",
-               steady_spin.change.max_size);
-        number("", "max_overlap", "r", "largest overlap at a contact: a rounding error",
-               max_overlap);
-        number("", "energy", "m v²", "kinetic energy in the lab frame at the end, including spins",
-               energy);
-        number("", "energy_at_start", "m v²", "kinetic energy at the start", energy_at_start);
-        number("", "invariant", "m v²", "K − ΩL, conserved on the circle without friction",
-               invariant);
-        number("", "invariant_at_start", "m v²", "K − ΩL at the start", invariant_at_start);
+        number(quantity("steady_state.low_state"), states.low);
+        number(quantity("steady_state.high_state"), states.high);
+        number(quantity("steady_state.switches"), static_cast<double>(states.changes));
+        number(quantity("steady_state.spin_change"), steady_spin.change.size);
+        number(quantity("steady_state.spin_change_limit"), steady_spin.change.max_size);
+        number(quantity("max_overlap"), max_overlap);
+        number(quantity("energy"), energy);
+        number(quantity("energy_at_start"), energy_at_start);
+        number(quantity("invariant"), invariant);
+        number(quantity("invariant_at_start"), invariant_at_start);
     }
 
     bool has_whole_period() const { return rotation.mean_by_event.blocks > 0; }

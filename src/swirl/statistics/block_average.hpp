@@ -39,6 +39,9 @@ struct Estimate {
     double error = not_available;
     double effective_samples = 0.0;
     std::size_t blocks = 0;
+    /// What the values count in the mean; 0 if the mean is none of such values. The mean over parts
+    /// of a run, each with its weight, is that of the run.
+    double weight = 0.0;
 };
 
 /// An estimate times a factor: other units, or a normalisation.
@@ -70,27 +73,35 @@ double autocorrelation_time(std::size_t lags, const Autocovariance& autocovarian
     return std::max(1.0, sum / variance);
 }
 
-/// Mean and error of equally weighted values in order of time, without joining any of them; and
-/// their integrated autocorrelation time, NaN for fewer than two values.
+/// Mean and error of values in order of time, without joining any of them; and their integrated
+/// autocorrelation time, NaN for fewer than two values. No weights: all values count the same.
 struct SeriesEstimate {
     Estimate estimate;
     double autocorrelation_time = not_available;
 };
-inline SeriesEstimate estimate_of_series(std::span<const double> values) {
+inline SeriesEstimate estimate_of_series(std::span<const double> values,
+                                         std::span<const double> weights = {}) {
     SeriesEstimate found;
     const auto n = static_cast<double>(values.size());
-    double sum = 0.0;
-    for (const double value : values) sum += value;
+    const auto weight = [&](std::size_t k) { return weights.empty() ? 1.0 : weights[k]; };
+    double sum = 0.0, total = 0.0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        sum += weight(k) * values[k];
+        total += weight(k);
+    }
     found.estimate.blocks = values.size();
     if (values.empty()) return found;
-    const double mean = sum / n;
+    const double mean = sum / total, mean_weight = total / n;
+    const auto residual = [&](std::size_t k) {
+        return weight(k) / mean_weight * (values[k] - mean);
+    };
     found.estimate.mean = mean;
     found.estimate.effective_samples = n;
     if (values.size() < 2) return found;
     const auto autocovariance = [&](std::size_t lag) {
         double product = 0.0;
         for (std::size_t k = 0; k + lag < values.size(); ++k)
-            product += (values[k] - mean) * (values[k + lag] - mean);
+            product += residual(k) * residual(k + lag);
         return product / n;
     };
     const double tau = autocorrelation_time(values.size(), autocovariance);
@@ -117,6 +128,9 @@ class BlockSeries {
             if (!other.runs_[r].blocks.empty()) runs_.push_back(other.runs_[r]);
     }
 
+    /// Without its blocks, the series continues as one that has just begun.
+    void forget_blocks() { *this = {}; }
+
     bool empty() const { return size() == 0; }
     std::size_t size() const {
         std::size_t n = 0;
@@ -140,6 +154,7 @@ class BlockSeries {
         Estimate e;
         e.blocks = size();
         e.mean = total.weight != 0.0 ? total.sum / total.weight : not_available;
+        e.weight = total.weight;
         if (e.blocks == 0 || std::isnan(e.mean)) return e;
         const double n = static_cast<double>(e.blocks), used = blocks_with_weight();
         e.effective_samples = used;
@@ -260,6 +275,7 @@ class BlockMean {
     Estimate estimate() const { return series_.estimate(); }
     const BlockSeries& series() const { return series_; }
     void merge(const BlockMean& other) { series_.merge(other.series_); }
+    void forget_blocks() { series_.forget_blocks(); }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(open_, series_);

@@ -36,6 +36,13 @@ class CircularMean {
         s_ += v.y * inverse;
         n_ += 1.0;
     }
+    /// Adds a whole block, the direction of the vector with its length as weight.
+    void add_block(const Vec2& sum) {
+        c_ = sum.x;
+        s_ = sum.y;
+        n_ = square_root(dot(sum, sum));
+        close_block();
+    }
     void close_block() {
         ++blocks_;
         used_ += n_ > 0.0 ? 1.0 : 0.0;
@@ -56,6 +63,7 @@ class CircularMean {
         const double square = C_ * C_ + S_ * S_;
         if (!(square > 0.0)) return e;
         e.mean = 2.0 * pi * turns_of({C_, S_});
+        e.weight = square_root(square);  // sums of vectors add up
         if (used_ < 2.0) return e;
         const double across = (CC_ * S_ * S_ - 2.0 * CS_ * C_ * S_ + SS_ * C_ * C_) / square;
         e.error = std::sqrt((across > 0.0 ? across : 0.0) * used_ / (used_ - 1.0) / square);
@@ -66,6 +74,10 @@ class CircularMean {
         return N_ > 0.0 ? square_root(C_ * C_ + S_ * S_) / N_ : not_available;
     }
     double count() const { return N_; }
+    void forget_blocks() {
+        C_ = S_ = CC_ = CS_ = SS_ = N_ = used_ = 0.0;
+        blocks_ = 0;
+    }
 
     void merge(const CircularMean& o) {
         blocks_ += o.blocks_;

@@ -29,4 +29,9 @@ inline Estimate corrected(Estimate e,
     return e;
 }
 
+/// The error of a corrected estimate without this factor.
+inline double plain_error(const Estimate& e) {
+    return e.blocks > 0 ? e.error / few_blocks_factor(e.blocks) : e.error;
+}
+
 }  // namespace swirl

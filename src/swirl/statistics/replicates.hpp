@@ -1,8 +1,9 @@
 // The mean over replicates (runs with the same parameters and different seeds) and its error: the
 // one estimator for sweeps, crossings and the paper's figures.
 //
-// Run i has the mean m_i with the error e_i from its own blocks (block_average.hpp) and the weight
-// w_i (its length; equal for runs of equal length).
+// Run i has the mean m_i with the error e_i from its own blocks (block_average.hpp), without the
+// factor for few blocks (few_blocks.hpp), and the weight w_i (its length; equal for runs of equal
+// length).
 //
 //     p_i = w_i / Σ w_i,   m = Σ p_i m_i
 //     V_w = Σ p_i² e_i²                                         within: from the blocks
@@ -43,9 +44,11 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "swirl/statistics/block_average.hpp"
+#include "swirl/statistics/few_blocks.hpp"
 #include "swirl/statistics/student.hpp"
 
 namespace swirl {
@@ -96,11 +99,14 @@ inline Between between_seeds(std::span<const Estimate> runs, std::span<const dou
 inline Ensemble ensemble(std::span<const Estimate> given, std::span<const double> weights = {}) {
     Ensemble all;
     std::vector<Estimate> runs;
+    std::vector<Estimate> plain;  // the same runs with the errors e_i
     std::vector<double> w;
     for (std::size_t i = 0; i < given.size(); ++i) {
         if (std::isnan(given[i].mean)) continue;
         runs.push_back(given[i]);
         w.push_back(weights.empty() ? 1.0 : weights[i]);
+        plain.push_back(given[i]);
+        plain.back().error = plain_error(given[i]);
     }
     all.runs = runs.size();
     if (runs.empty()) return all;
@@ -109,6 +115,7 @@ inline Ensemble ensemble(std::span<const Estimate> given, std::span<const double
         all.within = all.estimate.error;
         return all;
     }
+    runs = std::move(plain);
     double total = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         total += w[i];

@@ -9,10 +9,13 @@
 // both formed, and the larger counts. The limit is the quantile of Student's t that `max_change`
 // is for a normal deviate, with Welch's degrees of freedom from the effective samples. The change
 // is a jump if the step describes it well: better than a straight line, and nearly as well as two
-// lines. Otherwise it is a drift. Few effective samples make the limit large: with 26, that of a
-// change in the middle is 10 errors. A smaller change may then still be real, so the test decides
-// nothing with fewer, nor if there is a change of more than 10 errors below its limit. Such a run is
-// too short to tell.
+// lines. Otherwise it is a drift.
+//
+// Could it miss a change? Few effective samples make the limit large: with 26, that of a change in
+// the middle is 10 errors. Near an end, the shorter part may have so few that the error with a
+// variance of its own has a limit of 30 or 100. Then the error with one variance for all decides
+// that there is no change, if its own test finds none. If it finds one, or if every limit is above
+// 10 errors, a change of 10 errors could be missed: the run is too short to tell.
 //
 // Transient. The mean of the first fifth is compared with that of the last half. (Geweke 1992,
 // doi:10.21034/sr.148, takes a tenth; a fifth keeps more blocks in a short run.) The last half
@@ -80,10 +83,11 @@ struct MeanChange {
     double effective_samples = 0.0;   // samples in the blocks without the change
 
     bool found() const { return std::abs(size) > max_size; }
-    /// Whether the test says something if it finds nothing.
+    /// Whether the test says something if it finds nothing: it would have found a change of
+    /// `max_steady_change` errors.
     bool decides() const {
         if (size == 0.0) return true;  // a constant; its residuals are rounding errors
-        return !(std::abs(size) > max_steady_change) &&
+        return max_size <= max_steady_change &&
                limit_of_change(effective_samples - 4.0) <= max_steady_change;
     }
 };
@@ -172,17 +176,21 @@ struct DifferenceError {
     double variance, freedom, effective_samples;
 };
 /// The error of the difference between the mean of the first `at` residuals and the mean of the
-/// others. A straight line was subtracted from each part, which costs two degrees of freedom.
-inline DifferenceError error_of_difference(std::span<const double> residuals, std::size_t at) {
+/// others, with one variance for all and with one for each part. A straight line was subtracted from
+/// each part, which costs two degrees of freedom.
+struct DifferenceErrors {
+    DifferenceError joint, separate;
+};
+inline DifferenceErrors errors_of_difference(std::span<const double> residuals, std::size_t at) {
     const Estimate early = estimate_of(residuals.first(at)),
                    late = estimate_of(residuals.subspan(at)), all = estimate_of(residuals);
     const double a = early.error * early.error, b = late.error * late.error;
     const double share = static_cast<double>(at) / static_cast<double>(residuals.size());
     const double joint = all.error * all.error / (share * (1.0 - share));
-    if (joint >= a + b) return {joint, all.effective_samples - 4.0, all.effective_samples};
     const double freedom =
         welch_freedom(a, early.effective_samples - 2.0, b, late.effective_samples - 2.0);
-    return {a + b, freedom, all.effective_samples};
+    return {.joint = {joint, all.effective_samples - 4.0, all.effective_samples},
+            .separate = {a + b, freedom, all.effective_samples}};
 }
 
 inline void set_size(MeanChange& change, const DifferenceError& error) {
@@ -216,7 +224,11 @@ inline MeanChange most_likely_change(std::span<const double> blocks) {
     change.after = mean_of(late);
     std::vector<double> residuals = without_trend(early);
     for (const double residual : without_trend(late)) residuals.push_back(residual);
-    set_size(change, error_of_difference(residuals, change.at));
+    const auto [joint, separate] = errors_of_difference(residuals, change.at);
+    set_size(change, joint);
+    const bool joint_finds_none = !change.found() && change.max_size <= max_steady_change;
+    if (!(joint.variance >= separate.variance)) set_size(change, separate);
+    if (change.max_size > max_steady_change && joint_finds_none) set_size(change, joint);
     const double step = squares_about(early, change.before) + squares_about(late, change.after);
     const double line = squares_about(without_trend(blocks), 0.0);
     change.is_jump = step < line && squares_about(residuals, 0.0) > 0.5 * step;

@@ -67,14 +67,14 @@ std::vector<PointResult> read_results(const fs::path& folder, const SweepPlan& p
     return results;
 }
 
-struct Quantity {
+struct CollectedQuantity {
     std::string name;
     bool is_direction = false;
 };
 
 /// The quantities of the sweep: those of the first result.
-std::vector<Quantity> quantities_of(const std::vector<PointResult>& results) {
-    std::vector<Quantity> quantities;
+std::vector<CollectedQuantity> quantities_of(const std::vector<PointResult>& results) {
+    std::vector<CollectedQuantity> quantities;
     const auto first =
         std::find_if(results.begin(), results.end(), [](const PointResult& r) { return r.exists; });
     if (first == results.end()) {
@@ -93,14 +93,14 @@ bool gives_periods(const SweepPlan& plan) {
 }
 
 std::vector<std::string> columns_of(const SweepPlan& plan,
-                                    const std::vector<Quantity>& quantities) {
+                                    const std::vector<CollectedQuantity>& quantities) {
     std::vector<std::string> columns;
     for (const SweepAxis& axis : plan.axes) columns.push_back(axis.name);
     if (!plan.chain.empty()) columns.emplace_back("direction");
     columns.emplace_back("replicates");
     if (!gives_periods(plan)) columns.emplace_back("periods");
     columns.insert(columns.end(), {"energy", "steady_state", "scatter"});
-    for (const Quantity& quantity : quantities) {
+    for (const CollectedQuantity& quantity : quantities) {
         columns.push_back(quantity.name);
         columns.push_back(quantity.name + "_error");
     }
@@ -122,7 +122,7 @@ std::string combined_hash(const std::vector<const PointResult*>& replicas) {
 }
 
 void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTexts& texts,
-             const std::vector<Quantity>& quantities,
+             const std::vector<CollectedQuantity>& quantities,
              const std::vector<const PointResult*>& replicas) {
     std::vector<Table::Cell> row;
     for (const SweepAxis& axis : plan.axes) row.push_back(cell_of(text_in(texts, axis.name)));
@@ -173,7 +173,7 @@ Table::Cell cell_of(const std::string& text) {
 
 CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
     const std::vector<PointResult> results = read_results(folder, plan);
-    const std::vector<Quantity> quantities = quantities_of(results);
+    const std::vector<CollectedQuantity> quantities = quantities_of(results);
     CollectedSweep collected{.table = Table(columns_of(plan, quantities))};
     for (const PointResult& result : results) {
         if (!result.exists) continue;
@@ -196,7 +196,7 @@ CollectedSweep collect_sweep(const fs::path& folder, const SweepPlan& plan) {
             add_row(collected, plan, texts, quantities, replicas);
         }
     if (plan.chain.empty()) return collected;
-    for (const Quantity& quantity : quantities)
+    for (const CollectedQuantity& quantity : quantities)
         if (!quantity.is_direction) collected.loop_quantities.push_back(quantity.name);
     collected.loops = loop_areas(plan, results, collected.loop_quantities);
     return collected;

@@ -127,7 +127,6 @@ void require_crossing(const RunConfig& config);
 /// number.
 void reject_listed_particles(const ParameterTexts& given);
 
-
 /// Validates the settings and searches. Throws StoppedSearch when stopped. The result has no points
 /// if every run failed.
 CrossingResult search_crossing(const CrossingSettings& settings,

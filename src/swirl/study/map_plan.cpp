@@ -77,7 +77,7 @@ std::string measurement_of(const std::string& quantity) {
     const std::string name = quantity.substr(0, quantity.find('.'));
     std::string rows;
     if (find_measurement(name)) {
-        const Observation observation(paper_container_radius, paper_period, {name});
+        const Observation observation({paper_container_radius, paper_period}, {name});
         const std::vector<MeasurementReport> reports = observation.report();
         for (const ReportRow& row : reports.front().report.rows) {
             if (quantity == name + "." + row.name) return name;

@@ -12,10 +12,12 @@
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/optional_file.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/run/config.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parallel_for.hpp"
 #include "swirl/run/parse_json.hpp"
 #include "swirl/run/shell_word.hpp"
+#include "swirl/statistics/few_blocks.hpp"
 #include "swirl/study/sweep_folder.hpp"
 
 namespace swirl {
@@ -37,17 +39,16 @@ std::string remove_and_repeat(const SweepPlan& plan) {
 /// Skips the parts of a result that the table does not use, because building them would take most
 /// of the time.
 bool is_needed(int depth, std::string_view key) {
-    if (depth != 1 && depth != 3) return true;
+    if (depth != 1) return true;
     static constexpr std::string_view parts[] = {
-        "format",  "version", "point",    "replicate", "config",      "state_hash",
-        "periods", "energy",  "rotation", "measured",  "steady_state"};
-    if (depth == 3) return key != "blocks";  // a rotation rate has blocks
+        "format",  "version", "point",    "replicate", "config",       "state_hash",
+        "periods", "energy",  "rotation", "measured",  "steady_state", "units"};
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
 
 bool identifies(int depth, std::string_view key) {
-    static constexpr std::string_view parts[] = {"format",    "version", "point",
-                                                 "replicate", "config",  "series_checksum"};
+    static constexpr std::string_view parts[] = {"format", "version", "point",          "replicate",
+                                                 "config", "units",   "series_checksum"};
     return depth != 1 || std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
 
@@ -79,6 +80,20 @@ void reject_result_of_another_point(const fs::path& file, const Json& json, cons
                                     file.string(), point, plan.kind(), remove_and_repeat(plan)));
 }
 
+/// Before results held their units, rotations were counter-clockwise and values in the units of the
+/// configuration. In most runs this is the same.
+void reject_result_in_other_units(const fs::path& file, const Json& json, const SweepPlan& plan,
+                                  std::size_t point) {
+    const RunConfig config = plan.config(point);
+    const MeasuredUnits units = units_of(config);
+    if (json.contains("units") ||
+        (!config.turns_clockwise() && units.r == 1.0 && units.v == 1.0 && units.m == 1.0))
+        return;
+    throw FileError(
+        fmt::format("'{}' counts rotations or measures in other units than this program.\nhint: {}",
+                    file.string(), remove_and_repeat(plan)));
+}
+
 /// Reads the parts of a result; nothing if there is none, or if its file is not whole.
 std::optional<Json> find_parts(const fs::path& folder, const SweepPlan& plan, std::size_t point,
                                bool (*is_part)(int depth, std::string_view key)) {
@@ -90,6 +105,7 @@ std::optional<Json> find_parts(const fs::path& folder, const SweepPlan& plan, st
     try {
         require_format(file, json, plan);
         reject_result_of_another_point(file, json, plan, point);
+        reject_result_in_other_units(file, json, plan, point);
     } catch (const nlohmann::json::exception&) {
         throw_incomplete(file, plan);
     }
@@ -137,11 +153,16 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
             result.quantities.push_back(
                 {name, Estimate{.mean = number(rate.at("mean")),
                                 .error = number(rate.at("error")),
-                                .effective_samples = number(rate.at("effective_samples"))}});
+                                .effective_samples = number(rate.at("effective_samples")),
+                                .blocks = rate.at("blocks").get<std::size_t>()}});
         }
         if (const auto measured = json.find("measured"); measured != json.end())
             for (auto& quantity : measured_numbers(*measured))
                 result.quantities.push_back(std::move(quantity));
+        // Before results held their units, they had no factor for few blocks in their errors.
+        if (!json.contains("units"))
+            for (MeasuredNumber& quantity : result.quantities)
+                quantity.estimate = corrected(quantity.estimate);
         // A single disc has no rotation.
         result.has_whole_period = json.at("config").at("discs") == 1 ||
                                   !std::isnan(result.quantities.front().estimate.mean);
