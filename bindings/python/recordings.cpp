@@ -156,7 +156,11 @@ std::unique_ptr<Recording> recording_of(const std::shared_ptr<const Frames>& fra
     SnapshotSeries series;
     series.frames = frames->size();
     series.frame = [frames](std::uint64_t k) { return frames->frame(k); };
-    if (series.frames > 0) series.units = units_in(series.frame(0));
+    if (series.frames > 0) {
+        const Snapshot first = series.frame(0);
+        series.units = units_in(first);
+        series.clockwise = moves_clockwise(first);
+    }
     return std::make_unique<Recording>(std::move(series));
 }
 

@@ -11,6 +11,7 @@
 #include "frames.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/range_checks.hpp"
+#include "swirl/io/series.hpp"
 #include "swirl/io/state_archive.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
 #include "swirl/measure/m_frame.hpp"
@@ -111,7 +112,7 @@ Frames from_bytes(const py::bytes& bytes) {
 py::tuple rotation_of(const SingleFrame& frame) {
     const Snapshot s = frame.snapshot();
     const RotationSample sample = cluster_rotation(s, selected_width());
-    const double omega = 2.0 * pi / s.period;
+    const double omega = (moves_clockwise(s) ? -2.0 : 2.0) * pi / s.period;
     return py::make_tuple(sample.individual / omega, sample.rigid / omega);
 }
 

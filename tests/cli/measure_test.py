@@ -187,9 +187,11 @@ class MeasureTest(InFolder):
     def test_values_below_the_frame_rate_of_their_definition_are_missing_with_the_reason(self):
         # At 30 frames per period the depinning angle was 133.1 ± 0.6 degrees instead of 5 ± 1.
         names = "pinned,residence,slip,order,density"
-        for frames, missing in ((30, ("pinned (120)", "residence (120)", "pinned discs in slip, order (400)",
-                                      "resident discs in slip, order (120)")),
-                                (128, ("pinned discs in pinned, slip, order (400)",)), (511, ())):
+        at_400 = ("pinned, residence.pinning, residence.depinning, residence.length, slip.pinned_region, order.pinned, "
+                  "order.six_pinned (400)")
+        # A recording of few periods lacks a frame: it has a little less than 400 per period.
+        for frames, missing in ((30, ("residence.share, slip.resident, order.resident (120)", at_400)),
+                                (128, (at_400,)), (400, ()), (511, ())):
             recording = self.path(f"{frames}.h5")
             self.assert_works("run", "--discs", 20, "--periods", 4, "--warmup", 0, "--frames", frames, "--trajectory",
                               recording, "--quiet", "--overwrite")
@@ -201,11 +203,24 @@ class MeasureTest(InFolder):
             self.assertEqual("too few" in done.stderr, bool(missing))
             measured = found["measured"]
             self.assertEqual(measured["pinned"]["depinning"]["mean"] is None, frames < 400)
-            self.assertEqual(measured["pinned"]["pinning"]["mean"] is None, frames < 120)
-            self.assertEqual(measured["residence"]["length"]["mean"] is None, frames < 120)
+            self.assertEqual(measured["pinned"]["pinning"]["mean"] is None, frames < 400)
+            self.assertEqual(measured["residence"]["length"]["mean"] is None, frames < 400)
+            self.assertEqual(measured["residence"]["share"]["mean"] is None, frames < 120)
             self.assertEqual(measured["order"]["pinned"]["mean"] is None, frames < 400)
             self.assertIsNotNone(measured["order"]["all"]["mean"])
             self.assertIsNotNone(measured["slip"]["cluster"]["mean"])
+
+    def test_tracks_with_few_frames_per_period_have_no_rotation(self):
+        # Differences of positions miss collisions: with 2 frames per period ϖ/Ω was 0.08 instead of 0.20.
+        for frames, known in ((2, False), (8, False), (16, True)):
+            self.assert_works("run", "--discs", 5, "--periods", 60, "--frames", frames, "--trajectory", self.path("t.h5"),
+                              "--quiet", "--overwrite")
+            self.assert_works("export", self.path("t.h5"), "--format", "csv", "--out", self.path("t.csv"), "--quiet")
+            done = self.assert_works("measure", self.path("t.csv"), "--camera-fps", frames / 11.866071, "--scale", 20,
+                                     "--omega", 0.5295084874, "--centre", "209.84,209.84", "--amplitude", 1.892,
+                                     "--container-radius", 8.6)
+            self.assertEqual("ϖ/Ω = n/a" not in done.stdout, known, done.stdout)
+            self.assertEqual("the rotation (16)" not in done.stderr, known, done.stderr)
 
     def test_exports_have_the_pinned_and_resident_discs_if_they_are_known(self):
         for frames, known in ((30, False), (511, True)):

@@ -129,7 +129,8 @@ TEST(Observation, ValuesAreMissingBelowTheFrameRateThatTheyNeed) {
                 if (!std::isnan(row.estimate.mean)) names.insert(name + "." + row.name);
         return names;
     };
-    const std::set<std::string> all = known(400.0), residence = known(399.0), none = known(119.0);
+    // A recording of few periods lacks a frame, so 1 % less is enough.
+    const std::set<std::string> all = known(397.0), residence = known(390.0), none = known(110.0);
     for (const char* name : {"pinned.share", "residence.share", "fluctuations.n_variance"})
         EXPECT_TRUE(all.contains(name)) << name;
     EXPECT_FALSE(residence.contains("pinned.share"));

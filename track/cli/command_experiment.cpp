@@ -141,7 +141,7 @@ void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& 
     };
     const MeasuredSeries measured =
         measure_series(opened.series, measurable(measurements_of_a_video(), tracked), 0.0, control);
-    if (measured.frames_per_period < min_rate_of_pinned)
+    if (!rate_suffices(measured.frames_per_period, min_rate_of_pinned))
         container.remarks.push_back(
             fmt::format("The video has {:.0f} frames per period, but pinned discs need {:.0f}. The "
                         "simulation is sampled at the same rate, so neither has them.",

@@ -32,6 +32,9 @@ class TrackSeries {
           period_(scale.our_period()) {}
 
     std::uint64_t frames() const { return tracks_.frames.size(); }
+    bool takes_differences() const {
+        return !tracks_.frames.empty() && tracks_.frames.front().velocity.empty();
+    }
     std::vector<std::uint64_t> breaks() const {
         std::vector<std::uint64_t> found;
         for (std::size_t k = 1; k < tracks_.frames.size(); ++k)
@@ -241,8 +244,10 @@ double TrackScale::our_period() const { return amplitude > 0.0 ? 2.0 * pi * ampl
 
 SnapshotSeries series_of(Tracks tracks, const TrackScale& scale) {
     auto series = std::make_shared<TrackSeries>(std::move(tracks), scale);
-    return {series->frames(), scale.amplitude + scale.container_radius,
-            [series](std::uint64_t k) { return series->frame(k); }, series->breaks()};
+    SnapshotSeries found{series->frames(), scale.amplitude + scale.container_radius,
+                         [series](std::uint64_t k) { return series->frame(k); }, series->breaks()};
+    found.velocities_are_differences = series->takes_differences();
+    return found;
 }
 
 }  // namespace swirl

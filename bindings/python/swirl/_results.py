@@ -370,9 +370,9 @@ class Result:
     events_per_second, simd, version, build
     """
 
-    __slots__ = ("config", "complete", "rotation", "measured", "series", "autocorrelation_times", "fluctuations",
-                 "events", "periods", "warmup", "warmup_events", "steady_state", "steady_state_found", "change",
-                 "spin_change", "max_overlap", "energy", "energy_at_start", "invariant", "invariant_at_start",
+    __slots__ = ("config", "units", "complete", "rotation", "measured", "series", "autocorrelation_times",
+                 "fluctuations", "events", "periods", "warmup", "warmup_events", "steady_state", "steady_state_found",
+                 "change", "spin_change", "max_overlap", "energy", "energy_at_start", "invariant", "invariant_at_start",
                  "state_hash", "seconds", "events_per_second", "simd", "warnings", "version", "build",
                  "_text", "_headline", "_report", "__weakref__")
 

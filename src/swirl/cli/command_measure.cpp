@@ -126,12 +126,14 @@ std::string report_text(const SnapshotSeries& series, const MeasuredSeries& meas
     const RotationEstimates& e = measured.rotation;
     const std::string bodies =
         counted(std::int64_t(measured.discs), series.frame(0).are_balls() ? "sphere" : "disc");
-    std::string text =
-        measured.discs == 1
-            ? bodies + " has no rotation about its own centre of mass\n"
-            : fmt::format("{} {}: ϖ/Ω = {}\n", bodies,
-                          rotation_words(e.mean_by_time, series.has_m_frame, series.clockwise),
-                          with_error(e.mean_by_time.mean, e.mean_by_time.error));
+    const std::string words =
+        std::isnan(e.mean_by_time.mean)
+            ? bodies
+            : bodies + " " + rotation_words(e.mean_by_time, series.has_m_frame, series.clockwise);
+    std::string text = measured.discs == 1
+                           ? bodies + " has no rotation about its own centre of mass\n"
+                           : fmt::format("{}: ϖ/Ω = {}\n", words,
+                                         with_error(e.mean_by_time.mean, e.mean_by_time.error));
     text += rigid_body_line(e);
     return text + report_line("average", counted(std::int64_t(measured.frames), "frame")) +
            measured_text(measured.reports);

@@ -153,7 +153,8 @@ void print_source_warnings(const std::vector<FrameSource>& sources, const Appear
                        "warning: the recording has no orientations; discs are drawn without "
                        "orientation marks.\n");
         const double frames = source.frames_per_period;
-        if (appearance.coloring == Coloring::pinned && frames > 0.0 && frames < min_rate_of_pinned)
+        if (appearance.coloring == Coloring::pinned && frames > 0.0 &&
+            !rate_suffices(frames, min_rate_of_pinned))
             fmt::print(stderr,
                        "warning: the recording has {:.0f} frames per period, but the criteria for "
                        "pinned discs need {:.0f}.\n",

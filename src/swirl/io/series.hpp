@@ -38,6 +38,8 @@ struct SnapshotSeries {
     bool has_m_frame = true;
     /// The container goes round clockwise.
     bool clockwise = false;
+    /// Velocities are differences of positions.
+    bool velocities_are_differences = false;
     /// r, v and m of the frames.
     MeasuredUnits units = {};
 
@@ -53,6 +55,13 @@ struct SnapshotSeries {
     /// True if every frame has the same discs in the same order.
     bool same_discs() const { return breaks.empty(); }
 };
+
+/// True if the container goes round the swirl centre clockwise, nearly on a circle. For frames whose
+/// configuration is unknown.
+inline bool moves_clockwise(const Snapshot& s) {
+    const Vec2 C = s.container_centre, V = s.container_velocity;
+    return cross(C, V) < -0.9 * square_root(dot(C, C) * dot(V, V));
+}
 
 /// r, v and m of frames whose configuration is unknown: those of their first disc, and the speed of
 /// the container with 24 bits (run/config.hpp).

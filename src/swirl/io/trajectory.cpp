@@ -231,7 +231,10 @@ SnapshotSeries series_of(std::shared_ptr<TrajectoryReader> reader) {
     series.frames = reader->frames();
     series.reach = reader->reach();
     series.frame = [reader](std::uint64_t k) { return reader->frame(k); };
-    if (series.frames > 0) series.units = units_in(series.frame(0));
+    if (series.frames == 0) return series;
+    const Snapshot first = series.frame(0);
+    series.units = units_in(first);
+    series.clockwise = moves_clockwise(first);
     return series;
 }
 

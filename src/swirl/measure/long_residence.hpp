@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "swirl/measure/m_frame.hpp"
+#include "swirl/measure/quantities.hpp"
 
 namespace swirl {
 
@@ -30,7 +31,7 @@ inline constexpr double long_residence = 40.0 / 511.0;
 
 /// Lowest frame rate at which residences are determined. A residence is seen up to one frame short
 /// at either end: at this rate, its length is 1 % too short and its ends are off by 1°.
-inline constexpr double min_rate_of_resident = 120.0;
+inline constexpr double min_rate_of_resident = quantity("residence.share").min_rates.of_frames;
 
 /// True if the centre of disc i is less than `radii` of its radii from the wall. A layer thicker
 /// than the container contains every disc.

@@ -133,6 +133,16 @@ struct Report {
     }
 };
 
+/// Makes all numbers of some rows missing.
+template <class Omits>
+void omit_rows(Report& report, Omits&& omits) {
+    for (ReportRow& row : report.rows) {
+        if (!omits(*row.quantity)) continue;
+        row.estimate.mean = row.estimate.error = not_available;
+        for (ReportDetail& detail : row.details) detail.value = not_available;
+    }
+}
+
 /// Divides every number by its unit.
 inline void in_printed_units(Report& report, const MeasuredUnits& units) {
     for (ReportRow& row : report.rows)

@@ -25,10 +25,7 @@ constexpr MeasurementKind kind_of(const MeasurementRow<M>& row) {
             .needs_tracks = pinned || positions,
             .needs_cells = SamplesCells<M>,
             .needs_events = !pinned && !SamplesFrames<M>,
-            .needs_m_frame = !AnyPath<M>,
-            .has_pinned = pinned || (SamplesCells<M> && SamplesResidences<M>),
-            .has_resident = SamplesResidences<M>,
-            .min_rate = min_rate_of<M>()};
+            .needs_m_frame = !AnyPath<M>};
 }
 
 constexpr auto kinds =
@@ -73,9 +70,9 @@ Observation::Observation(const ObservedDish& dish, std::vector<std::string> name
       frames_per_period_(frames_per_period),
       names_(std::move(names)),
       pinned_(frames_per_period) {
-    const bool knows_turns = same_discs && frames_per_period >= min_rate_of_turns;
-    const bool knows_pinned = same_discs && frames_per_period >= min_rate_of_pinned;
-    const bool knows_resident = same_discs && frames_per_period >= min_rate_of_resident;
+    const bool knows_pinned = same_discs && rate_suffices(frames_per_period, min_rate_of_pinned);
+    const bool knows_resident =
+        same_discs && rate_suffices(frames_per_period, min_rate_of_resident);
     const bool uses_every_frame = std::round(frames_per_period) < samples_per_period;
     if (uses_every_frame) per_structure_ = per_position_ = 1;
     std::erase_if(names_, [](const std::string& name) { return !find_measurement(name); });
@@ -91,7 +88,7 @@ Observation::Observation(const ObservedDish& dish, std::vector<std::string> name
         // Residences are those of the frames in which pinned discs are known.
         knows_pinned_ |=
             knows_pinned && (kind.needs_pinned || kind.needs_cells || SamplesResidences<M>);
-        follows_tracks_ |= knows_pinned_ || (knows_turns && ReportsTracks<M>);
+        follows_tracks_ |= knows_pinned_;
         finds_cells_ |= kind.needs_cells;
         follows_residences_ |= knows_resident && SamplesResidences<M>;
         samples_by_event_ |= SamplesByEvent<M>;
@@ -110,7 +107,7 @@ void Observation::sample(const Snapshot& lab) {
     const bool structure = finds_cells_ && (samples_ + 1) % per_structure_ == 0;
     if (structure && known) cells_.find(*known);
     each([&]<class M>(M& m) {
-        if (frames_per_period_ < min_rate_of<M>()) return;
+        if (!rate_suffices(frames_per_period_, min_rate_of<M>())) return;
         if constexpr (SamplesCells<M>) {
             if (structure && known) m.sample(*known, cells_, pinned);
         } else if constexpr (SamplesPinned<M>) {
@@ -183,11 +180,18 @@ std::vector<MeasurementReport> Observation::report(std::size_t whole_periods) co
         each_row(chosen_, [&](const auto& row, const auto& chosen) {
             if (name != row.name) return;
             Report report = report_of(*chosen, pinned_.pinned_loose());
+            omit_rows(report, [&](const Quantity& q) { return !has_rate(q); });
             in_printed_units(report, units_);
             correct_errors(report, whole_periods);
             reports.push_back({name, std::move(report)});
         });
     return reports;
+}
+
+bool Observation::has_rate(const Quantity& q) const {
+    const double needed =
+        velocities_are_differences_ ? q.min_rates.of_tracks : q.min_rates.of_frames;
+    return rate_suffices(frames_per_period_, needed);
 }
 
 void Observation::forget_blocks() {

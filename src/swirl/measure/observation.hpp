@@ -49,13 +49,11 @@ inline constexpr int samples_per_position = 7;
 /// A row of the list, and what follows from the functions of its class.
 struct MeasurementKind {
     std::string_view name, header, description;
-    bool needs_pinned;              // has no result if the pinned discs are unknown
-    bool needs_tracks;              // the same discs in every frame
-    bool needs_cells;               // Voronoi cells
-    bool needs_events;              // every collision: frames are not enough
-    bool needs_m_frame;             // undefined on a path without an M-frame
-    bool has_pinned, has_resident;  // has values of pinned or of resident discs
-    double min_rate;                // frames per period without which it has no value
+    bool needs_pinned;   // has no result if the pinned discs are unknown
+    bool needs_tracks;   // the same discs in every frame
+    bool needs_cells;    // Voronoi cells
+    bool needs_events;   // every collision: frames are not enough
+    bool needs_m_frame;  // undefined on a path without an M-frame
 };
 
 /// In the order of the list.
@@ -125,6 +123,10 @@ class Observation {
     /// for few periods (few_blocks.hpp). A recording has at most `whole_periods` independent blocks.
     std::vector<MeasurementReport> report(
         std::size_t whole_periods = std::numeric_limits<std::size_t>::max()) const;
+    /// The velocities of the frames are differences of positions, as those of tracks.
+    void takes_differences() { velocities_are_differences_ = true; }
+    /// False if these frames are too few for the number, which is then n/a.
+    bool has_rate(const Quantity& quantity) const;
     /// Removes all closed blocks; what is followed across periods stays (forget_blocks.hpp).
     void forget_blocks();
 
@@ -167,7 +169,7 @@ class Observation {
     std::vector<std::string> names_;
     ChosenFrom<std::remove_const_t<decltype(measurement_list)>>::Type chosen_;
     bool views_samples_ = false, follows_tracks_ = false, follows_residences_ = false;
-    bool knows_pinned_ = false;
+    bool knows_pinned_ = false, velocities_are_differences_ = false;
     bool finds_cells_ = false, samples_by_event_ = false, samples_events_ = false;
 
     std::int64_t samples_ = 0;

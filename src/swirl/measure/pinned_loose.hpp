@@ -34,8 +34,7 @@
 // Units: radians. Limits: tracks restart if the times of frames do not ascend in equal steps (to 1
 // %), and if the number of discs changes. These restarts are counted. With fewer than 15 frames
 // nothing is known. Below min_rate_of_pinned the direction of a path is that of too long a piece of
-// it: at 30 frames per period discs would depin at 133° instead of 4°. Sharp turns are found at lower
-// rates, 3° off at min_rate_of_turns.
+// it: at 30 frames per period discs would depin at 133° instead of 4°.
 #pragma once
 
 #include <algorithm>
@@ -72,8 +71,9 @@ struct PinningCriteria {
     double sharp_turn = 0.5;       // unit: ΩR
 };
 
-/// Lowest frame rate at which pinned discs are determined, and at which sharp turns are.
-inline constexpr double min_rate_of_pinned = 400.0, min_rate_of_turns = 120.0;
+/// Lowest frame rate at which pinned discs and sharp turns are determined. At 120 frames per period,
+/// sharp turns are found 1.6° too late.
+inline constexpr double min_rate_of_pinned = quantity("pinned.share").min_rates.of_frames;
 
 /// Numbers of frames in the criteria.
 struct FrameWindow {
@@ -90,7 +90,7 @@ inline FrameWindow frame_window(double frames_per_period) {
     };
     const FrameWindow paper;
     return {nearest(paper.half_width), nearest(paper.turn),
-            frames_per_period >= min_rate_of_pinned};
+            rate_suffices(frames_per_period, min_rate_of_pinned)};
 }
 
 class PinnedLoose : public BlockAverages<PinnedLoose> {
@@ -171,7 +171,7 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
 
 class PinnedByCollisions {
   public:
-    static constexpr double min_frames_per_period = min_rate_of_turns;
+    static constexpr double min_frames_per_period = min_rate_of_pinned;
 
     void sample_event(const Event& event, const Snapshot& after);
     /// At the end of every period: now the longest flights are known.

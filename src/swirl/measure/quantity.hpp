@@ -102,14 +102,24 @@ enum class Per : std::uint8_t {
     run         // one value for the run
 };
 
+/// Frames per period of a recording below which a value is biased by more than a third of its error
+/// in 400 periods, and is n/a. 0 if a frame now and then shows the value.
+struct MinRates {
+    double of_frames;  // frames that hold velocities
+    double of_tracks;  // positions alone: velocities are differences, which miss collisions
+};
+
+/// True if a recording has this rate, up to the frame that a recording of few periods may lack.
+constexpr bool rate_suffices(double frames_per_period, double minimum) {
+    return frames_per_period >= 0.99 * minimum;
+}
+
 struct Quantity {
     const char* name;  // "temperature.granular", or MEASUREMENT.TABLE.COLUMN
     Unit unit;
     Combines combines;
     Per per;
-    /// Frames per period of a recording below which the value would be biased by more than a third
-    /// of its error, and is n/a; 0 if any rate will do.
-    double min_rate;
+    MinRates min_rates;
     const char* words;  // empty for columns of tables
 
     /// The name within its group: "granular".

@@ -60,7 +60,8 @@ class RotationFluctuations : public Strided {
   public:
     /// A block is the mean of one period. With few samples, their scatter adds to its variance: by
     /// half with 4 samples, fourfold with 1.
-    static constexpr double min_frames_per_period = 30.0;
+    static constexpr double min_frames_per_period =
+        quantity("fluctuations.n_variance").min_rates.of_frames;
     static constexpr bool any_path = true;
 
     explicit RotationFluctuations(int every = 8) : Strided(every) {}

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "swirl/io/range_checks.hpp"
 #include "swirl/io/trajectory.hpp"
@@ -20,30 +21,39 @@ namespace swirl {
 
 namespace {
 
-/// The measurements whose values this rate does not allow, and the rate that they need.
-std::string rate_remark(const std::vector<std::string>& names, double rate) {
-    std::vector<std::string> missing, pinned, resident;
-    for (const std::string& name : names) {
-        const MeasurementKind& kind = *find_measurement(name);
-        if (rate < kind.min_rate)
-            missing.push_back(fmt::format("{} ({:.0f})", name, kind.min_rate));
-        else if (kind.has_pinned && rate < min_rate_of_pinned)
-            pinned.push_back(name);
-        if (kind.has_resident && rate < min_rate_of_resident) resident.push_back(name);
-    }
-    const auto add = [&](const char* which, const std::vector<std::string>& in, double needed) {
-        if (!in.empty())
-            missing.push_back(
-                fmt::format("{} discs in {} ({:.0f})", which, fmt::join(in, ", "), needed));
+/// The numbers that these frames are too few for, and the rate that they need.
+std::string rate_remark(const Observation& observation, bool has_rotation, double rate,
+                        bool differences) {
+    std::map<double, std::vector<std::string>> missing;
+    const auto needed = [&](const Quantity& q) {
+        return differences ? q.min_rates.of_tracks : q.min_rates.of_frames;
     };
-    add("pinned", pinned, min_rate_of_pinned);
-    add("resident", resident, min_rate_of_resident);
+    if (!has_rotation) missing[needed(quantity("rotation.mean_by_time"))].push_back("the rotation");
+    for (const auto& [name, report] : observation.report()) {
+        std::map<double, std::vector<std::string>> here;
+        std::size_t rows = 0;
+        for (const ReportRow& row : report.rows) {
+            if (row.quantity->per == Per::collision) continue;
+            ++rows;
+            if (!observation.has_rate(*row.quantity))
+                here[needed(*row.quantity)].push_back(row.quantity->name);
+        }
+        for (const auto& [minimum, names] : here)
+            if (names.size() == rows)
+                missing[minimum].push_back(name);
+            else
+                missing[minimum].insert(missing[minimum].end(), names.begin(), names.end());
+    }
     if (missing.empty()) return "";
+    std::string text;
+    for (const auto& [minimum, names] : missing)
+        text +=
+            fmt::format("{}{} ({:.0f})", text.empty() ? "" : "; ", fmt::join(names, ", "), minimum);
     return fmt::format(
         "{} too few for these values, which are n/a (in brackets the rate that they need): {}.\n"
         "hint: record {} frames per period, or use `swirl run --measure`.",
-        rate > 0.0 ? fmt::format("{:.3g} frames per period are", rate) : "a single frame is",
-        fmt::join(missing, "; "), samples_per_period);
+        rate > 0.0 ? fmt::format("{:.3g} frames per period are", rate) : "a single frame is", text,
+        samples_per_period);
 }
 
 /// The whole periods that the frames show; each frame stands for a step of time. A recording begins
@@ -151,9 +161,14 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     const Snapshot first = series.frame(0);
     MeasuredSeries measured;
     measured.frames_per_period = frames_per_period(series);
-    measured.remark = rate_remark(names, measured.frames_per_period);
     Observation observation({first.container_radius, first.period, series.units}, names,
                             series.has_m_frame && holds_tracks(series), measured.frames_per_period);
+    if (series.velocities_are_differences) observation.takes_differences();
+    // A single frame has a rotation, but no average.
+    const bool has_rotation =
+        series.frames == 1 || observation.has_rate(quantity("rotation.mean_by_time"));
+    measured.remark = rate_remark(observation, has_rotation, measured.frames_per_period,
+                                  series.velocities_are_differences);
     const bool uneven = series.has_uneven_times();
     RotationByTime rotation(uneven);
     std::int64_t period = first.periods;
@@ -186,7 +201,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     const std::size_t periods = whole_periods(measured);
     measured.reports = observation.report(periods);
     for (Estimate* const e : {&measured.rotation.mean_by_time, &measured.rotation.rigid_by_time})
-        *e = corrected(*e, periods);
+        *e = has_rotation ? corrected(*e, periods) : Estimate();
     const auto add_remark = [&](const std::string& remark) {
         measured.remark += (measured.remark.empty() ? "" : "\n") + remark;
     };

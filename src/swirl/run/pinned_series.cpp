@@ -18,8 +18,8 @@ constexpr std::uint64_t frames_per_chunk = 512;
 PinnedSeries::PinnedSeries(SnapshotSeries series)
     : series_(std::move(series)), rate_(frames_per_period(series_)) {
     const bool has_tracks = series_.has_m_frame && holds_tracks(series_);
-    knows_pinned_ = has_tracks && rate_ >= min_rate_of_pinned;
-    knows_resident_ = has_tracks && rate_ >= min_rate_of_resident;
+    knows_pinned_ = has_tracks && rate_suffices(rate_, min_rate_of_pinned);
+    knows_resident_ = has_tracks && rate_suffices(rate_, min_rate_of_resident);
     // A disc is pinned after as many frames in a row as half a window has, and one more.
     const auto window = static_cast<std::uint64_t>(frame_window(rate_).width());
     const auto residence = static_cast<std::uint64_t>(std::ceil(long_residence * rate_));
