@@ -18,7 +18,7 @@ SORTED_AS = {"pinning": "3c"}
 # The order of the report within a group. A figure that is not listed here comes last.
 ORDER = ("ball states times 5b-start 5b-steady averages friction inertia restitution tangential polygon map transient energy "
          "condensation spheres spheres_friction spheres_few settling spheres_ingredients spheres_ingredients_rough size amplitude "
-         "critical hysteresis lifetimes coexistence torque gears gear_order contacts material_inertia material_friction "
+         "critical hysteresis lifetimes coexistence turns cause torque gears gear_order contacts material_inertia material_friction "
          "material_tangential fields closure cooling scherer").split()
 GROUPS = {"paper": "the figures of the paper", "beyond": "parameters, averages and times that the paper does not show",
           "rolling": "spheres that roll on the floor", "chapters": "questions that the paper leaves open"}

@@ -150,8 +150,9 @@ CLAIMS = [
           "spheres_friction", spheres.roughened, SPHERES, COEFFICIENTS),
     Claim("main text, Fig. 4c", "The rougher the particles, the lower the N at which the direction of rotation "
           "changes.", "spheres_friction", spheres.friction_order, SPHERES, COEFFICIENTS),
-    Claim("title", "Geometric frustration induces counterrotation.", "spheres_ingredients", spheres.frustration, BOTH,
-          runs("4b", "smooth", "rough", "high", numbers=(24, 28, 36, 40, 44, 48))),
+    Claim("title", "Geometric frustration induces counterrotation.", "cause", spheres.frustration, BOTH,
+          runs("4b", "smooth", "rough", "high", numbers=(24, 28, 36, 40, 44, 48)) +
+          [("cause", {"body": body}, "discs", (48,)) for body in ("discs", "spheres")]),
     # --- The minimal model ----------------------------------------------------------------------
     Claim("main text", "A single ball that rolls on the wall counterrotates.", "ball", motion.rolling_ball, DISCS),
     Claim("main text", "A single ball that slips freely rotates with the swirl.", "ball", motion.slipping_ball,

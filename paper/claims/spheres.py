@@ -6,12 +6,12 @@ roughened ones. That such coefficients exist is a result; that N_c is then 36 an
 
 import tables
 from paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
-from verdicts import HOLDS, above, below, combined, either, every, falls, measured, within
+from verdicts import above, below, combined, either, every, falls, measured, within
 
 from . import contacts
 from . import thresholds as size
 from .rotation import elastic
-from .settings import WORDS, capital, rotation_rows
+from .settings import WORDS, capital
 from .study import crossing_value, crossing_words
 from .thresholds import DENSE_SPHERES, FEW, JUMP
 from .wording import ends, number, value_at
@@ -101,14 +101,9 @@ def snake(study):
 
 # --- What causes counterrotation ----------------------------------------------------------------
 
-# The figure with smooth spheres and that with roughened ones, and the ending of its curves.
-INGREDIENTS = {"smooth": ("spheres_ingredients", ""), "rough": ("spheres_ingredients_rough", "-rough")}
-
-
-def ingredient(study, setting, curve):
-    """{N: ϖ/Ω by time} of one curve."""
-    figure, ending = INGREDIENTS[setting]
-    rows = tables.select(study.table(figure), curve=curve + ending)
+def ingredient(study, curve):
+    """{N: ϖ/Ω by time} of one curve of smooth spheres."""
+    rows = tables.select(study.table("spheres_ingredients"), curve=curve)
     return {row["discs"]: measured(row, "mean_by_time") for row in rows if row["mean_by_time"] == row["mean_by_time"]}
 
 
@@ -124,55 +119,44 @@ def at_dense(curve):
     return ", ".join(f"{number(v)} at N = {n}" for v, n in zip(dense(curve), DENSE_SPHERES))
 
 
-def induced(full, without):
-    """At every N where particles certainly counterrotate: does most of it disappear without this ingredient?
-    Returns the judgement and the judgements of the single N."""
-    shared = {n: v for n, v in full.items() if n in without and counterrotate([v]).verdict == HOLDS}
-    single = {n: above(without[n] - v * (1 - size.INDUCED), 0) for n, v in shared.items()}
-    return every(single.values()) if single else counterrotate(full.values()), single
+# Spins, friction, the sign that the rotation must have, and words: runs of figure "cause". Spheres have a floor, too, so the
+# wall is tested without friction between them.
+WITHOUT_BETWEEN = (("free", "none between particles", 1, "particles without friction between them, which stops no spin"),
+                   ("stopped", "none between particles", -1, "the same, if they cannot spin"))
+EXPERIMENTS = {"discs": (*WITHOUT_BETWEEN, ("stopped", "none at the wall", 1, "discs that cannot spin, at a smooth wall")),
+               "spheres": (*WITHOUT_BETWEEN, ("stopped", "none at all", 1, "the last, at a smooth wall"))}
 
 
-def vertical_friction(study, setting):
-    """Friction of the contacts in the vertical direction opposes rolling on the floor, as in the paper."""
-    curves = [ingredient(study, setting, curve)
-              for curve in ("all", "no-vertical", "no-vertical-disc", "no-vertical-wall")]
-    judgement, single = induced(*curves[:2])
-    text = "; ".join(f"{words} {at_dense(found)}" for words, found in zip(
-        ("with all ingredients", "without vertical friction", "without it between spheres only",
-         "without it at the wall only"), curves))
-    decided = [n for n, at in single.items() if at.verdict == HOLDS]
-    return combined(counterrotate(dense(curves[0])), judgement), (
-        f"ϖ/Ω {text}; most of the counterrotation certainly disappears without vertical friction at "
-        f"{len(decided)} of {len(single)} N")
-
-
-def disc_friction(study, setting):
-    """Discs do not roll; what frustrates their spins is the friction between them."""
-    def curve(name):
-        rows, rate = rotation_rows(study, name)
-        return {row["discs"]: measured(row, rate) for row in rows}
-    judgement, single = induced(curve(setting), curve("no-disc"))
-    return judgement, (f"without friction between discs, most of the counterrotation disappears for certain at "
-                       f"{sum(at.verdict == HOLDS for at in single.values())} of {len(single)} N")
+def stopped_spins(study, body):
+    """Do stopped spins reverse the cluster, and nothing else? At the largest N of figure "cause"."""
+    judgements, words = [], []
+    for spins, friction, sign, meaning in EXPERIMENTS[body]:
+        row = study.curve("cause", body=body, spins=spins, contacts=friction)[-1]
+        value = measured(row, "mean_by_time")
+        judgements.append(above(value, 0) if sign > 0 else below(value, 0))
+        words.append(f"{meaning}: {value_at(row, 'mean_by_time')}")
+    return every(judgements), "; ".join(words)
 
 
 def frustration(study):
-    """The title: pairs that no triangle frustrates turn like gears, pairs in triangles do not, and without the
-    friction that frustrates them the cluster hardly counterrotates. Judged for each setting."""
+    """The title, in two parts. Stopped spins induce counterrotation, for discs and spheres. What stops them is geometric
+    frustration: pairs that no triangle frustrates turn like gears, and pairs in triangles do not."""
     judgements, text = [], []
-    for setting, cause in (("smooth", vertical_friction), ("rough", vertical_friction), ("high", disc_friction)):
+    for body in ("discs", "spheres"):
+        induces, words = stopped_spins(study, body)
+        judgements.append(induces)
+        text.append(f"{capital(body)}: stopped spins induce counterrotation (ϖ/Ω of {words}): {induces.verdict}.")
+    for setting in ("smooth", "rough", "high"):
         rows = study.curve("4b", setting=setting)
         free, caught = contacts.gears(study, setting)[0], contacts.triangles_frustrate(study, setting)[0]
-        induces, words = cause(study, setting)
-        judgements += [free, caught, induces]
+        judgements += [free, caught]
         text.append(
             f"{capital(WORDS[setting])}: pairs in no triangle have opposed spins (correlation "
             f"{ends(rows, 'chain_correlation')}): {free.verdict}; pairs in triangles have no order "
-            f"({ends(rows, 'triangle_correlation')}): {caught.verdict}; this induces counterrotation ({words}): "
-            f"{induces.verdict}.")
+            f"({ends(rows, 'triangle_correlation')}): {caught.verdict}.")
     return combined(*judgements), (
         f"{' '.join(text)} (Opposed: below {number(size.ANTIFERROMAGNETIC)}; no order: within "
-        f"±{-size.ANTIFERROMAGNETIC:.3f}; induced: more than {size.INDUCED:.0%} of the counterrotation disappears.) "
+        f"±{-size.ANTIFERROMAGNETIC:.3f}; induced: the sign of ϖ.) "
         f"Where discs change their direction depends on their inertia{inertia_sentence(study)}.")
 
 
@@ -187,7 +171,7 @@ def inertia_sentence(study):
 
 
 def no_damping(study):
-    found = ingredient(study, "smooth", "no-damping")
+    found = ingredient(study, "no-damping")
     discs, text = elastic(study)
     return combined(counterrotate(dense(found)), discs), (
         f"Smooth spheres with e = 1: ϖ/Ω = {at_dense(found)}. Discs with μ = 1, {text}")
@@ -197,7 +181,7 @@ def substrate(study):
     """An ingredient is critical if spheres counterrotate with it and do not once it alone is removed."""
     curves = {"all ingredients": "all", "no floor": "no-floor", "no friction of rolling (vertical)": "no-vertical",
               "no damping": "no-damping"}
-    found = {words: ingredient(study, "smooth", curve) for words, curve in curves.items()}
+    found = {words: ingredient(study, curve) for words, curve in curves.items()}
     judged = {words: counterrotate(dense(rotations)) for words, rotations in found.items()}
     full = judged.pop("all ingredients")
     return combined(*(every([full, judgement]) for judgement in judged.values())), (

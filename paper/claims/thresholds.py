@@ -35,8 +35,6 @@ LEFT_SHARE, LEFT_SHIFT = 0.55, 0.1
 # "Near the bottom-left of the container (near M)": within an eighth of a turn of M, and left of it by the
 # width of a slice of θ.
 NEAR_M, LEFT_OF_M = 45.0, 5.0
-# "Induced by frustration": this share of the counterrotation disappears without it.
-INDUCED = 0.5
 
 # --- Words that the paper leaves open -----------------------------------------------------------
 
@@ -66,7 +64,7 @@ NO_SPIN = 0.1               # relative to the discs with both kinds of friction:
 # Every constant above is a size. A share of one half is doubled as odds (1/3 to 2/3). These sizes are
 # distances from a value that is not 0; all others are multiplied.
 SIZES = tuple(name for name in dict(globals()) if name.isupper())
-SHARES = ("MAJORITY", "INDUCED")
+SHARES = ("MAJORITY",)
 COUNTED_FROM = {"NEARLY_ONE": 1.0, "ALMOST_ALL": 1.0, "LEFT_SHARE": 0.5}
 
 

@@ -74,71 +74,40 @@ class Direction(HandMadeTables):
 
 
 DOWN, UP = [(36, -0.01), (44, -0.04), (48, -0.05)], [(36, 0.2), (44, 0.15), (48, 0.04)]
-LESS = [(36, -0.01), (44, -0.03), (48, -0.04)]
 
 
 class Causes(HandMadeTables):
-    def ingredients(self, ending="", **curves):
-        name = "spheres_ingredients" + ending.replace("-", "_")
-        self.table(name, [{"curve": curve.replace("_", "-") + ending, "discs": n, "mean_by_time": v, "mean_by_time_error": 0.001,
+    def ingredients(self, **curves):
+        self.table("spheres_ingredients", [{"curve": curve.replace("_", "-"), "discs": n, "mean_by_time": v, "mean_by_time_error": 0.001,
                            "point": f"{curve}_N{n}"} for curve, values in curves.items() for n, v in values])
 
-    def vertical(self, full, without, ending=""):
-        self.ingredients(ending, all=full, no_vertical=without, no_vertical_disc=UP, no_vertical_wall=DOWN)
+    def cause(self, body, *rotations, error=0.001):
+        """Rows of figure "cause": without friction between particles, free and stopped, and stopped at a smooth wall."""
+        cases = (("free", "none between particles"), ("stopped", "none between particles"),
+                 ("stopped", "none at the wall" if body == "discs" else "none at all"))
+        return [{"body": body, "spins": spins, "contacts": contacts, "discs": n, "mean_by_time": v if n == 48 else 0.5,
+                 "mean_by_time_error": error, "point": f"{body}_{spins}_N{n}"}
+                for (spins, contacts), v in zip(cases, rotations) for n in (24, 48)]
 
-    def test_spheres_without_vertical_friction_counterrotate_less_at_every_n(self):
-        def judged(full, without):
-            self.vertical(full, without)
-            return spheres.vertical_friction(self.study, "smooth")
-        verdict, found = judged(DOWN, UP)
-        self.assertEqual(verdict, HOLDS)
-        self.assertIn("certainly disappears without vertical friction at 3 of 3 N", found)
-        self.assertIn("at the wall only −0.0400", found)
-        # The paper does not claim that they rotate without it. Half of the counterrotation must disappear.
-        self.assertEqual(judged(DOWN, [(36, 0.0), (44, -0.01), (48, -0.02)])[0], HOLDS)
-        self.assertEqual(judged(DOWN, [(36, 0.0), (44, -0.01), (48, -0.0255)])[0], UNDECIDED)
-        self.assertEqual(judged(DOWN, LESS)[0], IN_PART)
-        self.assertEqual(judged(DOWN, DOWN)[0], IN_PART)  # they counterrotate without it, too
-        # At every N that counterrotates, not only the largest ones.
-        self.assertEqual(judged(DOWN, [(36, -0.01), (44, 0.1), (48, 0.1)])[0], IN_PART)
-        # An N at which spheres rotate has no counterrotation that could disappear.
-        self.assertEqual(judged([(36, 0.1), *DOWN[1:]], [(36, -0.2), *UP[1:]])[0], HOLDS)
-        # Fewer than one turn in 200 periods is not a counterrotation.
-        self.assertEqual(judged([(44, -0.0015), (48, -0.001)], UP)[0], FAILS)
-
-    def test_discs_need_friction_between_them_to_counterrotate(self):
-        def judged(without, error=0.001):
-            self.table("5b", [{"setting": setting, "discs": n, "mean_by_event": v, "mean_by_event_error": error,
-                               "point": f"{setting}_N{n}"}
-                              for setting, curve in (("high", DOWN), ("no-disc", without)) for n, v in curve])
-            return spheres.disc_friction(self.study, "high")[0]
-        self.assertEqual(judged(UP), HOLDS)
-        self.assertEqual(judged(DOWN), FAILS)
-        self.assertEqual(judged([(36, 0.0), (44, 0.0), (48, -0.0255)]), UNDECIDED)
-
-    def test_title_needs_order_outside_triangles_disorder_inside_and_a_cause(self):
-        self.table("5b", [{"setting": setting, "discs": n, "mean_by_event": v, "mean_by_event_error": 0.001,
-                           "point": f"{setting}_N{n}"}
-                          for setting, curve in (("high", DOWN), ("no-disc", UP)) for n, v in curve])
-
-        def judged(chain=-0.4, triangle=0.0, discs=(-0.4, 0.0), without=UP, without_rough=UP):
-            self.vertical(DOWN, without)
-            self.vertical(DOWN, without_rough, "-rough")
+    def test_title_needs_order_outside_triangles_disorder_inside_and_stopped_spins_that_reverse(self):
+        def judged(chain=-0.4, triangle=0.0, discs=(1, -0.006, 0.06), spheres_=(1, -0.04, 0.5)):
+            self.table("cause", self.cause("discs", *discs) + self.cause("spheres", *spheres_))
             columns = ("chain_correlation", "triangle_correlation", "spin_correlation", "correlation_by_impulse",
                        "triangles")
             self.table("4b", [
                 {"setting": setting, "discs": n, "point": f"{setting}_N{n}", **{f"{c}_error": 0.001 for c in columns},
                  **dict(zip(columns, (*pairs, 0, 0, 0.5)))} for n in (24, 48)
-                for setting, pairs in (("smooth", (chain, triangle)), ("rough", (-0.4, 0.0)), ("high", discs))])
+                for setting, pairs in (("smooth", (chain, triangle)), ("rough", (-0.4, 0.0)), ("high", (-0.4, 0.0)))])
             return spheres.frustration(self.study)
         verdict, found = judged()
         self.assertEqual(verdict, HOLDS)
         self.assertIn("Discs with μ = 1: pairs in no triangle have opposed spins (correlation −0.4000", found)
+        self.assertIn("the same, if they cannot spin: −0.0060 ± 0.0010 at N = 48", found)
         self.assertEqual(judged(chain=0.0)[0], IN_PART)  # nothing to frustrate
         self.assertEqual(judged(triangle=-0.3)[0], IN_PART)  # triangles do not frustrate
-        self.assertEqual(judged(discs=(0.3, 0.3))[0], IN_PART)  # only spheres turn like gears
-        self.assertEqual(judged(without=DOWN)[0], IN_PART)  # frustrated, but not the cause
-        self.assertEqual(judged(without_rough=DOWN)[0], IN_PART)
+        self.assertEqual(judged(discs=(1, 0.006, 0.06))[0], IN_PART)  # stopped spins do not reverse
+        self.assertEqual(judged(spheres_=(-0.1, -0.04, 0.5))[0], IN_PART)  # spheres that spin freely reverse, too
+        self.assertEqual(judged(discs=(1, -0.006, -0.02))[0], IN_PART)  # without a wall that grips they reverse, too
 
     def test_damping_is_not_needed_if_both_counterrotate_without_it(self):
         def judged(*rotations, discs=(38, 0.2)):

@@ -135,9 +135,9 @@ TABLES = {
 
 
 # The chapters are drawn from the tables of quick runs, four of them by figures_test.py.
-CHAPTERS = {"amplitude", "closure", "coexistence", "contacts", "cooling", "critical", "fields", "gear_order", "gears",
+CHAPTERS = {"amplitude", "cause", "closure", "coexistence", "contacts", "cooling", "critical", "fields", "gear_order", "gears",
             "hysteresis", "lifetimes", "material_friction", "material_inertia", "material_tangential", "scherer", "size",
-            "torque"}
+            "torque", "turns"}
 
 
 def lines_of(drawing):

@@ -33,6 +33,8 @@ FIGURES = {
     "closure": {"container_radius", "discs", "relation", "packing_low", "coefficient", "coefficient_error", "explained"},
     "gears": {"mu", "discs", "correlation_by_impulse", "resident_error", "wall_sticking"},
     "friction": {"mu", "crosses", "crossing", "crossing_error"},
+    "cause": {"body", "spins", "contacts", "discs", "slip", "wall_spin", "wall_sticking", "stay", "load", "load_error"},
+    "turns": {"case", "kind", "x", "y", "x2", "y2", "value"},
     "material_inertia": {"inertia", "restitution", "crossing", "crossing_error", "lowest", "highest"},
     "states": {"setting", "discs", "granular", "granular_error", "coriolis", "coriolis_error"},
 }
