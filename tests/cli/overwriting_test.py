@@ -83,6 +83,28 @@ class Overwriting(InFolder):
         self.assert_works(*recorded, "--resume")
         self.assert_fails(1, *recorded, "--frames", 7, "--resume", says="r.json' already exists")
 
+    def test_a_run_killed_between_its_series_and_its_result_is_repeated(self):
+        # Before the first checkpoint such a run leaves its recordings and no result.
+        def call(*more, periods=6):
+            return ["run", "--discs", 5, "--periods", periods, "--series", self.path("s.csv"), "--trajectory", self.path("s.h5"),
+                    "--log-events", self.path("s_events.h5"), "--json", self.path("s.json"), "--quiet", *more]
+        self.assert_works(*call("--resume"))
+        before = [read_bytes(self.path(name)) for name in ("s.csv", "s.json")]
+        os.remove(self.path("s.json"))
+        self.assert_fails(1, *call(), says="already exists")
+        self.assert_works(*call("--resume"))
+        self.assertEqual(read_bytes(self.path("s.csv")), before[0])
+        os.remove(self.path("s.json"))
+        for other in (call("--seed", 2, "--resume"), call("--resume", periods=5)):
+            self.assert_fails(1, *other, says="already exists")
+        for name in ("s.h5", "s_events.h5"):
+            os.remove(self.path(name))
+        for other in (call("--seed", 2, "--resume"), call("--resume", periods=5)):
+            self.assert_fails(1, *other, says="is the series of another run, or of a longer one")
+            self.assertEqual(read_bytes(self.path("s.csv")), before[0])
+            for name in ("s.h5.partial", "s_events.h5.partial"):
+                os.remove(self.path(name))
+
     def test_a_resumed_run_does_not_replace_files_of_another_run(self):
         self.killed()
         saved = self.path("kept.checkpoint")

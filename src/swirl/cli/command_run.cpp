@@ -228,7 +228,7 @@ void run_and_report(RunCall& call) {
         if (!call.quiet) print_all(fmt::format("'{}' is already complete.\n", call.json));
         return;
     }
-    reject_overwriting(prepared.files, call.json);
+    reject_overwriting(prepared.files, call.json, prepared.config);
     if (!call.quiet) print_checkpoint_notes(prepared.files);
     const RunResult result = run_with_progress(prepared, call.quiet);
     write_outputs(call, prepared, result);

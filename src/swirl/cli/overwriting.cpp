@@ -56,6 +56,15 @@ bool has_all(const Json& result, const std::vector<std::string>& names) {
                        [&](const std::string& name) { return measured.contains(name); });
 }
 
+/// True for a file that a killed run of this configuration left before its first checkpoint. A series
+/// is compared line by line while the run repeats it (recorded_run.cpp).
+bool is_left_by_this_run(const fs::path& file, const RunFiles& files, const RunConfig& config) {
+    if (!files.resume) return false;
+    if (file == files.trajectory) return is_recording_of(file, config, frames_entry(files));
+    if (file == files.event_log) return is_recording_of(file, config, "");
+    return file == files.series;
+}
+
 /// A resumed run may replace its own files, and those that it was started to overwrite.
 void reject_files_of_another_run(const RunFiles& files, const std::string& json) {
     const bool result = has_content(json);
@@ -118,7 +127,7 @@ bool is_done_already(const RunFiles& files, const std::string& json, const RunCo
            (files.series.empty() || has_content(files.series));
 }
 
-void reject_overwriting(const RunFiles& files, const std::string& json) {
+void reject_overwriting(const RunFiles& files, const std::string& json, const RunConfig& config) {
     if (files.overwrite) return;
     if (files.resume && is_there(files.checkpoint)) return reject_files_of_another_run(files, json);
     if (is_there(files.checkpoint))
@@ -128,7 +137,7 @@ void reject_overwriting(const RunFiles& files, const std::string& json) {
                         "again with --overwrite, which renames it to '{}'.",
                         files.checkpoint.string(), backup_name(files.checkpoint).string()));
     for (const fs::path& file : {fs::path(json), files.trajectory, files.event_log, files.series})
-        if (has_content(file))
+        if (has_content(file) && !is_left_by_this_run(file, files, config))
             throw Failure(
                 fmt::format("'{}' already exists.\nhint: choose another name, or use "
                             "--overwrite to replace it.",

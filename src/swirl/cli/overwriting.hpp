@@ -20,7 +20,7 @@ bool is_done_already(const RunFiles& files, const std::string& json, const RunCo
 
 /// Without --overwrite, throws Failure if the run would replace a finished result, a recording, or
 /// the checkpoint of an interrupted run; or if it would continue over the files of another run.
-void reject_overwriting(const RunFiles& files, const std::string& json);
+void reject_overwriting(const RunFiles& files, const std::string& json, const RunConfig& config);
 
 /// Writes the result of a finished run and returns the name of the file. This is `json`, or
 /// NAME.second if another process has meanwhile written something there that this result must not

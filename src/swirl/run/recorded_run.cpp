@@ -129,19 +129,27 @@ std::string run_name(const Json& identity) {
 
 /// The series of a run that is not finished, as NAME.partial: it grows by a line per period, so that
 /// you can look at it. A killed run leaves it.
+///
+/// A run that was killed between its series and its result also leaves the series itself. A resumed
+/// run writes the same lines again, so a file with other lines belongs to another run.
 class LiveSeries {
   public:
-    LiveSeries(const PeriodSeries& series, const std::filesystem::path& path)
-        : series_(series), path_(partial_name(path)) {
+    LiveSeries(const PeriodSeries& series, const std::filesystem::path& path, bool resumes)
+        : series_(series), final_path_(path), path_(partial_name(path)) {
+        if (resumes && regular_file_exists(path)) earlier_ = read_whole_file(path);
         require_replaceable(path_);
         file_.open(path_, std::ios::binary | std::ios::trunc);
-        file_ << series_.header();
+        add(series_.header());
         update();
     }
     void update() {
         if (series_.periods() == periods_) return;
-        file_ << series_.rows(periods_) << std::flush;
+        add(series_.rows(periods_));
         periods_ = series_.periods();
+    }
+    /// Throws Failure if the earlier series has lines that this run does not have.
+    void require_same_run() {
+        if (compared_ < earlier_.size()) reject();
     }
     void remove() {
         file_.close();
@@ -150,10 +158,26 @@ class LiveSeries {
     }
 
   private:
+    void add(const std::string& lines) {
+        file_ << lines << std::flush;
+        const std::size_t both = std::min(lines.size(), earlier_.size() - compared_);
+        if (lines.compare(0, both, earlier_, compared_, both) != 0) reject();
+        compared_ += both;
+    }
+    [[noreturn]] void reject() {
+        remove();
+        throw Failure(
+            fmt::format("'{}' is the series of another run, or of a longer one; it was left "
+                        "unchanged.\nhint: choose another name, or use --overwrite to replace it.",
+                        final_path_.string()));
+    }
+
     const PeriodSeries& series_;
-    std::filesystem::path path_;
+    std::filesystem::path final_path_, path_;
     std::ofstream file_;
-    std::size_t periods_ = 0;  // periods in the file
+    std::size_t periods_ = 0;   // periods in the file
+    std::string earlier_;       // a series that is there already
+    std::size_t compared_ = 0;  // characters of it that this run has written, too
 };
 
 /// Renames the checkpoint of an earlier run, so that it is not lost.
@@ -174,7 +198,8 @@ class Recorder {
           overwrites_(files.overwrite),
           frame_times_(files.frames.per_period, config.period, files.frames.interval.value_or(0.0)),
           last_checkpoint_(Clock::now()) {
-        if (files.resume && file_exists(files.checkpoint))
+        resumes_checkpoint_ = files.resume && file_exists(files.checkpoint);
+        if (resumes_checkpoint_)
             resume();
         else
             start(provenance, stop);
@@ -192,13 +217,14 @@ class Recorder {
                                 "length: {}.",
                                 files_.checkpoint.string(), *problem));
         std::optional<LiveSeries> live;
-        if (!files_.series.empty()) live.emplace(*series_, files_.series);
+        if (!files_.series.empty()) live.emplace(*series_, files_.series, may_be_of_another_run());
         while (const std::uint64_t events = execute(run)) {
             if (live) live->update();
             if (is_checkpoint_due(events) && !run.complete()) save(run);
         }
         if (!run.complete() || files_.keep_checkpoint) save(run);
         const RunResult result = run.result();
+        if (live && result.complete) live->require_same_run();
         if (live) series_->write(files_.series);
         if (live) live->remove();
         if (!result.complete) {
@@ -213,6 +239,12 @@ class Recorder {
     }
 
   private:
+    /// A series that is there already. In the folder of a sweep it belongs to the run, even if it is
+    /// damaged; the files of a call are the user's.
+    bool may_be_of_another_run() const {
+        return files_.resume && !resumes_checkpoint_ && !files_.call.empty();
+    }
+
     void start(Provenance provenance, const std::atomic<bool>* stop) {
         reject_ramps_in_recordings();
         if (files_.overwrite) back_up(files_.checkpoint);
@@ -357,6 +389,7 @@ class Recorder {
     const Observation* observation_;
     const PeriodSeries* series_;
     std::optional<std::string> run_name_;
+    bool resumes_checkpoint_ = false;
     bool overwrites_;  // stays true when a run that was started with --overwrite is resumed
     std::optional<TrajectoryWriter> trajectory_;
     std::optional<EventLogWriter> event_log_;
