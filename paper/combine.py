@@ -1,11 +1,8 @@
 """Combines the runs of a point, which differ only in their seeds, into one result of the same form.
 
-Every average becomes the mean over the runs, with the error within and between them (src/swirl/statistics/replicates.hpp).
-Angles are averaged as directions. Counts of visits add up; lengths become means. Averages over time are weighted by
-the periods after the warm-up, averages over events are not.
-
-Failed runs are not averaged, nor are runs that ended before their warm-up or within five periods after it. Averages
-over three periods without wall friction, for example, deviate by a tenth of Ω, in the same direction for all seeds.
+Every average becomes the mean over the runs, with the error within and between them (src/swirl/statistics/replicates.hpp,
+which also decides which runs are too short to count, and their weights). Angles are averaged as directions. Counts of
+visits add up; lengths become means. Failed runs are not averaged.
 
 "seeds" has the number of runs, and how many of them were averaged, steady, drifting, jumping, switching, too short for
 the test, too short to average, and failed; also the scatter of ϖ by event in units of the runs' own errors.
@@ -16,7 +13,6 @@ import math
 import numpy as np
 from engine import swirl
 
-MIN_PERIODS = 5  # of a run that is averaged
 RATES = ("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time")
 COUNTS = ("runs", "averaged", "steady", "drifting", "jumping", "switching", "too_short", "too_short_to_average", "failed")
 
@@ -61,10 +57,15 @@ def steadiness(result):
     return at(result, "steady_state", "verdict") or "failed"
 
 
+def min_periods():
+    """The length of a run that is averaged, if any run is that long; from the program."""
+    return swirl._engine.min_averaged_periods
+
+
 def too_short_to_average(run):
     """True if a run ended before its warm-up, or soon after it."""
     return ((number(at(run, "warmup", "periods")) == 0 and at(run, "config", "warmup") != 0)
-            or not number(at(run, "rotation", "mean_by_event", "blocks")) >= MIN_PERIODS)
+            or not number(at(run, "rotation", "mean_by_event", "blocks")) >= min_periods())
 
 
 def is_average(node):
@@ -148,12 +149,16 @@ def combined(results):
         good = [r for r in results if not failed(r)]
         return {"runs": good} if good else results[0]
     seeds = count_seeds(results)
-    runs = [r for r in results if not failed(r) and not too_short_to_average(r)]
+    runs = [r for r in results if number(at(r, "rotation", "mean_by_event", "blocks")) >= 1]
     if not runs:
         reason = next((r["failed"] for r in results if failed(r)),
-                      f"no run has {MIN_PERIODS} periods after its warm-up, so nothing is averaged.")
+                      "no run has a whole period after its warm-up, so nothing is averaged.")
         return {"failed": reason} if any(map(failed, results)) else {"failed": reason, "seeds": seeds}
-    periods = [number(r["periods"]) - number(at(r, "warmup", "periods")) for r in runs]
+    if not all(map(too_short_to_average, runs)):
+        runs = [r for r in runs if not too_short_to_average(r)]
+    seeds["averaged"] = len(runs)
+    periods = swirl._engine.replicate_weights(
+        [number(r["periods"]) - number(at(r, "warmup", "periods")) for r in runs], True)
 
     def mean(*path):
         return sum(number(at(run, *path)) for run in runs) / len(runs)

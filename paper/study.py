@@ -267,8 +267,8 @@ def remarks(points):
                      f"drifting, {kinds[1]} jumping, {kinds[2]} switching between two states, {kinds[3]} too short for "
                      "the test). They are marked in the figure and in its table.")
     if count("too_short_to_average"):
-        found.append(f"{count('too_short_to_average')} of them have fewer than {combine.MIN_PERIODS} periods after "
-                     "their warm-up and are not averaged.")
+        found.append(f"{count('too_short_to_average')} of them have fewer than {combine.min_periods():g} periods after "
+                     "their warm-up. They count only at points where no run is longer.")
     disagreeing = [point.name for point in points if at(point.result, "seeds", "disagree")]
     if disagreeing:
         found.append(f"At {len(disagreeing)} of {len(points)} points the seeds scatter more than the errors within the "

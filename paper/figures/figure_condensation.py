@@ -3,7 +3,7 @@ discs, and the granular temperature before and after."""
 
 import numpy as np
 import style
-from combine import MIN_PERIODS, at, number, over_seeds
+from combine import at, min_periods, number, over_seeds
 from curves import with_error
 from engine import result_of, simulation_of
 from figure import Figure
@@ -41,7 +41,7 @@ def condensation(parameters):
     condensed, period, events = find_condensation(parameters)
 
     def averages(begin, end):
-        if end - begin < MIN_PERIODS:
+        if end - begin < min_periods():
             return {}
         run = result_of({**parameters, "warmup": begin, "periods": end}, ["temperature", "frustration"])
         return {**run["measured"], "rotation": run["rotation"]}

@@ -206,6 +206,21 @@ TEST(Ensemble, CoverageOfFewSeedsIsAsDocumented) {
     }
 }
 
+TEST(ReplicateWeights, ShortRunsCountOnlyIfAllAreShort) {
+    using Weights = std::vector<double>;
+    EXPECT_EQ(replicate_weights(std::vector{4.9, 5.0, 10.0}, true), (Weights{0.0, 5.0, 10.0}));
+    EXPECT_EQ(replicate_weights(std::vector{4.9, 5.0, 10.0}, false), (Weights{0.0, 1.0, 1.0}));
+    EXPECT_EQ(replicate_weights(std::vector{3.0, 1.0}, true), (Weights{3.0, 1.0}));
+    EXPECT_EQ(replicate_weights(std::vector{3.0, 1.0}, false), (Weights{1.0, 1.0}));
+    EXPECT_EQ(replicate_weights(std::vector{0.0, 0.0}, true), (Weights{1.0, 1.0}));
+    // Equal lengths are no weights at all, bitwise.
+    EXPECT_EQ(replicate_weights(std::vector{80.0, 80.0, 2.0}, true), (Weights{1.0, 1.0, 0.0}));
+    const std::vector<Estimate> runs{run_of(1.0, 0.1), run_of(3.0, 0.1), run_of(99.0, 0.1)};
+    const Ensemble all = ensemble(runs, Weights{1.0, 1.0, 0.0});
+    EXPECT_EQ(all.estimate.mean, 2.0);
+    EXPECT_EQ(all.runs, 2u);
+}
+
 // Independent of the order: angles that differ by whole turns are the same direction.
 TEST(Ensemble, DirectionsOnBothSidesOfZeroAverageToZero) {
     for (const auto& [first, second] : {std::pair{10.0, 350.0}, std::pair{350.0, 10.0}}) {

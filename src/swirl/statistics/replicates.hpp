@@ -36,6 +36,11 @@
 // 92 with eight. The true value is then beyond three errors in up to 17, 8, 4 and 2 of 100 cases
 // (tests/statistics/replicates_test.cpp).
 //
+// Which runs count. A run with fewer than five periods after its warm-up is left out, because its
+// transient is part of its mean: without wall friction, averages over three periods deviate by a
+// tenth of Ω, in the same direction for all seeds. If every run is that short, all of them count.
+// Averages over time are weighted by the lengths of the runs, averages over events are not.
+//
 // Units: those of the mean. Limits: runs without a mean are omitted; a single run keeps its own
 // error; runs without errors of their own get the one between them.
 #pragma once
@@ -62,6 +67,28 @@ struct Ensemble {
     double scatter = not_available;
     bool disagree = false;  // the seeds scatter more than their blocks can explain
 };
+
+/// Runs with fewer periods after their warm-up are left out.
+inline constexpr double min_averaged_periods = 5.0;
+
+/// The weights of runs with these lengths after the warm-up, in periods; 0 for a run that is left
+/// out. Equal weights are 1.
+inline std::vector<double> replicate_weights(std::span<const double> periods, bool by_time) {
+    const auto is_long = [](double length) { return length >= min_averaged_periods; };
+    const bool any = std::any_of(periods.begin(), periods.end(), is_long);
+    std::vector<double> weights;
+    for (const double length : periods)
+        weights.push_back(any && !is_long(length) ? 0.0 : by_time ? length : 1.0);
+    double common = 0.0;
+    for (const double weight : weights) {
+        if (weight == 0.0) continue;
+        if (common != 0.0 && weight != common) return weights;
+        common = weight;
+    }
+    if (common == 0.0) return std::vector<double>(weights.size(), 1.0);  // no run has a length
+    for (double& weight : weights) weight /= common;
+    return weights;
+}
 
 /// True if χ² is above chance by the three standard deviations that count as certain.
 inline bool beyond_chance(double chi_square, double freedom) {
@@ -95,14 +122,15 @@ inline Between between_seeds(std::span<const Estimate> runs, std::span<const dou
             trace * trace / trace_of_square};
 }
 
-/// `weights` has one value per run, or is empty: then all runs count the same.
+/// `weights` has one value per run, or is empty: then all runs count the same. A run with the weight
+/// 0 is left out.
 inline Ensemble ensemble(std::span<const Estimate> given, std::span<const double> weights = {}) {
     Ensemble all;
     std::vector<Estimate> runs;
     std::vector<Estimate> plain;  // the same runs with the errors e_i
     std::vector<double> w;
     for (std::size_t i = 0; i < given.size(); ++i) {
-        if (std::isnan(given[i].mean)) continue;
+        if (std::isnan(given[i].mean) || (!weights.empty() && weights[i] == 0.0)) continue;
         runs.push_back(given[i]);
         w.push_back(weights.empty() ? 1.0 : weights[i]);
         plain.push_back(given[i]);

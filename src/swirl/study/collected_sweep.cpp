@@ -99,7 +99,7 @@ std::vector<std::string> columns_of(const SweepPlan& plan,
     if (!plan.chain.empty()) columns.emplace_back("direction");
     columns.emplace_back("replicates");
     if (!gives_periods(plan)) columns.emplace_back("periods");
-    columns.insert(columns.end(), {"energy", "steady_state", "scatter"});
+    columns.insert(columns.end(), {"short_runs", "energy", "steady_state", "scatter"});
     for (const CollectedQuantity& quantity : quantities) {
         columns.push_back(quantity.name);
         columns.push_back(quantity.name + "_error");
@@ -129,14 +129,22 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
     if (!plan.chain.empty()) row.emplace_back(texts.at("direction"));
     const auto n = static_cast<double>(replicas.size());
     double periods = 0.0, energy = 0.0;
+    std::vector<double> lengths;
+    std::int64_t short_runs = 0;
     for (const PointResult* r : replicas) {
         periods += r->periods / n;
         energy += r->energy / n;
+        lengths.push_back(r->averaged_periods);
+        short_runs += r->averaged_periods < min_averaged_periods ? 1 : 0;
     }
+    const std::vector<double> by_time = replicate_weights(lengths, true),
+                              by_event = replicate_weights(lengths, false);
+    if (short_runs > 0) ++collected.with_short_runs;
     const std::string verdict = worst_verdict(replicas);
     collected.not_steady += verdict == "steady" ? 0 : 1;
     row.emplace_back(std::int64_t(replicas.size()));
     if (!gives_periods(plan)) row.emplace_back(periods);
+    row.emplace_back(short_runs);
     row.emplace_back(energy);
     row.emplace_back(verdict);
     const std::size_t scatter_column = row.size();
@@ -146,8 +154,9 @@ void add_row(CollectedSweep& collected, const SweepPlan& plan, const ParameterTe
         const auto& [name, is_direction] = quantities[k];
         std::vector<Estimate> estimates;
         for (const PointResult* r : replicas) estimates.push_back(r->quantity(k, name));
+        const std::vector<double>& weights = name.ends_with("by_event") ? by_event : by_time;
         const Ensemble together =
-            is_direction ? several_directions(estimates) : ensemble(estimates);
+            is_direction ? several_directions(estimates, weights) : ensemble(estimates, weights);
         row.emplace_back(together.estimate.mean);
         row.emplace_back(together.estimate.error);
         if (k < rotation_rates.size()) collected.rows.back().rotation[k] = together.estimate;
@@ -220,6 +229,11 @@ std::vector<std::string> warnings(const CollectedSweep& collected) {
             fmt::format("{} of the runs completed no whole period after the warm-up and "
                         "{} no averages.\nhint: use more --events.",
                         collected.without_period, collected.without_period == 1 ? "has" : "have"));
+    if (collected.with_short_runs > 0)
+        all.push_back(fmt::format(
+            "{} of {} rows have runs with fewer than {:.0f} periods after the warm-up (column "
+            "short_runs), which count only where no run is longer.",
+            collected.with_short_runs, collected.rows.size(), min_averaged_periods));
     if (collected.not_steady > 0)
         all.push_back(
             fmt::format("steady state not verified in {} of {} rows (column steady_state).",

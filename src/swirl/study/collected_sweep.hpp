@@ -24,9 +24,10 @@ struct CollectedSweep {
     std::vector<CollectedRow> rows = {};
     std::vector<LoopAreas> loops = {};  // empty unless a chain (hysteresis.hpp)
     std::vector<std::string> loop_quantities = {};
-    std::size_t disagreeing = 0;     // rows whose replicas scatter more than their errors explain
-    std::size_t not_steady = 0;      // rows with a replica that is not steady or too short to test
-    std::size_t without_period = 0;  // runs without a whole period after the warm-up
+    std::size_t disagreeing = 0;      // rows whose replicas scatter more than their errors explain
+    std::size_t with_short_runs = 0;  // rows with a run too short to count (replicates.hpp)
+    std::size_t not_steady = 0;       // rows with a replica that is not steady or too short to test
+    std::size_t without_period = 0;   // runs without a whole period after the warm-up
     std::set<std::string> versions = {};  // programs that made the runs
 };
 

@@ -41,8 +41,8 @@ std::string remove_and_repeat(const SweepPlan& plan) {
 bool is_needed(int depth, std::string_view key) {
     if (depth != 1) return true;
     static constexpr std::string_view parts[] = {
-        "format",  "version", "point",    "replicate", "config",       "state_hash",
-        "periods", "energy",  "rotation", "measured",  "steady_state", "units"};
+        "format", "version",  "point",    "replicate",    "config", "state_hash", "periods",
+        "energy", "rotation", "measured", "steady_state", "units",  "warmup"};
     return std::find(std::begin(parts), std::end(parts), key) != std::end(parts);
 }
 
@@ -168,6 +168,9 @@ PointResult read_result(const fs::path& folder, const SweepPlan& plan, std::size
                                   !std::isnan(result.quantities.front().estimate.mean);
         result.energy = number(json.at("energy"));
         result.periods = number(json.at("periods"));
+        const double warmup = number(json.at("warmup").at("periods"));
+        const bool ended_before = warmup == 0.0 && json.at("config").at("warmup") != 0;
+        result.averaged_periods = ended_before ? 0.0 : result.periods - warmup;
         result.state_hash = json.at("state_hash").get<std::string>();
         result.version = json.at("version").get<std::string>();
         result.verdict = json.at("steady_state").at("verdict").get<std::string>();

@@ -20,6 +20,7 @@ struct PointResult {
     /// The four rotation rates, then the measured numbers.
     std::vector<MeasuredNumber> quantities;
     double energy = 0.0, periods = 0.0;
+    double averaged_periods = 0.0;  // length after the warm-up; 0 if the run ended before
     std::string state_hash, verdict, version;
 
     /// Checks `expected_index` first, because the quantity is nearly always there.
