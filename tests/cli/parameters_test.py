@@ -19,15 +19,17 @@ OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mi
          "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
          "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
          "container_radius": "9", "gravity": "2", "rolling_resistance": "0.01", "vertical_disc": "0.5", "vertical_wall": "0.5",
-         "events_per_sample": "7", "cannot_spin": "0.5"}
+         "events_per_sample": "7", "cannot_spin": "0.5", "length_unit": "3mm", "time_unit": "22ms"}
 # Only in results of runs that set them.
-IF_SET = {"cannot_spin", "direction", "events_per_sample", "frictionless", "initial", "path_phase", "ramp", "sizes"}
+IF_SET = {"cannot_spin", "direction", "events_per_sample", "frictionless", "initial", "length_unit", "path_phase", "ramp", "sizes",
+          "time_unit"}
 # Only in results of spheres or floors, and the options that they require.
 OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc",
               "vertical_wall"}
 WITH = {name: ["--body", "sphere"] for name in ("floor", "vertical_disc", "vertical_wall")}
 WITH |= {name: ["--floor", "sliding"] for name in ("floor_friction", "gravity")}
 WITH["rolling_resistance"] = ["--body", "sphere", "--floor", "sliding"]
+WITH["length_unit"], WITH["time_unit"] = ["--time-unit", "22ms"], ["--length-unit", "3mm"]
 
 
 def rows():

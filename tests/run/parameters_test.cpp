@@ -83,7 +83,9 @@ std::string another(const Parameter& p) {
                                                              {"preset", "experiment"},
                                                              {"body", "sphere"},
                                                              {"floor", "sliding"},
-                                                             {"rolling_resistance", "0.01"}};
+                                                             {"rolling_resistance", "0.01"},
+                                                             {"length_unit", "3mm"},
+                                                             {"time_unit", "22ms"}};
     if (const auto found = words.find(p.name); found != words.end()) return found->second;
     const ParameterValue value =
         p.written != WrittenIf::always ? ParameterValue(std::stod(default_of(p))) : value_of(p, {});
@@ -109,6 +111,8 @@ TEST(RunParameters, EveryParameterSurvivesTheJson) {
                 texts["body"] = "sphere";  // not allowed for discs
         for (const char* floor_parameter : {"floor_friction", "gravity", "rolling_resistance"})
             if (p.name == std::string(floor_parameter)) texts["floor"] = "sliding";
+        if (p.name == std::string("length_unit")) texts["time_unit"] = "22ms";
+        if (p.name == std::string("time_unit")) texts["length_unit"] = "3mm";
         const RunConfig config = resolve(texts);
         const nlohmann::ordered_json json = config_json(config);
         EXPECT_NE(json.dump(), paper) << p.name;
@@ -211,6 +215,51 @@ TEST(RunParameters, PresetsDifferInAmplitudeOrFrictionOnly) {
     EXPECT_DOUBLE_EQ(half.gravity, 4.0 * smooth.gravity);
     expect_rejected({{"preset", "experiment-ruogh"}}, "did you mean 'experiment-rough'");
 }
+// Lengths of a preset are multiples of r, and its contact duration is a share of the period. Gravity
+// in another unit of length or time is unknown.
+TEST(RunParameters, APresetFollowsTheUnitsOfACallOrIsRejected) {
+    for (const char* name : {"experiment", "experiment-rough", "experiment-half"}) {
+        const RunConfig preset = resolve({{"preset", name}});
+        const ParameterTexts in_mm{{"preset", name},
+                                   {"radius", "3"},
+                                   {"container_radius", "25.5"},
+                                   {"amplitude", fmt::format("{}", 3.0 * preset.amplitude)},
+                                   {"period", "0.532"}};
+        expect_rejected(in_mm, "needs --gravity with --radius 3");
+        expect_rejected({{"preset", name}, {"period", "12"}}, "--period 12");
+        expect_rejected({{"preset", name}, {"speed", "2"}}, "--speed 2");
+        expect_rejected({{"preset", name}, {"radius", "2"}}, "--radius 2");
+        ParameterTexts with_gravity = in_mm;
+        with_gravity["gravity"] = "9810";
+        const RunConfig own = resolve(with_gravity);
+        EXPECT_DOUBLE_EQ(own.contact_duration / own.period,
+                         preset.contact_duration / preset.period);
+        const RunConfig larger = resolve({{"preset", name}, {"radius", "2"}, {"gravity", "3"}});
+        EXPECT_EQ(larger.container_radius, 2.0 * preset.container_radius);
+        EXPECT_EQ(larger.amplitude, 2.0 * preset.amplitude);
+        // In r and AΩ nothing changes: another dish, another speed of 1, no floor.
+        for (ParameterTexts more : {ParameterTexts{{"container_radius", "7.5"}, {"amplitude", "2"}},
+                                    {{"amplitude", "1.5"}, {"speed", "1"}},
+                                    {{"amplitude", "2"}, {"period", "12.566"}}}) {
+            more["preset"] = name;
+            more["discs"] = "20";  // fits into each of them
+            EXPECT_EQ(resolve(more).gravity, preset.gravity);
+            EXPECT_EQ(resolve(more).contact_duration, preset.contact_duration);
+        }
+        EXPECT_EQ(error_of({{"preset", name}, {"radius", "2"}, {"floor", "none"}}), "");
+    }
+}
+TEST(RunParameters, SpheresRollOnAFloorUnlessThereIsNone) {
+    const RunConfig sphere = resolve({{"body", "sphere"}});
+    EXPECT_TRUE(sphere.floor);
+    EXPECT_EQ(config_text(sphere),
+              config_text(resolve({{"body", "sphere"}, {"floor", "sliding"}})));
+    const RunConfig without = resolve({{"floor", "none"}, {"body", "sphere"}});
+    EXPECT_FALSE(without.floor);
+    EXPECT_FALSE(resolve(texts_of(without)).floor);
+    EXPECT_FALSE(resolve({{"body", "disc"}}).floor);
+    EXPECT_TRUE(resolve({{"preset", "experiment"}, {"body", "disc"}}).floor);
+}
 TEST(RunParameters, ImpossibleFloorsAndPathsAreRejected) {
     expect_rejected({{"floor", "sliding"}, {"path", "circle"}}, "parabola");
     expect_rejected({{"floor", "sliding"}, {"vertical_disc", "0"}}, "do not slip vertically");
@@ -245,7 +294,7 @@ TEST(RunParameters, OnlyDiscsWithoutAFloorLackFrictionInOneKindOfContact) {
     EXPECT_FALSE(resolve({{"frictionless", "bulk"}, {"mu_disc", "0"}}).conserves_energy());
 }
 TEST(RunParameters, RollingResistanceNeedsSpheresOnAFloorAndIsBounded) {
-    expect_rejected({{"body", "sphere"}, {"rolling_resistance", "0.01"}}, "there is no floor");
+    EXPECT_EQ(error_of({{"body", "sphere"}, {"rolling_resistance", "0.01"}}), "");
     expect_rejected({{"floor", "sliding"}, {"rolling_resistance", "0.01"}}, "discs do not roll");
     expect_rejected({{"preset", "experiment"}, {"rolling_resistance", "0.34"}},
                     "--floor-friction, 0.33");
@@ -254,7 +303,7 @@ TEST(RunParameters, RollingResistanceNeedsSpheresOnAFloorAndIsBounded) {
 }
 TEST(RunParameters, FloorParametersAreRejectedWithoutAFloor) {
     expect_rejected({{"floor_friction", "0.5"}}, "there is no floor");
-    expect_rejected({{"body", "sphere"}, {"gravity", "2"}}, "there is no floor");
+    expect_rejected({{"gravity", "2"}}, "there is no floor");
     EXPECT_EQ(error_of({{"preset", "experiment"}, {"floor", "none"}}), "");
 }
 // Measured at N = 36: ϖ is the same up to 100 times the experiment's floor friction of 0.3. At 3000

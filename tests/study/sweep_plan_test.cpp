@@ -62,6 +62,8 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
         ParameterTexts given{{name, value}};
         if (name == "floor_friction" || name == "gravity" || name == "rolling_resistance")
             given = {{name, value}, {"floor", "sliding"}, {"body", "sphere"}};
+        if (name == "length_unit" || name == "time_unit")
+            given = {{"length_unit", "3mm"}, {"time_unit", "22ms"}};
         const SweepPlan plan = make_plan(given, 1);
         ASSERT_EQ(plan.axes.size(), given.size());
         EXPECT_NE(plan.axis(name), nullptr);

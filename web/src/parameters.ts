@@ -13,7 +13,7 @@ interface Field {
 
 const main = ["discs", "mu", "amplitude"];
 /** The page has runs of any length, without ramps: moving a slider is the ramp. Samples are chosen by the engine. */
-const notShown = ["events", "events_per_sample", "frictionless", "initial", "periods", "ramp"];
+const notShown = ["events", "events_per_sample", "frictionless", "initial", "length_unit", "periods", "ramp", "time_unit"];
 const groups = {
     friction: ["mu_disc", "mu_wall"],
     particles: ["preset", "body", "radius", "mass", "inertia", "cannot_spin", "mixture", "sizes"],
@@ -127,8 +127,11 @@ export class Parameters {
     }
 
     private change(name: string, value: string): void {
+        // A preset with another unit of length or time needs a gravity; here the one in effect stays.
+        const {given} = this.lab, gravity = ["radius", "period", "speed"].includes(name) && given["preset"] && !given["gravity"]
+            ? {gravity: this.lab.effectiveValue("gravity")} : {};
         // One friction coefficient replaces the two others.
-        this.lab.set({...(name === "mu" ? {mu_disc: "", mu_wall: ""} : {}), [name]: value});
+        this.lab.set({...(name === "mu" ? {mu_disc: "", mu_wall: ""} : {}), ...gravity, [name]: value});
     }
 
     private show(): void {

@@ -58,7 +58,7 @@ try {
     }
     assert.deepEqual(untranslated, []);
     // Descriptions and labels exist for exactly the parameters that the page shows.
-    const shown = parameters.filter((row) => row.settable && !["events", "events_per_sample", "frictionless", "initial", "periods", "ramp"].includes(row.name)).map((row) => row.name);
+    const shown = parameters.filter((row) => row.settable && !["events", "events_per_sample", "frictionless", "initial", "length_unit", "periods", "ramp", "time_unit"].includes(row.name)).map((row) => row.name);
     assert.deepEqual(Object.keys(de.texts.descriptions).sort(), shown.sort());
     assert.deepEqual(Object.keys(en.texts.labels).sort(), shown);
 

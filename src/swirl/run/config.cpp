@@ -173,6 +173,14 @@ std::optional<std::string> problem_with_body(const RunConfig& c) {
     return {};
 }
 
+std::optional<std::string> problem_with_units(const RunConfig& c) {
+    if (c.length_unit.empty() || c.radius == 1.0) return {};
+    return fmt::format(
+        "--length-unit is {}, which is what the radius is, but --radius is {} instead of 1.\nhint: "
+        "give values with units, such as --radius 3mm.",
+        c.length_unit, c.radius);
+}
+
 std::optional<std::string> problem_with_warmup(const RunConfig& c) {
     if (!c.warmup || *c.warmup == 0) return {};
     if (c.periods) {
@@ -200,6 +208,7 @@ std::optional<std::string> problem(const RunConfig& config) {
     if (auto message = problem_with_size(config)) return message;
     if (auto message = problem_with_body(config)) return message;
     if (auto message = problem_with_path(config)) return message;
+    if (auto message = problem_with_units(config)) return message;
     if (auto message = problem_with_floor_friction(config)) return message;
     if (auto message = problem_with_rolling_resistance(config)) return message;
     if (auto message = problem_with_warmup(config)) return message;

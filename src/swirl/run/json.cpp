@@ -82,6 +82,9 @@ ParameterTexts parameters_in(const Json& config) {
         else
             texts[name] = value.is_string() ? value.get<std::string>() : value.dump();
     }
+    // Configurations of 0.1.0 omit the floor where spheres have none.
+    if (const auto body = texts.find("body"); body != texts.end() && body->second == "sphere")
+        texts.try_emplace("floor", "none");
     return texts;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -13,6 +14,7 @@
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/ramp.hpp"
+#include "swirl/run/units.hpp"
 
 namespace swirl {
 namespace {
@@ -35,6 +37,9 @@ struct Overloaded : Cases... {
 
 /// Why a text is no number: a decimal comma, a list or a range. "" if none of these.
 std::string hint_on_number(std::string_view text) {
+    if (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
+        std::isalpha(static_cast<unsigned char>(text.back())))
+        return "\nhint: units are um, mm, cm, m, in; us, ms, s, min, rpm, Hz; mm/s, m/s, m/s2.";
     const auto parts = split(text, ",:");
     const bool has_numbers =
         parts.size() > 1 && std::all_of(parts.begin(), parts.end(), read_number);
@@ -219,7 +224,7 @@ ParameterValue write_frictionless(const RunConfig& config) {
     return frictionless_names[static_cast<std::size_t>(config.frictionless)];
 }
 
-void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config) {
+void read_preset(std::string_view text, const ParameterTexts& given, RunConfig& config) {
     std::vector<std::string> names;
     for (const ExperimentPreset& preset : experiment_presets) {
         names.emplace_back(preset.name);
@@ -232,10 +237,63 @@ void read_preset(std::string_view text, const ParameterTexts&, RunConfig& config
         config.amplitude = preset.amplitude / sphere_radius_mm;
         config.period = 2.0 * pi * config.amplitude;
         config.gravity = experiment_gravity(preset.amplitude);
+        if (!given.contains("events") && !given.contains("ramp"))
+            config.periods = experiment_periods;
         return;
     }
     reject_choice("preset", text, names, "experiment, experiment-rough or experiment-half");
 }
+
+namespace {
+
+/// True if a call with a preset has its own unit of length or time. The units of a preset are r and
+/// AΩ, so in them the container keeps the speed 1. An amplitude without a period keeps Ω and
+/// gravity, and thus the unit of time.
+bool has_own_units(const ParameterTexts& given, const RunConfig& config) {
+    constexpr double rounding = 0.01;  // a period may be given in a few digits
+    const auto is_one = [](double speed) { return std::fabs(speed - 1.0) <= rounding; };
+    if (config.radius != 1.0) return true;
+    if (!given.contains("period") && !given.contains("speed")) return false;
+    return !is_one(config.amplitude * config.omega()) && !is_one(container_speed(config));
+}
+
+/// "--radius 3, --period 0.532"
+std::string given_units(const ParameterTexts& given) {
+    std::string text;
+    for (const char* name : {"radius", "amplitude", "period", "speed"})
+        if (const auto found = given.find(name); found != given.end())
+            text +=
+                fmt::format("{}{} {}", text.empty() ? "" : ", ", option_name(name), found->second);
+    return text;
+}
+
+/// A preset consists of ratios: R/r, A/r, t_c/T and g in (AΩ)²/r. What is not given follows a given
+/// radius or period. Gravity cannot follow, because the same numbers may be another unit or another
+/// dish.
+void follow_preset(const ParameterTexts& given, RunConfig& config) {
+    if (!given.contains("preset") || !has_own_units(given, config)) return;
+    if (config.floor && !given.contains("gravity"))
+        throw_usage_error(fmt::format(
+            "--preset {} needs --gravity with {}: its gravity is that for r = 1 and a container "
+            "speed of 1.\nhint: give lengths and times with units, such as 3mm and 0.532s (gravity "
+            "is then 9.81 m/s2), or add --gravity.",
+            given.at("preset"), given_units(given)));
+    if (!given.contains("contact_duration")) {
+        RunConfig preset;
+        read_preset(given.at("preset"), {}, preset);
+        config.contact_duration = preset.contact_duration * (config.period / preset.period);
+    }
+}
+
+/// Lengths of a preset are multiples of r.
+void scale_preset_lengths(const ParameterTexts& given, RunConfig& config) {
+    if (!given.contains("preset")) return;
+    if (!given.contains("container_radius")) config.container_radius *= config.radius;
+    if (!given.contains("amplitude") && config.path != PathShape::points)
+        config.amplitude *= config.radius;
+}
+
+}  // namespace
 
 void RunConfig::remove_floor() {
     const RunConfig defaults;
@@ -249,6 +307,7 @@ void read_body(std::string_view text, const ParameterTexts&, RunConfig& config) 
     if (text != "disc" && text != "sphere")
         reject_choice("body", text, {"disc", "sphere"}, "disc or sphere");
     config.body = text == "sphere" ? Shape::sphere : Shape::disc;
+    if (config.body == Shape::sphere) config.floor = true;
 }
 /// Results of discs omit the type.
 ParameterValue write_body(const RunConfig& config) {
@@ -264,7 +323,8 @@ void read_floor(std::string_view text, const ParameterTexts&, RunConfig& config)
     if (!config.floor) config.remove_floor();
 }
 ParameterValue write_floor(const RunConfig& config) {
-    return config.floor ? ParameterValue("sliding") : ParameterValue();
+    if (config.floor) return "sliding";
+    return config.body == Shape::sphere ? ParameterValue("none") : ParameterValue();
 }
 
 /// Names are multiples of m r²; a number is the moment of inertia itself. The default is the
@@ -440,7 +500,7 @@ static void reject_parameters_without_floor(const ParameterTexts& texts, const R
 }
 
 RunConfig resolve(const ParameterTexts& given) {
-    const ParameterTexts texts = normalized(given);
+    const ParameterTexts texts = without_units(normalized(given));
     RunConfig config;
     const auto read_all = [&](ReadingOrder order) {
         for (const Parameter& p : run_parameters) {
@@ -453,9 +513,13 @@ RunConfig resolve(const ParameterTexts& given) {
     };
     read_all(ReadingOrder::first);
     read_all(ReadingOrder::second);
+    scale_preset_lengths(texts, config);
     // The last pass computes with these values, so they must be valid.
+    if (const auto message = out_of_range(config)) throw_usage_error(*message);
+    if (!texts.contains("speed")) follow_preset(texts, config);
     if (const auto message = problem(config)) throw_usage_error(*message);
     read_all(ReadingOrder::last);
+    follow_preset(texts, config);
     reject_parameters_without_floor(texts, config);
     if (const auto message = problem(config)) throw_usage_error(*message);
     // It depends on the final path and sizes, so it is not part of problem().
@@ -482,9 +546,9 @@ RunConfig with_discs(const RunConfig& config, std::int64_t discs) {
 ParameterTexts overridden(ParameterTexts file, const ParameterTexts& command_line) {
     // A preset replaces all parameters that it sets, and those that follow from them.
     if (command_line.contains("preset"))
-        for (const char* name :
-             {"body", "inertia", "floor", "floor_friction", "gravity", "mu", "mu_disc", "mu_wall",
-              "restitution", "container_radius", "amplitude", "period", "speed"})
+        for (const char* name : {"body", "inertia", "radius", "floor", "floor_friction", "gravity",
+                                 "mu", "mu_disc", "mu_wall", "restitution", "contact_duration",
+                                 "container_radius", "amplitude", "period", "speed"})
             file.erase(name);
     // A ramp replaces the file's values of its parameters.
     if (const auto ramp = command_line.find("ramp"); ramp != command_line.end())

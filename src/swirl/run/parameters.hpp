@@ -65,8 +65,12 @@ inline constexpr ExperimentPreset experiment_presets[] = {
     {"experiment-rough", 11.5, rough_friction},  // roughened spheres: N_c = 28
     {"experiment-half", 5.75, smooth_friction},  // 1.15 cm as the diameter of the circle
 };
-inline constexpr double sphere_radius_mm = 3.0, experiment_container_radius = 25.5 / 3.0;
+inline constexpr double sphere_radius_mm = 3.0, container_radius_mm = 25.5;
+inline constexpr double experiment_omega = 11.81;  // 1/s
+inline constexpr double experiment_container_radius = container_radius_mm / sphere_radius_mm;
 inline constexpr double experiment_restitution = 0.9;
+/// Default length of runs with a preset. The paper's 10⁶ events are 12 periods of eight spheres.
+inline constexpr std::int64_t experiment_periods = 300;
 /// 9.81 m/s², in (AΩ)²/r.
 constexpr double experiment_gravity(double amplitude_mm) {
     return 6.382 * (5.75 / amplitude_mm) * (5.75 / amplitude_mm);
@@ -121,7 +125,7 @@ struct RunConfig {
     double inertia = paper_inertia;  // moment of one disc, not divided by m r²
     double cannot_spin = 0.0;        // share of the particles (Disc::can_spin)
     Shape body = Shape::disc;
-    bool floor = false;  // spheres slide and roll on it, coins slide
+    bool floor = false;  // spheres slide and roll on it, coins slide; default of spheres: true
     double floor_friction = 0.3, gravity = experiment_gravity(5.75);  // values at the SI's A/R
     double rolling_resistance = 0.0;                                  // μ_r of spheres (floor.hpp)
     double vertical_disc = 1.0, vertical_wall = 1.0;  // κ of spheres (collision_law.hpp)
@@ -155,6 +159,9 @@ struct RunConfig {
     std::int64_t events_per_sample = 0;
 
     std::uint64_t seed = 1;
+
+    /// What r and r/v are in the user's units, such as "3mm" and "0.022s"; for reports (units.hpp).
+    std::string length_unit, time_unit;
 
     /// The members above have the values of period 0 (in_period()).
     std::vector<Ramp> ramps;
@@ -207,10 +214,10 @@ using ParameterFormatter = std::string(const RunConfig& config);
 /// Most parameters are a plain member of RunConfig; the others have their own functions.
 ParameterReader read_preset, read_mu, read_frictionless, read_body, read_inertia, read_floor,
     read_initial, read_mixture, read_sizes, read_speed, read_path, read_direction, read_sides,
-    read_periods, read_warmup, read_ramp;
+    read_periods, read_warmup, read_ramp, read_length_unit, read_time_unit;
 ParameterWriter write_initial, write_frictionless, write_body, write_floor, write_mixture,
     write_sizes, write_speed, write_omega, write_path, write_direction, write_sides, write_events,
-    write_warmup, write_ramp;
+    write_warmup, write_ramp, write_length_unit, write_time_unit;
 ParameterFormatter format_inertia, format_mixture;
 
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
@@ -290,7 +297,9 @@ inline constexpr auto run_parameters = with_groups(std::to_array<Parameter>({
          "11.5 mm, the amplitude that the paper states, and μ = 0.33 for all contacts, "
          "from its N_c = 36. experiment-rough: roughened spheres, μ = 0.69, from N_c = 28. "
          "experiment-half: A = 5.75 mm, which the SI's A/R = 0.22 implies. Other options "
-         "override it; --mu does not change the floor's friction.",
+         "override it; --mu does not change the floor's friction. Its units are r and AΩ. With "
+         "another --radius, R and A follow; with another unit of time, t_c/T stays and --gravity "
+         "is required. The default length is 300 periods.",
      .group = parameter_group::particles,
      .read = read_preset,
      .default_text = ""},
@@ -338,7 +347,8 @@ inline constexpr auto run_parameters = with_groups(std::to_array<Parameter>({
     {.name = "body",
      .form = "disc|sphere",
      .description = "Type of particle",
-     .details = "Spheres rotate about all three axes (docs/explanation/spheres.md).",
+     .details = "Spheres rotate about all three axes, and roll on a floor unless --floor none is "
+                "given (docs/explanation/spheres.md).",
      .read = read_body,
      .write = write_body,
      .default_text = "disc",
@@ -442,8 +452,9 @@ inline constexpr auto run_parameters = with_groups(std::to_array<Parameter>({
      .range = parameter_range::nonnegative},
     {.name = "floor",
      .form = "none|sliding",
-     .description = "Floor under the particles",
-     .details = "On a sliding floor, spheres slide and roll; discs (coins) slide.",
+     .description = "Floor under the particles; sliding for spheres",
+     .details = "On a sliding floor, spheres slide and roll; discs (coins) slide. The default "
+                "friction, 0.3, and gravity, 6.382, are those of 3 mm spheres at the SI's A/R.",
      .read = read_floor,
      .write = write_floor,
      .default_text = "none",
@@ -621,6 +632,24 @@ inline constexpr auto run_parameters = with_groups(std::to_array<Parameter>({
      .form = "NUMBER",
      .description = "Seed of the initial positions and velocities",
      .member = &RunConfig::seed},
+    {.name = "length_unit",
+     .form = "LENGTH",
+     .description = "What the radius r is, such as 3mm, for reports",
+     .details =
+         "Values with units, such as --radius 3mm, set it (docs/how-to/units.md). It does not "
+         "change the run.",
+     .read = read_length_unit,
+     .write = write_length_unit,
+     .default_text = "",
+     .written = WrittenIf::set},
+    {.name = "time_unit",
+     .form = "TIME",
+     .description = "What r divided by the container's speed is, for reports",
+     .details = "Such as 22ms; together with --length-unit.",
+     .read = read_time_unit,
+     .write = write_time_unit,
+     .default_text = "",
+     .written = WrittenIf::set},
 }));
 
 /// The row with this name, spelled with underscores or hyphens; nullptr if there is none.

@@ -10,6 +10,7 @@
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/ramp.hpp"
 #include "swirl/run/reading.hpp"
+#include "swirl/run/units.hpp"
 #include "swirl/statistics/zero_crossing.hpp"
 
 namespace swirl {
@@ -192,6 +193,23 @@ std::string events_text(const RunResult& r) {
                        r.events.path_vertex == 1 ? "vertex" : "vertices", floor_events_text(r));
 }
 
+/// g in r and the container's speed v; g itself in a container at rest.
+double gravity_ratio(const RunConfig& c) {
+    const double v = c.amplitude * c.omega();
+    return v > 0.0 ? c.gravity * c.radius / (v * v) : c.gravity;
+}
+
+/// The dish and its rotation in the user's units; empty if the run has none.
+std::string units_lines(const RunResult& r, bool has_averages) {
+    const auto units = user_units(r.config);
+    if (!units) return "";
+    std::string text = report_line("dish", dish_in_units(r.config, *units));
+    const double rate = std::fabs(r.rotation.mean_by_time.mean);
+    if (!has_averages || direction_of(r.rotation.mean_by_time) == 0) return text;
+    return text + report_line("one turn", fmt::format("{:.3g} periods, {:.3g} s", 1.0 / rate,
+                                                      r.config.period * units->time / rate));
+}
+
 /// The lines that only --verbose prints.
 std::string details(const RunResult& r) {
     std::string text;
@@ -362,6 +380,10 @@ std::string report(const RunResult& r, bool verbose) {
         text += report_line(
             "Ω", fmt::format("2π/T, only a unit, because this path has no M-frame; ϖ > 0 is {}",
                              r.config.turns_clockwise() ? "clockwise" : "counter-clockwise"));
+    text += units_lines(r, has_averages);
+    if (r.config.floor)
+        text += report_line("floor", fmt::format("μ_f = {}, g r/v² = {:.4g}",
+                                                 r.config.floor_friction, gravity_ratio(r.config)));
     if (const std::string rounded = rounded_share_text(r.config); !rounded.empty())
         text += report_line("mixture", rounded);
     if (has_averages) text += rigid_body_line(r.rotation);

@@ -319,6 +319,8 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
 std::uint64_t identity_of(RunConfig config) {
     if (!config.uses_contact_duration()) config.contact_duration = RunConfig{}.contact_duration;
     if (config.mixture) config.mixture->percent.reset();
+    config.length_unit.clear();
+    config.time_unit.clear();
     if (!config.initial.empty() && !config.sizes) config.seed = 0;
     return checksum(config_text(config));
 }
@@ -351,10 +353,11 @@ void validate(const SweepPlan& plan) {
             throw UsageError("a table of points has columns, and is not that of a map or search.");
         return validate_rows(plan);
     }
-    for (const SweepAxis& axis : plan.axes) reject_repeated_runs(plan, axis);
+    for (const SweepAxis& axis : plan.axes)
+        if (!plan.searches_numbers() || axis.name != "discs") reject_repeated_runs(plan, axis);
 }
 
-SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
+SweepPlan plan_of_lists(const ParameterTexts& given, std::int64_t replicas) {
     SweepPlan plan;
     plan.replicas = replicas;
     ParameterTexts texts;
@@ -365,6 +368,11 @@ SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
             texts.erase(found);
         }
     if (!texts.empty()) resolve(texts);  // throws for the unknown name
+    return plan;
+}
+
+SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas) {
+    SweepPlan plan = plan_of_lists(given, replicas);
     validate(plan);
     return plan;
 }

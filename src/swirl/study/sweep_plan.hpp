@@ -86,6 +86,8 @@ struct SweepPlan {
     /// The command that works on the plan.
     const char* command() const { return map ? "map" : search ? "crossing" : "sweep"; }
     bool needs_all_points() const { return !map && !search; }
+    /// True if the points are chosen among the numbers of discs: not all of them must be possible.
+    bool searches_numbers() const { return search || (map && map->is_of_crossing()); }
     /// The axis of this name, or null.
     const SweepAxis* axis(std::string_view name) const;
     bool is_table() const { return !row_replicas.empty(); }
@@ -116,6 +118,9 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
 /// Each text may be a list. Throws UsageError, also for a value with which a point cannot be run,
 /// and for two values that give the same run.
 SweepPlan make_plan(const ParameterTexts& given, std::int64_t replicas);
+
+/// The same before validate(), for a plan that is not complete yet.
+SweepPlan plan_of_lists(const ParameterTexts& given, std::int64_t replicas);
 
 /// The plan with further values, replicas and measurements; 0 replicas and no measurements leave
 /// them unchanged. Throws UsageError for parameters that the plan does not have.
