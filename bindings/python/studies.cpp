@@ -166,10 +166,12 @@ py::tuple crossing(const std::optional<std::string>& folder, const py::dict& giv
     settings.rate = rate_named(rate);
     settings.from = minimum;
     settings.to = maximum;
+    settings.to_is_default = maximum == CrossingRules{}.to;
     settings.tolerance = tolerance;
     settings.min_periods = min_periods;
-    texts["discs"] = std::to_string(maximum);  // the largest number must fit into the container
+    texts["discs"] = std::to_string(minimum);
     settings.config = resolve(texts);
+    fit_range(settings);
     validate(settings);
     std::optional<SearchFolder> stored;
     if (folder) {

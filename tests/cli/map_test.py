@@ -45,6 +45,14 @@ class Map(InFolder):
         self.assert_works("map", "--out", self.path("two"), "--no-figure", "--quiet")
         self.assertEqual((self.table(self.path("two")), self.results(self.path("two"))), (table, results))
 
+    def test_each_size_of_the_container_has_the_range_that_fits(self):
+        self.assert_works("map", "--x", "container_radius=3.2,8.6", "--quantity", "N_c", "--from", 5, "--to", 9, "--periods", 6,
+                          "--warmup", 1, "--seeds", 2, "--no-figure", "--quiet", "--out", self.path("sizes"))
+        rows = read_rows(self.path("sizes/map.csv"))
+        self.assertEqual([(row["container_radius"], row["from"], row["to"]) for row in rows],
+                         [("3.2", "5", "7"), ("8.6", "5", "9")])
+        self.assertEqual([row["failed"] for row in rows], ["0", "0"])
+
     def test_lost_and_damaged_results_are_made_again(self):
         table, results = self.whole()
         with open(self.path(f"whole/results/{results[1]}"), "r+b") as opened:

@@ -12,6 +12,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parallel_for.hpp"
+#include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
 
 namespace swirl {
@@ -168,6 +169,53 @@ void validate_range(std::int64_t from, std::int64_t to) {
             from, to));
     if (static_cast<double>(to) > max_discs)
         throw UsageError(fmt::format("--to is {}, but it must be at most {:.0f}.", to, max_discs));
+}
+
+namespace {
+
+/// Denser particles are placed for seconds, and may find no place.
+constexpr double max_easy_packing = 0.75;
+
+bool is_dense(const RunConfig& config) {
+    double area = 0.0;
+    for (const ParticleProperties& particle : particles_of(config))
+        area += particle.radius * particle.radius;
+    return area > max_easy_packing * config.container_radius * config.container_radius;
+}
+
+/// Nothing if so many particles cannot be run.
+std::optional<RunConfig> config_with(const RunConfig& config, std::int64_t discs) {
+    try {
+        return with_discs(config, discs);
+    } catch (const UsageError&) {
+        return {};
+    }
+}
+
+std::int64_t most_easily_placed(const RunConfig& config, std::int64_t from, std::int64_t to) {
+    for (std::int64_t n = to; n > from; --n)
+        if (const auto made = config_with(config, n); made && !is_dense(*made)) return n;
+    return from;
+}
+
+}  // namespace
+
+std::int64_t most_that_fit(const RunConfig& config, std::int64_t from, std::int64_t to) {
+    return config_with(config, to) ? to : most_easily_placed(config, from, to);
+}
+
+void fit_range(CrossingSettings& settings) {
+    settings.asked_to = settings.to;
+    const std::int64_t from = settings.from, to = settings.to;
+    const std::int64_t most = settings.to_is_default ? most_easily_placed(settings.config, from, to)
+                                                     : most_that_fit(settings.config, from, to);
+    if (most > from) settings.to = most;  // otherwise validate() reports the problem
+}
+
+std::string range_words(const CrossingSettings& settings) {
+    if (settings.to >= settings.asked_to) return {};
+    return fmt::format("N = {} to {}; {} {}s do not fit, or only closely packed", settings.from,
+                       settings.to, settings.asked_to, body_word(settings.config));
 }
 
 void validate(const CrossingSettings& settings) {

@@ -35,6 +35,8 @@ struct CrossingSettings : CrossingRules {
     }
     RunConfig config = {};          // events: those of the first runs; discs is ignored
     std::int64_t min_periods = 50;  // length of the first runs after the warm-up
+    bool to_is_default = false;     // nobody asked for `to`
+    std::int64_t asked_to = 0;      // the end of the range before fit_range()
 };
 
 /// Failed runs at one number of discs.
@@ -115,6 +117,13 @@ struct CrossingControl {
 
 /// Throws UsageError if the range is empty.
 void validate_range(std::int64_t from, std::int64_t to);
+/// `to`, if so many particles fit; otherwise the number with a packing fraction of 0.75, since a
+/// denser placement takes seconds or fails. At least `from`, which may not fit either.
+std::int64_t most_that_fit(const RunConfig& config, std::int64_t from, std::int64_t to);
+/// Reduces the end of the range to most_that_fit(), and a default end to a packing fraction of 0.75.
+void fit_range(CrossingSettings& settings);
+/// "up to N = 42; more spheres …"; empty if the range is the one asked for.
+std::string range_words(const CrossingSettings& settings);
 /// Throws UsageError if the range is empty, a number of discs in it cannot be run, or another
 /// setting is invalid.
 void validate(const CrossingSettings& settings);

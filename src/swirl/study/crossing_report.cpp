@@ -245,7 +245,7 @@ std::string crossing_json(const CrossingSettings& settings, const CrossingResult
     Json failures = Json::array();
     for (const FailedRuns& f : s.failures)
         failures.push_back({{"discs", f.discs}, {"failed", f.failed}, {"runs", f.runs}});
-    Json json{{"rate", rotation_rates[s.rate].name}};
+    Json json{{"rate", rotation_rates[s.rate].name}, {"from", settings.from}, {"to", settings.to}};
     json.update(crossing_json(s.crossing()));
     Json& by_rate = json["by_rate"];
     for (std::size_t r = 0; r < rotation_rates.size(); ++r)

@@ -155,7 +155,8 @@ Table map_table(const SweepPlan& plan, const MapState& state) {
     std::vector<std::string> columns{target.x};
     if (y) columns.push_back(target.y);
     columns.insert(columns.end(), {target.of, target.of + "_error"});
-    if (target.is_of_crossing()) columns.insert(columns.end(), {"N_c_lower", "N_c_upper"});
+    if (target.is_of_crossing())
+        columns.insert(columns.end(), {"N_c_lower", "N_c_upper", "from", "to"});
     columns.insert(columns.end(), {"verdict", "total_periods", "replicates", "failed"});
     Table table(columns);
     const std::vector<std::size_t> x_order = ascending_order(*x),
@@ -165,7 +166,7 @@ Table map_table(const SweepPlan& plan, const MapState& state) {
         std::vector<Table::Cell> row{cell_of(x->values[x_order[s.x]])};
         if (y) row.push_back(cell_of(y->values[y_order[s.y]]));
         row.insert(row.end(), {s.value.mean, s.value.error});
-        if (target.is_of_crossing()) row.insert(row.end(), {s.lower, s.upper});
+        if (target.is_of_crossing()) row.insert(row.end(), {s.lower, s.upper, s.from, s.to});
         row.emplace_back(s.verdict);
         row.emplace_back(s.periods);
         row.emplace_back(s.runs);

@@ -56,7 +56,9 @@ std::vector<std::string> values_of(const MapAxisText& axis, std::int64_t steps) 
         const auto number = read_number(value);
         if (!number || !(*number > last))
             throw UsageError(
-                fmt::format("{} is '{}', but the axis of a map needs ascending numbers.",
+                fmt::format("{} is '{}', but the axis of a map needs ascending numbers without "
+                            "units.\nhint: `swirl crossing` and `swirl sweep` take lists of any "
+                            "values.",
                             option_name(axis.name), axis.values));
         last = *number;
     }
@@ -268,9 +270,10 @@ SweepPlan make_map_plan(const MapSettings& s) {
         reject_listed_particles(given);
         given["discs"] = fmt::format("{}:{}", s.from, s.to);
     }
-    SweepPlan plan = make_plan(given, s.max_runs);
+    SweepPlan plan = plan_of_lists(given, s.max_runs);
     plan.measure = measurements_for(target);
     plan.map = target;
+    validate(plan);
     validate_map(plan);
     return plan;
 }

@@ -5,9 +5,11 @@
 #include <limits>
 #include <optional>
 
+#include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/statistics/crossing_search.hpp"
 #include "swirl/statistics/replicates.hpp"
+#include "swirl/study/crossing.hpp"
 
 namespace swirl {
 namespace {
@@ -124,7 +126,8 @@ class MapSearch {
     using FindRun = std::function<const MapRun*(std::size_t)>;
 
     MapSearch(const SweepPlan& plan, const FindRun& find_run)
-        : target_(*plan.map),
+        : plan_(plan),
+          target_(*plan.map),
           find_run_(find_run),
           x_(plan, target_.x),
           y_(plan, target_.y),
@@ -272,10 +275,14 @@ class MapSearch {
             for (const Interval& x : halves(c.x, x_middle)) cells.push_back({x, y});
     }
 
+    std::size_t point_of(const MapSite& s, std::size_t number, std::size_t replica) const {
+        const std::size_t index = x_.offset(s.x) + y_.offset(s.y) + discs_.offset(number) + replica;
+        return point_at_.empty() ? index : point_at_[index];
+    }
+
     /// A run at a site; asks for it if it is missing.
     const MapRun* run_at(const MapSite& s, std::size_t number, std::size_t replica) {
-        const std::size_t index = x_.offset(s.x) + y_.offset(s.y) + discs_.offset(number) + replica;
-        const std::size_t point = point_at_.empty() ? index : point_at_[index];
+        const std::size_t point = point_of(s, number, replica);
         const MapRun* const run = find_run_(point);
         if (!run) missing_.push_back(point);
         return run;
@@ -318,9 +325,9 @@ class MapSearch {
     }
 
     /// The rules of a search that begins next to the N_c of the neighbours, if all have one.
-    CrossingRules rules_for(const Neighbours& neighbours) const {
-        CrossingRules rules{.from = number(numbers_.a),
-                            .to = number(numbers_.b),
+    CrossingRules rules_for(const MapSite& s, const Neighbours& neighbours) const {
+        CrossingRules rules{.from = s.from,
+                            .to = s.to,
                             .tolerance = target_.tolerance,
                             .seeds = std::int64_t(first()),
                             .max_runs = std::int64_t(max_runs_)};
@@ -341,16 +348,29 @@ class MapSearch {
         return rules;
     }
 
+    /// The end of the range of numbers of discs at this site. If not even the smallest number fits, the
+    /// runs fail and say so.
+    std::int64_t end_of_numbers(const MapSite& s) const {
+        try {
+            const RunConfig here = resolve(plan_.parameters(point_of(s, 0, 0)));
+            return most_that_fit(here, s.from, number(numbers_.b));
+        } catch (const UsageError&) {
+            return number(numbers_.b);
+        }
+    }
+
     std::size_t first() const { return std::min(first_runs, max_runs_); }
     std::int64_t number(std::size_t index) const { return first_number_ + std::int64_t(index); }
 
     /// The next stage continues the search of this one.
     void find_crossing_at(MapSite& s, std::optional<CrossingSearch>& search,
                           const Neighbours& neighbours) {
+        s.from = number(numbers_.a);
+        s.to = end_of_numbers(s);
         if (search)
-            search->extend(number(numbers_.a), number(numbers_.b), std::int64_t(max_runs_));
+            search->extend(s.from, s.to, std::int64_t(max_runs_));
         else
-            search.emplace(rules_for(neighbours));
+            search.emplace(rules_for(s, neighbours));
         s.decided = true;
         while (s.decided) {
             const std::vector<ProposedRun> runs = search->next();
@@ -395,6 +415,7 @@ class MapSearch {
         }
     }
 
+    const SweepPlan& plan_;
     const MapTarget target_;
     const FindRun& find_run_;
     const MapAxis x_, y_, discs_;              // discs_: one value, if the map is not of N_c

@@ -15,7 +15,7 @@
 // N_c. At each site the number of discs is a further axis, and N_c is searched as by `swirl crossing`
 // (statistics/crossing_search.hpp), but with runs of equal length: the coarse scan has five numbers
 // of discs, and more runs double their number. A site between others begins next to the N_c of
-// these instead. A cell is halved if the verdicts differ, one is undecided, or N_c differs by more
+// these instead. Its range ends at the largest number that fits there. A cell is halved if the verdicts differ, one is undecided, or N_c differs by more
 // than `change`.
 //
 // Growth. A plan may get further values of its axes, more replicas (sweep_plan.hpp) and, for N_c,
@@ -53,6 +53,7 @@ struct MapSite {
     std::string verdict = {};
     Estimate value = {};
     double lower = not_available, upper = not_available;  // 95 % of N_c
+    std::int64_t from = 0, to = 0;                        // numbers of discs of the search
     double periods = 0.0;                                 // sum over all runs
     std::int64_t runs = 0, failed = 0;                    // finished and failed ones
 };

@@ -15,8 +15,9 @@ namespace swirl {
 
 SweepPlan search_plan(ParameterTexts given, std::int64_t from, std::int64_t to) {
     given["discs"] = fmt::format("{}:{}", from, to);
-    SweepPlan plan = make_plan(given, max_search_runs);
+    SweepPlan plan = plan_of_lists(given, max_search_runs);
     plan.search = true;
+    validate(plan);
     return plan;
 }
 
