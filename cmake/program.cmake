@@ -152,7 +152,7 @@ function(swirl_commands part option library files)
   set(app_sources ${app_sources} PARENT_SCOPE)
   set(${part}_sources ${sources} PARENT_SCOPE)
 endfunction()
-swirl_commands(study SWIRL_STUDY swirl_study "command_(crossing|map|sweep)")
+swirl_commands(study SWIRL_STUDY swirl_study "command_(crossing|dish|map|sweep)")
 swirl_commands(drawing SWIRL_DRAWING swirl_track_synthetic
   "appearance_options|source_options|command_(image|movie|synthetic_video)")
 swirl_commands(experiment SWIRL_EXPERIMENT swirl_track_experiment "command_experiment")

@@ -1,8 +1,8 @@
 """A quantity of a sweep against one of its parameters, a curve for each combination of the others.
 
-    /usr/bin/python3 paper/sweep_table.py study/table.csv [QUANTITY]
+    /usr/bin/python3 paper/sweep_table.py study/table.csv [QUANTITY] [--points my_points.csv]
 
-`swirl collect study --plot` writes the table and draws it. The parameter along x is the one with the most
+`swirl collect study --plot` writes the table and draws it. Points have the columns discs, rate and error. The parameter along x is the one with the most
 values. In a chain, rising and falling values are separate curves.
 """
 
@@ -53,12 +53,29 @@ def label_of(quantity):
     return quantity.replace("_", " ")
 
 
+def arguments():
+    """The table, the quantity, and the file of the points or None."""
+    words = sys.argv[1:]
+    points = None
+    if "--points" in words[:-1]:
+        at = words.index("--points")
+        points = words[at + 1]
+        del words[at:at + 2]
+    if len(words) not in (1, 2) or words[0] in ("-h", "--help"):
+        print(f"usage: /usr/bin/python3 {sys.argv[0]} table.csv [QUANTITY] [--points FILE.csv]", file=sys.stderr)
+        sys.exit(0 if words in (["-h"], ["--help"]) else 2)
+    return words[0], words[1] if len(words) == 2 else "mean_by_time", points
+
+
+def draw_points(axes, file):
+    """Points that were measured at a real dish, with their standard errors."""
+    rows = style.read(file)
+    discs, rates, errors = (style.column(rows, name) for name in ("discs", "rate", "error"))
+    axes.errorbar(discs, rates, yerr=errors, fmt="*", color="black", markersize=9, capsize=3, zorder=5, label="my points")
+
+
 def main():
-    if len(sys.argv) not in (2, 3) or sys.argv[1] in ("-h", "--help"):
-        print(f"usage: /usr/bin/python3 {sys.argv[0]} table.csv [QUANTITY]", file=sys.stderr)
-        sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
-    table = sys.argv[1]
-    quantity = sys.argv[2] if len(sys.argv) == 3 else "mean_by_time"
+    table, quantity, points_file = arguments()
     if not optional_file.exists(table):
         sys.exit(f"error: the table '{table}' does not exist.\nhint: `swirl collect` writes it.")
     rows = style.read(table)
@@ -87,7 +104,9 @@ def main():
         axes.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     names = {"discs": "number of discs $N$", "mu": r"friction coefficient $\mu$"}
     axes.set(xlabel=names.get(x, x.replace("_", " ")), ylabel=label_of(quantity))
-    if others:
+    if points_file and x == "discs":
+        draw_points(axes, points_file)
+    if others or points_file:
         style.legend(axes)
     style.save(drawing, table)
 

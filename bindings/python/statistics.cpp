@@ -4,12 +4,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
 #include "arrays.hpp"
 #include "calls.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/crossing.hpp"
+#include "swirl/study/own_points.hpp"
 
 namespace swirl::python {
 namespace {
@@ -85,11 +91,55 @@ py::tuple estimate_of_values(const std::vector<double>& values) {
                           found.estimate.effective_samples, found.autocorrelation_time);
 }
 
+using PointTuple = std::tuple<double, double, double>;
+
+std::vector<RotationPoint> rotation_points(const std::vector<PointTuple>& tuples) {
+    std::vector<RotationPoint> points;
+    for (const auto& [discs, mean, error] : tuples) points.push_back({discs, mean, error});
+    return points;
+}
+
+std::vector<PointTuple> tuples_of(const std::vector<RotationPoint>& points) {
+    std::vector<PointTuple> tuples;
+    for (const RotationPoint& p : points) tuples.emplace_back(p.discs, p.mean, p.error);
+    return tuples;
+}
+
+/// (points in the range of all curves, χ² of each curve, (value, lower, upper, χ², degrees of
+/// freedom, whether the interval is open) of the best parameter or None).
+py::tuple compare_curves(const std::vector<double>& parameters,
+                         const std::vector<std::vector<PointTuple>>& given,
+                         const std::vector<PointTuple>& measured) {
+    if (parameters.size() != given.size())
+        throw UsageError("there must be as many parameters as curves.");
+    std::vector<ModelCurve> curves;
+    for (std::size_t k = 0; k < given.size(); ++k)
+        curves.push_back({parameters[k], rotation_points(given[k])});
+    const std::vector<RotationPoint> points = comparable_points(curves, rotation_points(measured));
+    std::vector<double> chi_squares;
+    for (const ModelCurve& curve : curves) chi_squares.push_back(chi_square_of(curve, points));
+    py::object best = py::none();
+    const bool differ = std::none_of(parameters.begin(), parameters.end(),
+                                     [](double value) { return std::isnan(value); });
+    if (const auto found = differ ? best_parameter(curves, points) : std::nullopt)
+        best = py::make_tuple(found->value, found->lower, found->upper, found->chi_square,
+                              found->freedom, found->open_below || found->open_above);
+    return py::make_tuple(tuples_of(points), chi_squares, best);
+}
+
 }  // namespace
 
 void bind_statistics(py::module_& module) {
     module.def("over_replicates", &over_replicates);
+    module.def("replicate_weights", [](const std::vector<double>& periods, bool by_time) {
+        return replicate_weights(periods, by_time);
+    });
+    module.attr("min_averaged_periods") = min_averaged_periods;
     module.def("zero_crossing", &zero_crossing);
+    module.def("read_own_points", [](const std::string& file, std::optional<double> period) {
+        return tuples_of(read_own_points(file, period));
+    });
+    module.def("compare_curves", &compare_curves);
     module.def("estimate_of_series", &estimate_of_values);
     module.def("checksum",
                [](const std::string& text) { return fmt::format("{:016x}", checksum(text)); });

@@ -66,12 +66,39 @@ class Crossing(InFolder):
         self.assert_fails(2, "crossing", "--container-radius", "8.6,4", *AROUND, "--json", self.path("x.json"), *SHORT)
         self.assertEqual(self.left_behind(), [])
 
+    def test_the_range_ends_at_what_fits_and_says_so(self):
+        for given, range_of in (([], (5, 29)), (["--to", 40], (5, 29)), (["--to", 28], (5, 28))):
+            done = self.assert_works("crossing", "--container-radius", 6.25, *given, "--events", "1e3", "--tolerance", 5,
+                                     "--json", self.path("range.json"))
+            found = read_json(self.path("range.json"))
+            self.assertEqual((found["from"], found["to"]), range_of)
+            self.assertEqual("range       N = 5 to 29; " in done.stdout, range_of == (5, 29), done.stdout)
+        table = self.good("--container-radius", "5,5.5", *FEW, "--csv", "-")
+        self.assertEqual([(row["from"], row["to"]) for row in csv.DictReader(io.StringIO(table))], [("5", "7")] * 2)
+
+    def test_my_points_are_compared_with_the_points_of_the_search(self):
+        write_text(self.path("mine.csv"), "N,turns,circles\n5,9,20\n7,8,20\n")
+        mine = ["--my-points", self.path("mine.csv"), "--csv", self.path("N_c.csv"), "--plot"]
+        done = self.assert_works("crossing", "--mu", "0.5,1", *FEW, "--events", "1e3", "--tolerance", 5, *mine)
+        self.assertRegex(done.stdout, r"(?s)  my points   χ² = \S+ of 2 points for mu 0.5\n.*  best fit    mu = ")
+        self.assertIn("N_c.png", self.left_behind())
+        self.assert_fails(2, "crossing", *FEW, "--plot", says="--csv N_c.csv")
+        write_text(self.path("wrong.csv"), "N,turns\n5,9\n")
+        self.assert_fails(2, "crossing", *FEW, "--my-points", self.path("wrong.csv"), says="the columns are N, turns and circles")
+
+    def test_searches_in_dishes_of_several_sizes_share_a_folder(self):
+        several = ["--container-radius", "3.2,8.6", "--from", 5, "--to", 9, "--out", self.path("sizes")]
+        first = list(csv.DictReader(io.StringIO(self.good(*several, "--csv", "-"))))
+        self.assertEqual([row["to"] for row in first], ["7", "9"])
+        again = list(csv.DictReader(io.StringIO(self.good(*several, "--csv", "-"))))
+        self.assertEqual([row["N_c_upper"] for row in again], [row["N_c_upper"] for row in first])
+
     def test_only_the_searched_numbers_must_fit(self):
         # 48 discs, the default of a run, do not fit into this container.
         found = json.loads(self.good("--container-radius", 6.3, "--from", 8, "--to", 10, "--json", "-"))
         self.assertEqual(found["verdict"], "always rotates")
-        done = self.assert_fails(2, "crossing", "--container-radius", 6.3, "--from", 8, "--to", 46, *SHORT,
-                                 says="46 discs do not fit")
+        done = self.assert_fails(2, "crossing", "--container-radius", 6.3, "--from", 40, "--to", 46, *SHORT,
+                                 says="40 discs do not fit")
         self.assertNotIn("--discs", done.stderr)
 
     def test_every_rotation_rate_has_a_crossing(self):

@@ -313,3 +313,48 @@ def test_a_missing_package_is_reported_before_the_first_run(tmp_path, monkeypatc
     with pytest.raises(ImportError, match="needs the package pandas.*\nhint: pip install pandas"):
         call(tmp_path / "study")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_crossing_of_lists_is_a_table(tmp_path):
+    call = {"min_discs": 5, "max_discs": 7, "tolerance": 5, "events": 1000, "warmup": 2}
+    table = swirl.crossing(tmp_path, mu=[0.5, 1], container_radius=np.array([8.6]), **call)
+    assert table["mu"].tolist() == [0.5, 1] and table["container_radius"].tolist() == [8.6, 8.6]
+    assert table["from"].tolist() == [5, 5] and table["to"].tolist() == [7, 7]
+    alone = swirl.crossing(mu=1, container_radius=8.6, **call)
+    assert table["verdict"][1] == alone.verdict
+    assert table.attrs["searches"][1].found["points"] == alone.found["points"]
+
+
+def test_points_are_compared_with_a_table(tmp_path):
+    rows = [{"discs": n, "mu": mu, "replicates": 1, "mean_by_time": 0.3 - mu * n / 40, "mean_by_time_error": 0.001}
+            for mu in (0.4, 0.2) for n in (32, 8, 16)]
+    table = pandas.DataFrame(rows)
+    points = {"N": [8, 24, 60], "rate": [0.24, 0.12, 1], "error": [0.01, 0.01, 0.1]}
+    found = swirl.compare_points(points, table)
+    assert found.parameter == "mu" and found.left_out == 1 and found.freedom == 1
+    assert found.value == pytest.approx(0.3, abs=1e-3) and found.lower < 0.3 < found.upper
+    assert list(found.curves) == ["mu = 0.2", "mu = 0.4"] and str(found).startswith("mu = 0.3 ± ")
+    file = tmp_path / "mine.csv"
+    pandas.DataFrame(points).to_csv(file, index=False)
+    for same in (file, pandas.DataFrame(points)):
+        assert swirl.compare_points(same, table) == found
+    counted = swirl.compare_points([(8, 4.8, 20), (24, 2.4, 20)], table[table["mu"] == 0.2])
+    assert counted.parameter is None and np.isnan(counted.value) and len(counted.points) == 2
+    assert found.plot() is not None
+    with pytest.raises(ValueError, match="line 3"):
+        swirl.compare_points([(8, 4.8, 20), (24, 2.4, 0)], table)
+
+
+def test_over_seeds_is_the_mean_of_a_sweep(tmp_path):
+    table = swirl.sweep(tmp_path / "sweep", discs=8, events=[3000], warmup=1, seeds=3)
+    found = swirl.map(discs=8, events=[3000], warmup=1, seeds=3)
+    rates = [run.rotation.mean_by_time for run in found]
+    mean = swirl.over_seeds([r.mean for r in rates], [r.error for r in rates], periods=[run.periods - run.warmup for run in found],
+                            effective_samples=[r.effective_samples for r in rates])
+    assert mean.mean == pytest.approx(table["mean_by_time"][0], rel=1e-12)
+    assert mean.error == pytest.approx(table["mean_by_time_error"][0], rel=1e-9)
+    # Short runs are left out, unless all are short.
+    assert swirl.over_seeds([1, 3, 99], periods=[10, 10, 2]).mean == 2
+    assert swirl.over_seeds([1, 3], periods=[1, 3], by_time=False).mean == 2
+    assert swirl.over_seeds([[1, 3], [2, 4]]).mean.tolist() == [2, 3]
+    assert np.cos(np.radians(swirl.over_seeds([350, 10], directions=True).mean)) == pytest.approx(1)

@@ -17,10 +17,12 @@ from ._engine import samples_per_period as samples_per_period
 from ._engine import version as _version
 from ._estimates import ArrayEstimate, Estimate, with_error
 from ._lab import Lab, lab
+from ._points import PointComparison, compare_points
 from ._recordings import Analysis, Recording, Tracks, Trajectory, analyse
 from ._results import EventCounts, Measured, Result, Rotation, Series, Table
 from ._runs import Interrupted, Parameter, measurements, parameters, run
 from ._simulation import EventKind, Simulation, load
+from ._seeds import SeedMean, over_seeds
 from ._study import Crossing, SweepWarning, collect, crossing, parameter_map, sweep
 from ._study import map_runs as map
 from ._track import VideoTracks, track
@@ -30,9 +32,9 @@ __version__ = _version().split()[0]
 
 __all__ = [
     "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
-    "FileError", "Frames", "Interrupted", "Lab", "Measured", "Parameter", "Recording", "Result", "Rotation",
-    "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "VideoTracks", "analyse",
-    "collect", "crossing", "lab", "load", "map", "measurements", "parameter_map", "parameters", "plot", "run",
+    "FileError", "Frames", "Interrupted", "Lab", "Measured", "Parameter", "PointComparison", "Recording", "Result", "Rotation",
+    "SeedMean", "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "VideoTracks", "analyse",
+    "collect", "compare_points", "crossing", "lab", "load", "map", "measurements", "over_seeds", "parameter_map", "parameters", "plot", "run",
     "samples_per_period", "sweep", "track", "with_error", "zero_crossing",
 ]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import concurrent.futures
 import dataclasses
 import io
+import itertools
 import json
 import math
 import os
@@ -207,10 +208,42 @@ class Crossing:
         return self.sentence
 
 
+_ARRAYS = ("path", "sizes", "initial")  # parameters of which an array is one value
+
+
+def _lists(parameters: dict[str, Any]) -> dict[str, list[Any]]:
+    """The parameters with several values."""
+    return {name: list(value) for name, value in parameters.items() if name not in _ARRAYS
+            and hasattr(value, "__iter__") and not isinstance(value, (str, tuple, bytes))}
+
+
+def _crossings(out: Optional[PathName], lists: dict[str, list[Any]], options: dict[str, Any]) -> Any:
+    """A search for each combination of the lists; with a folder, each has its own folder in it."""
+    pandas = optional("pandas", "swirl.crossing() of lists")
+    rows, searches = [], []
+    for values in itertools.product(*lists.values()):
+        here = dict(zip(lists, values))
+        name = ", ".join(f"{each} {value}" for each, value in here.items()).replace("/", "-")
+        folder = None if out is None else os.path.join(os.fspath(out), name)
+        found = crossing(folder, **{**options, **here})
+        searches.append(found)
+        rows.append({**here, "verdict": found.verdict, "N_c": found.discs, "N_c_error": found.error,
+                     "N_c_lower": found.lower, "N_c_upper": found.upper, "from": found.found["from"],
+                     "to": found.found["to"], "within_tolerance": found.within_tolerance, "runs": found.found["runs"]})
+    table = pandas.DataFrame(rows)
+    table.attrs["searches"] = searches
+    return table
+
+
 def crossing(out: Optional[PathName] = None, *, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.1,
              rate: str = "mean_by_time", threads: int = 0,
              progress: Union[bool, Callable[[str, float], object], None] = None,
-             **parameters: Any) -> Crossing:
+             **parameters: Any) -> Any:
+    lists = _lists(parameters)
+    if lists:
+        single = {name: value for name, value in parameters.items() if name not in lists}
+        return _crossings(out, lists, {"min_discs": min_discs, "max_discs": max_discs, "tolerance": tolerance,
+                                       "rate": rate, "threads": threads, "progress": progress, **single})
     for name in ("discs", "periods"):
         if parameters.get(name) is not None:
             raise TypeError(f"{name} is given, but the search varies it.\n"
@@ -367,6 +400,10 @@ with_parameters(crossing, """Searches the number of discs at which rotation chan
     c.discs, c.error, c.sentence
 
     c.by_rate["rigid_by_time"]["N_c"]
+    table = swirl.crossing(mu=[0.3, 0.5, 1], container_radius=[7.5, 8.6])
+
+Returns a swirl.Crossing. If parameters are lists or arrays, each combination is a search, and the result is a pandas
+DataFrame with the parameters, N_c and its error; `table.attrs["searches"]` has the complete results.
 
 out: folder for the runs, in the format of the command line; a repeated call continues.
 min_discs, max_discs: range of the search. tolerance: target standard error of N_c. rate: the rotation

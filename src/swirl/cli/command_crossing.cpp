@@ -1,6 +1,8 @@
 // swirl crossing: the number of discs at which rotation changes into counterrotation.
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
@@ -11,8 +13,12 @@
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/sweep_options.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/python_script.hpp"
 #include "swirl/run/report.hpp"
+#include "swirl/run/shell_word.hpp"
+#include "swirl/run/units.hpp"
 #include "swirl/study/crossing.hpp"
+#include "swirl/study/own_points.hpp"
 #include "swirl/study/search_folder.hpp"
 #include "swirl/study/sweep_folder.hpp"
 #include "swirl/study/sweep_plan.hpp"
@@ -25,9 +31,9 @@ const ParameterTexts defaults{{"events", default_search_events}};
 struct CrossingCall {
     std::shared_ptr<ParameterTexts> parameters;
     CrossingSettings settings;
-    std::string config_file, json, table, rate, out;
+    std::string config_file, json, table, rate, out, my_points;
     ShareOptions sharing;
-    bool quiet = false, verbose = false;
+    bool quiet = false, verbose = false, plot = false;
 
     bool uses_stdout() const { return json == "-" || table == "-"; }
 };
@@ -35,6 +41,8 @@ struct CrossingCall {
 #ifndef SWIRL_STUDY
 void run_searches(const Subcommand&, CrossingCall&) { throw_missing("crossing", "SWIRL_STUDY"); }
 #else
+const std::int64_t default_to = CrossingRules{}.to;
+
 /// One of the searches of a call: one for each combination of the lists.
 struct SearchTask {
     CrossingSettings settings;
@@ -47,6 +55,7 @@ struct CallResults {
     std::vector<std::string> parameters;  // columns
     Table table;
     std::vector<std::string> objects;  // JSON of each search
+    std::vector<CurveOfModel> curves;  // points of each search
     std::size_t empty = 0;             // searches without a successful run
 };
 
@@ -63,7 +72,7 @@ std::string name_of(const SweepPlan& plan, const ParameterTexts& texts) {
 SweepPlan plan_of(const CrossingCall& call) {
     ParameterTexts given = overridden(defaults, *call.parameters);
     reject_listed_particles(given);
-    given["discs"] = std::to_string(call.settings.to);  // the largest number that must fit
+    given["discs"] = std::to_string(call.settings.from);  // each search finds the most that fit
     return make_plan(given, 1);
 }
 
@@ -73,6 +82,7 @@ std::vector<SearchTask> tasks_of(const CrossingCall& call, const SweepPlan& plan
         const ParameterTexts texts = plan.parameters(point);
         tasks.push_back({call.settings, texts, name_of(plan, texts)});
         tasks.back().settings.config = resolve(texts);
+        fit_range(tasks.back().settings);
         validate(tasks.back().settings);
     }
     return tasks;
@@ -84,6 +94,16 @@ void validate_call(const CrossingCall& call) {
 }
 
 void validate_outputs(const CrossingCall& call) {
+    const bool has_part = call.sharing.slurm || !call.sharing.part.empty();
+    if (has_part && !(call.json.empty() && call.table.empty() && call.my_points.empty()))
+        throw UsageError(
+            "--slurm and --part make the runs only.\nhint: omit --csv, --json and --my-points, and "
+            "repeat the call with them, and without --slurm and --part, when all runs are done.");
+    if (has_part && call.out.empty())
+        throw UsageError("--slurm and --part need --out, the folder for the runs.");
+    if (call.plot && (call.table.empty() || call.table == "-"))
+        throw UsageError(
+            "--plot draws a table in a file.\nhint: give its name, such as --csv N_c.csv.");
     for (const std::string* file : {&call.json, &call.table}) {
         if (file->empty() || *file == "-") continue;
         reject_unwritable(*file);
@@ -131,6 +151,8 @@ std::string report_text(const CrossingCall& call, const SearchTask& task,
     if (search.crossing().changes.size() > 1 || call.verbose)
         text += other_crossings_report(search);
     if (call.quiet) return text;
+    if (const std::string range = range_words(task.settings); !range.empty())
+        text += report_line("range", range);
     if (const std::string rigid = rigid_body_crossing(search); !rigid.empty())
         text += report_line("rigid body", rigid);
     if (const std::string nearest = nearest_points(search); !nearest.empty())
@@ -179,12 +201,13 @@ std::optional<SweepPlan> plan_in_folder(const CrossingCall& call) {
 }
 
 CallResults empty_results(const SweepPlan& plan) {
-    CallResults results{{}, Table({}), {}, 0};
+    CallResults results{{}, Table({}), {}, {}, 0};
     for (const SweepAxis& axis : plan.axes)
         if (axis.name != "discs") results.parameters.push_back(axis.name);
     std::vector<std::string> columns = results.parameters;
     for (const std::string& name : crossing_columns()) columns.push_back(name);
-    columns.insert(columns.end(), {"within_tolerance", "runs", "runs_failed", "events_in_all"});
+    columns.insert(columns.end(),
+                   {"from", "to", "within_tolerance", "runs", "runs_failed", "events_in_all"});
     results.table = Table(columns);
     return results;
 }
@@ -193,11 +216,14 @@ void add_result(CallResults& results, const SearchTask& task, const CrossingResu
     std::vector<Table::Cell> row;
     for (const std::string& name : results.parameters) row.emplace_back(task.parameters.at(name));
     add_crossings(row, search.crossings, search.rate);
+    row.emplace_back(task.settings.from);
+    row.emplace_back(task.settings.to);
     row.emplace_back(std::string(search.within_tolerance ? "yes" : "no"));
     row.emplace_back(std::int64_t(search.runs));
     row.emplace_back(search.failed());
     row.emplace_back(std::int64_t(search.events));
     results.table.add(std::move(row));
+    results.curves.push_back({task.parameters, search.points()});
     results.objects.push_back(crossing_json(task.settings, search, command_line()));
     if (search.points().empty()) ++results.empty;
 }
@@ -208,25 +234,83 @@ std::string json_of(const CallResults& results, bool is_single) {
                      : fmt::format("[\n{}]\n", fmt::join(results.objects, ","));
 }
 
+/// The command of a task of a Slurm array, without folder and part.
+std::string slurm_command(const CrossingCall& call) {
+    const CrossingSettings& s = call.settings;
+    std::string command = "crossing --quiet";
+    for (const auto& [name, text] : *call.parameters)
+        command += fmt::format(" {} {}", option_name(name), shell_word(text));
+    command += fmt::format(" --tolerance {} --from {} --to {} --rate {}", s.tolerance, s.from, s.to,
+                           rotation_rates[s.rate].name);
+    return command + (s.step > 0 ? fmt::format(" --step {}", s.step) : "");
+}
+
+/// Each task makes the runs of some of the searches. The table follows from their runs.
+void submit_searches(const CrossingCall& call) {
+    const std::string script =
+        slurm_script(call.sharing.slurm_job(), call.out, slurm_command(call).c_str());
+    (void)plan_in_folder(call);
+    print_all(fmt::format(
+        "Submitted as job {}; for the table repeat the call without --slurm when it has ended.\n",
+        submit(script, call.out)));
+}
+
+/// The names of the lists.
+std::vector<std::string> varied_parameters(const SweepPlan& plan) {
+    std::vector<std::string> names;
+    for (const SweepAxis& axis : plan.axes)
+        if (axis.values.size() > 1) names.push_back(axis.name);
+    return names;
+}
+
+/// The duration of a circle in seconds, if values have units.
+std::optional<double> period_of(const SearchTask& task) {
+    const RunConfig& config = task.settings.config;
+    if (const auto units = user_units(config)) return config.period * units->time;
+    return {};
+}
+
+/// Draws N_c against the parameters; the figures lie next to the table.
+void draw_table(const CrossingCall& call) {
+    run_python_script("crossing_table.py", {call.table}, &stop_signal());
+    const auto stem = std::filesystem::path(call.table).replace_extension();
+    if (!call.quiet && !call.uses_stdout())
+        print_all(fmt::format("drawn: {0}.png, {0}.pdf\n", stem.string()));
+}
+
 /// Runs a search for every combination of the lists. The files are written after each search, so an
 /// interrupted call keeps the finished ones.
 void run_searches(const Subcommand& subcommand, CrossingCall& call) {
     take_config_file(subcommand, call.config_file, *call.parameters, Lists::accepted, "crossing");
+    call.settings.to_is_default = call.settings.to == default_to;
     if (!call.rate.empty()) call.settings.rate = rate_named(call.rate);
     validate_call(call);
     const SweepPlan plan = plan_of(call);
     const std::vector<SearchTask> tasks = tasks_of(call, plan);
     validate_outputs(call);
+    const std::vector<RotationPoint> points =
+        call.my_points.empty() ? std::vector<RotationPoint>()
+                               : read_own_points(call.my_points, period_of(tasks.front()));
+    if (call.sharing.slurm) return submit_searches(call);
     const std::optional<SweepPlan> stored = plan_in_folder(call);
+    const SweepShare share = call.sharing.share();
     const bool is_single = tasks.size() == 1;
     CallResults results = empty_results(plan);
-    for (const SearchTask& task : tasks) {
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+        const SearchTask& task = tasks[k];
+        if (k % share.parts != share.part - 1) continue;
         const CrossingResult search = search_or_report(call, task, stored);
         add_result(results, task, search);
         if (!call.json.empty() && call.json != "-")
             write_output(call.json, json_of(results, is_single));
         if (!call.table.empty() && call.table != "-") write_output(call.table, results.table.csv());
         print_report(call, task, search);
+    }
+    if (call.plot) draw_table(call);
+    if (!points.empty()) {
+        const std::string text =
+            comparison_text(compare_points(results.curves, varied_parameters(plan), points));
+        fmt::print(call.uses_stdout() ? stderr : stdout, "{}", text);
     }
     if (call.table == "-") print_all(results.table.csv());
     if (call.json == "-") print_all(json_of(results, is_single));
@@ -247,7 +331,7 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.in(search).add({
         {"--tolerance", &call->settings.tolerance, "Target standard error of N_c [0.1]", "NUMBER"},
         {"--from", &call->settings.from, "Smallest number of discs [5]", "N"},
-        {"--to", &call->settings.to, "Largest number of discs [48]", "N"},
+        {"--to", &call->settings.to, "Largest number of discs [48, at most what fits]", "N"},
         {"--step", &call->settings.step, "Step of the coarse scan in discs [about eight numbers]",
          "N"},
         {"--rate", &call->rate, "Rotation rate that controls the search [mean_by_time]", "NAME"},
@@ -257,10 +341,14 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.in(output).add({
         {"--json", &call->json, "File for all results, or - for stdout", "FILE|-"},
         {"--csv", &call->table, "File for a table of the searches, or - for stdout", "FILE|-"},
+        {"--my-points", &call->my_points, "Your table of N, turns, circles, to compare with",
+         "FILE.csv"},
+        {"--plot", &call->plot, "Draw N_c of the table as PNG and PDF next to it"},
         omit_paths_option(),
         {"--verbose", &call->verbose, "Also print all points and all four rates"},
         {"--quiet", &call->quiet, "One line of report and no progress"},
     });
+    add_cluster_options(subcommand, call->sharing, false);
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: each combination is a search of its "
         "own. A run has at least --events events and fifty periods after the warm-up. Near "
@@ -273,10 +361,10 @@ void add_crossing_command(Subcommand& subcommand) {
         "small --step if the direction of rotation may change several times.\n");
     subcommand.set_main_options({"--mu", "--events", "--seed", "--tolerance", "--from", "--to",
                                  "--step", "--threads", "--json", "--csv"});
-    subcommand.set_examples({"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv",
-                             "swirl crossing --mu 0.5 --tolerance 0.1",
-                             "swirl crossing --sizes normal:1:0.2 --out N_c",
-                             "swirl crossing --mu-wall 0.5 --from 20 --json -"});
+    subcommand.set_examples(
+        {"swirl crossing --mu 1", "swirl crossing --mu 0.2:0.2:1 --csv N_c.csv --plot",
+         "swirl crossing --mu 0.5 --tolerance 0.1", "swirl crossing --sizes normal:1:0.2 --out N_c",
+         "swirl crossing --mu-wall 0.5 --from 20 --json -"});
     subcommand.callback([call, &subcommand] { run_searches(subcommand, *call); });
 }
 

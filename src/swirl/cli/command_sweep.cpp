@@ -8,6 +8,7 @@
 
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
+#include "swirl/cli/draw_sweep.hpp"
 #include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
@@ -21,7 +22,9 @@
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
+#include "swirl/run/units.hpp"
 #include "swirl/study/collected_sweep.hpp"
+#include "swirl/study/own_points.hpp"
 #include "swirl/study/point_table.hpp"
 #include "swirl/study/slurm.hpp"
 #include "swirl/study/sweep.hpp"
@@ -34,13 +37,13 @@ namespace fs = std::filesystem;
 
 struct SweepCall {
     std::shared_ptr<ParameterTexts> parameters;
-    std::string config_file, out, points, seeds, measure, frames, chain;
+    std::string config_file, out, points, seeds, measure, frames, chain, my_points;
     ShareOptions sharing;
     bool status = false, dry_run = false, quiet = false, grow = false, series = false, plot = false;
 };
 
 struct CollectCall {
-    std::string folder, table, crossings, loops, quantity;
+    std::string folder, table, crossings, loops, quantity, my_points;
     bool plot = false, quiet = false;
 
     std::string table_file() const {
@@ -195,18 +198,6 @@ SweepOutcome run_with_progress(const SweepCall& call, const SweepPlan& plan,
     return run_sweep(call.out, plan, share, control);
 }
 
-void collect(const CollectCall& call);
-
-/// Table and figure of a complete sweep, and the areas of its loops if it is a chain.
-void draw_sweep(const SweepCall& call, const SweepPlan& plan) {
-    CollectCall tables;
-    tables.folder = call.out;
-    if (!plan.chain.empty()) tables.loops = (fs::path(call.out) / "loops.csv").string();
-    tables.plot = true;
-    tables.quiet = call.quiet;
-    collect(tables);
-}
-
 void sweep(const Subcommand& subcommand, const SweepCall& call) {
     take_config_file(subcommand, call.config_file, *call.parameters, Lists::accepted, "sweep");
     if (call.status) return print_status(call, read_plan(call.out));
@@ -216,6 +207,8 @@ void sweep(const Subcommand& subcommand, const SweepCall& call) {
             "hint: run `swirl collect {} --plot` when all runs are done.",
             shell_word(call.out)));
     const auto [plan, grown_from] = plan_of(call);
+    if (!call.my_points.empty() && !call.plot)
+        throw UsageError("--my-points is given, but nothing is drawn.\nhint: add --plot.");
     const SweepShare share = call.sharing.share();
     const SlurmJob job = call.sharing.slurm_job();
     if (call.dry_run) return print_all(plan_text(plan));
@@ -225,7 +218,7 @@ void sweep(const Subcommand& subcommand, const SweepCall& call) {
     write_plan(call.out, plan, grown_from ? &*grown_from : nullptr);
     if (!call.sharing.slurm) {
         print_outcome(call, plan, run_with_progress(call, plan, share));
-        if (call.plot) draw_sweep(call, plan);
+        if (call.plot) draw_sweep(call.out, call.my_points, call.quiet);
         return;
     }
     print_all(
@@ -275,10 +268,23 @@ void reject_plot_options(const CollectCall& call) {
             "--plot draws a table in a file, but --csv is '-'.\nhint: give --csv a file name.");
 }
 
-/// Draws the table; the figures lie next to it.
-void draw_table(const CollectCall& call) {
+/// The points of --my-points, for the report and for the drawing.
+std::vector<RotationPoint> own_points(const CollectCall& call, const SweepPlan& plan) {
+    if (call.my_points.empty()) return {};
+    std::optional<double> period;
+    if (const auto units = user_units(plan.config(0))) period = plan.config(0).period * units->time;
+    return read_own_points(call.my_points, period);
+}
+
+/// Draws the table, with the own points; the figures lie next to it.
+void draw_table(const CollectCall& call, const std::vector<RotationPoint>& points) {
     std::vector<std::string> arguments{call.table_file()};
     if (!call.quantity.empty()) arguments.push_back(call.quantity);
+    if (!points.empty()) {
+        const fs::path file = fs::path(call.table_file()).replace_filename("my_points.csv");
+        write_output(file, own_points_csv(points));
+        arguments.insert(arguments.end(), {"--points", file.string()});
+    }
     run_python_script("sweep_table.py", arguments, &stop_signal());
     const fs::path stem = fs::path(call.table_file()).replace_extension();
     if (call.prints_report()) print_all(fmt::format("drawn: {0}.png, {0}.pdf\n", stem.string()));
@@ -302,7 +308,10 @@ void collect(const CollectCall& call) {
         throw UsageError(
             "--loops is given, but this sweep is not a chain with rising and falling values.\n"
             "hint: use --chain NAME of `swirl sweep`, and then `swirl collect`.");
+    const std::vector<RotationPoint> points = own_points(call, plan);
     const CollectedSweep collected = collect_sweep(folder, plan);
+    const std::string compared =
+        points.empty() ? "" : comparison_text(compare_with_sweep(plan, collected, points));
     const std::string crossings = call.crossings.empty() ? "" : crossings_in(plan, collected).csv();
     const SweepStatus s = sweep_status(folder, plan, Counted::results);
     write_or_print(file, collected.table.csv());
@@ -315,7 +324,8 @@ void collect(const CollectCall& call) {
                               crossings.empty() ? "" : ", " + call.crossings + " (crossings)",
                               call.loops.empty() ? "" : ", " + call.loops + " (areas of loops)") +
                   loops_text(call, plan, collected));
-    if (call.plot) draw_table(call);
+    if (!compared.empty() && file != "-") print_all(compared);
+    if (call.plot) draw_table(call, points);
     warn_of_damaged_results(s, call.folder);
     if (s.done < s.points && plan.needs_all_points())
         print_warning(fmt::format("the table is incomplete: no result yet for {} of {} runs.",
@@ -339,6 +349,8 @@ void add_sweep_command(Subcommand& subcommand) {
         {"--chain", &call->chain, "Parameter along which each run continues from the last", "NAME"},
         threads_option(call->sharing),
         {"--plot", &call->plot, "Collect and draw the table when all runs are done"},
+        {"--my-points", &call->my_points, "Your table of N, turns, circles, to compare with",
+         "FILE.csv"},
         {"--grow", &call->grow, "Extend an existing sweep; finished runs are kept"},
         {"--status", &call->status, "Print the numbers of runs done and failed"},
         {"--dry-run", &call->dry_run, "Print the plan and do not run"},
@@ -373,6 +385,8 @@ void add_collect_command(Subcommand& subcommand) {
         {"--loops", &call->loops, "File for the areas of hysteresis loops, or - for stdout",
          "FILE|-"},
         {"--plot", &call->plot, "Draw the table as PNG and PDF next to it"},
+        {"--my-points", &call->my_points, "Your table of N, turns, circles, to compare with",
+         "FILE.csv"},
         {"--quantity", &call->quantity, "Column to draw [mean_by_time]", "NAME"},
     });
     subcommand.explain(
@@ -390,4 +404,17 @@ const Command sweep_command(30, "sweep", "Simulate all combinations of lists of 
 const Command collect_command(31, "collect", "Write the table of a sweep", add_collect_command);
 
 }  // namespace
+
+#ifdef SWIRL_STUDY
+void draw_sweep(const std::string& folder, const std::string& my_points, bool quiet) {
+    CollectCall tables;
+    tables.folder = folder;
+    if (!read_plan(folder).chain.empty()) tables.loops = (fs::path(folder) / "loops.csv").string();
+    tables.plot = true;
+    tables.my_points = my_points;
+    tables.quiet = quiet;
+    collect(tables);
+}
+#endif
+
 }  // namespace swirl

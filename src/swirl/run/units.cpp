@@ -13,14 +13,14 @@
 namespace swirl {
 namespace {
 
-struct Unit {
+struct InputUnit {
     const char* name;
     double factor;  // converts to µm and s
     Dimension dimension;
 };
 constexpr Dimension length{1, 0}, duration{0, 1}, rate{0, -1}, speed{1, -1}, acceleration{1, -2};
 constexpr double mm = 1e3, cm = 1e4, m = micrometres_per_metre, inch = 25400.0;
-constexpr auto units = std::to_array<Unit>({
+constexpr auto units = std::to_array<InputUnit>({
     {"um", 1.0, length},
     {"µm", 1.0, length},
     {"mm", mm, length},
@@ -51,10 +51,10 @@ constexpr auto units = std::to_array<Unit>({
 /// The unit at the end of a text, and the number before it.
 struct Parts {
     double number;
-    const Unit* unit;
+    const InputUnit* unit;
 };
 std::optional<Parts> parts_of(std::string_view text) {
-    for (const Unit& unit : units) {
+    for (const InputUnit& unit : units) {
         const std::string_view name = unit.name;
         if (!text.ends_with(name)) continue;
         std::string_view before = trimmed(text.substr(0, text.size() - name.size()));
@@ -260,7 +260,7 @@ std::string short_value(double value) { return fmt::format("{:.4g}", value); }
 std::optional<UnitValue> read_with_unit(std::string_view text) {
     const auto parts = parts_of(text);
     if (!parts) return {};
-    const Unit& unit = *parts->unit;
+    const InputUnit& unit = *parts->unit;
     // Division by 1000 is exact where a factor of 0.001 is not.
     const double value = unit.factor < 1.0 && unit.dimension == duration
                              ? parts->number / std::round(1.0 / unit.factor)
