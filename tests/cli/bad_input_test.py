@@ -81,7 +81,6 @@ CALLS = [
     ("--path /dev/zero", 2, ["not a regular file"]),
     ("--direction left", 2, ["--direction is 'left'", "clockwise"]),
     ("--path line --measure slip", 2, ["'slip'", "M-frame", "segregation"]),
-    ("--direction clockwise --measure density", 2, ["'density'", "M-frame"]),
     ("--mixture 12", 2, ["--mixture is '12'", "COUNT:RADIUS"]),
     ("--mixture 0:1.2", 2, ["--mixture is 0"]),
     ("--mixture 60:1.2", 2, ["--mixture is 60", "to 48"]),

@@ -134,6 +134,9 @@ class MovieTest(InFolder):
             # A script of paper/ that draws on its own.
             made |= {f"{name}.png" for word in words for name in re.findall(r"^paper/(\w+)\.py$", word)}
         made |= self.screenshots()
+        # The gallery has the command next to the name of the image.
+        gallery = read_text(os.path.join(SOURCE, "web", "gallery.txt"))
+        made |= {os.path.basename(row[2]) for row in (line.split(" | ") for line in gallery.splitlines()) if len(row) == 3}
         stored = {name for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
                 if name.endswith((".png", ".gif"))}
         self.assertGreater(len(stored), 5)

@@ -13,6 +13,8 @@ import targets  # noqa: E402
 
 # As in ./check.
 SUITES = {"default": ["-LE", "slow|soak"], "slow": ["-L", "slow"], "soak": ["-L", "soak"]}
+# The builds of the sanitizers have these tests.
+ONLY_WITH_INTERNAL_CHECKS = "engine.InvariantViolation."
 # A limit in seconds or a moment in the future. A test in another program's language has its own words.
 BY_THE_CLOCK = {"CMakeLists.txt": r"TIMEOUT \d", "*.py": r"timeout=\d|\btime\(\) ?[+<]|\bmonotonic\(\) ?[+<]|wait\(\d",
                 "*.cpp": r"usleep\(1'?000'?000|sleep_for\(std::chrono::seconds"}
@@ -46,6 +48,8 @@ class Suites(unittest.TestCase):
     def test_the_name_of_a_test_in_cpp_gives_its_suite(self):
         seen = 0
         for _, name, program in targets.tests():
+            if name.count(".") != 2 or name.startswith(ONLY_WITH_INTERNAL_CHECKS):
+                continue
             if program.startswith("test_") and f"{program}_NOT_BUILT" not in self.suites["default"]:
                 seen += 1
                 with self.subTest(name):

@@ -226,7 +226,7 @@ TEST(RunParameters, APresetFollowsTheUnitsOfACallOrIsRejected) {
                                    {"amplitude", fmt::format("{}", 3.0 * preset.amplitude)},
                                    {"period", "0.532"}};
         expect_rejected(in_mm, "needs --gravity with --radius 3");
-        expect_rejected({{"preset", name}, {"period", "12"}}, "--period 12");
+        expect_rejected({{"preset", name}, {"period", "15"}}, "--period 15");
         expect_rejected({{"preset", name}, {"speed", "2"}}, "--speed 2");
         expect_rejected({{"preset", name}, {"radius", "2"}}, "--radius 2");
         ParameterTexts with_gravity = in_mm;

@@ -204,7 +204,7 @@ TEST(Warnings, ReportSpheresThatSinkIntoTheWallWithoutContactDuration) {
     result.config.contact_duration = 0.0;
     EXPECT_THAT(warnings(result),
                 testing::ElementsAre(testing::AllOf(testing::HasSubstr("spheres that the floor"),
-                                                    testing::HasSubstr("3.3e-10 so far"),
+                                                    testing::HasSubstr("3.3e-10 r so far"),
                                                     testing::HasSubstr("--contact-duration"))));
     result.max_overlap = 1e-14;
     EXPECT_TRUE(warnings(result).empty());

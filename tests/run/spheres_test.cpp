@@ -17,7 +17,6 @@
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/recorded_run.hpp"
-#include "swirl/statistics/few_blocks.hpp"
 
 namespace swirl {
 namespace {
@@ -251,8 +250,7 @@ TEST(RunOfSpheres, RollingFromFramesAgreesWithTheRun) {
                              "axis_correlation", "contact_correlation"}) {
         const std::string row = std::string("rolling.") + name;
         EXPECT_EQ(in_run.at(row).mean, in_frames.at(row).mean) << row;
-        const Estimate& e = in_run.at(row);  // recordings correct the errors of few blocks
-        EXPECT_EQ(e.error * few_blocks_factor(e.blocks), in_frames.at(row).error) << row;
+        EXPECT_EQ(in_run.at(row).error, in_frames.at(row).error) << row;
         EXPECT_NE(in_run.at(row).mean, 0.0) << row;
     }
     for (const char* name : {"rolling.vertical_share", "rolling.vertical_power_at_wall"}) {

@@ -128,8 +128,9 @@ export class Parameters {
 
     private change(name: string, value: string): void {
         // A preset with another unit of length or time needs a gravity; here the one in effect stays.
-        const {given} = this.lab, gravity = ["radius", "period", "speed"].includes(name) && given["preset"] && !given["gravity"]
-            ? {gravity: this.lab.effectiveValue("gravity")} : {};
+        const {given} = this.lab;
+        const changesUnit = ["radius", "period", "speed"].includes(name) && given["preset"] && !given["gravity"];
+        const gravity: Record<string, string> = changesUnit ? {gravity: this.lab.effectiveValue("gravity")} : {};
         // One friction coefficient replaces the two others.
         this.lab.set({...(name === "mu" ? {mu_disc: "", mu_wall: ""} : {}), ...gravity, [name]: value});
     }

@@ -199,9 +199,10 @@ Snapshot Simulation::snapshot() const {
 void Simulation::refresh(Snapshot& s, const Event& event) const {
     const EngineState& state = *storage_->state;
     require_same_discs(s);
-    require(event.i < state.size && event.j < state.size,
+    const bool is_vertex = event.kind == EventKind::path_vertex;
+    require(is_vertex || (event.i < state.size && event.j < state.size),
             "the event names a disc that does not exist.", "Simulation::refresh");
-    if (event.kind != EventKind::path_vertex) {
+    if (!is_vertex) {
         copy(s, event.i, event.clock);
         if (event.j != event.i) copy(s, event.j, event.clock);
     } else if (state.segment == 0 || s.on_floor) {

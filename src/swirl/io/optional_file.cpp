@@ -47,6 +47,8 @@ std::vector<std::string> names_in_folder(const fs::path& folder) {
     fs::directory_iterator it(folder, error);
     for (const fs::directory_iterator end; !error && it != end; it.increment(error))
         names.push_back(it->path().filename().string());
+    if (error == std::errc::not_a_directory)
+        throw FileError(fmt::format("'{}' is a file, but it must be a folder.", folder.string()));
     if (error)
         throw FileError(
             fmt::format("'{}' could not be listed: {}.", folder.string(), error.message()));

@@ -111,7 +111,8 @@ TEST(TrackRecording, InvalidFilesAreRejected) {
     write(scratch / "cut.h5");
     std::filesystem::resize_file(scratch / "cut.h5",
                                  std::filesystem::file_size(scratch / "cut.h5") / 2);
-    EXPECT_FALSE(is_track_recording(scratch / "cut.h5"));
+    // A damaged file is an error, not a file of another kind.
+    EXPECT_THROW(is_track_recording(scratch / "cut.h5"), FileError);
     EXPECT_NE(error_message(scratch / "cut.h5"), "");
 
     write(scratch / "twice.h5");
