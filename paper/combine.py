@@ -120,6 +120,13 @@ def measured(nodes, weights):
     return {name: measured([node[name] for node in nodes], weights) for name in first}
 
 
+def common_measurements(runs, weights):
+    """{"measured": …} with the measurements of all runs. Points share runs, so some may have more than others."""
+    made = [run.get("measured", {}) for run in runs]
+    names = [name for name in made[0] if all(name in each for each in made)]
+    return {"measured": {name: measured([each[name] for each in made], weights) for name in names}} if names else {}
+
+
 def verdict_of(seeds):
     """"steady" if all runs are, otherwise the worst verdict."""
     for verdict in ("drifting", "jumping", "switching"):
@@ -169,7 +176,7 @@ def combined(results):
     return {"config": runs[0]["config"], "rotation": rotation, "periods": mean("periods"),
             "events": {"total": int(mean("events", "total") + 0.5)},
             "warmup": {"periods": int(mean("warmup", "periods") + 0.5)},
-            **({"measured": measured([run["measured"] for run in runs], periods)} if "measured" in runs[0] else {}),
+            **common_measurements(runs, periods),
             "seeds": {**seeds, "scatter": rotation["mean_by_event"]["scatter"],
                       "disagree": rotation["mean_by_event"]["disagree"]},
             "steady_state": {"verdict": verdict_of(seeds)},

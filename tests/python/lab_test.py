@@ -63,7 +63,8 @@ def test_the_page_of_a_simulation_has_its_parameters(page, scene):
     sim.advance(events=100)
     given = {name: value for name, (value,) in start_of(sim.show(page=page).html).items()} if scene else {}
     again = json.loads(swirl._engine.resolve(given))
-    assert {name: value for name, value in again.items() if again[name] != sim.config[name]} == {}
+    # The page has no length of a run, for which presets have a value of their own.
+    assert {name for name, value in again.items() if value != sim.config[name]} <= {"events", "periods"}
 
 
 def test_the_page_of_a_result_has_its_parameters(page):

@@ -31,12 +31,14 @@ def instances(folder):
     video, recording = (kind.__new__(kind) for kind in (swirl.VideoTracks, swirl.Recording))
     video._frames = recording._frames = tracks._frames
     video.quality = {"discs": 2}
+    table = swirl.sweep(folder / "sweep", discs=[8, 12], events=2000)
     objects = [
         sim, sim.snapshot(), next(sim.events(1)), frames, result, result.rotation, result.rotation.mean_by_time,
         result.measured["slip"], result.measured["density"].table, result.series, result.events,
         swirl.crossing(min_discs=34, max_discs=42, tolerance=5, events=2000), swirl.analyse(frames, ["density"]),
         result.measured["speeds"]["value"], swirl.parameters()[0], swirl.EventKind.disc_disc,
-        swirl.Lab("<html></html>", 100), swirl.Trajectory(file), tracks, recording, video]
+        swirl.Lab("<html></html>", 100), swirl.Trajectory(file), tracks, recording, video,
+        swirl.over_seeds([0.1, 0.2]), swirl.compare_points([(8, 4.4, 20), (12, 4.0, 20)], table)]
     found = {type(one): one for one in objects}
     missing = [kind.__name__ for kind in public_classes() if kind not in found]
     assert not missing, f"add an object of {', '.join(missing)}"

@@ -208,7 +208,7 @@ def test_a_crossing_and_the_command_line_continue_each_other(tmp_path):
 
 @pytest.mark.parametrize("wrong, kind", [
     (dict(min_discs=10, max_discs=5), ValueError), (dict(tolerance=0), ValueError), (dict(min_discs=0), ValueError),
-    (dict(discs=40), TypeError), (dict(mu=[0.1, 1]), TypeError), (dict(max_discs=2.5), TypeError),
+    (dict(discs=40), TypeError), (dict(max_discs=2.5), TypeError),
     (dict(tolerance=float("nan")), ValueError), (dict(min_discs=400, max_discs=500), ValueError),
 ])
 def test_invalid_crossings_are_rejected(wrong, kind):

@@ -105,7 +105,7 @@ def compare_points(points: Any, table: Any, *, period: Optional[float] = None) -
     if "discs" not in parameters:
         raise ValueError("the table has no column 'discs'.\nhint: sweep over the number of particles.")
     varied = [name for name in parameters if name != "discs" and table[name].nunique() > 1]
-    groups = table.groupby(varied, sort=True) if varied else [((), table)]
+    groups = table.groupby(varied if len(varied) > 1 else varied[0], sort=True) if varied else [((), table)]
     curves: dict[str, Curve] = {}
     values: list[dict[str, Any]] = []
     for key, rows in groups:
