@@ -96,7 +96,10 @@ Request parse_request(std::string_view lines) {
         measured = measurements_in(found->second);
         given.erase(found);
     }
-    RunConfig config = resolve(given);
+    // The page has no length of a run. Presets have one in periods, which would limit the warm-up.
+    ParameterTexts without_length = given;
+    if (!given.contains("periods")) without_length.try_emplace("events", "1e6");
+    RunConfig config = resolve(without_length);
     // The page shows maps in the M-frame.
     if (!has_m_frame(config) || config.turns_clockwise())
         throw_usage_error("the page needs a path that is nearly a circle, counter-clockwise.");

@@ -268,13 +268,14 @@ class Laboratory(ProgramTest):
         self.addCleanup(shutil.rmtree, folder)
         recorded = os.path.join(folder, "frames.h5")
         swirl("run", *options(given), "--periods", "2", "--warmup", "0", "--frames", "7",
-              "--trajectory", recorded, "--quiet")
+              "--trajectory", recorded, "--json", recorded + ".json", "--quiet")
+        units = read_json(recorded + ".json")["units"]
         swirl("export", recorded, "--format", "table", "--out", recorded + ".csv", "--quiet")
         rows = read_rows(recorded + ".csv")
         frames = [rows[k:k + 12] for k in range(0, len(rows), 12)]
         largest = 0.0
         for frame in frames[1:10:4]:
-            time = float(frame[0]["time (r/v)"])
+            time = float(frame[0]["time (r/v)"]) * units["r"] / units["v"]
             seen = self.engine([{"given": given, "events": 0,
                                  "steps": [["advance_to", time, 10 ** 6]]}])["said"][0]["frame"]
             self.assertEqual(len(seen), 11 + 12 * (8 + 4))

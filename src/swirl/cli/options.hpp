@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -39,10 +40,11 @@ class Subcommand {
         std::deque<Option>& all;
         std::string name;
         void add(std::vector<Option> options) {
-            for (Option& option : options) {
-                option.help_group = name;
-                all.push_back(std::move(option));
-            }
+            for (Option& option : options) add_one(std::move(option));
+        }
+        void add_one(Option option) {
+            option.help_group = name;
+            all.push_back(std::move(option));
         }
     };
     Group in(std::string group) { return {options_, std::move(group)}; }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "swirl/run/parameter_files.hpp"
 
@@ -25,7 +26,7 @@ std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
             default_text.empty() ? "" : fmt::format(" [{}]", default_text);
         Option option{option_name(name), take, p.description + shown_default, p.form};
         if (name == "ramp") option.joined_by = ';';
-        subcommand.in(p.group).add({option});
+        subcommand.in(p.group).add_one(std::move(option));
     }
     return texts;
 }

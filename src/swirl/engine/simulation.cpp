@@ -143,8 +143,9 @@ Disc Simulation::disc(std::size_t i) const {
 /// In a snapshot of another simulation, the columns might be shorter.
 SWIRL_INLINE void Simulation::require_same_discs(const Snapshot& s) const {
     const EngineState& state = *storage_->state;
-    require(s.size() == state.size && s.are_spheres() == (state.spheres != nullptr),
-            "the snapshot is one of another simulation.", "Simulation::refresh");
+    const bool same_bodies = s.size() == 0 || s.are_spheres() == (state.spheres != nullptr);
+    require(s.size() == state.size && same_bodies, "the snapshot is one of another simulation.",
+            "Simulation::refresh");
 }
 
 /// `clock` is the time of the event that changed disc i, up to which its orientation is followed.
