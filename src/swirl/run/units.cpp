@@ -301,25 +301,30 @@ ParameterTexts without_units(ParameterTexts texts) {
     return texts;
 }
 
-void read_length_unit(std::string_view text, const ParameterTexts& given, RunConfig& config) {
+namespace {
+
+/// The text of --length-unit or --time-unit, which are given together.
+std::string checked_unit(std::string_view name, std::string_view text, const Dimension& dimension,
+                         const char* example, bool has_other) {
     const auto parts = parts_of(text);
-    if (!parts || parts->unit->dimension != length || !(parts->number > 0.0))
+    if (!parts || parts->unit->dimension != dimension || !(parts->number > 0.0))
         throw_usage_error(
-            fmt::format("--length-unit is '{}', but it must be a length, such as 3mm.", text));
-    if (!given.contains("time_unit"))
+            fmt::format("{} is '{}', but it must be {}.", option_name(name), text, example));
+    if (!has_other)
         throw_usage_error(
             "--length-unit and --time-unit belong together.\nhint: give both, or neither.");
-    config.length_unit = text;
+    return std::string(text);
+}
+
+}  // namespace
+
+void read_length_unit(std::string_view text, const ParameterTexts& given, RunConfig& config) {
+    config.length_unit = checked_unit("length_unit", text, length, "a length, such as 3mm",
+                                      given.contains("time_unit"));
 }
 void read_time_unit(std::string_view text, const ParameterTexts& given, RunConfig& config) {
-    const auto parts = parts_of(text);
-    if (!parts || parts->unit->dimension != duration || !(parts->number > 0.0))
-        throw_usage_error(
-            fmt::format("--time-unit is '{}', but it must be a time, such as 22ms.", text));
-    if (!given.contains("length_unit"))
-        throw_usage_error(
-            "--length-unit and --time-unit belong together.\nhint: give both, or neither.");
-    config.time_unit = text;
+    config.time_unit = checked_unit("time_unit", text, duration, "a time, such as 22ms",
+                                    given.contains("length_unit"));
 }
 ParameterValue write_length_unit(const RunConfig& config) {
     return config.length_unit.empty() ? ParameterValue() : ParameterValue(config.length_unit);
