@@ -22,14 +22,14 @@ require_writable() {
         for file do [ -w "$file" ] || { printf "%s\n" "$file" && exit; }; done' sh {} + 2>/dev/null |
         head -n 1)
     [ -n "$locked" ] || return 0
+    quoted=$(printf %s "$home/build" | sed "/[^A-Za-z0-9_+=./:,@%-]/{s/'/'\\\\''/g;s/.*/'&'/;}")
     if [ -O "$locked" ]; then
         give_up "cannot build: '$locked' cannot be written." \
-            "if the file system is read-only, copy this folder to another one."
+            "chmod -R u+w $quoted; if the file system is read-only, copy this folder to another one."
     fi
     # shellcheck disable=SC2012
     give_up "cannot build: '$locked' cannot be written; it belongs to $(ls -ld "$locked" | awk '{print $3}')." \
-        "sudo chown -R $(id -u) $(printf %s "$home/build" |
-        sed "/[^A-Za-z0-9_+=./:,@%-]/{s/'/'\\\\''/g;s/.*/'&'/;}")"
+        "sudo chown -R $(id -u) $quoted"
 }
 
 # The packages in the sections "$@" of the file `packages` that are not installed.
