@@ -89,15 +89,23 @@ def fit_relation(seeds, relation, low, high, reach):
         return Fit(0)
     packing = sum(f["packing"] / len(seeds) for f in seeds)
     square = seeds[0]["x"] ** 2 + seeds[0]["y"] ** 2
+    chosen = (packing >= low) & (packing < high) & (square < reach * reach)
+    here = [{name: column[chosen] for name, column in f.items()} for f in seeds]
     # [seed, term, component, point] and [seed, component, point]
-    x = np.array([[term(f) for term in relation.terms] for f in seeds])
-    y = np.array([relation.field(f) for f in seeds])
-    known = np.isfinite(x).all(axis=(0, 1, 2)) & np.isfinite(y).all(axis=(0, 1))
-    inside = known & (packing >= low) & (packing < high) & (square < reach * reach)
-    if not inside.any():
+    terms = np.array([[term(f) for term in relation.terms] for f in here])
+    field = np.array([relation.field(f) for f in here])
+    known = np.isfinite(terms).all(axis=(0, 1, 2)) & np.isfinite(field).all(axis=(0, 1))
+    terms, field = terms[..., known], field[..., known]
+    found = fit(terms.reshape(*terms.shape[:2], -1), field.reshape(len(seeds), -1), relation.shown)
+    return dataclasses.replace(found, points=int(known.sum()))
+
+
+def fit(terms, field, shown=lambda k: k[0]):
+    """The fit of a field [seed, point] to terms [seed, term, point]; `shown` is the number of all coefficients."""
+    known = np.isfinite(terms).all(axis=(0, 1)) & np.isfinite(field).all(axis=0)
+    if not known.any():
         return Fit(0)
-    x, y = x[..., inside].reshape(*x.shape[:2], -1), y[..., inside].reshape(len(seeds), -1)
-    both = np.concatenate([x, y[:, None]], axis=1)
+    both = np.concatenate([terms, field[:, None]], axis=1)[..., known]
 
     def products(chosen):
         """Sums over pairs of different seeds of all terms and the field."""
@@ -115,5 +123,5 @@ def fit_relation(seeds, relation, low, high, reach):
         # Noise may make a sum of squares negative; then nothing is known.
         return s[:-1, -1] @ coefficients(s) / s[-1, -1] if (s.diagonal() > 0).all() else math.nan
 
-    return Fit(int(inside.sum()), jackknife(len(seeds), lambda k: relation.shown(coefficients(products(k)))),
-               jackknife(len(seeds), explained))
+    return Fit(int(known.sum()), jackknife(len(field), lambda k: shown(coefficients(products(k)))),
+               jackknife(len(field), explained))

@@ -103,7 +103,7 @@ def draw(table):
         for row in style.select(crossings, curve=name):
             if math.isfinite(row["crossing"]):
                 near.axvline(row["crossing"], color=color, linewidth=0.8, linestyle="--", zorder=0)
-                label += f", $N_c = {row['crossing']:.1f}$"
+                label += ", dashed: $N_c$"  # its number and error are in the report and in the table of the crossings
         style.curve(axes, here, "discs", "mean_by_event", label=label, color=color, marker=marker)
     for panel in (axes, near):
         style.zero_line(panel)

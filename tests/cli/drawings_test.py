@@ -303,7 +303,7 @@ class Drawings(unittest.TestCase):
                 {"curve": "high", "crossing": 38.24}, {"curve": "low", "crossing": math.nan}]):
             drawing = self.drawn("5b", TABLES["5b"])
         labels = [text.get_text() for text in drawing.axes[0].get_legend().get_texts()]
-        self.assertEqual([label for label in labels if "N_c" in label], [r"high ($\mu = 1$), $N_c = 38.2$"])
+        self.assertEqual([label for label in labels if "N_c" in label], [r"high ($\mu = 1$), dashed: $N_c$"])
         self.assertTrue(any(set(line.get_xdata()) == {38.24} for line in drawing.axes[1].lines))
 
     def test_figure_5b_shows_the_crossings_enlarged(self):

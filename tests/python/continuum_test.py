@@ -1,4 +1,4 @@
-"""The fits of examples/continuum.py recover planted coefficients, and its flow matches two closed forms."""
+"""The fits of paper/continuum.py recover planted coefficients, and its flow matches two closed forms."""
 
 import csv
 import os
@@ -8,8 +8,9 @@ import sys
 import numpy as np
 import pytest
 
-sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "examples"))
+sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
 import continuum  # noqa: E402
+from hard_discs import pressure_ratio  # noqa: E402
 
 COEFFICIENTS = {"rotational_viscosity": 0.7, "shear_viscosity": 1.3, "spin_diffusion": 0.4, "pressure": 1.1}
 
@@ -38,7 +39,7 @@ def planted(noise, seeds=8, shared=0.0):
         "collisional_yy": -1.0 - 2.0 * 1.3 * speed * f["strain_xx"] - f["kinetic_yy"],
         "collisional_couple_x": 0.4 * speed * f["spin_gradient_x"] - f["kinetic_couple_x"],
         "collisional_couple_y": 0.4 * speed * f["spin_gradient_y"] - f["kinetic_couple_y"],
-        "pressure": 1.1 * exact["packing"] / np.pi * exact["temperature"] * continuum.henderson(exact["packing"]),
+        "pressure": 1.1 * exact["packing"] / np.pi * exact["temperature"] * pressure_ratio(exact["packing"]),
     }
     tables = {name: np.tile(value, (seeds, 1)) for name, value in exact.items()}
     tables |= {name: value + noise * random.normal(size=(seeds, n)) for name, value in f.items()}
@@ -52,20 +53,21 @@ def planted(noise, seeds=8, shared=0.0):
 def test_fits_recover_planted_coefficients(name):
     exact = continuum.closure(planted(0.0), 0.3, 0.4)[name]
     # The sums are differences of squares of 8 equal seeds.
-    assert exact["value"] == pytest.approx(COEFFICIENTS[name], rel=1e-10)
-    assert exact["explained"] == pytest.approx(1.0, abs=1e-10)
+    assert exact.coefficient[0] == pytest.approx(COEFFICIENTS[name], rel=1e-10)
+    assert exact.explained[0] == pytest.approx(1.0, abs=1e-10)
     # A plain fit of D with this noise would give 0.4/(1 + noise²), since ⟨x²⟩ = 1.
     noisy = continuum.closure(planted(1.0), 0.3, 0.4)[name]
-    assert 0.0 < noisy["error"] < 0.05
-    assert abs(noisy["value"] - COEFFICIENTS[name]) < 4.0 * noisy["error"]
-    assert abs(noisy["explained"] - 1.0) < 4.0 * noisy["explained_error"]
+    (value, error), (explained, its_error) = noisy.coefficient, noisy.explained
+    assert 0.0 < error < 0.05
+    assert abs(value - COEFFICIENTS[name]) < 4.0 * error
+    assert abs(explained - 1.0) < 4.0 * its_error
 
 
 def test_noise_that_spin_and_torque_share_does_not_bias_the_fit():
     # A plain fit would give (0.7 · 5 − 3 · 2)/(5 + 4) < 0, since ⟨x²⟩ = 5.
-    fit = continuum.closure(planted(0.1, shared=1.0), 0.3, 0.4)["rotational_viscosity"]
-    assert abs(fit["value"] - 0.7) < 4.0 * fit["error"]
-    assert fit["error"] < 0.1
+    value, error = continuum.closure(planted(0.1, shared=1.0), 0.3, 0.4)["rotational_viscosity"].coefficient
+    assert abs(value - 0.7) < 4.0 * error
+    assert error < 0.1
 
 
 def test_points_near_the_wall_or_of_another_packing_fraction_do_not_count():
@@ -75,21 +77,31 @@ def test_points_near_the_wall_or_of_another_packing_fraction_do_not_count():
     f["packing"][:, ::3] = 0.45
     inner = int(np.sum(~far & (f["packing"][0] < 0.4)))
     fit = continuum.closure(f, 0.3, 0.4)["rotational_viscosity"]
-    assert fit["points"] == inner
-    assert abs(fit["value"] - 0.7) < 4.0 * fit["error"]
+    assert fit.points == inner
+    assert abs(fit.coefficient[0] - 0.7) < 4.0 * fit.coefficient[1]
 
 
 def test_nothing_is_explained_where_nothing_is_planted():
     f = planted(0.1)
     f["torque"] = np.tile(np.random.default_rng(2).normal(size=f["torque"].shape[1]), (8, 1))
     fit = continuum.closure(f, 0.3, 0.4)["rotational_viscosity"]
-    assert fit["explained"] < 0.01  # the correlation of 960 random pairs is 1/√960, and its square is below 10/960
+    assert fit.explained[0] < 0.01  # the correlation of 960 random pairs is 1/√960, and its square is below 10/960
 
 
-def test_one_seed_has_no_fit_and_three_have_no_error():
-    assert np.isnan(continuum.closure(planted(0.1, seeds=1), 0.3, 0.4)["pressure"]["value"])
-    three = continuum.closure(planted(0.1, seeds=3), 0.3, 0.4)["pressure"]
-    assert np.isfinite(three["value"]) and np.isnan(three["error"])
+def test_fewer_than_four_seeds_have_no_fit():
+    for seeds in (1, 3):
+        assert np.isnan(continuum.closure(planted(0.1, seeds=seeds), 0.3, 0.4)["pressure"].coefficient).all()
+    assert np.isfinite(continuum.closure(planted(0.1, seeds=4), 0.3, 0.4)["pressure"].coefficient).all()
+
+
+def test_the_measured_rotation_has_the_error_of_all_means_over_seeds():
+    f = planted(0.0, seeds=4)
+    rates = np.array([0.1, 0.2, 0.4, 0.5])
+    f["u_x"], f["u_y"] = -rates[:, None] * f["y"], rates[:, None] * f["x"]
+    mean, error = continuum.measured_rotation(f, 2.0 * np.pi)
+    assert mean == pytest.approx(0.3)
+    # √(Σ (m − 0.3)²/(4 · 3)) with Student's factor for three degrees of freedom, 3.1824/1.96.
+    assert error == pytest.approx(np.sqrt(0.1 / 12) * 3.1824463 / 1.9599640, rel=1e-6)
 
 
 @pytest.mark.parametrize("couple, slip", [(0.0, False), (0.0, True), (0.6, True)])
@@ -177,12 +189,12 @@ def test_the_wall_law_recovers_a_planted_coefficient():
     slip = 39.0 / 40.0 + 0.25
     pressure = 1.0 + np.random.default_rng(3).uniform(size=theta.shape)
     law, friction, _ = continuum.wall_law(f, {"theta": theta, "pressure": pressure, "traction": -0.3 * pressure * slip / 2.0})
-    assert law["value"] == pytest.approx(-0.3, rel=1e-9)
+    assert law.coefficient[0] == pytest.approx(-0.3, rel=1e-9)
     assert friction == pytest.approx(0.3 * pressure.mean(axis=0) / 2.0, rel=1e-9)
 
 
 def script(*words):
-    path = os.path.join(os.environ["SWIRL_SOURCE"], "examples", "continuum.py")
+    path = os.path.join(os.environ["SWIRL_SOURCE"], "paper", "continuum.py")
     return subprocess.run([sys.executable, path, *words], capture_output=True, text=True)
 
 

@@ -4,17 +4,11 @@
       swirl run --discs 497 --container-radius 34.4 --amplitude 7.568 --warmup 10 --periods 40 --seed $s \\
         --measure fields,wall --tables seed_$s
     done
-    python3 examples/continuum.py seed_*/fields.m_frame_4.csv
-    python3 examples/continuum.py --flow --amplitude 7.568 seed_*/fields.m_frame_4.csv
+    ./swirl python paper/continuum.py seed_*/fields.m_frame_4.csv
+    ./swirl python paper/continuum.py --flow --amplitude 7.568 seed_*/fields.m_frame_4.csv
 
-The tables must be of runs that differ only in their seeds. Conventions: σ_ab has the force's index first, and the
-torque of the stress is τ = σ_yx − σ_xy. The fluid has
-
-    τ = −Γ √(mT) (2ω − curl u)      C = D √(mT) ∇ω      deviator of σ = 2 η √(mT) × (deviator of the strain rate)
-
-with the granular temperature T, because rigid discs have no other scale of time than √(m/T).
-
-Needs numpy. The flow needs scikit-fem (pip install scikit-fem), too.
+The tables must be of runs that differ only in their seeds. The relations of the fluid, and how they are fitted, are those of
+micropolar.py. The flow needs scikit-fem (pip install scikit-fem).
 """
 
 import argparse
@@ -23,6 +17,12 @@ import os
 import sys
 
 import numpy as np
+
+from combine import over_seeds
+from curves import CERTAIN, with_error
+from micropolar import RELATIONS, fit, fit_relation
+
+COEFFICIENTS = [relation for relation in RELATIONS if relation.name != "angle"]
 
 
 def read(path):
@@ -46,36 +46,6 @@ def read_seeds(paths):
     return {name: np.array([table[name] for table in tables]) for name in tables[0]}
 
 
-def proportional(x, y):
-    """k of y = k x, from one row of x and y for each seed, with jackknife errors.
-
-    x and y have errors, which are correlated within a seed. So only products of two different seeds count:
-    k = Σ x_i y_j / Σ x_i x_j over all points and pairs i ≠ j. `explained` is (Σ x_i y_j)² / (Σ x_i x_j Σ y_i y_j), the
-    share of the square of the mean y. It is NaN if the noise exceeds the fields.
-    """
-    good = np.isfinite(x).all(axis=0) & np.isfinite(y).all(axis=0)
-    x, y = x[:, good], y[:, good]
-    n = len(x)
-
-    def fit(seeds):
-        def product(a, b):
-            return np.sum(a[seeds].sum(axis=0) * b[seeds].sum(axis=0)) - np.sum(a[seeds] * b[seeds])
-        xx, xy, yy = product(x, x), product(x, y), product(y, y)
-        return np.array([xy / xx if xx != 0 else np.nan, xy * xy / (xx * yy) if xx > 0 and yy > 0 else np.nan])
-
-    unknown = np.full(2, np.nan)
-    value = fit(np.arange(n)) if n >= 2 and good.any() else unknown
-    without = [fit(np.delete(np.arange(n), k)) for k in range(n)] if n >= 4 and good.any() else [unknown]
-    error = np.sqrt((n - 1.0) * np.var(without, axis=0))
-    return {"value": value[0], "error": error[0], "explained": value[1], "explained_error": error[1],
-            "points": int(good.sum())}
-
-
-def henderson(packing):
-    """Z = p/(n T) of a gas of smooth elastic hard discs (Henderson 1975, doi:10.1080/00268977500102511)."""
-    return 1.0 + 2.0 * packing * (1.0 - 7.0 * packing / 16.0) / (1.0 - packing) ** 2
-
-
 def half_width(fields):
     """The container's radius: half the width of the square with the grid's points."""
     x = np.unique(fields["x"][0])
@@ -83,36 +53,11 @@ def half_width(fields):
 
 
 def closure(fields, low, high, width=4.0):
-    """The coefficients from all points whose packing fraction, a mean over the seeds, is between these two, and whose
-    kernel of this width is out of reach of contacts with the wall.
-
-    Keys: rotational_viscosity Γ, shear_viscosity η, spin_diffusion D, and pressure, the ratio of p to that of
-    smooth elastic discs.
-    """
-    mean = fields["packing"].mean(axis=0)
+    """{name: Fit} of the coefficients from all points whose packing fraction, a mean over the seeds, is between these two,
+    and whose kernel of this width is out of reach of contacts with the wall."""
     reach = half_width(fields) - 1.0 - width  # such a contact extends inwards to the centre of a disc
-    chosen = (mean >= low) & (mean < high) & (np.hypot(fields["x"][0], fields["y"][0]) < reach)
-    f = {name: column[:, chosen] for name, column in fields.items()}
-    speed = np.sqrt(np.maximum(f["temperature"], 0.0))  # of discs of mass 1
-
-    def both(first, second):
-        return np.concatenate([first, second], axis=1)
-
-    stress = {ab: f[f"kinetic_{ab}"] + f[f"collisional_{ab}"] for ab in ("xx", "xy", "yy")}
-    stress["xy"] = 0.5 * (stress["xy"] + f["kinetic_xy"] + f["collisional_yx"])  # the symmetric part
-    couple = [f[f"kinetic_couple_{a}"] + f[f"collisional_couple_{a}"] for a in "xy"]
-    density = f["packing"] / np.pi  # of discs of radius 1
-    return {
-        "rotational_viscosity": proportional(speed * (f["vorticity"] - 2.0 * f["spin"]), f["torque"]),
-        "shear_viscosity": proportional(
-            both(2.0 * speed * f["strain_xx"], 2.0 * speed * f["strain_xy"]),
-            both(0.5 * (stress["xx"] - stress["yy"]), stress["xy"]),
-        ),
-        "spin_diffusion": proportional(
-            both(speed * f["spin_gradient_x"], speed * f["spin_gradient_y"]), both(*couple)
-        ),
-        "pressure": proportional(density * f["temperature"] * henderson(f["packing"]), f["pressure"]),
-    }
+    seeds = [{name: column[k] for name, column in fields.items()} for k in range(len(fields["x"]))]
+    return {relation.name: fit_relation(seeds, relation, low, high, reach) for relation in COEFFICIENTS}
 
 
 def bessel_i(order, x):
@@ -336,8 +281,8 @@ def wall_law(fields, walls):
 
     slip = there("u_y") * np.cos(theta) - there("u_x") * np.sin(theta) + there("spin")
     speed = np.sqrt(np.maximum(there("temperature"), 1e-3))
-    law = proportional(walls["pressure"] * slip / speed, walls["traction"])
-    return law, np.abs(law["value"]) * (walls["pressure"] / speed).mean(axis=0), theta
+    law = fit((walls["pressure"] * slip / speed)[:, None], walls["traction"])
+    return law, np.abs(law.coefficient[0]) * (walls["pressure"] / speed).mean(axis=0), theta
 
 
 def fluid_of(fields, width=4.0):
@@ -347,10 +292,10 @@ def fluid_of(fields, width=4.0):
     for name in ("rotational_viscosity", "shear_viscosity", "spin_diffusion"):
         middle, values = [], []
         for low in np.arange(0.2, 0.9, 0.1):
-            fit = closure(fields, low, low + 0.1, width)[name]
-            if fit["value"] > 3.0 * fit["error"]:
+            value, error = closure(fields, low, low + 0.1, width)[name].coefficient
+            if value > CERTAIN * error:
                 middle.append(low + 0.05)
-                values.append(fit["value"])
+                values.append(value)
         if not values:
             raise ValueError(f"no {name} is certainly positive in these fields")
         found[name] = (np.array([0.0] + middle), np.log([0.01 * values[0]] + values))
@@ -403,23 +348,22 @@ def predicted_rotation(fields, walls, amplitude, period, *, diffusion=1.0, width
 
 
 def measured_rotation(fields, period):
-    """The same from the measured velocities, with the standard error over the seeds."""
+    """(mean, error) of the same from the measured velocities, over the seeds."""
     inner = np.hypot(fields["x"][0], fields["y"][0]) < half_width(fields) - 1.0
     grid = np.array([fields["x"][0], fields["y"][0]])[:, inner]
     rates = [
         rigid_rotation(grid, np.nan_to_num(np.array([ux, uy])[:, inner]), packing[inner]) * period / (2.0 * np.pi)
         for ux, uy, packing in zip(fields["u_x"], fields["u_y"], fields["packing"])
     ]
-    return np.mean(rates), np.std(rates, ddof=1) / np.sqrt(len(rates)) if len(rates) > 1 else np.nan
+    return over_seeds(rates)[:2]
 
 
 def print_flow(arguments):
     fields = read_seeds(arguments.tables)
     walls = read_seeds_of_wall(arguments.tables)
     law = wall_law(fields, walls)[0]
-    print(f"wall: k = {law['value']:.4f} ± {law['error']:.2g}, explains {law['explained']:.4f}")
-    mean, error = measured_rotation(fields, arguments.period)
-    print(f"measured ϖ/Ω = {mean:.4f} ± {error:.2g} ({len(arguments.tables)} seeds)")
+    print(f"wall: k = {with_error(*law.coefficient)}, explains {law.explained[0]:.4f}")
+    print(f"measured ϖ/Ω = {with_error(*measured_rotation(fields, arguments.period))} ({len(arguments.tables)} seeds)")
     for factor in (0.1, 1.0, 10.0):
         predicted = predicted_rotation(fields, walls, arguments.amplitude, arguments.period, diffusion=factor,
                                        width=arguments.width)
@@ -436,12 +380,10 @@ def print_closure(arguments):
     fields = read_seeds(arguments.tables)
     print("packing, coefficient, value, error, share explained, its error, points")
     for low in np.arange(0.2, 0.9, 0.1):
-        for name, fit in closure(fields, low, low + 0.1, arguments.width).items():
-            if fit["points"] >= 10:
-                print(
-                    f"{low:.1f}–{low + 0.1:.1f}, {name}, {fit['value']:.4g}, {fit['error']:.2g}, "
-                    f"{fit['explained']:.3f}, {fit['explained_error']:.2g}, {fit['points']}"
-                )
+        for name, found in closure(fields, low, low + 0.1, arguments.width).items():
+            if found.points >= 10:
+                (value, error), (explained, its_error) = found.coefficient, found.explained
+                print(f"{low:.1f}–{low + 0.1:.1f}, {name}, {value:.4g}, {error:.2g}, {explained:.3f}, {its_error:.2g}, {found.points}")
 
 
 def main(words):
