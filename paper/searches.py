@@ -1,11 +1,12 @@
 """Searches for N_c as points of a figure."""
 
 import json
+import math
 
 from combine import number
 from curves import crossing_cells
 from engine import swirl
-from study import Point
+from study import DEFAULT_EVENTS, Point
 
 PARTS = ("N_c", "N_c_error", "N_c_lower", "N_c_upper")
 
@@ -18,8 +19,13 @@ def search(parameters):
 
 
 def search_point(settings, name, parameters, min_discs, max_discs, cells, tolerance=0.2, min_periods=100):
-    return Point(settings, name, 1, {**parameters, "min_discs": min_discs, "max_discs": max_discs, "tolerance": tolerance,
-                                     "min_periods": min_periods}, work=search, cells=cells)
+    """A search, with shorter runs if `events` shortens those of the other points. N_c is then as uncertain as they are."""
+    coarser = max(1.0, math.sqrt(DEFAULT_EVENTS / settings.events_of_a_run))
+    shorter = {"events": int(settings.events)} if coarser > 1 else {}
+    return Point(settings, name, 1, {**shorter, **parameters, "min_discs": min_discs, "max_discs": max_discs,
+                                     "tolerance": min(tolerance * coarser, 0.1 * (max_discs - min_discs)),
+                                     "min_periods": min(min_periods, settings.periods(min_periods, 5))},
+                 work=search, cells=cells)
 
 
 def search_cells(found):

@@ -1,5 +1,5 @@
 """The table of every figure has its columns, and its drawings exist. They are drawn from the tables alone
-(paper_test.py)."""
+(paper_test.py). Those of the chapters are in tests/python/chapters_test.py."""
 
 import os
 import unittest
@@ -26,16 +26,7 @@ FIGURES = {
              "theta_error"},
     "condensation": {"discs", "seeds", "condensed", "waiting", "waiting_error", "before_granular",
                      "before_coordination_error", "after_granular", "before_spin_correlation"},
-    "size": {"container_radius", "amplitude_ratio", "packing_fraction", "discs", "largest", "binder_error",
-             "susceptibility"},
-    "torque": {"discs", "wall_normal", "transfer_loose", "transfer_loose_error", "unaccounted_share"},
-    "fields": {"x", "y", "packing", "packing_error", "torque", "torque_error", "relation", "relation_error"},
-    "closure": {"container_radius", "discs", "relation", "packing_low", "coefficient", "coefficient_error", "explained"},
-    "gears": {"mu", "discs", "correlation_by_impulse", "resident_error", "wall_sticking"},
     "friction": {"mu", "crosses", "crossing", "crossing_error"},
-    "cause": {"body", "spins", "contacts", "discs", "slip", "wall_spin", "wall_sticking", "stay", "load", "load_error"},
-    "turns": {"case", "kind", "x", "y", "x2", "y2", "value"},
-    "material_inertia": {"inertia", "restitution", "crossing", "crossing_error", "lowest", "highest"},
     "states": {"setting", "discs", "granular", "granular_error", "coriolis", "coriolis_error"},
 }
 
@@ -43,16 +34,14 @@ FIGURES = {
 class Figures(InFolder):
     def test_tables_and_drawings(self):
         out = self.path("out")
-        # Lengths in periods scale with the events; these two need five periods at N = 48.
-        long = ("torque", "gears")
-        for figures, events in (([f for f in FIGURES if f not in long], 30_000), (long, 150_000)):
-            self.assert_works("paper", "--figure", *figures, "--quick", "--events", events, "--out", out)
+        self.assert_works("paper", "--figure", *FIGURES, "--quick", "--events", 30_000, "--out", out)
         for name, columns in FIGURES.items():
             rows = read_rows(os.path.join(out, f"figure_{name}.csv"))
             self.assertLessEqual(columns, set(rows[0]), name)
             self.assertGreater(len(rows), 1)
             for kind in ("png", "pdf"):
                 self.assertGreater(os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")), 5000)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,5 +1,6 @@
 """The statistics of the chapters, on curves and fields whose answers are known in closed form."""
 
+import csv
 import math
 import os
 import sys
@@ -26,13 +27,33 @@ from swirled_state import densities, fit_hypotrochoids  # noqa: E402
 EXACT = 1e-12  # rounding errors of sums of a few hundred terms
 
 
+# Columns of the tables.
+COLUMNS = {
+    "size": {"container_radius", "amplitude_ratio", "packing_fraction", "discs", "largest", "binder_error",
+             "susceptibility"},
+    "torque": {"discs", "wall_normal", "transfer_loose", "transfer_loose_error", "unaccounted_share"},
+    "fields": {"x", "y", "packing", "packing_error", "torque", "torque_error", "relation", "relation_error"},
+    "closure": {"container_radius", "discs", "relation", "packing_low", "coefficient", "coefficient_error", "explained"},
+    "gears": {"mu", "discs", "correlation_by_impulse", "resident_error", "wall_sticking"},
+    "cause": {"body", "spins", "contacts", "discs", "slip", "wall_spin", "wall_sticking", "stay", "load", "load_error"},
+    "turns": {"case", "kind", "x", "y", "x2", "y2", "value"},
+    "material_inertia": {"inertia", "restitution", "crossing", "crossing_error", "lowest", "highest"},
+}
+
+
 @pytest.mark.parametrize("figure", catalogue.named(["chapters"]), ids=lambda figure: figure.name)
-def test_every_chapter_makes_its_table_from_runs(figure, tmp_path):
-    """With the shortest runs that each allows: their means are worthless, but no step from points to the table fails."""
+def test_every_chapter_makes_its_table_and_drawing_from_runs(figure, tmp_path):
+    """With the shortest runs that each allows: their means are worthless, but no step from points to the drawing fails."""
     settings = study.Settings(quick=True, events=1, out=str(tmp_path), threads=1)
     points = figure.points(settings)
     study.make(points, settings)
-    assert figure.table(points, settings)[0][""]
+    table = figure.write(points, settings)[1][0]
+    with open(table, encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert rows and COLUMNS.get(figure.name, set()) <= set(rows[0])
+    figure.draw(table)
+    for kind in ("png", "pdf"):
+        assert (tmp_path / f"figure_{figure.name}.{kind}").stat().st_size > 5000
 
 
 def curve(function, numbers, error=1e-6):
