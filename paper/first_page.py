@@ -11,6 +11,7 @@ from paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
 from verdicts import HOLDS, IN_PART, UNDECIDED, measured
 
 MOST = 6  # results
+ANSWERS = {HOLDS: "is confirmed", UNDECIDED: "is undecided", IN_PART: "is confirmed in part"}
 NO_TABLE = (FileNotFoundError, IndexError, KeyError)
 
 
@@ -120,24 +121,26 @@ def predictions_found(study):
     spin, _ = contacts.wall_spin(study, "smooth")
     slips = ends(study.curve("4a", setting="smooth"), "slip_resident")
     spins = ends(study.curve("4b", setting="smooth"), "resident_spin")
-    words = {HOLDS: "is confirmed", UNDECIDED: "is undecided", IN_PART: "is confirmed in part"}
     return (f"With the assumed restitution and floor friction: that the slip parameter of pinned spheres rises from about 0.5 to nearly 1 "
-            f"{words.get(slip.verdict, 'is not confirmed')} ({slips}); that their spin at the wall falls "
-            f"{words.get(spin.verdict, 'is not confirmed')} ({spins}, in Ω).")
+            f"{ANSWERS.get(slip.verdict, 'is not confirmed')} ({slips}); that their spin at the wall falls "
+            f"{ANSWERS.get(spin.verdict, 'is not confirmed')} ({spins}, in Ω).")
 
 
 def frustration_found(study):
-    """The title of the paper, by its parts."""
+    """The title of the paper, judged by the figure that stops the spins."""
     title, _ = spheres.frustration(study)
-    rows = {setting: study.curve("4b", setting=setting) for setting in ("smooth", "high")}
-    words = "; ".join(
-        f"{name}: {ends(rows[setting], 'chain_correlation')} for pairs in no triangle, "
-        f"{ends(rows[setting], 'triangle_correlation')} in triangles"
-        for setting, name in (("smooth", "smooth spheres"), ("high", "discs")))
+    parts = []
+    for body in ("discs", "spheres"):
+        induces, _ = spheres.stopped_spins(study, body)
+        free, stopped = (value_at(study.curve("cause", body=body, spins=spins, contacts="none between particles")[-1],
+                                  "mean_by_time") for spins in ("free", "stopped"))
+        parts.append(f"for {body} {ANSWERS.get(induces.verdict, 'is not confirmed')} (ϖ/Ω {free} if they can spin, {stopped} "
+                     "if they cannot)")
     claim = "geometric frustration induces counterrotation"
-    return statement(title, f"The title holds: {claim}. Correlation of the spins of particles that touch, {words}.",
-                     f"The title, {claim}, is not confirmed. Correlation of the spins of particles that touch, {words}.",
-                     f"Whether {claim} is undecided. Correlation of the spins of particles that touch, {words}.")
+    words = (f"That stopped spins induce it without friction between particles {' and '.join(parts)}. That neighbours stop "
+             "them as frustrated gears is a claim of its own (figure 4b).")
+    return statement(title, f"The title holds: {claim}. {words}", f"The title, {claim}, is not confirmed. {words}",
+                     f"Whether {claim} is undecided. {words}")
 
 
 def main_results(path):

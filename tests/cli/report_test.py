@@ -46,6 +46,24 @@ class FirstPage(HandMadeTables):
     def test_no_tables_give_no_results(self):
         self.assertEqual(main_results(self.folder), [])
 
+    def test_title_is_judged_by_stopped_spins(self):
+        """Not by the correlations of figure 4b, which decide a part of it."""
+        cases = (("free", "none between particles", 1.0), ("stopped", "none between particles", -0.006))
+        self.table("cause", [
+            {"body": body, "spins": spins, "contacts": contacts, "discs": n, "mean_by_time": level if n == 48 else 0.5,
+             "mean_by_time_error": 0.001, "point": f"{body}_{spins}_N{n}"}
+            for body, smooth in (("discs", "none at the wall"), ("spheres", "none at all"))
+            for spins, contacts, level in (*cases, ("stopped", smooth, 0.06)) for n in (24, 48)])
+        columns = ("chain_correlation", "triangle_correlation", "spin_correlation", "correlation_by_impulse", "triangles")
+        self.table("4b", [
+            {"setting": setting, "discs": n, "point": f"{setting}_N{n}", **dict(zip(columns, (-0.4, -0.3, 0, 0, 0.5))),
+             **{f"{column}_error": 0.001 for column in columns}} for setting in ("smooth", "rough", "high") for n in (24, 48)])
+        said = self.found()
+        self.assertIn("The title, geometric frustration induces counterrotation, is confirmed only in part.", said)
+        self.assertIn("for discs is confirmed (ϖ/Ω 1.0000 ± 0.0010 at N = 48 if they can spin, −0.0060 ± 0.0010 at N = 48 if "
+                      "they cannot) and for spheres is confirmed", said)
+        self.assertNotIn("Correlation", said)
+
     def test_transition_is_confirmed(self):
         self.rotations(high=[(5, 0.2), (48, -0.1)])
         self.crossings_5b(high=("crosses", 38.5, 0.2))
