@@ -8,7 +8,7 @@ import {measuredFromLink, measuredPoints, measuredText, rateOf, type Measured} f
 import {addressOf} from "./share";
 import {button, element, quiet, save, withError} from "./page";
 import {Chart, type ChartCurve, type ChartPoint} from "./chart";
-import {Runs, estimates, seedsPerPoint} from "./runs";
+import {Runs, seedsPerPoint} from "./runs";
 import {startParameters} from "./start";
 import {fill, symbols, texts} from "./texts";
 
@@ -85,7 +85,7 @@ export class Discovery {
     private pooled: Setting = new Map();
     private readonly plot: Chart;
     private readonly finding = element("p", {id: "discovery-finding"});
-    private readonly runs: Runs;
+    readonly runs: Runs;
     private present: {setting: string; discs: number; given: Values} | undefined;
     private live: ChartPoint | undefined;
     private readonly under = new Set<string>(); // names of points whose first run is under way
@@ -172,7 +172,7 @@ export class Discovery {
             const all = {...given, discs: String(discs)};
             const runs = await this.runs.replicates(all, periods, isFirst ? undefined : isWanted);
             if (!runs) return !isWanted();
-            const {mean, error} = estimates(runs).mean_by_time;
+            const {mean, error} = (await this.runs.estimates(runs)).mean_by_time;
             if (mean === null || error === null || !(error > 0)) return false;
             this.keep(setting, discs, {mean, error, periods});
             return true;

@@ -6,7 +6,7 @@ import {intervalOf} from "./estimates";
 import {optionsOf, type Host, type Values} from "./host";
 import {button, element, localized, save, shownList, signed, typedList, withError} from "./page";
 import {Chart, type ChartCurve, type ChartPoint} from "./chart";
-import {Runs, estimates, seedsFrom, seedsPerPoint, type Crossings, type Estimates} from "./runs";
+import {Runs, seedsFrom, seedsPerPoint, type Crossings, type Estimates} from "./runs";
 import {commands as commandOf} from "./symbols";
 import {fill, symbols, texts} from "./texts";
 
@@ -266,7 +266,7 @@ export class Explorer {
     private async runPoint(runs: Runs, point: Point, periods: number): Promise<void> {
         const replicates = await runs.replicates({...point.given, discs: this.discsOf(point)}, periods);
         const command = this.commandOf(point.given, periods, replicates?.map(({seed}) => seed!));
-        Object.assign(point, replicates ? {rotation: estimates(replicates)} : {collapsed: true}, {done: true, command});
+        Object.assign(point, replicates ? {rotation: await runs.estimates(replicates)} : {collapsed: true}, {done: true, command});
         if (this.runs === runs) this.report();
     }
 

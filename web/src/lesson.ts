@@ -5,7 +5,7 @@ import type {Host, Values} from "./host";
 import {reference} from "./discovery";
 import {button, element, localized, signed, withError} from "./page";
 import type {ChartPoint} from "./chart";
-import {Runs, estimates} from "./runs";
+import {Runs} from "./runs";
 import type {Coloring, View} from "./scene";
 import {pageEntry, setPageEntry} from "./start";
 import {documentIn} from "./symbols";
@@ -144,7 +144,7 @@ export class Lesson {
         const runs = this.runs;
         if (kind === "direction") {
             const replicates = await runs.replicates(this.host.withSeed(given), runPeriods);
-            const {mean = null, error = null} = replicates ? estimates(replicates).mean_by_time : {};
+            const {mean = null, error = null} = replicates ? (await runs.estimates(replicates)).mean_by_time : {};
             const answer = directionOf(mean ?? 0, error ?? 1);
             return {answer, text: fill(texts.lesson.rotation, {rotation: withError(mean, error, texts.notYet), direction: texts.lesson.directions[answer]!})};
         }

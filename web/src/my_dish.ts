@@ -2,10 +2,11 @@
 // are pooled into one curve.
 import type {Discovery, Setting} from "./discovery";
 import {settingFrom, settingOf} from "./discovery";
-import {estimateOf} from "./estimates";
+import {perRate} from "./engine";
 import type {Host, Values} from "./host";
 import {measuredFrom} from "./measured";
 import {button, element, localized, typedNumber} from "./page";
+import type {Estimates, EvaluatedRun} from "./runs";
 import {showCode} from "./share";
 import {fill, texts} from "./texts";
 
@@ -28,8 +29,9 @@ export function givenFor({container, particle, amplitude, rate}: DishSizes): Val
 
 /** The results of a class: links or their points, one per line. Each seed counts once, and only points with the
  *  parameters `wanted`. Where several pupils have a point, its error is that between them. */
-export function pooled(text: string, wanted: string, isParameter: (name: string) => boolean):
-    {points: Setting; pupils: number; omitted: number} {
+export async function pooled(text: string, wanted: string, isParameter: (name: string) => boolean,
+                             estimates: (runs: EvaluatedRun[]) => Promise<Estimates>):
+    Promise<{points: Setting; pupils: number; omitted: number}> {
     const bySeed = new Map<string, Setting>();
     let omitted = 0;
     for (const [k, line] of text.split(/\s+/).filter(Boolean).entries()) {
@@ -39,10 +41,16 @@ export function pooled(text: string, wanted: string, isParameter: (name: string)
         if (setting.size === 0 || settingOf(parameters) !== wanted) ++omitted;
         else bySeed.set(given.get("seed") ?? `line ${k}`, setting);
     }
-    const all = new Map<number, {mean: number; error: number; periods: number}[]>();
-    for (const setting of bySeed.values()) for (const [n, point] of setting) all.set(n, [...all.get(n) ?? [], point]);
-    const points: Setting = new Map([...all].map(([n, each]) => [n, each.length < 2 ? each[0]!
-        : {...estimateOf(each.map(({mean}) => mean)), periods: each.reduce((sum, {periods}) => sum + periods, 0)}]));
+    const all = new Map<number, EvaluatedRun[]>(), points: Setting = new Map();
+    for (const setting of bySeed.values()) for (const [discs, {mean, error, periods}] of setting) {
+        const of = all.get(discs) ?? [];
+        all.set(discs, [...of, {discs, periods, rotation: perRate(() => ({mean, error}))}]);
+        points.set(discs, {mean, error, periods: periods + (points.get(discs)?.periods ?? 0)});
+    }
+    for (const [discs, each] of all) if (each.length > 1) {
+        const {mean, error} = (await estimates(each)).mean_by_time;
+        points.set(discs, {mean: mean!, error: error!, periods: points.get(discs)!.periods});
+    }
     return {points, pupils: bySeed.size, omitted};
 }
 
@@ -88,7 +96,7 @@ export class MyDish {
             element("h3", {textContent: myDish.class}), element("p", {textContent: myDish.classHelp}), element("div", {className: "bar"}, classLink,
             button(myDish.classCode, () => showCode(classAddress()), "class-code")), labelled(myDish.results, this.results), photo, this.pooledText);
         this.counted.addEventListener("input", () => this.showPoints());
-        this.results.addEventListener("input", () => this.pool());
+        this.results.addEventListener("input", () => void this.pool());
         this.photo.addEventListener("change", () => void this.readCodes());
         this.counted.value = localized(discovery.measured.map((row) => row.join(" ")).join("\n"));
     }
@@ -134,11 +142,14 @@ export class MyDish {
         this.photo.value = ""; // the same name may follow
         if (codes.length === 0) return this.fail(texts.myDish.noCode);
         this.results.value = [this.results.value.trim(), ...codes.map(({rawValue}) => rawValue)].filter(Boolean).join("\n");
-        this.pool();
+        void this.pool();
     }
 
-    private pool(): void {
-        const {points, pupils, omitted} = pooled(this.results.value, this.discovery.setting, (name) => this.host.isParameter(name));
+    private async pool(): Promise<void> {
+        const text = this.results.value;
+        const {points, pupils, omitted} = await pooled(text, this.discovery.setting, (name) => this.host.isParameter(name),
+                                                       (runs) => this.discovery.runs.estimates(runs));
+        if (text !== this.results.value) return;
         this.discovery.showClass(points);
         this.pooledText.textContent = fill(texts.myDish.pooled, {pupils, points: points.size, omitted});
     }

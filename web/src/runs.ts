@@ -1,7 +1,7 @@
 // Whole runs in the background, on all cores. Each worker makes one run at a time.
 import {UsageError, perRate, rates, type Crossing, type Estimate, type NextRuns, type Rate, type Rotation, type RunNumbers,
         type SearchedNumbers, type SearchRules} from "./engine";
-import {estimateOf, type MeanWithError} from "./estimates";
+import type {MeanWithError} from "./estimates";
 import type {FromWorker, ToWorker} from "./messages";
 import {engineMessage} from "./texts";
 
@@ -21,12 +21,6 @@ export interface EvaluatedRun {
 export type SearchedRun = Pick<EvaluatedRun, "discs" | "periods"> & FinishedRun;
 export type Crossings = Record<Rate, Crossing>;
 export type Estimates = Record<Rate, MeanWithError>;
-
-/** The means of replicates with the errors between them. */
-export const estimates = (replicates: EvaluatedRun[]): Estimates => perRate((rate) => {
-    const means = replicates.map(({rotation}) => rotation[rate].mean);
-    return means.every((mean) => mean !== null) ? estimateOf(means) : {mean: null, error: null};
-});
 
 /** Number of seeds of a point. A single run underestimates its error where the discs remember their arrangement for
  *  longer than a block of it; the scatter between seeds does not. */
@@ -93,9 +87,23 @@ export class Runs {
     }
 
     /** N_c by each rotation rate. */
-    async crossings(runs: EvaluatedRun[]): Promise<Crossings> {
-        const answer = await this.ask({kind: "crossing", runs: perRate((rate) => runs.flatMap(
-            ({discs, periods, rotation}) => numbersOf(discs, periods, rotation[rate])))});
+    crossings(runs: EvaluatedRun[]): Promise<Crossings> {
+        return this.evaluated(perRate((rate) => runs.flatMap(({discs, periods, rotation}) => numbersOf(discs, periods, rotation[rate]))));
+    }
+
+    /** The means of runs with the same number of discs, and the errors between them, by the estimator of all programs: the runs
+     *  give no errors of their own. */
+    async estimates(runs: EvaluatedRun[]): Promise<Estimates> {
+        const found = await this.evaluated(perRate((rate) => runs.map(
+            ({discs, periods, rotation}) => [discs, rotation[rate].mean ?? NaN, NaN, periods, 0])));
+        return perRate((rate) => {
+            const [, mean, error] = found[rate].points[0]!;
+            return {mean, error};
+        });
+    }
+
+    private async evaluated(runs: Record<Rate, RunNumbers[]>): Promise<Crossings> {
+        const answer = await this.ask({kind: "crossing", runs});
         if (answer.kind !== "crossing") throw new Error(answer.kind);
         return answer.crossings;
     }

@@ -20,8 +20,14 @@ const load = async (name) => {
 const truth = {28: 0.0327, 48: -0.0365};
 const periods = 50, warmup = 20;
 try {
-    const {Engine} = await load("engine"), {estimates, seedsPerPoint} = await load("runs"), {liveEstimate} = await load("estimates");
+    const {Engine, perRate} = await load("engine"), {Runs, seedsPerPoint} = await load("runs"), {liveEstimate} = await load("estimates");
     const module = await WebAssembly.compile(readFileSync(wasm));
+    const evaluation = new Engine(module), background = new Runs(() => { // a worker without a thread
+        const worker = {postMessage: ({runs}) => say({kind: "crossing", crossings: perRate((rate) => evaluation.crossing(runs[rate]))})};
+        const say = (data) => queueMicrotask(() => worker.onmessage({data}));
+        say({kind: "ready"});
+        return worker;
+    }, 1);
     /** The rotation after `periods`, and after one more, which completes the last of them on display. */
     const run = (discs, seed) => {
         const engine = new Engine(module);
@@ -38,7 +44,7 @@ try {
         let ofPoints = 0, ofRuns = 0, halves = 0;
         for (let point = 0; point < points; ++point) {
             const runs = Array.from({length: seedsPerPoint}, (_, k) => run(discs, 1 + seedsPerPoint * point + k));
-            const {mean_by_time} = estimates(runs.map(([rotation]) => ({discs, periods, rotation})));
+            const {mean_by_time} = await background.estimates(runs.map(([rotation]) => ({discs, periods, rotation})));
             ofPoints += holds(mean_by_time);
             halves += 1.96 * mean_by_time.error / points;
             for (const [, late] of runs) ofRuns += holds(liveEstimate(late));
