@@ -53,7 +53,7 @@ class Rotation(HandMadeTables):
         def judged(first, last, verdict, error=0.01):
             self.rotation("5b", "high", [(5, first), (30, 0.1), (48, last)], error)
             self.crossings("5b", high=verdict)
-            return rotation.transition(self.study, "high")[0]
+            return rotation.simulated_transition(self.study)[0]
         self.assertEqual(judged(0.9, -0.3, (36, 0.3)), HOLDS)
         self.assertEqual(judged(0.9, 0.3, (None, "always rotates")), IN_PART)
         self.assertEqual(judged(-0.9, 0.3, (None, "always rotates")), FAILS)

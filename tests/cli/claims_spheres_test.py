@@ -90,14 +90,14 @@ class Causes(HandMadeTables):
                 for (spins, contacts), v in zip(cases, rotations) for n in (24, 48)]
 
     def test_title_needs_order_outside_triangles_disorder_inside_and_stopped_spins_that_reverse(self):
-        def judged(chain=-0.4, triangle=0.0, discs=(1, -0.006, 0.06), spheres_=(1, -0.04, 0.5)):
+        def judged(chain=-0.4, triangle=0.0, discs=(1, -0.006, 0.06), spheres_=(1, -0.04, 0.5), others=(-0.4, 0.0)):
             self.table("cause", self.cause("discs", *discs) + self.cause("spheres", *spheres_))
             columns = ("chain_correlation", "triangle_correlation", "spin_correlation", "correlation_by_impulse",
                        "triangles")
             self.table("4b", [
                 {"setting": setting, "discs": n, "point": f"{setting}_N{n}", **{f"{c}_error": 0.001 for c in columns},
                  **dict(zip(columns, (*pairs, 0, 0, 0.5)))} for n in (24, 48)
-                for setting, pairs in (("smooth", (chain, triangle)), ("rough", (-0.4, 0.0)), ("high", (-0.4, 0.0)))])
+                for setting, pairs in (("smooth", (chain, triangle)), ("rough", others), ("high", others))])
             return spheres.frustration(self.study)
         verdict, found = judged()
         self.assertEqual(verdict, HOLDS)
@@ -108,6 +108,7 @@ class Causes(HandMadeTables):
         self.assertEqual(judged(discs=(1, 0.006, 0.06))[0], IN_PART)  # stopped spins do not reverse
         self.assertEqual(judged(spheres_=(-0.1, -0.04, 0.5))[0], IN_PART)  # spheres that spin freely reverse, too
         self.assertEqual(judged(discs=(1, -0.006, -0.02))[0], IN_PART)  # without a wall that grips they reverse, too
+        self.assertEqual(judged(0.0, -0.3, (1, 0.006, 0.06), (1, 0.04, 0.5), (0.0, -0.3))[0], FAILS)  # no part is true
 
     def test_damping_is_not_needed_if_both_counterrotate_without_it(self):
         def judged(*rotations, discs=(38, 0.2)):
