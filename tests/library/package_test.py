@@ -142,13 +142,18 @@ class DebianPackages(unittest.TestCase):
 
     def test_library_depends_on_the_standard_library_alone(self):
         package = self.package("libswirl-dev")
-        self.assertEqual(self.field(package, "Depends"), ["libstdc++-dev"])
+        self.assertEqual(self.field(package, "Depends"), ["g++ | libstdc++-dev"])
         self.assertEqual(self.field(package, "Recommends"), [""])
         files = output_of("dpkg-deb", "--contents", package)
         for path in ("usr/include/swirl/engine/simulation.hpp", "swirlConfig.cmake",
                      "usr/share/doc/libswirl-dev/copyright"):
             self.assertIn(path, files)
         self.assertNotIn("usr/bin", files)
+
+    @unittest.skipUnless(shutil.which("lintian"), "this test needs lintian")
+    def test_lintian_finds_no_error(self):
+        done = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", *self.packages], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_apt_can_install_them_together(self):
         self.assertEqual(len(self.packages), 2)
