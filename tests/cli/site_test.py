@@ -20,12 +20,10 @@ ENVIRONMENT = {**os.environ, **(WITH_MODULE if ALL else {"SWIRL_PYTHON": "false"
 CHROMIUM = shutil.which("chromium")
 
 BROWSER = """
-import {chromium} from "playwright-core";
 import {pathToFileURL} from "node:url";
+import {launch} from "../test/browser.mjs";
 const [executablePath, ...files] = process.argv.slice(2);
-const browser = await chromium.launch({executablePath, args: ["--no-sandbox", "--disable-gpu",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync",
-    "--allow-file-access-from-files"]});
+const browser = await launch(executablePath, "--allow-file-access-from-files");
 const page = await browser.newPage({viewport: {width: 360, height: 740}});
 const errors = [];
 page.on("requestfailed", (request) => errors.push(`not found: ${request.url()}`));
@@ -44,7 +42,7 @@ for (const file of files) {
 }
 const search = files.find((file) => file.endsWith("/search.html"));
 await page.goto(`${pathToFileURL(search).href}?q=friction`);
-await page.waitForSelector("#search-results li a", {timeout: 20000}).catch(() => errors.push("no search results"));
+await page.waitForSelector("#search-results li a");
 await browser.close();
 console.log(errors.join("\\n"));
 """

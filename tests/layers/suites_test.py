@@ -17,7 +17,9 @@ SUITES = {"default": ["-LE", "slow|soak"], "slow": ["-L", "slow"], "soak": ["-L"
 ONLY_WITH_INTERNAL_CHECKS = "engine.InvariantViolation."
 # A limit in seconds or a moment in the future. A test in another program's language has its own words.
 BY_THE_CLOCK = {"CMakeLists.txt": r"TIMEOUT \d", "*.py": r"timeout=\d|\btime\(\) ?[+<]|\bmonotonic\(\) ?[+<]|wait\(\d",
+                "*.mjs": r"timeout: ?\d|DefaultTimeout\(\d|\}, \d+_000\)",
                 "*.cpp": r"usleep\(1'?000'?000|sleep_for\(std::chrono::seconds"}
+FOLDERS = ("tests/**", "track/tests/**", "web", "web/test")
 # The tests of waiting itself, and of what happens meanwhile.
 ALLOWED = {"tests/cli/launcher_test.py": "time.time() + 7200", "tests/cli/series_test.py": "started.wait(0.15)"}
 
@@ -80,7 +82,7 @@ class Suites(unittest.TestCase):
 
     def test_no_limit_depends_on_the_clock(self):
         for pattern, limit in BY_THE_CLOCK.items():
-            for file in [*SOURCE.glob(f"tests/**/{pattern}"), *SOURCE.glob(f"track/tests/**/{pattern}")]:
+            for file in [file for folder in FOLDERS for file in SOURCE.glob(f"{folder}/{pattern}")]:
                 name = str(file.relative_to(SOURCE))
                 if file == pathlib.Path(__file__).resolve():
                     continue

@@ -6,12 +6,13 @@ import {mkdtempSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
+import {hang} from "./browser.mjs";
 
 const [file, program, wantedHash] = process.argv.slice(2);
 const profile = mkdtempSync(join(tmpdir(), "swirl-firefox-"));
 const firefox = spawn(program, ["--headless", "--no-remote", "--profile", profile, "--remote-debugging-port", "0"],
                       {stdio: ["ignore", "ignore", "pipe"], env: {...process.env, HOME: profile}});
-const limit = setTimeout(() => { throw new Error("Firefox does not answer"); }, 240_000); // a busy machine is slow
+const limit = setTimeout(() => { throw new Error("Firefox does not answer"); }, hang);
 const url = await new Promise((resolve) => firefox.stderr.on("data", (said) => {
     const found = /WebDriver BiDi listening on (ws:\S+)/.exec(String(said));
     if (found) resolve(found[1]);

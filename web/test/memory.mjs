@@ -8,17 +8,15 @@
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {pathToFileURL} from "node:url";
-import {chromium} from "playwright-core";
+import {launch} from "./browser.mjs";
 
 const [file, executablePath, minutes = "10", allowed = "16", query = "?discs=48"] =
     process.argv.slice(2);
 const between = 30_000; // milliseconds
 const settled = 120_000;
 
-const browser = await chromium.launch({executablePath, args: [
-    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync"]});
-const page = await browser.newPage({bypassCSP: true, viewport: {width: 800, height: 600}});
+const browser = await launch(executablePath);
+const page = await browser.newPage({viewport: {width: 800, height: 600}});
 const errors = [];
 page.on("pageerror", (error) => errors.push(error.message));
 // The page's workers are blobs, and the engine is not visible from outside. This code is added to each

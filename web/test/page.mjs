@@ -6,7 +6,7 @@ import {readFileSync, writeFileSync} from "node:fs";
 import {createServer} from "node:http";
 import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
-import {chromium} from "playwright-core";
+import {launch} from "./browser.mjs";
 import {inEachFont} from "./fonts.mjs";
 
 const [file, executablePath, wantedHash, image, folder] = process.argv.slice(2);
@@ -14,14 +14,11 @@ const all = process.argv.includes("--all");
 /** All cases with --all, else the first ones. */
 const some = (cases, count) => (all ? cases : cases.slice(0, count));
 const address = pathToFileURL(file).href;
-const args = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-              "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-const browser = await chromium.launch({executablePath, args});
+const browser = await launch(executablePath);
 const errors = [], requests = [];
 /** A page whose errors fail the test. It draws about fifteen frames per second: more would take half of a processor. */
 const newPage = async (options) => {
-    const made = await browser.newPage({bypassCSP: true, viewport: {width: 1200, height: 800}, ...options});
-    made.setDefaultTimeout(180_000); // a busy machine is slow
+    const made = await browser.newPage({viewport: {width: 1200, height: 800}, ...options});
     made.on("pageerror", (error) => errors.push(error.message));
     await made.addInitScript(() => {
         const frame = globalThis.requestAnimationFrame;
@@ -71,7 +68,7 @@ const setPace = (pace) => page.evaluate((value) => {
 const open = async (query) => {
     await page.goto(address + query);
     await page.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
-        !document.getElementById("error").hidden, null, {timeout: 180_000});
+        !document.getElementById("error").hidden);
 };
 
 // The address sets the parameters, and the page runs to exactly that event.
@@ -133,7 +130,7 @@ for (const [query, options] of some([["?discs=48&events=2000", "--discs 48"], //
 await open("?discs=48");
 const before = Number(await text("event-count"));
 await page.waitForFunction((n) => Number(document.getElementById("event-count").textContent) > n,
-                           before + 1000, {timeout: 180_000});
+                           before + 1000);
 const painted = await page.evaluate(() => {
     const canvas = document.querySelector("canvas");
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -342,7 +339,7 @@ assert.deepEqual(errors, []);
 // A collapse is an error, both on the way to an event and while the page runs.
 for (const events of ["&events=300000", ""]) {
     await page.goto(`${address}?discs=48&restitution=0.5&contact_duration=0${events}`);
-    await page.waitForFunction(() => !document.getElementById("error").hidden, null, {timeout: 180_000});
+    await page.waitForFunction(() => !document.getElementById("error").hidden);
     assert.match(await text("error"), /\(inelastic collapse\)/);
     if (events) assert.equal(await text("state-hash"), "");
 }
@@ -352,8 +349,7 @@ if (all) {
     await page.goto(`${address}?discs=48&events=1000000`);
     await page.waitForFunction(
         () => /^\d+ of 1000000 events done\.$/.test(document.getElementById("headline").textContent));
-    await page.waitForFunction(() => document.getElementById("event-count").textContent === "1000000", null,
-                               {timeout: 180_000});
+    await page.waitForFunction(() => document.getElementById("event-count").textContent === "1000000");
     await page.evaluate(() => {
         globalThis.headlines = [];
         const headline = document.getElementById("headline");
@@ -379,8 +375,7 @@ await page.waitForSelector('canvas[aria-label^="8 discs"]');
 await openParameters();
 await page.fill("#parameter-radius", "0.5");
 await page.fill("#parameter-discs", "250"); // no arrangement is known to the page
-await page.waitForFunction(() => /^250 discs would cover 85 % .*\nhint: /s.test(document.getElementById("error").textContent),
-                           null, {timeout: 8000});
+await page.waitForFunction(() => /^250 discs would cover 85 % .*\nhint: /s.test(document.getElementById("error").textContent));
 await page.fill("#parameter-discs", "251");
 await page.waitForFunction(() => document.getElementById("headline").textContent === "Placing 251 discs…");
 await page.fill("#parameter-discs", "20");
@@ -424,7 +419,7 @@ if (all) {
             const canvas = document.querySelector("#views canvas");
             const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
             return new Set(Array.from({length: data.length / 40}, (_, k) => data[40 * k])).size > 40;
-        }, null, {timeout: 180_000});
+        });
     }
     await page.selectOption("#choose-view", "lab");
     await page.click("#profile-panel summary");
@@ -548,7 +543,7 @@ if (all) {
 
     // If reduced motion is enabled in the system, the page is paused, after the warm-up and some periods.
     await phone.goto(`${address}?discs=8`);
-    await phone.waitForFunction(() => Number(document.getElementById("period-count")?.textContent) >= 30, null, {timeout: 180_000});
+    await phone.waitForFunction(() => Number(document.getElementById("period-count")?.textContent) >= 30);
     assert.equal(await phone.getAttribute("#play", "aria-label"), "Play (space)");
     await phone.close();
 
@@ -557,7 +552,7 @@ if (all) {
     await press("compare");
     await page.fill("#parameter-discs", "20");
     await page.waitForFunction(() => /^12 discs: ϖ/.test(
-        document.querySelector("#compared figcaption")?.textContent ?? ""), null, {timeout: 180_000});
+        document.querySelector("#compared figcaption")?.textContent ?? ""));
     await page.waitForSelector('canvas[aria-label^="20 discs"]');
     await requireAccessible("two containers");
     await page.click("#close-compared");
@@ -640,7 +635,7 @@ await strict.addInitScript(() => {
     document.addEventListener("securitypolicyviolation", (event) => globalThis.violations.push(`${event.effectiveDirective} ${event.blockedURI}`));
 });
 await strict.goto(`${address}?discs=8`);
-await strict.locator("#discovery-plot [role=img][aria-label*='with 1 point']").waitFor({timeout: 180_000}); // workers run
+await strict.locator("#discovery-plot [role=img][aria-label*='with 1 point']").waitFor(); // workers run
 await strict.evaluate(() => { for (const id of ["compare", "record"]) document.getElementById(id).click(); });
 await strict.locator("#compared canvas").waitFor();
 for (const id of ["save-image", "save-result", "save-table"]) {
@@ -787,7 +782,7 @@ await page.selectOption("#choose-coloring", "spin");
 await press("record");
 await page.waitForTimeout(1500);
 await press("record");
-await page.waitForSelector("#save-movie", {state: "attached", timeout: 90_000}); // a busy machine is slow to finish a movie
+await page.waitForSelector("#save-movie", {state: "attached"});
 
 // Downloads.
 const saved = {}, canvasSize = await page.$eval("#views canvas", ({width, height}) => [width, height]);
@@ -838,11 +833,10 @@ assert.match(await plain.innerText("body"), /JavaScript, which is turned off her
 await browser.close();
 
 // Without SIMD, which Chromium disables on old processors, the page shows an error message.
-const old = await chromium.launch({executablePath, args: [
-    ...args, "--js-flags=--no-enable-sse4-1 --no-enable-ssse3 --no-enable-sse3"]});
-const without = await old.newPage({bypassCSP: true});
+const old = await launch(executablePath, "--js-flags=--no-enable-sse4-1 --no-enable-ssse3 --no-enable-sse3");
+const without = await old.newPage();
 await without.goto(address);
 await without.waitForFunction(() => document.getElementById("state-hash").textContent !== "" ||
-    !document.getElementById("error").hidden, null, {timeout: 180_000});
+    !document.getElementById("error").hidden);
 assert.match(await without.textContent("#error"), /^This browser does not support WebAssembly with SIMD/);
 await old.close();

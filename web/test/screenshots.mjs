@@ -5,14 +5,14 @@ import {mkdtempSync, rmSync, statSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
-import {chromium} from "playwright-core";
+import {launch} from "./browser.mjs";
 
 const [file, executablePath, folder, ...wanted] = process.argv.slice(2);
 const address = pathToFileURL(file).href;
 const mostBytes = 120_000;
 
 const hasPeriods = (page, periods) => page.waitForFunction(
-    (wanted) => Number(document.getElementById("period-count")?.textContent) > wanted, periods, {timeout: 120_000});
+    (wanted) => Number(document.getElementById("period-count")?.textContent) > wanted, periods);
 const choose = (page, id, value) => page.evaluate(([name, wanted]) => {
     const select = document.getElementById(name);
     select.value = wanted;
@@ -74,11 +74,11 @@ const states = [
     ["phone", "", (page) => hasPeriods(page, 68), {viewport: {width: 390, height: 844}, hasTouch: true}],
 ];
 
-const browser = await chromium.launch({executablePath, args: ["--no-sandbox", "--disable-gpu"]});
+const browser = await launch(executablePath);
 const temporary = mkdtempSync(join(tmpdir(), "swirl-screenshots-"));
 try {
     for (const [name, query, act, options] of states.filter(([each]) => wanted.length === 0 || wanted.includes(each))) {
-        const page = await browser.newPage({bypassCSP: true, viewport: {width: 1280, height: 800}, locale: "en-GB", ...options});
+        const page = await browser.newPage({viewport: {width: 1280, height: 800}, locale: "en-GB", ...options});
         await page.goto(address + query);
         await act(page);
         await page.evaluate(() => document.activeElement.blur());

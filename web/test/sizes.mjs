@@ -3,15 +3,13 @@
 import assert from "node:assert/strict";
 import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
-import {chromium} from "playwright-core";
+import {launch} from "./browser.mjs";
 import {inEachFont} from "./fonts.mjs";
 
 const [file, executablePath] = process.argv.slice(2);
 const all = process.argv.includes("--all");
 const address = pathToFileURL(file).href;
-const browser = await chromium.launch({executablePath, args: [
-    "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync"]});
+const browser = await launch(executablePath);
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
 const newVisitor = "", link = "&seed=1";
@@ -21,11 +19,10 @@ const few = [[683, 384, "light", "de", link], [360, 640, "light", "de", newVisit
              [360, 640, "light", "en", newVisitor]];
 for (const [width, height, colorScheme, lang, query] of all ? every : few) {
     const isNew = query === "", where = `${width} × ${height}, ${colorScheme}, ${lang}, ${isNew ? "a new visitor" : "a link"}`;
-    const page = await browser.newPage({bypassCSP: true, viewport: {width, height}, colorScheme, reducedMotion: "reduce"});
+    const page = await browser.newPage({viewport: {width, height}, colorScheme, reducedMotion: "reduce"});
     await page.addInitScript({path: axe});
     await page.goto(`${address}?lang=${lang}${query}`);
-    await page.waitForFunction(() => Number(document.getElementById("period-count")?.textContent.replace(",", ".")) >= 30,
-                               null, {timeout: 60_000});
+    await page.waitForFunction(() => Number(document.getElementById("period-count")?.textContent.replace(",", ".")) >= 30);
     // (A window of 384 pixels, that of a laptop at twice the size, is too low for all of them.)
     // A new visitor sees two dishes, the sentence, the plot and the hand.
     const first = height <= 400 ? ["views", "play"] : isNew && width <= 768 ? ["views", "headline", "play", "by-hand", "discovery-plot", "slider-discs"]
