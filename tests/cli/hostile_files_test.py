@@ -79,6 +79,15 @@ class HostileFiles(InFolder):
                 verb, *more = commands[number % 2]
                 self.expect_error(saying, verb, self.edited("t.h5", edit), *more)
 
+    def test_every_reader_rejects_a_recording_of_overlapping_bodies(self):
+        self.recorded(*DISCS)
+        file = self.edited("t.h5", "p = particles['position/value']; p[...] = p[()][:, :1]")
+        for verb, *more in (["measure"], ["export", "--format", "csv"], ["image", "--out", self.path("o.svg")],
+                            ["movie", "--out", self.path("o.mp4")]):
+            with self.subTest(verb):
+                self.expect_error("discs 0 and 1 overlap", verb, file, *more)
+        self.assertFalse(os.path.exists(self.path("o.svg")) or os.path.exists(self.path("o.mp4")))
+
     def test_impossible_values_in_a_dump_are_rejected(self):
         for column, value in (("radius", "0"), ("mass", "-1"), ("x", "1e300")):
             row = {"id": "1", "x": "0", "y": "0", "radius": "1", "mass": "1", column: value}
