@@ -11,6 +11,7 @@ import glob
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -19,6 +20,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
+from folder_kinds import files_of  # noqa: E402
 from program import HANG, SWIRL  # noqa: E402
 
 SHIM = os.environ["SWIRL_FAULTS"]
@@ -40,6 +42,25 @@ VIDEO_CALLS = [["synthetic-video", "--discs", "3", "--max-frames", "4", "--width
           "--quiet", "--out", "o.mp4"],
          ["track", "IN/in.mp4", "--quiet", "--out", "o.h5"],
          ["track", "IN/in.mp4", "--quiet", "--out", "o.csv"]]
+# The other commands that write files, and the other kinds of outputs. IN has a sweep and a table, too.
+DISH = ["dish", "--container-radius", "60mm", "--radius", "8mm", "--amplitude", "15mm", "--rpm", "78", "--quiet"]
+SHORT = ["--periods", "3", "--warmup", "1", "--quiet", "--out", "s"]
+FURTHER = [[*DISH, "--no-search", "--json", "o.json"],
+           ["collect", "IN/sweep", "--csv", "o.csv", "--crossings", "o.crossings"],
+           ["measure", "IN/in.h5", "--measure", "density", "--tables", "o.tables", "--quiet"],
+           ["image", "IN/in.h5", "--size", "64x64", "--out", "o.png", "--quiet"],
+           ["movie", "IN/in.h5", "--size", "64x64", "--periods", "0.1", "--out", "o.mp4", "--quiet"],
+           ["movie", "IN/in.h5", "--size", "64x64", "--periods", "0.1", "--frame-files", "o.frames", "--quiet"]]
+# These draw figures or track a video, and take seconds.
+LONGER = [[*DISH, "--my-points", "IN/points.csv", "--mu", "0.2,0.5", "--seeds", "1", *SHORT],
+          ["crossing", "--mu", "0.5,1", "--from", "4", "--to", "7", "--events", "300", "--tolerance", "2", "--plot", "--csv",
+           "o.csv", "--json", "o.json", "--threads", "1", "--quiet", "--out", "s"],
+          ["map", "--x", "mu=0:1", "--steps", "3", "--discs", "5", "--seeds", "2", "--threads", "1", *SHORT],
+          ["track", "IN/in.mp4", "--out", "o.csv", "--overlay", "o.overlay.mp4", "--report", "o.report", "--json", "o.json",
+           "--quiet"],
+          ["experiment", "IN/in.mp4", "--seeds", "1", *SHORT]]
+WITHOUT_KILLS = {"verify": "writes no file",
+                 "paper": "waits for a process of its pool that is killed; paper_test.py kills it"}
 CALLS = ("open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close")
 BEFORE_MAIN = 80  # upper limit of the calls of new before main(), where no error can be reported
 PAGE = 4096
@@ -307,6 +328,47 @@ class Faults(unittest.TestCase):
         self.video_one()
         for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[1:]:
             self.kill_output(call, 1)
+
+    def inputs(self):
+        self.record_one()
+        with open(os.path.join(self.folder, "points.csv"), "w", encoding="utf-8") as file:
+            file.write("N,turns,circles\n8,3,10\n12,-2,10\n")
+        done = self.swirl("sweep", "--discs", "4:6", "--seeds", "2", "--events", "300", "--quiet", "--out",
+                          os.path.join(self.folder, "sweep"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def kill_and_repeat(self, call, most):
+        """The repeated call, with --overwrite if its error asks for that, leaves the files of one undisturbed call."""
+        call, _ = self.output(call)
+        wanted = files_of(self.work)
+        self.assertTrue(wanted, call)
+        calls = self.count("change", call)
+        for k in self.sample(range(1, calls + 1), most):
+            self.empty_work_folder()
+            self.swirl(*call, FAULT_UNDER=self.folder, **setting("change", k))
+            done = self.swirl(*call)
+            if "--overwrite" in done.stderr:
+                done = self.swirl(*call, "--overwrite")
+            with self.subTest(call=call[:2], before_change=k):
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(files_of(self.work), wanted)
+        report(f"{call[0]}, killed before a change: {calls} calls, all repeated")
+
+    def test_every_command_that_writes_files_succeeds_after_a_kill(self):
+        self.empty_work_folder()
+        self.inputs()
+        for call in FURTHER:
+            self.kill_and_repeat(call, 2)
+        if EVERY:
+            self.video_one()
+            for call in LONGER:
+                self.kill_and_repeat(call, 2)
+
+    def test_every_command_that_writes_files_is_killed(self):
+        self.empty_work_folder()
+        commands = self.swirl("--help").stdout.split("Subcommands:")[1].split("Examples:")[0]
+        killed = {call[0] for call in [RUN, SWEEP, *OUTPUTS, *VIDEO_CALLS, *FURTHER, *LONGER]}
+        self.assertEqual(set(re.findall(r"^  ([a-z-]+) ", commands, re.M)), killed | set(WITHOUT_KILLS))
 
     def test_failing_calls_in_a_sweep_are_reported_or_harmless(self):
         self.undisturbed_sweep()
