@@ -78,6 +78,17 @@ def worked(process, seconds):
     return False
 
 
+def other_user(program="true"):
+    """Arguments of subprocess that choose the user nobody, if this process is root. Skips the test if there is none in
+    this namespace, or if that user cannot start `program`."""
+    user = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
+    try:
+        subprocess.run([program, "--version"], capture_output=True, cwd="/", **user)
+    except PermissionError as error:
+        raise unittest.SkipTest(f"no other user can run '{program}'") from error
+    return user
+
+
 def read_text(path):
     with open(path, encoding="utf-8") as file:
         return file.read()

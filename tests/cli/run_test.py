@@ -8,7 +8,8 @@ import signal
 import subprocess
 import unittest
 
-from program import HANG, SWIRL, InFolder, ProgramTest, read_json, result_of, swirl, worked, write_text
+from program import (HANG, SWIRL, InFolder, ProgramTest, other_user, read_json, result_of, swirl, worked,
+                     write_text)
 
 
 class Json(InFolder):
@@ -49,6 +50,30 @@ class Json(InFolder):
         read_json(self.path("real.json"))
         done = swirl("run", "--events", 10, "--quiet", "--json", "/dev/stdout")
         self.assertEqual(json.loads(done.stdout)["events"]["total"], 10)
+
+    def test_json_is_written_to_a_pipe_and_through_a_link_from_a_folder_that_is_locked(self):
+        user = other_user(SWIRL)
+        locked, open_folder = self.path("locked"), self.path("open")
+        os.mkdir(locked)
+        os.mkdir(open_folder)
+        os.mkfifo(os.path.join(locked, "pipe"))
+        write_text(os.path.join(open_folder, "result.json"), "")
+        os.chmod(os.path.join(open_folder, "result.json"), 0o666)
+        os.symlink(os.path.join(open_folder, "result.json"), os.path.join(locked, "link.json"))
+        os.chmod(self.folder, 0o755)
+        os.chmod(os.path.join(locked, "pipe"), 0o666)
+        os.chmod(open_folder, 0o777)
+        os.chmod(locked, 0o555)
+        self.addCleanup(os.chmod, locked, 0o755)
+        reader = subprocess.Popen(["cat", os.path.join(locked, "pipe")], stdout=subprocess.PIPE, text=True)
+        done = swirl("run", "--events", 10, "--quiet", "--json", os.path.join(locked, "pipe"), **user)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(reader.communicate(timeout=HANG)[0])["events"]["total"], 10)
+        done = swirl("run", "--events", 10, "--json", os.path.join(locked, "link.json"), **user)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        read_json(os.path.join(open_folder, "result.json"))
+        self.assert_fails(1, "run", "--events", 10, "--json", os.path.join(locked, "new.json"),
+                          says="cannot be written: Permission denied", **user)
 
     def test_json_to_stdout_moves_the_report_to_stderr(self):
         done = swirl("run", "--events", 1000, "--json", "-")

@@ -13,7 +13,9 @@ NOTEBOOKS = sorted(glob.glob(os.path.join(SOURCE, "examples", "*.ipynb")))
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=os.path.basename)
-def test_notebook_runs(file, tmp_path):
+def test_notebook_runs(file, tmp_path, monkeypatch):
+    # Without it Matplotlib warns where the home folder cannot be written.
+    monkeypatch.setenv("MPLCONFIGDIR", str(tmp_path / "matplotlib"))
     book = nbformat.read(file, as_version=4)
     nbformat.validate(book)
     NotebookClient(book, kernel_name="python3",

@@ -41,7 +41,11 @@ void reject_unwritable(const std::filesystem::path& file) {
     if (!std::filesystem::is_directory(folder, ignored))
         throw Failure(fmt::format("'{}' cannot be written: there is no folder '{}'.", file.string(),
                                   folder.string()));
-    if (access(folder.c_str(), W_OK | X_OK) != 0)
+    // A pipe or a device is written in its place. Any other file is replaced, in the folder where it is.
+    const bool in_place =
+        std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
+    if (in_place ? access(file.c_str(), W_OK) != 0
+                 : access(canonical_name(file).parent_path().c_str(), W_OK | X_OK) != 0)
         throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));
 }
 
