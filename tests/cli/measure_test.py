@@ -107,6 +107,18 @@ class MeasureTest(InFolder):
         found = self.assert_like_the_exact(self.measured("--clockwise", phase=180))
         self.assertAlmostEqual(found["camera"]["fitting_phase"], 180.0, delta=3.0)
 
+    def test_frames_with_negative_numbers_count_like_others(self):
+        table = {k: f for k, f in self.answer()[2].items() if k < 6 * FRAMES}
+        found = []
+        for shift in (0, 3 * FRAMES):  # whole periods
+            self.write({k - shift: f for k, f in table.items()})
+            found.append(self.measured(measure="density", warmup=1))
+        self.assertEqual(found[1]["frames"], 5 * FRAMES)
+        self.assertEqual(found[1]["frames"], found[0]["frames"])
+        # The clock of a frame is a rounded difference.
+        ratio = found[1]["rotation"]["mean_by_time"]["mean"] / found[0]["rotation"]["mean_by_time"]["mean"]
+        self.assertAlmostEqual(ratio, 1.0, delta=1e-9)
+
     def rejected(self, *words, options=(), **changed):
         done = self.call(*options, **changed)
         self.assertEqual(done.returncode, 1, done.stderr)

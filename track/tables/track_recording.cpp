@@ -120,19 +120,18 @@ class TrackReader {
         if (number_.empty() || id_.size() % number_.size() != 0 ||
             position_.size() != 3 * id_.size())
             contradicts(path, "its columns differ in length");
-        if (!std::is_sorted(number_.begin(), number_.end(), std::less_equal<>()))
-            contradicts(path, "its frame numbers do not ascend");
+        if (!time_.empty() && time_.size() != number_.size())
+            contradicts(path, "its columns differ in length");
     }
     Tracks read() {
         const auto radius = column("radius"), spin = column("spin");
         const std::size_t row = id_.size() / number_.size();
         Tracks tracks;
         tracks.y_down = true;
-        const bool uneven = has_uneven_times();
         for (std::size_t k = 0; k < number_.size(); ++k) {
             TrackFrame f;
             f.number = number_[k];
-            if (uneven) f.time = time_[k];
+            if (!time_.empty()) f.time = time_[k];
             for (std::size_t at = k * row; at < (k + 1) * row; ++at) {
                 if (id_[at] == no_disc) continue;
                 if (!f.id.empty() && id_[at] <= f.id.back())
@@ -149,6 +148,9 @@ class TrackReader {
         }
         if (tracks.frames.empty())
             throw FileError(fmt::format("'{}' holds no positions.", path_.string()));
+        require_ascending_frames(tracks, path_);
+        if (!has_uneven_times())
+            for (TrackFrame& f : tracks.frames) f.time.reset();
         return tracks;
     }
 
@@ -156,7 +158,7 @@ class TrackReader {
     /// Times of equal steps are those of the frame numbers, which readers use.
     bool has_uneven_times() const {
         constexpr double rounding = 1e-6;  // of a step
-        if (time_.size() != number_.size() || number_.size() < 3) return false;
+        if (time_.empty() || number_.size() < 3) return false;
         const double step =
             (time_.back() - time_.front()) / double(number_.back() - number_.front());
         for (std::size_t k = 0; k < number_.size(); ++k)

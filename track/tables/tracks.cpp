@@ -174,7 +174,13 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         const std::int64_t id = table.integer(*particle), number = table.integer(*frame);
         Entry entry{{table.number(*x), table.number(*y)}, 0.0, unknown};
         if (radius) entry.radius = table.number(*radius);
-        if (time) times[number] = table.number(*time);
+        if (time) {
+            const double here = table.number(*time);
+            const double first = times.try_emplace(number, here).first->second;
+            if (first != here)
+                lines.fail(fmt::format("the time of frame {} is {}, but {} in an earlier line",
+                                       number, here, first));
+        }
         // The table counts spins counter-clockwise in the image; y points down, which flips the
         // sign.
         if (spin && !table.is_empty(*spin)) entry.spin = -table.number(*spin);
@@ -197,6 +203,7 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
             if (spin) f.spin.push_back(entry.spin);
         }
     for (auto& [number, f] : frames) result.frames.push_back(std::move(f));
+    require_ascending_frames(result, path);
     return result;
 }
 
@@ -218,8 +225,6 @@ Tracks read_lammps_dump(const std::filesystem::path& path) {
             frame = {};
             atoms = -1;
             frame.number = integer("timestep");
-            if (!result.frames.empty() && frame.number <= result.frames.back().number)
-                lines.fail("the time steps do not ascend");
         } else if (line == "ITEM: NUMBER OF ATOMS") {
             atoms = integer("atoms");
             if (atoms < 0 || atoms > std::int64_t(text.size()))
@@ -237,7 +242,21 @@ Tracks read_lammps_dump(const std::filesystem::path& path) {
         }
     }
     if (result.frames.empty()) throw FileError(fmt::format("'{}' holds no frames.", path.string()));
+    require_ascending_frames(result, path);
     return result;
+}
+
+void require_ascending_frames(const Tracks& tracks, const std::filesystem::path& path) {
+    for (std::size_t k = 1; k < tracks.frames.size(); ++k) {
+        const TrackFrame &before = tracks.frames[k - 1], &here = tracks.frames[k];
+        if (here.number <= before.number)
+            throw FileError(fmt::format("'{}': frame {} follows frame {}, but frames must ascend.",
+                                        path.string(), here.number, before.number));
+        if (here.time && !(*here.time > before.time))
+            throw FileError(fmt::format(
+                "'{}': the time of frame {} is {}, which is not after the time {} of frame {}.",
+                path.string(), here.number, *here.time, *before.time, before.number));
+    }
 }
 
 double TrackScale::our_period() const { return amplitude > 0.0 ? 2.0 * pi * amplitude : period; }

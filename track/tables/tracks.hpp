@@ -75,6 +75,10 @@ struct TrackScale {
 Tracks read_trackpy_csv(const std::filesystem::path& path);
 Tracks read_lammps_dump(const std::filesystem::path& path);
 
+/// Throws FileError unless each frame has a later number, and a later time if times are given, than
+/// the frame before it. Every reader ends with this check.
+void require_ascending_frames(const Tracks& tracks, const std::filesystem::path& path);
+
 SnapshotSeries series_of(Tracks tracks, const TrackScale& scale);
 
 }  // namespace swirl

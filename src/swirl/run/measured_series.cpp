@@ -159,6 +159,8 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
                               double skip, const MeasuringControl& control) {
     if (series.frames == 0) throw Failure("there are no frames.");
     const Snapshot first = series.frame(0);
+    // Frames of a camera may have negative numbers, and then begin before time 0.
+    const double begin = std::min(first.time(), 0.0);
     MeasuredSeries measured;
     measured.frames_per_period = frames_per_period(series);
     Observation observation({first.container_radius, first.period, series.units}, names,
@@ -179,7 +181,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
         const Snapshot s = series.observed(k);
         const bool new_discs = next_break != series.breaks.end() && *next_break == k;
         if (new_discs) ++next_break;
-        if (s.time() < skip * s.period) continue;
+        if (s.time() < begin + skip * s.period) continue;
         if (measured.frames > 0 && s.periods != period) {
             rotation.close_block();
             observation.close_block();
@@ -197,7 +199,8 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
     observation.close_block();
     observation.add_energy(series.missing_energy);
     measured.rotation = rotation.estimates();
-    measured.periods = series.frame(series.frames - 1).time() / first.period - skip;
+    const double end = series.frame(series.frames - 1).time();
+    measured.periods = (end - begin) / first.period - skip;
     const std::size_t periods = whole_periods(measured);
     measured.reports = observation.report(periods);
     for (Estimate* const e : {&measured.rotation.mean_by_time, &measured.rotation.rigid_by_time})

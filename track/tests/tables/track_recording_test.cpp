@@ -124,6 +124,17 @@ TEST(TrackRecording, InvalidFilesAreRejected) {
         file.flush();
     }
     EXPECT_NE(error_message(scratch / "twice.h5").find("do not ascend"), std::string::npos);
+
+    write(scratch / "back.h5");
+    {
+        Hdf5File file(scratch / "back.h5", JournaledFile::Mode::change);
+        Column times = file.column("/particles/tracks/position/time");
+        const std::vector<double> back{0.7, 0.5, 0.4};
+        times.write<double>(0, 3, back.data());
+        file.flush();
+    }
+    EXPECT_NE(error_message(scratch / "back.h5").find("is not after the time 0.7 of frame 4"),
+              std::string::npos);
     EXPECT_EQ(error_message(scratch / "none.h5").find("contradicts"), std::string::npos);
 }
 

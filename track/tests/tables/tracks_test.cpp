@@ -104,6 +104,21 @@ TEST(TrackpyTable, ErrorsNameTheLine) {
               std::string::npos);
 }
 
+TEST(TrackpyTable, TimesAscendAndEachFrameHasOne) {
+    const auto rejected = [](const std::string& text) { return error_message(tracks_in, text); };
+    const std::string head = "frame,particle,x,y,seen,time,radius,spin\n";
+    EXPECT_EQ(tracks_in(head + "7,1,1,2,1,0.1,3,\n8,1,1,2,1,0.2,3,\n").frames.size(), 2u);
+    EXPECT_NE(rejected(head + "7,1,1,2,1,0.2,3,\n8,1,1,2,1,0.1,3,\n")
+                  .find("the time of frame 8 is 0.1, which is not after the time 0.2 of frame 7"),
+              std::string::npos);
+    // A duplicate of a frame.
+    EXPECT_NE(rejected(head + "7,1,1,2,1,0.2,3,\n8,1,1,2,1,0.2,3,\n").find("is not after"),
+              std::string::npos);
+    EXPECT_NE(rejected(head + "7,1,1,2,1,0.2,3,\n7,2,9,2,1,0.3,3,\n")
+                  .find("line 3: the time of frame 7 is 0.3, but 0.2 in an earlier line"),
+              std::string::npos);
+}
+
 TEST(RepairedTracks, OnlyShortGapsAreInterpolated) {
     // Missing in frames 2 … 6, and then in six frames.
     const Tracks tracks = repaired(
@@ -386,7 +401,8 @@ TEST(LammpsDump, ErrorsNameTheLine) {
                   .find("line 10: column 'y' is 'inf'"),
               std::string::npos);
     const std::string frame = dump_head + "ITEM: ATOMS id x y\n1 0 0\n2 1 1\n";
-    EXPECT_NE(rejected(frame + frame).find("the time steps do not ascend"), std::string::npos);
+    EXPECT_NE(rejected(frame + frame).find("frame 4 follows frame 4, but frames must ascend"),
+              std::string::npos);
     EXPECT_NE(rejected("ITEM: TIMESTEP\n0\nITEM: ATOMS id x y\n").find("is missing before"),
               std::string::npos);
 }
