@@ -14,6 +14,8 @@ At last, a warning of the compiler kills it, as it stops the build of the tests.
     mutate.py --random 100 --seed 4 mutations drawn from a seed (draw.py)
     mutate.py --random 60 --seed today --score 90
                                     a sample for which no test was written: the seed is the date (UTC)
+    mutate.py --random 60 --seed 4 --number 0 1 2 3 --objects FOLDER
+                                    a part of a sample. The next call, for the next part, uses the objects of this one
 
 The score of a random sample is the share that a test notices, of the mutations that compile and are not in
 equivalent.py. A mutation that changes no result, and is not there yet, counts as missed.
@@ -115,11 +117,19 @@ def tests_of(file, layers=LAYERS):
                                            file not in included(test), test))
 
 
-class Builder:
-    """Compiles and runs test programs in a scratch folder, and caches the objects."""
+@functools.lru_cache(maxsize=None)
+def version_of_compiler():
+    return subprocess.run([COMPILER, "--version"], capture_output=True, text=True, check=True).stdout
 
-    def __init__(self, scratch, baseline_only=False):
+
+class Builder:
+    """Compiles and runs test programs in a scratch folder, and caches the objects there or in another folder."""
+
+    def __init__(self, scratch, baseline_only=False, objects=None):
         self.scratch = scratch
+        self.objects = objects or scratch
+        os.makedirs(self.objects, exist_ok=True)
+        self.compiled_by = repr([version_of_compiler(), FLAGS, baseline_only])
         self.flags = FLAGS + [f"-I{scratch}", "-isystem/usr/include/hdf5/serial", '-DSWIRL_BUILD="mutated"']
         if baseline_only:  # the vector width; the wide loops are the same source
             self.flags.append("-DSWIRL_BASELINE_ONLY=1")
@@ -137,10 +147,10 @@ class Builder:
     def compiled(self, part, file, text, overlay):
         """The object of `part`, compiled with `text` instead of `file`; None if it does not compile."""
         seen = included(part)
-        hashed = hashlib.sha256(part.encode())
+        hashed = hashlib.sha256((self.compiled_by + part).encode())
         for path in sorted(seen):
             hashed.update((text if path == file else text_of(path)).encode())
-        target = os.path.join(self.scratch, hashed.hexdigest()[:32] + ".o")
+        target = os.path.join(self.objects, hashed.hexdigest()[:32] + ".o")
         if os.path.exists(target):
             return target
         where = os.path.join(SOURCE, part)
@@ -149,7 +159,7 @@ class Builder:
         wide = [flag for ending, flags in WIDE.items() if part.endswith(ending) for flag in flags]
         # The precompiled headers were compiled without these flags, so they cannot be used.
         headers = [] if wide else ["-include", self.headers]
-        made = target + f".{threading.get_ident()}"
+        made = target + f".{os.getpid()}.{threading.get_ident()}"
         folders = [overlay, *(os.path.join(SOURCE, folder) for folder in ("src", "tests", "bench"))]
         search = ["-I" + folder for folder in folders]
         result = subprocess.run([COMPILER, *self.flags, *wide, *headers, *search, "-c", where, "-o",
@@ -246,7 +256,7 @@ def run_chosen(options, pool):
 
     count, wrong = {"killed": 0, "equivalent": 0, "survived": 0, "not compiled": 0}, 0
     with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
-        builder = Builder(scratch)
+        builder = Builder(scratch, objects=options.objects)
         for number, (outcome, what) in zip(chosen, pool.map(functools.partial(judge, builder), chosen)):
             file, before, after, description, *equivalent = MUTATIONS[number]
             if outcome == "survived" and equivalent:
@@ -276,7 +286,7 @@ def run_random(options, pool):
         return builder.judge(f"random_{number}", file, "".join(lines), layers)
 
     with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
-        builder = Builder(scratch, baseline_only=True)
+        builder = Builder(scratch, baseline_only=True, objects=options.objects)
         chosen = [(number, site) for number, site in
                   enumerate(draw.drawn(SOURCE, options.random, options.seed))
                   if options.part in site[0] and (not options.number or number in options.number)]
@@ -312,6 +322,7 @@ def main():
     call.add_argument("--seed", type=seed_in, default=1, help="of the random mutations, or today: the date [1]")
     call.add_argument("--score", type=float, metavar="PERCENT", help="random ones: fail only below this score")
     call.add_argument("--own-layer", action="store_true", help="random ones: run the tests of the file's layer only")
+    call.add_argument("--objects", metavar="FOLDER", help="keep the compiled objects there, for the next call")
     call.add_argument("--jobs", type=int, default=1, help="mutations at a time [1]")
     options = call.parse_args()
     os.nice(max(0, 15 - os.nice(0)))
