@@ -3,9 +3,11 @@
    before it, or keeps a record of everything that changes files.
 
      FAULT_CALL   open read stat pwrite write fsync rename close unlink truncate, or change: any that
-                  changes files (all but open for reading, read, stat and close), or new: operator new
+                  changes files (all but open for reading, read, stat, close and write), or new:
+                  operator new. write is that of a C++ stream
      FAULT_AT     which call of that kind, from 1; 0: none, only count
      FAULT_ERRNO  the number of the error it gives; 0: the process is killed instead
+     FAULT_SIGNAL before that call, this signal is sent to the process; the call does not fail
      FAULT_EVER   1: all calls from there on fail, not only this one
      FAULT_UNDER  only files in this folder count
      FAULT_COUNT  the number of calls of each kind is written here in the end
@@ -35,7 +37,8 @@ static char names[MOST_FILES][512];        /* of the open files that count; "" f
 static struct { int file; off_t at; size_t size; } pending[MOST_PENDING];
 static int pending_count;
 /* The first counts every call that changes files. operator new is counted only if it is FAULT_CALL. */
-static const char* const kinds[] = {"change", "open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close", "stat", "new"};
+static const char* const kinds[] = {"change", "open",   "read",  "pwrite", "fsync", "truncate",
+                                    "rename", "unlink", "close", "stat",   "write", "new"};
 #define KINDS (int)(sizeof kinds / sizeof *kinds)
 static long counted[KINDS];
 static int record = -1;
@@ -102,6 +105,11 @@ static int fails(const char* call, int changes) {
     }
     const long at = atol(setting("FAULT_AT"));
     if (count == 0 || at == 0 || (count != at && !(count > at && *setting("FAULT_EVER") == '1'))) return 0;
+    const int sent = atoi(setting("FAULT_SIGNAL"));
+    if (sent != 0) {
+        kill(getpid(), sent);
+        return 0;
+    }
     const int error = atoi(setting("FAULT_ERRNO"));
     if (error == 0) kill(getpid(), SIGKILL);
     errno = error;
@@ -203,6 +211,26 @@ ssize_t pwrite(int file, const void* bytes, size_t size, off_t at) {
 }
 ssize_t pwrite64(int file, const void* bytes, size_t size, off_t at) {
     return write_at(file, bytes, size, at);
+}
+
+/* A stream opens its file within the C library, so its name is that of the descriptor. */
+static int is_stream_under(int file) {
+    char link[64], name[512];
+    if (strcmp(setting("FAULT_CALL"), "write") != 0) return 0;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+    const ssize_t length = readlink(link, name, sizeof name - 1);
+    if (length < 0) return 0;
+    name[length] = '\0';
+    return under(name);
+}
+ssize_t write(int file, const void* bytes, size_t size) {
+    if (is_stream_under(file)) {
+        pthread_mutex_lock(&lock);
+        const int failed = fails("write", 0);
+        pthread_mutex_unlock(&lock);
+        if (failed) return -1;
+    }
+    return syscall(SYS_write, file, bytes, size);
 }
 
 /* Forgets what waits for a sync; when that failed, it is lost. */

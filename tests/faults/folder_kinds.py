@@ -24,17 +24,24 @@ MAP_OF_N_C = [["map", "--x", "mu=0.5,1", "--quantity", "N_c", "--from", "4", "--
                "1", "--seeds", "2", "--no-figure", "--out", "FOLDER"]]
 CROSSING = [["crossing", "--mu", "1", "--from", "4", "--to", "7", "--events", "300", "--tolerance", "2", "--json",
              "FOLDER/N_c.json", "--csv", "FOLDER/N_c.csv", "--out", "FOLDER"]]
+# Stopped in the middle of a run, so that the folder has a checkpoint and an unfinished recording.
+LONG = ["--discs", "8", "--periods", "40", "--warmup", "1", "--frames", "8"]
+STOPPED_SWEEP = [["sweep", *LONG, "--mu", "0.1,0.5,1", "--series", "--out", "FOLDER"], ["collect", "FOLDER"]]
+STOPPED_RUN = [["run", *LONG, "--trajectory", "FOLDER/t.h5", "--log-events", "FOLDER/e.h5", "--series", "FOLDER/s.csv",
+                "--json", "FOLDER/r.json", "--resume"]]
 PAPER = [["paper", "FOLDER"]]  # study.make() of a few points (folders_test.py), without drawings
 
 KINDS = {"sweep": SWEEP, "grown": GROWN, "chain": CHAIN, "points": TABLE, "map": MAP, "N_c map": MAP_OF_N_C,
-         "crossing": CROSSING, "paper": PAPER}
+         "crossing": CROSSING, "stopped sweep": STOPPED_SWEEP, "stopped run": STOPPED_RUN, "paper": PAPER}
+# The first call is stopped when it writes this line of its series: a line is written after each period.
+STOPPED = {"stopped sweep": 65, "stopped run": 25}
 
 
 def continuing(kind, folder):
     """The calls that complete a folder: those that made it, if the plan is lost or the call is only repeated."""
     calls = KINDS[kind]
     command = calls[0][0]
-    if command in ("crossing", "paper") or not os.path.exists(os.path.join(folder, "plan.json")):
+    if command in ("run", "crossing", "paper") or not os.path.exists(os.path.join(folder, "plan.json")):
         return calls
     if command == "map":
         return [["map", "--no-figure", "--out", "FOLDER"]]
@@ -59,6 +66,8 @@ def write_inputs(folder):
 def without_times(value):
     if isinstance(value, dict):
         return {name: without_times(part) for name, part in value.items() if name not in TIMES}
+    if isinstance(value, str):
+        return value.replace("--overwrite", "--resume")  # in the command of a result
     return [without_times(part) for part in value] if isinstance(value, list) else value
 
 
@@ -77,11 +86,12 @@ def content_of(path):
 
 
 def files_of(folder):
-    """The content of every file, by its name in the folder. Locks have none."""
+    """The content of every file, by its name in the folder. Locks have none, and --overwrite keeps a copy of the
+    checkpoint of the run that it replaces."""
     found = {}
     for where, _, names in os.walk(folder):
         for name in names:
-            if name not in ("locks", "lock"):
+            if name not in ("locks", "lock") and ".checkpoint.backup" not in name:
                 path = os.path.join(where, name)
                 found[os.path.relpath(path, folder)] = content_of(path)
     return found

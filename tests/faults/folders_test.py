@@ -15,6 +15,7 @@ import os
 import random
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -22,7 +23,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from folder_kinds import KINDS, continuing, files_of, is_superseded, write_inputs  # noqa: E402
+from folder_kinds import KINDS, STOPPED, continuing, files_of, is_superseded, write_inputs  # noqa: E402
 from program import HANG, SOURCE, SWIRL, folder_in_memory  # noqa: E402
 
 SHIM = os.environ["SWIRL_FAULTS"]
@@ -33,6 +34,8 @@ FAULTS = 10**6 if EVERY else 40
 KILLS = 10**6 if EVERY else 20
 MOST_CALLS = 12  # an error names one damaged file, and the calls are made again after it
 ERRORS = (errno.EIO, errno.ESTALE, errno.EMFILE)
+
+OPTIONS = {"collect": [], "run": ["--quiet"]}  # of all calls of these commands
 
 PAPER = """
 import sys
@@ -63,7 +66,7 @@ def run(call, folder, inputs, **environment):
     if call[0] == "paper":
         words = ["/usr/bin/python3", "-B", "-c", PAPER, os.path.join(SOURCE, "paper"), folder]
     else:
-        words = [SWIRL, *call, *([] if call[0] == "collect" else ["--threads", "1", "--quiet"])]
+        words = [SWIRL, *call, *OPTIONS.get(call[0], ["--threads", "1", "--quiet"])]
     return subprocess.run(words, capture_output=True, text=True, timeout=HANG, stdin=subprocess.DEVNULL,
                           env={**os.environ, "NO_COLOR": "1", **environment})
 
@@ -96,6 +99,13 @@ class Folders(unittest.TestCase):
                 done, counts = counted(call, cls.copy, cls.inputs)
                 cls.changes[kind].append(counts["change"])
             cls.expected[kind], cls.printed[kind] = files_of(cls.copy), done.stdout
+            if kind in STOPPED:
+                shutil.rmtree(cls.copy)
+                os.mkdir(cls.copy)
+                run(calls[0], cls.copy, cls.inputs, LD_PRELOAD=SHIM, FAULT_UNDER=cls.copy, FAULT_CALL="write",
+                    FAULT_AT=str(STOPPED[kind]), FAULT_SIGNAL=str(int(signal.SIGINT)))
+                left = files_of(cls.copy)
+                assert any(name.endswith(".checkpoint") for name in left), left.keys()
             cls.whole[kind] = os.path.join(cls.top, kind)
             os.rename(cls.copy, cls.whole[kind])
 
@@ -113,6 +123,8 @@ class Folders(unittest.TestCase):
             done = run(calls[0], folder, self.inputs)
             if done.returncode == 0:
                 del calls[0]
+            elif "--resume" in calls[0] and re.search(r"hint: .*--overwrite", done.stderr):
+                calls[0] = [word.replace("--resume", "--overwrite") for word in calls[0]]
             elif self.removed_as_advised(done.stderr, folder) == "plan.json":
                 calls = list(KINDS[kind])
             if not calls:
@@ -121,8 +133,11 @@ class Folders(unittest.TestCase):
         self.fail(f"no end: {done.stderr}")
 
     def removed_as_advised(self, error, folder):
-        named = re.search(rf"error: (?:'|.*? ')({re.escape(folder)}/[^']*)'", error)
-        self.assertTrue(named and re.search(r"hint: .*\bremove it\b", error), error)
+        quoted = rf"({re.escape(folder)}/[^']*)'"
+        named = re.search(rf"hint: remove '{quoted}", error)
+        if not named:
+            named = re.search(rf"error: (?:'|.*? '){quoted}", error)
+            self.assertTrue(named and re.search(r"hint: .*\bremove it\b", error), error)
         os.remove(named[1])
         return os.path.relpath(named[1], folder)
 
@@ -154,7 +169,7 @@ class Folders(unittest.TestCase):
             kind = kinds[number % len(kinds)]
             with self.subTest(number=number, kind=kind, seed=SEED):
                 folder = self.copy_of(kind)
-                names = sorted(name for name, content in self.expected[kind].items()
+                names = sorted(name for name, content in files_of(folder).items()
                                if content and not is_superseded(kind, name))
                 harm = []
                 for name in self.choose.sample(names, self.choose.randint(1, 3)):

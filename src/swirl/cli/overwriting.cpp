@@ -78,21 +78,26 @@ void reject_files_of_another_run(const RunFiles& files, const std::string& json)
     };
     for (const auto& [option, file] :
          {std::pair{"trajectory", files.trajectory}, std::pair{"log_events", files.event_log}})
-        if (is_there(file) && !may_replace(option, file)) require_recording_of(file, saved.run);
+        if (is_there(file) && !may_replace(option, file) &&
+            recorded_entry(file, run_entry) != saved.run)
+            throw Failure(fmt::format(
+                "'{}' was recorded by another run than the checkpoint; it was left "
+                "unchanged.\nhint: "
+                "put back the recording of this run, or start the run again with --overwrite.",
+                file.string()));
     const auto series = saved.options.find("series");
     if (has_content(files.series) &&
         (series == saved.options.end() || fs::path(series->second) != files.series))
         throw Failure(fmt::format(
             "'{}' is not the series of the run in the checkpoint; it was left unchanged.\nhint: "
-            "choose another name.",
+            "rename it or remove it.",
             files.series.string()));
     if (!result || may_replace("json", json)) return;
     const Json of_checkpoint = parse_json(saved.configuration);
     if (without_length(config_in(result_in(json))) != without_length(of_checkpoint))
         throw Failure(
             fmt::format("'{}' is not a result of the run in the checkpoint; it was left "
-                        "unchanged.\nhint: choose "
-                        "another name.",
+                        "unchanged.\nhint: rename it or remove it.",
                         json));
 }
 

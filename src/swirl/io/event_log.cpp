@@ -130,7 +130,7 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const Snapshot
 
 EventLogWriter EventLogWriter::resume(const std::filesystem::path& path, std::uint64_t events,
                                       const std::string& run) {
-    EventLogWriter writer(path, reopen_recording(path, run));
+    EventLogWriter writer(path, reopen_recording(path, run, "/events/clock"));
     writer.file_->set_attribute(parameters, "complete", std::vector<std::int64_t>{0});
     writer.are_spheres_ = writer.file_->has("/floor");
     writer.columns_ = open_columns(*writer.file_, writer.are_spheres_);

@@ -22,14 +22,6 @@ std::string recorded_entry(const std::filesystem::path& file, const std::string&
     return recording.has(path) ? recording.read_text(path) : "";
 }
 
-void require_recording_of(const std::filesystem::path& file, const std::string& run) {
-    if (recorded_entry(file, run_entry) != run)
-        throw FileError(
-            fmt::format("'{}' was recorded by another run than the checkpoint; it was left "
-                        "unchanged.\nhint: a run can only be continued with its own recording.",
-                        file.string()));
-}
-
 void reject_foreign_recording(const std::filesystem::path& path, const std::string& run) {
     const auto partial = partial_name(path);
     if (!file_exists(partial)) return;
@@ -42,10 +34,22 @@ void reject_foreign_recording(const std::filesystem::path& path, const std::stri
                         partial.string()));
 }
 
-Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run) {
+Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run,
+                          const std::string& dataset) {
     const auto partial = partial_name(path);
     const bool is_finished = !file_exists(partial) && file_exists(path);
-    require_recording_of(is_finished ? path : partial, run);
+    if (!is_finished && !file_exists(partial))
+        throw DamagedFile(
+            fmt::format("'{}' is missing, but the checkpoint continues it.", partial.string()));
+    const auto file = is_finished ? path : partial;
+    if (recorded_entry(file, run_entry) != run)
+        throw DamagedFile(
+            fmt::format("'{}' was recorded by another run than the checkpoint; it was left "
+                        "unchanged.",
+                        file.string()));
+    if (!Hdf5File(file, JournaledFile::Mode::read).has(dataset))
+        throw DamagedFile(fmt::format("'{}' is a recording of another kind: it has no {}.",
+                                      file.string(), dataset));
     if (is_finished) rename_durably(path, partial);
     return {partial, JournaledFile::Mode::change};
 }
@@ -53,7 +57,7 @@ Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& 
 void require_recorded(const std::filesystem::path& path, const char* items, std::uint64_t recorded,
                       std::uint64_t in_checkpoint) {
     if (recorded < in_checkpoint)
-        throw FileError(fmt::format(
+        throw DamagedFile(fmt::format(
             "'{}' has {} {}, but the checkpoint was made when it had {}; it does not belong to the "
             "checkpoint, or was changed since.",
             path.string(), recorded, items, in_checkpoint));

@@ -23,15 +23,13 @@ void reject_foreign_recording(const std::filesystem::path& path, const std::stri
 /// The provenance entry `name` of a recording, "" if there is none.
 std::string recorded_entry(const std::filesystem::path& file, const std::string& name);
 
-/// Throws FileError if this recording belongs to another run.
-void require_recording_of(const std::filesystem::path& file, const std::string& run);
+/// Opens a recording to continue it. Throws DamagedFile, without a hint, if it is missing, belongs to
+/// another run, or has no such dataset: it is a recording of another kind. If the process was killed after the recording was published and before the result
+/// was written, the recording gets its partial name back.
+Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run,
+                          const std::string& dataset);
 
-/// Opens a recording to continue it. Throws FileError if it belongs to another run. If the process
-/// was killed after the recording was published and before the result was written, the recording
-/// gets its partial name back.
-Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run);
-
-/// Throws FileError if a recording has fewer `items` ("frames" or "events") than the checkpoint
+/// Throws DamagedFile if a recording has fewer `items` ("frames" or "events") than the checkpoint
 /// that continues it.
 void require_recorded(const std::filesystem::path& path, const char* items, std::uint64_t recorded,
                       std::uint64_t in_checkpoint);

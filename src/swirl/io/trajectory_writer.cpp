@@ -225,7 +225,7 @@ class FrameFile {
     std::uint64_t discs() const { return discs_; }
     bool are_spheres() const { return are_spheres_; }
 
-    /// Drops all frames but the first `frames`. Throws FileError if there are fewer.
+    /// Drops all frames but the first `frames`. Throws DamagedFile if there are fewer.
     void truncate(std::uint64_t frames) {
         const auto truncate_column = [&](Column& column) {
             require_recorded(path_, "frames", column.rows(), frames);
@@ -444,8 +444,8 @@ TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const Snap
 
 TrajectoryWriter TrajectoryWriter::resume(const std::filesystem::path& path, std::uint64_t frames,
                                           const std::string& run) {
-    return TrajectoryWriter(
-        std::make_unique<Pipeline>(FrameFile(path, reopen_recording(path, run)), frames));
+    return TrajectoryWriter(std::make_unique<Pipeline>(
+        FrameFile(path, reopen_recording(path, run, group_of(position) + "/value")), frames));
 }
 
 TrajectoryWriter::~TrajectoryWriter() = default;

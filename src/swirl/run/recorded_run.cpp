@@ -242,7 +242,7 @@ class Recorder {
     /// A series that is there already. In the folder of a sweep it belongs to the run, even if it is
     /// damaged; the files of a call are the user's.
     bool may_be_of_another_run() const {
-        return files_.resume && !resumes_checkpoint_ && !files_.call.empty();
+        return files_.resume && !resumes_checkpoint_ && !files_.in_folder_of_runs;
     }
 
     void start(Provenance provenance, const std::atomic<bool>* stop) {
@@ -294,10 +294,7 @@ class Recorder {
                     files_.checkpoint.string()));
             extended_ = resolve(parameters_in(about.at("identity").at("parameters").dump()));
         } else if (about.at("identity") != here)
-            throw UsageError(fmt::format(
-                "the checkpoint '{}' belongs to another run: {}.\nhint: resume with the same "
-                "parameters, or choose another checkpoint with --checkpoint.",
-                files_.checkpoint.string(), difference(about.at("identity"), here)));
+            reject_checkpoint(difference(about.at("identity"), here));
         StateReader state(checkpoint.state);
         std::uint64_t frames = 0, logged = 0;
         resumed_.emplace();
@@ -309,10 +306,36 @@ class Recorder {
                 files_.checkpoint.string(), events_, logged));
         run_name_ = about.value("run", std::string());
         overwrites_ = about.value("overwrites", false);
+        try {
+            reopen_recordings(frames, logged);
+        } catch (const DamagedFile& error) {
+            throw DamagedFile(fmt::format("{}\nhint: {}", error.what(), how_to_start_again()));
+        }
+    }
+
+    void reopen_recordings(std::uint64_t frames, std::uint64_t logged) {
         if (!files_.trajectory.empty())
             trajectory_ = TrajectoryWriter::resume(files_.trajectory, frames, name());
         if (!files_.event_log.empty())
             event_log_ = EventLogWriter::resume(files_.event_log, logged, name());
+    }
+
+    /// The checkpoint is that of another run.
+    [[noreturn]] void reject_checkpoint(const std::string& difference) const {
+        const std::string problem = fmt::format("the checkpoint '{}' belongs to another run: {}.",
+                                                files_.checkpoint.string(), difference);
+        if (files_.in_folder_of_runs)
+            throw DamagedFile(problem + "\nhint: remove it to start its run again.");
+        throw UsageError(problem +
+                         "\nhint: resume with the same parameters, or choose another checkpoint "
+                         "with --checkpoint.");
+    }
+
+    /// The only way on if the checkpoint continues a recording that is lost, damaged or exchanged.
+    std::string how_to_start_again() const {
+        if (!files_.in_folder_of_runs)
+            return "start the run again with --overwrite instead of --resume.";
+        return fmt::format("remove '{}' to start its run again.", files_.checkpoint.string());
     }
 
     /// The run's name in its recordings, which a short run does not need.

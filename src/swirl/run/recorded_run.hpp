@@ -44,6 +44,8 @@ struct RunFiles {
     /// Start again and replace the unfinished recording of another run. An existing checkpoint is
     /// renamed to backup_name().
     bool overwrite = false;
+    /// The files are part of a folder of runs, and not named by the user.
+    bool in_folder_of_runs = false;
     /// The options of the call, stored in the checkpoint so that --resume needs no other option.
     ParameterTexts call;
 };

@@ -66,6 +66,7 @@ RunFiles files_of_point(const fs::path& folder, const SweepPlan& plan, std::size
     files.checkpoint = part_of_sweep(folder, "checkpoints", plan) / (number + ".checkpoint");
     files.resume = true;
     files.overwrite = true;  // existing files of this number belong to this point
+    files.in_folder_of_runs = true;
     if (plan.frames > 0) files.trajectory = folder / "trajectories" / (number + ".h5");
     if (plan.series) files.series = part_of_sweep(folder, "series", plan) / (number + ".csv");
     files.frames.per_period = std::max(plan.frames, 1);
