@@ -211,12 +211,13 @@ class TrackTest(InFolder):
                 self.assertLess(abs(result.amplitude), 0.3)
                 self.assertLess(abs(result.omega), 5e-4)
                 self.assert_true_rotation(video, tracks, result.truth)
-        # A given tilt is used, and none with --tilt 0.
+        # A given tilt is used, and none with --tilt 0. (Without a correction, the limits above fail, too.)
         video = self.path("tilt8.mp4")
         given, _ = self.track(video, "--tilt", "8,250", "--quiet", name="given.csv")
         self.assertLess(Comparison(video, given).rms, 0.2)
-        none, _ = self.track(video, "--tilt", 0, "--quiet", name="none.csv")
-        self.assertGreater(Comparison(video, none).rms, 0.5)
+        if ALL:
+            none, _ = self.track(video, "--tilt", 0, "--quiet", name="none.csv")
+            self.assertGreater(Comparison(video, none).rms, 0.5)
 
     def test_rotation_from_a_video(self):
         video, folder = self.standard_tracks()
@@ -377,6 +378,8 @@ class TrackTest(InFolder):
         self.assertGreater(result.complete, 0.9)
         self.assertLess(result.rms, 2.0)  # 2.9 by edges and with a given number
         self.assertLess(abs(result.radius), 0.1)
+        if not ALL:
+            return
         # With their number, the size is found from the contact distance.
         done = swirl("track", video, "--out", self.path("tracks.csv"), "--discs", 28, "--overwrite")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -422,7 +425,7 @@ class TrackTest(InFolder):
 
     def test_a_number_that_the_video_contradicts_is_rejected_with_both(self):
         video = self.standard()
-        for given in (9, 40):
+        for given in some((40, 9), 1):
             self.assert_rejected(1, f"--discs is {given}", "20", call=swirl(
                 "track", video, "--discs", given, "--out", self.path("tracks.csv")))
 
@@ -480,6 +483,7 @@ class TrackTest(InFolder):
         done = swirl("measure", tracks, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    @slow("two videos of 300 frames; a container that rests twice is in test_a_container_moved_by_hand")
     def test_a_container_that_rests_in_most_frames(self):
         # 15 frames per period, of which one in three shows the container moving.
         few = list(SMALL)
