@@ -271,7 +271,10 @@ TEST(Scene, ArcOfTheTurnsRunsLeftForRotation) {
     for (const double turns : {0.2, -0.2, 1.2, -3.2}) {
         canvas.fill_page(style.theme.page);
         draw_scene(canvas, view, style, {.now = s, .turns = turns});
-        const Color color = turns < 0.0 ? style.theme.pinned : style.theme.loose;
+        // Vermillion with the swirl, blue against it, like the spins.
+        const double sign = turns < 0.0 ? -1.0 : 1.0;
+        const Color color = style.theme.direction(turns > 0.0);
+        EXPECT_GT(sign * (color.red - color.blue), 0.0);
         const Patch arc = patch_of(canvas, color);
         ASSERT_GT(arc.count, 100.0);
         // The arc covers 0.2 turns from the top, so its centroid is at about 0.1 turns. The

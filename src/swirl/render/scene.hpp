@@ -72,6 +72,10 @@ struct SceneContent {
     /// have the same discs in the same order.
     std::span<const std::int64_t> ids = {};
     std::span<const std::span<const std::int64_t>> past_ids = {};
+
+    bool turns_with_swirl() const {
+        return turns && *turns * cross(now.container_centre, now.container_velocity) > 0.0;
+    }
 };
 
 /// Draws everything, back to front.

@@ -302,7 +302,7 @@ void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& 
     const Theme& theme = spec_.style.theme;
     draw_label(canvas, number, {views_[k].centre.x - 1.24 * reach, caption_line_},
                {.size = 1.1 * em_,
-                .color = *content.turns < 0.0 ? theme.pinned : theme.loose,
+                .color = theme.direction(content.turns_with_swirl()),
                 .bold = true,
                 .even_digits = true});
 }

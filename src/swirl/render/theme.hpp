@@ -20,6 +20,9 @@ struct Theme {
     Color centrifugal, coriolis, velocity;
     Color accent;  // wide mark on the wall
     Color curve;   // curve of the running plot
+
+    /// Of a rotation with the swirl or against it, as on the browser page and in the figures.
+    constexpr const Color& direction(bool with_swirl) const { return with_swirl ? pinned : loose; }
 };
 
 /// For projectors and screens.
