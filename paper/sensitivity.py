@@ -9,7 +9,7 @@ direction changes between N = 24 and 48. What varies little from scenario to sce
 as much as it deviates from the paper is not.
 
 OUT receives the runs and sensitivity.csv; the table for docs/results/spheres.md is printed. Another call with the same OUT
-makes only the missing runs. Takes about 20 minutes on two cores.
+makes only the missing runs. Takes about 25 minutes on two cores.
 """
 
 import csv
@@ -39,9 +39,12 @@ QUANTITIES = {"s(25)": (25, "slip.pinned_region"), "s(48)": (48, "slip.pinned_re
 # Name, first μ, changed parameters, factor of the floor's friction coefficient relative to that of the contacts.
 SCENARIOS = (
     ("as published: e = 0.9, A = 11.5 mm", 0.33, {}, 1.0),
-    ("e = 0.6", 0.24, {"restitution": 0.6}, 1.0), ("e = 1", 0.4, {"restitution": 1.0}, 1.0),
+    ("e = 0.6", 0.24, {"restitution": 0.6}, 1.0), ("e = 0.75", 0.29, {"restitution": 0.75}, 1.0),
+    ("e = 1", 0.4, {"restitution": 1.0}, 1.0),
     ("floor friction × 0.5", 0.46, {}, 0.5), ("floor friction × 2", 0.25, {}, 2.0),
-    ("A = 9.5 mm", 0.32, {"amplitude": 9.5 / R_MM}, 1.0), ("A = 12.5 mm", 0.33, {"amplitude": 12.5 / R_MM}, 1.0),
+    ("A = 9.5 mm", 0.32, {"amplitude": 9.5 / R_MM}, 1.0), ("A = 10.5 mm", 0.33, {"amplitude": 10.5 / R_MM}, 1.0),
+    ("A = 12.5 mm", 0.33, {"amplitude": 12.5 / R_MM}, 1.0),
+    ("contact duration × 0.1", 0.33, {"contact_duration": 1e-4}, 1.0), ("contact duration × 10", 0.33, {"contact_duration": 1e-2}, 1.0),
     ("rolling resistance 0.01", 0.3, {"rolling_resistance": 0.01}, 1.0), ("radii ± 5 %", 0.33, {"sizes": "normal:1:0.05"}, 1.0),
     ("A = 5.75 mm, e = 0.6", 0.15, {"amplitude": 5.75 / R_MM, "restitution": 0.6}, 1.0))
 
