@@ -12,13 +12,12 @@ import swirl
 from scenes import SOURCE
 
 sys.path.insert(0, os.path.join(SOURCE, "paper"))
+import crossing_law  # noqa: E402
 from chapters import cause  # noqa: E402
 
-TABLE = os.path.join(SOURCE, "docs", "data", "figure_cause.csv")
 
-
-def rows():
-    with open(TABLE, encoding="utf-8", newline="") as table:
+def rows(ending=""):
+    with open(os.path.join(SOURCE, "docs", "data", f"figure_cause{ending}.csv"), encoding="utf-8", newline="") as table:
         return list(csv.DictReader(table))
 
 
@@ -67,3 +66,36 @@ def test_spins_that_are_stopped_decide_the_direction(body):
     assert min(rotation("stopped", "none at the wall" if body == "discs" else "none at all").values()) > 5
     if body == "spheres":
         assert rotation("free", "none at the wall")[48] < -5
+
+
+def test_two_sets_of_seeds_agree_with_each_other_and_with_earlier_measurements():
+    """Of 50 differences in units of their errors, the largest is below 3.5 with a probability of 0.98."""
+    apart = [float(row[name]) for row in rows("_repeated")
+             for name in ("first_from_before", "second_from_before", "first_from_second") if row[name]]
+    assert len(apart) > 45
+    assert max(map(abs, apart)) < 3.5
+    assert 0.6 < math.sqrt(sum(x * x for x in apart) / len(apart)) < 1.4
+
+
+def test_at_a_smooth_wall_the_floor_reverses_spheres_that_cannot_roll():
+    found = {(float(row["floor_friction"]), float(row["vertical_disc"])): row for row in rows("_floor")}
+    assert float(found[0.33, 1]["mean_by_time"]) < -0.05
+    for without in ((0, 1), (0.33, 0)):  # the floor; the friction between spheres that hinders rolling
+        assert float(found[without]["mean_by_time"]) > 0.98
+    turns = found[0.33, 1]
+    assert float(turns["torque_at_wall"]) < -3 < -10 * float(turns["torque_at_wall_error"])
+    assert abs(float(turns["torque_inside"])) < 0.3 * abs(float(turns["torque_at_wall"]))
+
+
+def test_the_law_for_n_c_is_tested_on_30_crossings_and_fails():
+    tested = rows("_law")
+    assert len(tested) >= 30
+    for row in tested:
+        expected = crossing_law.law(*(float(row[name]) for name in ("mu", "inertia", "cannot_spin", "container_radius")))
+        assert math.isclose(expected, float(row["law"]), rel_tol=1e-12)
+    assert max(abs(float(row["ratio"]) - 1) for row in tested) > 1
+
+
+def test_the_preprint_has_at_most_2000_words():
+    with open(os.path.join(SOURCE, "docs", "results", "stopping_the_spins.md"), encoding="utf-8") as page:
+        assert len(page.read().split()) <= 2000
