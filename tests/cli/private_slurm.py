@@ -28,7 +28,17 @@ def why_not():
         missing = [program for program in PROGRAMS if not shutil.which(program)]
     if missing:
         return f"{', '.join(missing)} not installed; Debian's packages slurm-wlm and munge have them"
+    if subprocess.run(["runuser", "-u", "munge", "--", "true"], capture_output=True).returncode:
+        return "root may not become the user munge here"
+    # From Slurm 23.11 on, Slurm.__init__ disables the plugin that needs them.
+    if version() < (23, 11) and not os.path.isdir("/sys/fs/cgroup"):
+        return "slurmd needs /sys/fs/cgroup"
     return None
+
+
+def version():
+    text = subprocess.run(["slurmd", "-V"], capture_output=True, text=True, check=True).stdout
+    return tuple(int(number) for number in re.search(r"(\d+)\.(\d+)", text).groups())
 
 
 def alive(pid):
@@ -101,15 +111,11 @@ SlurmdParameters=config_overrides
             for k, node in enumerate(self.nodes):
                 conf.write(f"NodeName={node} NodeHostname={host} NodeAddr=127.0.0.1 "
                            f"Port={port + 101 + k} CPUs={cpus} RealMemory=500 State=UNKNOWN\n")
-            # From Slurm 23.11 on, a node needs control groups unless this plugin is disabled.
-            if self.version() >= (23, 11):
+            # A node needs control groups unless this plugin is disabled.
+            if version() >= (23, 11):
                 write_text(f"{folder}/cgroup.conf", "CgroupPlugin=disabled\n")
             conf.write(f"PartitionName=main Nodes={','.join(self.nodes)} Default=YES "
                        "MaxTime=INFINITE State=UP OverSubscribe=NO\n")
-
-    def version(self):
-        text = subprocess.run(["slurmd", "-V"], capture_output=True, text=True, check=True).stdout
-        return tuple(int(number) for number in re.search(r"(\d+)\.(\d+)", text).groups())
 
     def run(self, *command):
         return subprocess.run(command, env=self.environment, capture_output=True, text=True,

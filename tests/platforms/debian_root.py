@@ -7,9 +7,10 @@ import shutil
 import subprocess
 
 # /proc lets a program find the libraries next to it; Python's pty needs pseudo-terminals; POSIX shared memory
-# needs /dev/shm. The mounts exist for one command only.
+# needs /dev/shm; Slurm needs the control groups in /sys. The mounts exist for one command only.
 MOUNTS = """
 mount -t proc proc "$0/proc"
+mount --rbind /sys "$0/sys"
 mount -t tmpfs tmpfs "$0/dev/shm"
 mount -t devpts -o newinstance,ptmxmode=0666 devpts "$0/dev/pts"
 mount --bind "$0/dev/pts/ptmx" "$0/dev/ptmx"
