@@ -270,10 +270,11 @@ TEST(Scene, ArcOfTheTurnsRunsLeftForRotation) {
     const Vec2 centre = view.on_page(s.container_centre);
     for (const double turns : {0.2, -0.2, 1.2, -3.2}) {
         canvas.fill_page(style.theme.page);
-        draw_scene(canvas, view, style, {.now = s, .turns = turns});
-        // Vermillion with the swirl, blue against it, like the spins.
-        const double sign = turns < 0.0 ? -1.0 : 1.0;
-        const Color color = style.theme.direction(turns > 0.0);
+        const bool clockwise = std::abs(turns) > 1.0;
+        draw_scene(canvas, view, style, {.now = s, .turns = turns, .clockwise = clockwise});
+        // Vermilion with the swirl, blue against it, like the spins.
+        const double sign = (turns < 0.0) == clockwise ? 1.0 : -1.0;
+        const Color color = style.theme.direction(sign > 0.0);
         EXPECT_GT(sign * (color.red - color.blue), 0.0);
         const Patch arc = patch_of(canvas, color);
         ASSERT_GT(arc.count, 100.0);

@@ -245,6 +245,7 @@ void Page::draw(const Canvas& canvas, std::span<const Moment> moments, double pe
         if (appearance_.turned)
             content.turns =
                 (sources_[k].clockwise ? -1.0 : 1.0) * turns_until(curves_[k], start_, periods);
+        content.clockwise = sources_[k].clockwise;
         for (std::size_t f = 0; f < appearance_.frames.size(); ++f) contents.push_back(content);
     }
     sheet_->draw_frame(canvas, contents, curves_, periods);

@@ -393,7 +393,7 @@ void draw_turn_arc(const Canvas& canvas, const View& view, const SceneStyle& sty
     const double radius = unit * (1.0 + wall_thickness + 0.045);
     const Vec2 c = view.on_page(content.now.container_centre);
     const double turns = *content.turns;
-    const Color color = style.theme.direction(content.turns_with_swirl());
+    const Color color = style.theme.direction(content.turns_with_swirl() >= 0.0);
     const double top = -0.5 * pi, sweep = -full_turn * (turns - std::trunc(turns));
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
     cairo_new_sub_path(cairo);

@@ -73,8 +73,12 @@ struct SceneContent {
     std::span<const std::int64_t> ids = {};
     std::span<const std::span<const std::int64_t>> past_ids = {};
 
-    bool turns_with_swirl() const {
-        return turns && *turns * cross(now.container_centre, now.container_velocity) > 0.0;
+    bool clockwise = false;  // the swirl
+
+    /// Positive if the cluster turned with the swirl, 0 without turns.
+    double turns_with_swirl() const {
+        const double counter_clockwise = turns.value_or(0.0);
+        return clockwise ? -counter_clockwise : counter_clockwise;
     }
 };
 

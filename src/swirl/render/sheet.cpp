@@ -297,12 +297,12 @@ void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& 
     if (!content.turns || !panel.shows_turns || em_ < min_font_size) return;
     // The number is on the line of the captions, which the container never reaches.
     const double reach = views_[k].pixels_per_unit * panel.container_radius;
-    const std::string number =
-        (*content.turns < 0.0 ? "−" : "+") + fixed(std::abs(*content.turns), 2) + " turns";
+    const double turns = content.turns_with_swirl();
+    const std::string number = (turns < 0.0 ? "−" : "+") + fixed(std::abs(turns), 2) + " turns";
     const Theme& theme = spec_.style.theme;
     draw_label(canvas, number, {views_[k].centre.x - 1.24 * reach, caption_line_},
                {.size = 1.1 * em_,
-                .color = theme.direction(content.turns_with_swirl()),
+                .color = theme.direction(turns >= 0.0),
                 .bold = true,
                 .even_digits = true});
 }
