@@ -103,7 +103,7 @@ class Folders(unittest.TestCase):
                 shutil.rmtree(cls.copy)
                 os.mkdir(cls.copy)
                 run(calls[0], cls.copy, cls.inputs, LD_PRELOAD=SHIM, FAULT_UNDER=cls.copy, FAULT_CALL="write",
-                    FAULT_AT=str(STOPPED[kind]), FAULT_SIGNAL=str(int(signal.SIGINT)))
+                    FAULT_AT=str(STOPPED[kind]), FAULT_SIGNAL=str(int(signal.SIGTERM)))
                 left = files_of(cls.copy)
                 assert any(name.endswith(".checkpoint") for name in left), left.keys()
             cls.whole[kind] = os.path.join(cls.top, kind)
