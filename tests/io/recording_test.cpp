@@ -59,6 +59,9 @@ TEST(Recording, UnfinishedFileOfAnotherRunIsNotOverwritten) {
     // An empty file was left by a run that was killed before its first commit.
     write_quickly(scratch / "new.h5.partial", "");
     EXPECT_EQ(rejection_of([&] { reject_foreign_recording(scratch / "new.h5", "b"); }), "");
+    std::filesystem::resize_file(scratch / "t.h5.partial", 5000);
+    EXPECT_NE(rejection_of([&] { reject_foreign_recording(path, "a"); }).find("--overwrite"),
+              std::string::npos);
 }
 
 TEST(Recording, EventLogOfAnotherRunIsRejected) {

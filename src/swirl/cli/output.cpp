@@ -42,8 +42,10 @@ void reject_unwritable(const std::filesystem::path& file) {
         throw Failure(fmt::format("'{}' cannot be written: there is no folder '{}'.", file.string(),
                                   folder.string()));
     // A pipe or a device is written in its place. Any other file is replaced, in the folder where it is.
-    const bool in_place =
-        std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
+    const std::filesystem::file_status about = std::filesystem::status(file, ignored);
+    const bool in_place = std::filesystem::status_known(about) &&
+                          about.type() != std::filesystem::file_type::not_found &&
+                          about.type() != std::filesystem::file_type::regular;
     if (in_place ? access(file.c_str(), W_OK) != 0
                  : access(canonical_name(file).parent_path().c_str(), W_OK | X_OK) != 0)
         throw Failure(fmt::format("'{}' cannot be written: {}.", file.string(), last_error()));

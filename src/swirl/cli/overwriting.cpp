@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "swirl/cli/output.hpp"
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/file_error.hpp"
 #include "swirl/io/optional_file.hpp"
 #include "swirl/io/recording.hpp"
 #include "swirl/run/failure.hpp"
@@ -30,11 +32,20 @@ bool has_content(const fs::path& file) {
     return !file.empty() && file != "-" && regular_file_exists(file) && fs::file_size(file) > 0;
 }
 
-/// True if the recording belongs to this run and has these frame times. An event log has none, so
-/// `frames` is empty.
-bool is_recording_of(const fs::path& file, const RunConfig& config, const std::string& frames) {
+/// True if the recording is whole, belongs to this run and has these frame times. An event log has
+/// none, so `frames` is empty.
+bool is_recording_of(const fs::path& file, const RunConfig& config, const std::string& frames) try {
     return is_there(file) && recorded_entry(file, "parameters") == config_json(config).dump() &&
            (frames.empty() || recorded_entry(file, "frames") == frames);
+} catch (const DamagedFile&) {
+    return false;
+}
+
+/// The entry of a recording that identifies its run; nothing if the file is damaged.
+std::optional<std::string> run_recorded_in(const fs::path& file) try {
+    return recorded_entry(file, run_entry);
+} catch (const DamagedFile&) {
+    return std::nullopt;
 }
 
 Json result_in(const fs::path& file) { return parse_json(read_regular_file(file)); }
@@ -78,10 +89,9 @@ void reject_files_of_another_run(const RunFiles& files, const std::string& json)
     };
     for (const auto& [option, file] :
          {std::pair{"trajectory", files.trajectory}, std::pair{"log_events", files.event_log}})
-        if (is_there(file) && !may_replace(option, file) &&
-            recorded_entry(file, run_entry) != saved.run)
+        if (is_there(file) && !may_replace(option, file) && run_recorded_in(file) != saved.run)
             throw Failure(fmt::format(
-                "'{}' was recorded by another run than the checkpoint; it was left "
+                "'{}' is damaged, or was recorded by another run than the checkpoint; it was left "
                 "unchanged.\nhint: "
                 "put back the recording of this run, or start the run again with --overwrite.",
                 file.string()));

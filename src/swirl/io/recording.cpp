@@ -27,7 +27,13 @@ void reject_foreign_recording(const std::filesystem::path& path, const std::stri
     if (!file_exists(partial)) return;
     // A run that is killed before its first commit leaves an empty file.
     if (JournaledFile(partial, JournaledFile::Mode::read).size() == 0) return;
-    if (recorded_entry(partial, run_entry) != run)
+    std::string recorded;
+    try {
+        recorded = recorded_entry(partial, run_entry);
+    } catch (const DamagedFile& error) {
+        throw DamagedFile(fmt::format("{}\nhint: use --overwrite to replace it.", error.what()));
+    }
+    if (recorded != run)
         throw FileError(
             fmt::format("'{}' is the unfinished recording of another run.\nhint: complete that run "
                         "with --resume, choose another name, or use --overwrite to replace it.",

@@ -17,7 +17,7 @@ inline constexpr const char* run_entry = "run";
 /// The name of a recording until it is complete.
 std::filesystem::path partial_name(const std::filesystem::path& path);
 
-/// Throws FileError if NAME.partial is a recording of another or an unknown run.
+/// Throws FileError if NAME.partial is damaged, or a recording of another or an unknown run.
 void reject_foreign_recording(const std::filesystem::path& path, const std::string& run);
 
 /// The provenance entry `name` of a recording, "" if there is none.
