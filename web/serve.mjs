@@ -30,7 +30,8 @@ async function answerTo({method, url, headers}) {
     }
 }
 
-const server = createServer(async (request, response) => {
+// From version 20 on, Node.js itself would reject requests without a Host, with another status.
+const server = createServer({requireHostHeader: false}, async (request, response) => {
     const {status, headers, body} = await answerTo(request);
     response.writeHead(status, {...headers, "content-length": Buffer.byteLength(body),
                                 "x-content-type-options": "nosniff"}).end(body);

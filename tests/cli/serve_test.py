@@ -39,7 +39,7 @@ TARGETS = [
 RAW = [
     ("a raw NUL", b"GET /\0 HTTP/1.1\r\nHost: {host}\r\n\r\n", 400),
     ("not HTTP", b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 400),
-    ("no Host", b"GET / HTTP/1.1\r\n\r\n", 400),
+    ("no Host", b"GET / HTTP/1.1\r\n\r\n", 403),
     ("no Host, HTTP/1.0", b"GET / HTTP/1.0\r\n\r\n", 403),
     ("long headers", b"GET / HTTP/1.1\r\nHost: {host}\r\nX: " + 17_000 * b"x" + b"\r\n\r\n", 431),
     ("two lengths", b"POST / HTTP/1.1\r\nHost: {host}\r\nContent-Length: 1\r\n"
