@@ -35,6 +35,12 @@ def all_judged(folder):
     return [claim.judged_with_sizes(study) for claim in CLAIMS]
 
 
+def claim_stating(statement):
+    """The claim with this statement; there is exactly one."""
+    found, = (claim for claim in CLAIMS if claim.statement == statement)
+    return found
+
+
 def write_verdicts(folder):
     """Writes and returns verdicts.json: every verdict, and the points that need more seeds (command.py adds them)."""
     judged = all_judged(folder)

@@ -1,7 +1,7 @@
 """Every claim of the paper, in the order of the report: source, statement, figure, how it is judged, on what, and
 the points that it needs. Where the statement is a summary, the paper's sentence stands above it."""
 
-from paper_parameters import COUNTERROTATING_N, ROTATING_N
+from paper_parameters import COUNTERROTATING_N, EVENTS, ROTATING_N
 
 from . import contacts, motion, profiles, residence, rotation, settling, spheres
 from . import thresholds as size
@@ -26,7 +26,9 @@ def of_5b(statement, judge, *settings, numbers=OF_5B, source="main text, Fig. 5b
 
 
 def from_start(statement, judge, setting):
-    return Claim("main text, Fig. 5b", statement, "5b-start", judge, DISCS, runs("5b-start", setting, numbers=OF_5B))
+    """The averages contain the transient, and ϖ is farther from Ω the less of it a run covers."""
+    return Claim("main text, Fig. 5b", statement, "5b-start", judge, DISCS, runs("5b-start", setting, numbers=OF_5B),
+                 least_events=EVENTS)
 
 
 def of_spheres(source, statement, figure, judge, note="", also=("half", "high"), settings=("smooth",)):

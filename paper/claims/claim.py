@@ -1,5 +1,6 @@
 """One claim of the paper."""
 
+import math
 import os
 
 import tables
@@ -35,11 +36,12 @@ class Judged:
 class Claim:
     """`judge(study)` returns (Judgement, what was found); `figure` names the figure whose runs it needs, `on` the
     particles it is judged on. `needs`: (table, {column: value of the rows}, column, values that it must have), the
-    points that must have been run. Without one of them the claim is undecided: fewer data must not decide more."""
+    points that must have been run. Without one of them, or if its runs are shorter than thresholds.LEAST_PERIODS or
+    `least_events`, the claim is undecided: fewer data must not decide more."""
 
-    def __init__(self, source, statement, figure, judge, on, needs=()):
+    def __init__(self, source, statement, figure, judge, on, needs=(), least_events=0):
         self.source, self.statement, self.figure, self.judge = source, statement, figure, judge
-        self.on, self.needs = on, needs
+        self.on, self.needs, self.least_events = on, needs, least_events
 
     @property
     def command(self):
@@ -49,32 +51,55 @@ class Claim:
         """(Judgement, what was found) from the tables of the study."""
         try:
             judgement, found = self.judge(study)
-            missing = self.missing_points(study)
+            problem = self.missing_points(study) or self.short_runs(study)
         except FileNotFoundError as error:
             return Judgement(MISSING), f"The table {os.path.basename(error.filename)} does not exist."
         except KeyError as error:
             return Judgement(MISSING), f"Its table has no column or curve '{error.args[0]}'."
         except (IndexError, ValueError, ZeroDivisionError):
             return Judgement(MISSING), "The table has too few runs."
-        if missing:
-            return Judgement(UNDECIDED), f"Not decided without these points: {missing}. {found}"
+        if problem:
+            return Judgement(UNDECIDED), f"{problem}. {found}"
         return judgement, found
+
+    def needed_rows(self, study):
+        """(table, columns of the rows, the needed rows that did not fail, column, values) of each entry of `needs`."""
+        for table, of_rows, column, needed in self.needs:
+            rows = [row for row in tables.select(study.table(table), **of_rows)
+                    if row.get("steady_state") != "failed"]
+            yield table, of_rows, [row for row in rows if row[column] in needed], column, needed
 
     def missing_points(self, study):
         missing = []
-        for table, rows, column, needed in self.needs:
-            run = {row[column] for row in tables.select(study.table(table), **rows)
-                   if row.get("steady_state") != "failed"}
-            absent = [f"{value:g}" for value in needed if value not in run]
+        for table, of_rows, rows, column, needed in self.needed_rows(study):
+            absent = [f"{value:g}" for value in needed if value not in {row[column] for row in rows}]
             if absent:
-                missing.append(f"figure {table}, {', '.join(rows.values())}, {NAMES[column]} = {', '.join(absent)}")
-        return "; ".join(missing)
+                missing.append(f"figure {table}, {', '.join(of_rows.values())}, {NAMES[column]} = {', '.join(absent)}")
+        return f"Not decided without these points: {'; '.join(missing)}" if missing else ""
+
+    def short_runs(self, study):
+        """Why the shortest of the needed runs decides nothing; empty if it is long enough."""
+        rows = [row for _, _, rows, _, _ in self.needed_rows(study) for row in rows]
+        averaged = least(row.get("periods", math.inf) - row.get("warmup_periods", 0) for row in rows)
+        events = least(row.get("events", math.inf) for row in rows)
+        if averaged < thresholds.LEAST_PERIODS:
+            return (f"Not decided by runs that average over {averaged:.0f} periods; {thresholds.LEAST_PERIODS:.0f} are "
+                    "needed, because they still contain the memory of the initial state")
+        if events < self.least_events:
+            return (f"Not decided by runs of {events:,.0f} events, which cover less of the transient than the paper's of "
+                    f"{self.least_events:,.0f}")
+        return ""
 
     def judged_with_sizes(self, study):
         def verdict(factor):
             with thresholds.scaled(factor):
                 return self.judged(study)[0].verdict
         return Judged(self, *self.judged(study), {factor: verdict(factor) for factor in (0.5, 2)})
+
+
+def least(numbers):
+    """The smallest of the known ones; infinity if none is known."""
+    return min((number for number in numbers if not math.isnan(number)), default=math.inf)
 
 
 def untested(reason):

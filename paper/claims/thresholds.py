@@ -95,6 +95,9 @@ PEAK_WINDOW = 45.0           # degrees on either side of a peak whose shape is c
 # the wall (rows are √3 to 2 apart), and between these layers.
 FIRST_LAYER, BETWEEN_LAYERS, SECOND_LAYER = (1.0, 1.4), (1.6, 2.4), (2.6, 3.2)
 IDENTICAL = 0.01             # two means of the same runs, sampled at different times
+# A few dozen particles lose the memory of their initial state in about 50 periods (runs.py). So runs that average
+# over fewer periods decide nothing.
+LEAST_PERIODS = 50
 LEAST_VISITS = 200           # a slice of θ with fewer visits is not used
 LEVEL_FROM = 30              # the level before a drop is the mean from this N up to HIGH_N
 MOST_RUNS = 0.5              # a point is not steady if a larger share of its runs is not

@@ -4,6 +4,7 @@ import unittest
 
 from claim_tables import HandMadeTables
 
+import claims
 from claims import rotation
 from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
 
@@ -31,15 +32,28 @@ class Rotation(HandMadeTables):
         self.assertIn("N_c between 36 and 38", found)
         self.assertNotIn("not known", found)
 
-    def test_drop_needs_runs_as_long_as_the_papers(self):
-        def judged(events):
-            self.table("5b-start", [{"setting": "no-disc", "discs": n, "mean_by_event": v, "mean_by_event_error": 0.001,
-                               "point": f"no-disc_N{n}", "events": events}
-                              for n, v in ((36, 0.97), (40, 0.97), (48, 0.9))])
-            return rotation.no_disc_drop(self.study)
-        self.assertEqual(judged(1_000_000)[0], HOLDS)
-        self.assertEqual(judged(200_000)[0], UNDECIDED)
-        self.assertIn("decide nothing", judged(200_000)[1])
+    def test_claims_on_whole_runs_need_runs_as_long_as_the_papers(self):
+        def judged(statement, setting, events, level=0.97):
+            self.table("5b-start", [{"setting": setting, "discs": n, "mean_by_event": level if n < 48 else level - 0.07,
+                                     "mean_by_event_error": 0.001, "point": f"no-disc_N{n}", "events": events}
+                                    for n in (8, 16, 24, 28, 32, 36, 40, 44, 48)])
+            return claims.claim_stating(statement).judged(self.study)
+        for statement, setting, verdict in (
+                ("Without disc friction ϖ drops slightly at very high N.", "no-disc", HOLDS),
+                ("Without disc friction ϖ remains close to Ω.", "no-disc", HOLDS),
+                ("Without wall friction the cluster rotates with the frequency of the swirl at every N.", "no-wall", FAILS)):
+            self.assertEqual(judged(statement, setting, 1_000_000)[0], verdict, statement)
+            self.assertEqual(judged(statement, setting, 200_000)[0], UNDECIDED, statement)
+            self.assertIn("runs of 200,000 events", judged(statement, setting, 200_000)[1])
+
+    def test_runs_with_the_memory_of_their_initial_state_decide_nothing(self):
+        def judged(periods):
+            self.table("5b", [{"setting": "no-wall", "discs": n, "mean_by_event": 0.9, "mean_by_event_error": 0.001,
+                               "periods": periods, "warmup_periods": 20} for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)])
+            return claims.claim_stating("Without wall friction there is never a transition.").judged(self.study)
+        self.assertEqual(judged(70)[0], HOLDS)
+        self.assertEqual(judged(69)[0], UNDECIDED)
+        self.assertIn("average over 49 periods", judged(69)[1])
 
     def test_curve_without_crossing_counts_as_later(self):
         self.crossings("5b", high=(36, .3), medium=(40, .3), low=(None, "always rotates"))
