@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run/rejected_parameters.hpp"
+#include "swirl/measure/quantities.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/json.hpp"
 
@@ -131,6 +132,41 @@ TEST(Units, ReportsShowTheDish) {
     EXPECT_EQ(dish_in_units(config, *user_units(config)),
               "r = 3 mm, R = 25.5 mm, A = 11.5 mm, 112.8 rpm, v = 135.8 mm/s");
     EXPECT_FALSE(user_units(resolve({})));
+}
+
+// r = 3 mm, v = 2π 11.5 mm/0.532 s.
+TEST(Units, EveryUnitOfAReportHasOneOfTheUser) {
+    const RunConfig config = resolve(dish);
+    const auto user = user_units(config);
+    ASSERT_TRUE(user);
+    const double r = 3.0, v = 2.0 * pi * 11.5 / 0.532, T = 0.532;
+    struct Expected {
+        Unit unit;
+        double factor;
+        const char* text;
+    };
+    for (const auto& [unit, factor, text] : {Expected{"r", r, "mm"},
+                                             {"v²/r", v * v / r, "mm/s²"},
+                                             {"v/r", v / r, "1/s"},
+                                             {"r/v", r / v, "s"},
+                                             {"1/r²", 1.0 / (r * r), "1/mm²"},
+                                             {"m v²", v * v, "particle mass mm²/s²"},
+                                             {"m v²/r²", v * v / (r * r), "particle mass/s²"},
+                                             {"m v³/r", v * v * v / r, "particle mass mm²/s³"},
+                                             {"Ω", 2.0 * pi / T, "rad/s"},
+                                             {"T", T, "s"}}) {
+        const auto found = in_user_units(unit, config, *user);
+        ASSERT_TRUE(found) << unit.text;
+        EXPECT_NEAR(found->factor, factor, 1e-6 * factor) << unit.text;  // v has 24 bits
+        EXPECT_EQ(found->text, text);
+    }
+    EXPECT_FALSE(in_user_units(quantity("slip.cluster").unit, config, *user));
+    EXPECT_FALSE(in_user_units(quantity("centre.theta").unit, config, *user));
+    // Every row of the registry has one, or is a number or an angle.
+    for (const Quantity& row : all_quantities::rows)
+        EXPECT_EQ(in_user_units(row.unit, config, *user).has_value(),
+                  row.unit.length() != 0 || row.unit.time() != 0)
+            << row.name;
 }
 
 }  // namespace

@@ -167,8 +167,9 @@ nlohmann::ordered_json json_of(const RunResult& result, const PreparedRun& prepa
 /// Writes the tables, the result and the report; the warnings come last.
 void write_outputs(const RunCall& call, const PreparedRun& prepared, const RunResult& result) {
     const MeasurementReports measured = prepared.observation.report();
-    std::string text = call.quiet ? headline(result) + "\n"
-                                  : report(result, call.verbose) + measured_text(measured);
+    std::string text = call.quiet
+                           ? headline(result) + "\n"
+                           : report(result, call.verbose) + measured_text(measured, &result.config);
     if (prepared.series && !call.quiet)
         text += (prepared.config.ramps.empty() ? series_text(*prepared.series) : "") +
                 fmt::format("wrote {}\n", prepared.files.series.string());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "swirl/io/table.hpp"
 #include "swirl/run/failure.hpp"
@@ -14,6 +15,7 @@
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
+#include "swirl/run/units.hpp"
 
 namespace swirl {
 namespace {
@@ -193,7 +195,16 @@ std::vector<MeasuredNumber> measured_numbers(const Json& measured) {
     return numbers;
 }
 
-std::string measured_text(const MeasurementReports& reports) {
+std::string measured_text(const MeasurementReports& reports, const RunConfig* run) {
+    const std::optional<UserUnits> user = run ? user_units(*run) : std::nullopt;
+    const auto value_of = [&](const ReportRow& row) {
+        const Estimate& e = row.estimate;
+        const std::string value = in_unit(with_error(e.mean, e.error), row.unit);
+        const auto unit = user ? in_user_units(row.quantity->unit, *run, *user) : std::nullopt;
+        if (!unit || std::isnan(e.mean)) return value;
+        return fmt::format("{} = {} {}", value,
+                           with_error(unit->factor * e.mean, unit->factor * e.error), unit->text);
+    };
     std::string numbers, tables;
     const auto line = [&](const std::string& name, const std::string& value) {
         numbers += fmt::format("  {:<38}{}\n", name, value);
@@ -210,8 +221,7 @@ std::string measured_text(const MeasurementReports& reports) {
         if (!any && !report.rows.empty() && !most_are_missing) line(name, "n/a");
         for (const ReportRow& row : report.rows)
             if (has_value(row) || (any && !most_are_missing))
-                line(full_name(name, row.name),
-                     in_unit(with_error(row.estimate.mean, row.estimate.error), row.unit));
+                line(full_name(name, row.name), value_of(row));
         for (const ReportTable& table : report.tables)
             tables += fmt::format("  {:<38}table of {}\n", full_name(name, table.name),
                                   counted(std::int64_t(table.rows()), "row"));

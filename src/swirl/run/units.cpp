@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "swirl/physics/container_path.hpp"
+#include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
 
@@ -338,6 +340,49 @@ std::optional<UserUnits> user_units(const RunConfig& config) {
     const auto time = read_with_unit(config.time_unit);
     if (!radius || !time) return {};
     return UserUnits{radius->number, radius->unit->name, time->value};
+}
+
+namespace {
+
+/// Appends "mm²" for a positive power.
+void append_power(std::string& text, std::string_view unit, int power) {
+    static constexpr const char* exponents[] = {"", "", "²", "³"};
+    if (power <= 0) return;
+    if (!text.empty() && !text.ends_with('/')) text += ' ';
+    text += unit;
+    text += power < 4 ? exponents[power] : fmt::format("^{}", power);
+}
+
+double raised(double base, int exponent) {
+    return exponent < 0    ? 1.0 / raised(base, -exponent)
+           : exponent == 0 ? 1.0
+                           : base * raised(base, exponent - 1);
+}
+
+}  // namespace
+
+std::optional<PrintedUnit> in_user_units(const Unit& unit, const RunConfig& config,
+                                         const UserUnits& user) {
+    const int length = unit.length(), time = unit.time();
+    if (length == 0 && time == 0) return {};
+    const MeasuredUnits measured = units_of(config);
+    PrintedUnit found{raised(measured.r * user.length, unit.r) *
+                          raised(measured.v * user.length / user.time, unit.v) *
+                          raised(config.omega() / user.time, std::max(unit.omega, 0)) *
+                          raised(config.period * user.time, std::max(-unit.omega, 0)),
+                      {}};
+    // Not "m", which would be metres.
+    append_power(found.text, "particle mass", unit.m);
+    append_power(found.text, "rad", unit.omega);
+    append_power(found.text, user.length_unit, length);
+    append_power(found.text, "s", time);
+    if (length >= 0 && time >= 0) return found;
+    if (found.text.empty()) found.text = "1";
+    std::string below;
+    append_power(below, user.length_unit, -length);
+    append_power(below, "s", -time);
+    found.text += "/" + below;
+    return found;
 }
 
 std::string dish_in_units(const RunConfig& config, const UserUnits& units) {

@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 
+#include "swirl/measure/quantity.hpp"
 #include "swirl/run/parameters.hpp"
 
 namespace swirl {
@@ -52,6 +53,16 @@ struct UserUnits {
 };
 /// Nothing if the configuration has no units.
 std::optional<UserUnits> user_units(const RunConfig& config);
+
+/// What a unit of the report is in the user's units: a factor and "mm/s". Masses are
+/// multiples of that of a particle.
+struct PrintedUnit {
+    double factor;
+    std::string text;
+};
+/// Nothing for a pure number or an angle.
+std::optional<PrintedUnit> in_user_units(const Unit& unit, const RunConfig& config,
+                                         const UserUnits& user);
 
 /// "r = 3 mm, R = 25.5 mm, A = 11.5 mm, 112.8 rpm, v = 136 mm/s"
 std::string dish_in_units(const RunConfig& config, const UserUnits& units);
