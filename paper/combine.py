@@ -72,10 +72,10 @@ def is_average(node):
     return isinstance(node, dict) and "mean" in node and "error" in node
 
 
-def average(nodes, weights):
+def average(nodes, weights, direction=False):
     columns = [[number(node.get(name)) for node in nodes] for name in ("mean", "error", "effective_samples")]
     mean, error, effective, scatter, disagree = over_seeds(
-        columns[0], columns[1], weights, np.nan_to_num(columns[2]), "concentration" in nodes[0])
+        columns[0], columns[1], weights, np.nan_to_num(columns[2]), direction)
     found = {"mean": mean, "error": error, "effective_samples": effective, "scatter": scatter, "disagree": bool(disagree)}
     for name in nodes[0]:  # further numbers have no errors: counts add up, others are averaged
         if name not in found and name != "blocks":
@@ -90,7 +90,7 @@ def mean_cell(cells):
     return math.nan if not cells else cells[0] if cells.count(cells[0]) == len(cells) else sum(cells) / len(cells)
 
 
-def table(nodes, weights):
+def table(nodes, weights, path):
     """A table of a measurement: {column: values}. Errors are in the columns NAME_error."""
     found = {}
     for name in nodes[0]:
@@ -99,32 +99,32 @@ def table(nodes, weights):
         cells = np.array([[number(cell) for cell in node[name]] for node in nodes]).T
         if f"{name}_error" in nodes[0]:
             errors = np.array([[number(cell) for cell in node[f"{name}_error"]] for node in nodes]).T
-            # Angles in tables are recognised by their names.
-            columns = over_seeds(cells, errors, weights, directions=name.startswith("becoming_"))
+            columns = over_seeds(cells, errors, weights, directions=swirl._engine.is_direction(f"{path}.{name}"))
             found[name], found[f"{name}_error"] = columns[0].tolist(), columns[1].tolist()
         else:
             found[name] = [sum(row) if name == "visits" else mean_cell(list(row)) for row in cells.tolist()]
     return found
 
 
-def measured(nodes, weights):
-    """Combines averages, tables and numbers, at any depth."""
+def measured(nodes, weights, path):
+    """Combines averages, tables and numbers, at any depth. `path`: the name in the registry of quantities, as in
+    "residence.sensitivity"."""
     first = nodes[0]
     if is_average(first):
-        return average(nodes, weights)
+        return average(nodes, weights, swirl._engine.is_direction(path))
     if not isinstance(first, dict):
         return mean_cell([number(node) for node in nodes])
     column = next(iter(first.values()), None)
     if isinstance(column, list) and column and not isinstance(column[0], (list, dict)):
-        return table(nodes, weights)
-    return {name: measured([node[name] for node in nodes], weights) for name in first}
+        return table(nodes, weights, path)
+    return {name: measured([node[name] for node in nodes], weights, f"{path}.{name}") for name in first}
 
 
 def common_measurements(runs, weights):
     """{"measured": …} with the measurements of all runs. Points share runs, so some may have more than others."""
     made = [run.get("measured", {}) for run in runs]
     names = [name for name in made[0] if all(name in each for each in made)]
-    return {"measured": {name: measured([each[name] for each in made], weights) for name in names}} if names else {}
+    return {"measured": {name: measured([each[name] for each in made], weights, name) for name in names}} if names else {}
 
 
 def verdict_of(seeds):

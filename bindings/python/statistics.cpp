@@ -13,6 +13,7 @@
 #include "calls.hpp"
 #include "swirl/io/checksum.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/measurements.hpp"
 #include "swirl/statistics/replicates.hpp"
 #include "swirl/study/crossing.hpp"
 #include "swirl/study/own_points.hpp"
@@ -131,6 +132,7 @@ py::tuple compare_curves(const std::vector<double>& parameters,
 
 void bind_statistics(py::module_& module) {
     module.def("over_replicates", &over_replicates);
+    module.def("is_direction", [](const std::string& name) { return is_direction(name); });
     module.def("replicate_weights", [](const std::vector<double>& periods, bool by_time) {
         return replicate_weights(periods, by_time);
     });

@@ -20,6 +20,7 @@ PAPER = os.path.join(os.environ["SWIRL_SOURCE"], "paper")
 sys.path.insert(0, PAPER)
 import atomic_file  # noqa: E402
 import catalogue  # noqa: E402
+import combine  # noqa: E402
 import command  # noqa: E402
 import console  # noqa: E402
 import figure  # noqa: E402
@@ -228,6 +229,20 @@ except command.Problem as problem:
     assert done.returncode == 1, done.stdout + done.stderr
     assert "the figures need matplotlib; the tables are written" in done.stdout
     assert len(rows(tmp_path, "5b")) > 50
+
+
+def test_angles_of_rows_and_of_tables_are_averaged_as_directions():
+    """By their rows in the registry of quantities: 350 and 10 degrees make 0."""
+    def residence(angle):
+        row = {"mean": angle, "error": 1.0, "effective_samples": 9.0}
+        return {"pinning": row, "share": {**row, "mean": angle / 360},
+                "sensitivity": {"layer": [1.5], "pinning": [angle], "pinning_error": [1.0], "share": [angle / 360],
+                                "share_error": [0.1]}}
+    found = combine.measured([residence(350.0), residence(10.0)], [0.5, 0.5], "residence")
+    for mean in (found["pinning"]["mean"], found["sensitivity"]["pinning"][0]):
+        assert math.remainder(mean, 360) == pytest.approx(0, abs=1e-9)
+    for mean in (found["share"]["mean"], found["sensitivity"]["share"][0]):
+        assert mean == pytest.approx(0.5)
 
 
 def test_a_file_that_cannot_be_imported_fails_alone(tmp_path, monkeypatch):
