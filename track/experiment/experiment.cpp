@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <mutex>
+#include <span>
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
@@ -18,6 +20,7 @@
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #include "swirl/statistics/few_blocks.hpp"
+#include "swirl/statistics/model_comparison.hpp"
 #include "swirl/statistics/replicates.hpp"
 #include "track/experiment/camera_sampled_run.hpp"
 #include "track/experiment/curves.hpp"
@@ -413,6 +416,29 @@ void Experiment::add_video_findings(const ContainerVideo& video, const Json& sim
     }
 }
 
+/// The points of a curve that have an error; none if there is no such curve.
+std::vector<RotationPoint> points_with_error(const std::vector<NamedCurve>& curves,
+                                             const std::string& name) {
+    std::vector<RotationPoint> found;
+    for (const NamedCurve& curve : curves)
+        if (curve.name == name)
+            std::copy_if(curve.points().begin(), curve.points().end(), std::back_inserter(found),
+                         [](const RotationPoint& p) { return p.error > 0.0; });
+    return found;
+}
+
+/// χ² of the videos of one surface next to its simulations, as `swirl sweep --my-points` has it;
+/// empty without points that can be compared.
+std::string agreement_sentence(const std::vector<NamedCurve>& curves, const std::string& surface) {
+    const ModelCurve model{.points = points_with_error(curves, "simulation " + surface)};
+    const std::vector<RotationPoint> seen = points_with_error(curves, "video " + surface);
+    const std::vector<RotationPoint> compared = comparable_points(std::span(&model, 1), seen);
+    if (compared.empty()) return "";
+    return fmt::format("{} videos next to their simulations: χ² = {:.3g} of {}.", surface,
+                       chi_square_of(model, compared),
+                       counted(std::int64_t(compared.size()), "point"));
+}
+
 std::vector<std::string> Experiment::findings() const {
     std::vector<std::string> findings;
     for (const NamedCurve& curve : curves()) {
@@ -429,6 +455,9 @@ std::vector<std::string> Experiment::findings() const {
             crosses ? "" : "no crossing is found with these numbers of discs and errors: ",
             crossing_sentence(curve)));
     }
+    for (const bool smooth : {false, true})
+        if (const std::string text = agreement_sentence(curves(), kind_of(smooth)); !text.empty())
+            findings.push_back(text);
     for (std::size_t k = 0; k < videos_.size(); ++k)
         add_video_findings(videos_[k], simulated(k), findings);
     const bool spins = std::any_of(videos_.begin(), videos_.end(), [](const ContainerVideo& video) {

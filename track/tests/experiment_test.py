@@ -43,6 +43,8 @@ class Experiment(InFolder):
         done = self.experiment(*videos, *SIMULATION, "--out", out)
         self.assertRegex(done.stdout, "N16: .*standard errors apart")
         self.assertNotRegex(done.stdout, "N22: .*standard errors apart")
+        # N22 has no error.
+        self.assertRegex(done.stdout, r"rough videos next to their simulations: χ² = \S+ of 1 point\.")
         self.assertIn("N22 shows 1.7 periods, too few for an error", done.stdout)
         found = rows(out, "videos.csv")
         self.assertEqual([int(row["discs"]) for row in found], list(NUMBERS))
@@ -85,6 +87,15 @@ class Experiment(InFolder):
         self.assertEqual(about["runs"], 4)
         self.assertEqual(rows(out, "points.csv"), points)
         self.assertNotIn("finding discs", again.stderr)
+
+        # The videos are points for the curves of any model, with the same χ².
+        with open(self.path("points.csv"), "w", encoding="utf-8") as file:
+            file.writelines(f"{row['discs']},{row['mean_by_time']},{row['mean_by_time_error']}\n" for row in
+                            [dict(discs="discs", mean_by_time="mean_by_time", mean_by_time_error="mean_by_time_error"),
+                             found[0]])
+        compared = self.assert_works("crossing", "--container-radius", 6.5, "--from", 14, "--to", 18, "--events", "1e4",
+                                     "--tolerance", 5, "--my-points", self.path("points.csv"), "--quiet")
+        self.assertRegex(compared.stdout, r"χ² = \S+ of 1 point")
 
         # Tracks are accepted instead of videos; an invalid video is omitted.
         with open(self.path("none.mp4"), "w", encoding="utf-8") as file:
