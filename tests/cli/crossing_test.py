@@ -9,7 +9,8 @@ import subprocess
 import time
 import unittest
 
-from program import HANG, SWIRL, InFolder, read_json, read_rows, swirl, write_text
+import private_slurm
+from program import HANG, SWIRL, InFolder, read_json, read_rows, read_text, swirl, wait_until, write_text
 
 SHORT = ["--events", "2e4", "--tolerance", 5, "--quiet"]
 FEW = ["--from", 5, "--to", 7]
@@ -187,6 +188,22 @@ class Crossing(InFolder):
                             (["--threads", -1], "whole number"), (["--to", 10**9], "--to"),
                             (["--mu", "0.1,2", "--csv", "-", "--json", "-"], "standard output")):
             self.assert_fails(2, "crossing", *wrong, *SHORT, says=says)
+
+
+class Cluster(InFolder):
+    def test_tasks_of_a_cluster_share_the_searches(self):
+        slurm, environment = private_slurm.started_for(self, nodes=2)
+        call, out = ["crossing", "--mu", "0.5,1", *FEW, *SHORT], self.path("two searches")
+        submitted = self.assert_works(*call, "--out", out, "--slurm", "--nodes", 2, environment=environment)
+        self.assertIn("Submitted as job", submitted.stdout)
+        wait_until(lambda: not slurm.run("squeue", "-h").stdout)
+        logs = "".join(read_text(os.path.join(out, "log", name)) for name in os.listdir(out + "/log"))
+        made = sorted(os.listdir(out + "/results"))
+        table = self.assert_works(*call, "--out", out, "--csv", "-").stdout
+        # The tasks have made all runs of both searches.
+        self.assertEqual(sorted(os.listdir(out + "/results")), made, logs)
+        self.assertEqual(table, self.assert_works(*call, "--csv", "-").stdout)
+        self.assertEqual(len(list(csv.DictReader(io.StringIO(table)))), 2)
 
 
 if __name__ == "__main__":

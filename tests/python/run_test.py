@@ -70,8 +70,10 @@ def test_saved_result_can_be_verified(tmp_path):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_every_measurement_equals_the_tables_of_the_command_line(tmp_path):
-    scene = dict(discs=45, events=60000, seed=4)
+@pytest.mark.parametrize("scene", [dict(discs=45, events=60000, seed=4), dict(preset="experiment", discs=24, periods=20),
+                                   dict(discs=24, periods=20, mixture="25%:0.75", direction="clockwise")],
+                         ids=["discs", "spheres", "mixture"])
+def test_every_measurement_equals_the_tables_of_the_command_line(scene, tmp_path):
     r = swirl.run(**scene, measure="all")
     done = command("run", *options(scene), "--measure", "all", "--tables", tmp_path, "--quiet")
     assert done.returncode == 0, done.stderr
