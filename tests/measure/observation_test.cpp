@@ -130,7 +130,7 @@ TEST(Observation, ValuesAreMissingBelowTheFrameRateThatTheyNeed) {
         return names;
     };
     // A recording of few periods lacks a frame, so 1 % less is enough.
-    const std::set<std::string> all = known(397.0), residence = known(390.0), none = known(110.0);
+    const std::set<std::string> all = known(507.0), residence = known(500.0), none = known(110.0);
     for (const char* name : {"pinned.share", "residence.share", "fluctuations.n_variance"})
         EXPECT_TRUE(all.contains(name)) << name;
     EXPECT_FALSE(residence.contains("pinned.share"));

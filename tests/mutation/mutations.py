@@ -150,8 +150,8 @@ MUTATIONS = [
     # Residences at the wall.
     (RESIDENCES, "pinned[d] += lasted - step < required ? residence.samples : 1.0;", "pinned[d] += 1.0;",
      "the beginning of a residence does not count"),
-    (RESIDENCES, "if (length < minimum[d] * period - 0.5 * step) continue;",
-     "if (length < minimum[d] * period + 1.5 * step) continue;", "residences must be longer by two samples"),
+    (RESIDENCES, "if (seen < least_length(minimum[d], step, period)) continue;",
+     "if (seen < least_length(minimum[d], step, period) + 2.0 * step) continue;", "residences must be longer by two samples"),
     (RESIDENCES, "if (residence.knows_begin != 0.0) a.begin.add(residence.begin);", "a.begin.add(residence.begin);",
      "a beginning that was not seen counts"),
     (RESIDENCES, "a.end.add(residence.last);", "a.end.add(residence.begin);", "a residence ends where it began"),

@@ -1,11 +1,14 @@
 // The error of a recording of a few periods (few_blocks_factor): the share of short windows of a
 // long run whose mean lies beyond two errors.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "swirl/run/parallel_for.hpp"
 #include "swirl/run/period_series.hpp"
 #include "swirl/run/run.hpp"
 #include "swirl/statistics/few_blocks.hpp"
@@ -63,6 +66,55 @@ TEST(FewBlocks, ShortWindowsOfARunLieWithinTwoErrorsAsOftenAsNormalDeviates) {
     // The test can fail: two errors without the factor are too small for four periods, for which
     // Student's distribution has 13.9 % beyond, 84 ± 8.5 windows.
     EXPECT_GT(four.plain, 58);
+}
+
+/// Short runs of one N, and how many of them hold the mean of all within two of their errors.
+struct ShortRuns {
+    static constexpr std::int64_t warmup = 30;
+    std::int64_t discs, periods, seeds;
+    int covered = 0;
+
+    void count() {
+        std::vector<Estimate> found(static_cast<std::size_t>(seeds));
+        parallel_for(found.size(), [&](std::size_t k) {
+            RunConfig config;
+            config.discs = discs;
+            config.seed = 5000 + k;
+            config.warmup = warmup;
+            config.periods = warmup + periods;
+            found[k] = run(config).rotation.mean_by_time;
+        });
+        double sum = 0.0;
+        for (const Estimate& e : found) sum += e.mean;
+        const double mean = sum / double(seeds);
+        for (const Estimate& e : found) covered += std::abs(e.mean - mean) < 2.0 * e.error ? 1 : 0;
+    }
+    double share() const { return double(covered) / double(seeds); }
+};
+
+// The test prints the table of docs/explanation/statistics.md.
+TEST(FewBlocks, Slow_TwoErrorsOfAShortRunHoldTheMeanOfManyRuns) {
+    std::int64_t covered = 0, seeds = 0;
+    for (ShortRuns runs : {ShortRuns{12, 20, 200},
+                           {12, 60, 200},
+                           {28, 5, 200},
+                           {28, 10, 200},
+                           {28, 20, 200},
+                           {28, 60, 200},
+                           {44, 10, 200},
+                           {44, 40, 100}}) {
+        runs.count();
+        fmt::print("| {} | {} | {} | {:.1f} % |\n", runs.discs, runs.periods, runs.seeds,
+                   100.0 * runs.share());
+        // The lower limit is three standard deviations of a count with 95.4 % below 93 %: block sums
+        // of few periods are correlated, which few blocks cannot show.
+        const double scatter = std::sqrt(0.954 * 0.046 / double(runs.seeds));
+        EXPECT_GT(runs.share(), 0.93 - 3.0 * scatter) << runs.discs << " " << runs.periods;
+        covered += runs.covered;
+        seeds += runs.seeds;
+    }
+    fmt::print("{} of {} short runs: {:.1f} %\n", covered, seeds,
+               100.0 * double(covered) / double(seeds));
 }
 
 TEST(FewBlocks, FewerThanFourHaveNoErrorAndManyNeedNoFactor) {

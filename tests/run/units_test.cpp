@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "run/rejected_parameters.hpp"
@@ -134,12 +136,12 @@ TEST(Units, ReportsShowTheDish) {
     EXPECT_FALSE(user_units(resolve({})));
 }
 
-// r = 3 mm, v = 2π 11.5 mm/0.532 s.
+// r = 3 mm, and the mean speed on the polygon with 30 sides is 60 · 11.5 mm sin(6°)/0.532 s.
 TEST(Units, EveryUnitOfAReportHasOneOfTheUser) {
     const RunConfig config = resolve(dish);
     const auto user = user_units(config);
     ASSERT_TRUE(user);
-    const double r = 3.0, v = 2.0 * pi * 11.5 / 0.532, T = 0.532;
+    const double r = 3.0, v = 60.0 * 11.5 * std::sin(pi / 30.0) / 0.532, T = 0.532;
     struct Expected {
         Unit unit;
         double factor;

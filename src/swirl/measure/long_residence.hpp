@@ -16,21 +16,35 @@
 // changes, all residences restart; earlier ones are then never determined.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/quantities.hpp"
+#include "swirl/measure/strided.hpp"
 
 namespace swirl {
 
 /// Thickness of the wall's layer, in disc radii.
 inline constexpr double wall_layer = 1.5;
 /// Minimum length of a long residence, in periods: 40 frames of the paper's camera.
-inline constexpr double long_residence = 40.0 / 511.0;
+inline constexpr double long_residence = 40.0 / samples_per_period;
 
-/// Lowest frame rate at which residences are determined. A residence is seen up to one frame short
-/// at either end: at this rate, its length is 1 % too short and its ends are off by 1°.
+/// From its first sample to its last, a residence is one step too short on average. Lengths are those
+/// of the paper's camera; this is what they miss at other steps. No rounding error at its own step.
+inline double missing_length(double step, double period) {
+    const double missing = step - period / samples_per_period;
+    return std::fabs(missing) > 1e-6 * step ? missing : 0.0;
+}
+
+/// The time from its first sample to its last that a residence of `minimum` periods must have. It is
+/// reduced by half a step, because times are rounded.
+inline double least_length(double minimum, double step, double period) {
+    return minimum * period - 0.5 * step - missing_length(step, period);
+}
+
+/// Lowest frame rate at which residences are determined.
 inline constexpr double min_rate_of_resident = quantity("residence.share").min_rates.of_frames;
 
 /// True if the centre of disc i is less than `radii` of its radii from the wall. A layer thicker
@@ -49,8 +63,7 @@ class LongResidences {
         if (view.size() != begin_.size() || !(step > 0.0)) {
             restart(view.size(), view.time);
         } else {
-            // The minimum is reduced by half a time step, because times are rounded.
-            minimum_ = long_residence * (2.0 * pi / view.frame.omega) - 0.5 * step;
+            minimum_ = least_length(long_residence, step, 2.0 * pi / view.frame.omega);
         }
         for (std::size_t i = 0; i < view.size(); ++i) {
             const bool inside = in_wall_layer(view, i);

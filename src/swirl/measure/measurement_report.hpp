@@ -133,9 +133,15 @@ struct Report {
     }
 };
 
-/// Makes all numbers of some rows missing.
+/// Makes all numbers of some rows and columns missing.
 template <class Omits>
-void omit_rows(Report& report, Omits&& omits) {
+void omit(Report& report, Omits&& omits) {
+    for (ReportTable& table : report.tables)
+        for (std::size_t c = 0; c < table.columns.size(); ++c) {
+            if (!omits(*table.columns[c].quantity)) continue;
+            for (std::size_t r = 0; r < table.rows(); ++r)
+                table.values[r * table.columns.size() + c] = not_available;
+        }
     for (ReportRow& row : report.rows) {
         if (!omits(*row.quantity)) continue;
         row.estimate.mean = row.estimate.error = not_available;

@@ -180,7 +180,7 @@ std::vector<MeasurementReport> Observation::report(std::size_t whole_periods) co
         each_row(chosen_, [&](const auto& row, const auto& chosen) {
             if (name != row.name) return;
             Report report = report_of(*chosen, pinned_.pinned_loose());
-            omit_rows(report, [&](const Quantity& q) { return !has_rate(q); });
+            omit(report, [&](const Quantity& q) { return !has_rate(q); });
             in_printed_units(report, units_);
             correct_errors(report, whole_periods);
             reports.push_back({name, std::move(report)});

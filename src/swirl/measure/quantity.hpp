@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace swirl {
@@ -90,6 +91,7 @@ struct ObservedDish {
 enum class Combines : std::uint8_t {
     as_mean,       // a mean, weighted with what each period contributes
     as_direction,  // the same for an angle in degrees: unit vectors are averaged
+    as_count,      // a number of samples, which grows with the run and with the frames
     not_at_all,    // a function of averages, an extreme or a check: a single period has no value
     as_axis        // says where a row of a table is; the same in every run
 };
@@ -103,11 +105,14 @@ enum class Per : std::uint8_t {
 };
 
 /// Frames per period of a recording below which a value is biased by more than a third of its error
-/// in 400 periods, and is n/a. 0 if a frame now and then shows the value.
+/// in 400 periods, and is n/a. 0 if a frame now and then shows the value. Measured with 5, 12 and 48
+/// discs (track/tests/tables/frame_rates_test.cpp).
 struct MinRates {
     double of_frames;  // frames that hold velocities
     double of_tracks;  // positions alone: velocities are differences, which miss collisions
 };
+/// No rate of a camera is enough.
+inline constexpr double never_enough = std::numeric_limits<double>::infinity();
 
 /// True if a recording has this rate, up to the frame that a recording of few periods may lack.
 constexpr bool rate_suffices(double frames_per_period, double minimum) {

@@ -30,8 +30,7 @@ void WallResidences::sample(const MFrameView& view) {
             residence.last = p;
             const double lasted = view.time - residence.begin_time;
             for (std::size_t d = 0; d < minimum.size(); ++d) {
-                // The minimum is reduced by half a time step, because times are rounded.
-                const double required = minimum[d] * period - 0.5 * step;
+                const double required = least_length(minimum[d], step, period);
                 if (restarts || lasted < required) continue;
                 // When a residence becomes long enough, its earlier samples are counted as well.
                 pinned[d] += lasted - step < required ? residence.samples : 1.0;
@@ -43,16 +42,17 @@ void WallResidences::sample(const MFrameView& view) {
 }
 
 void WallResidences::end(std::size_t layer, const Residence& residence, double period) {
-    // From its first sample to its last; the present sample is one step later.
+    // The present sample is one step after its last.
     const double step = (last_time_ - residence.begin_time) / residence.samples;
-    const double length = (residence.samples - 1.0) * step;
+    const double seen = (residence.samples - 1.0) * step;
+    const double length = larger(seen + missing_length(step, period), 0.0);
     if (layer == standard && residence.knows_begin != 0.0) {
         const double bin = std::floor(length / (length_bin * period));
         lengths_.add(static_cast<std::size_t>(smaller(bin, length_bins - 1.0)));
         lengths_.add_weight();
     }
     for (std::size_t d = 0; d < minimum.size(); ++d) {
-        if (length < minimum[d] * period - 0.5 * step) continue;
+        if (seen < least_length(minimum[d], step, period)) continue;
         Averages& a = averages_[layer][d];
         if (residence.knows_begin != 0.0) a.begin.add(residence.begin);
         a.end.add(residence.last);

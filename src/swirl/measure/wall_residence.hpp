@@ -15,7 +15,8 @@
 //   becoming pinned  where such a residence begins
 //   becoming free    where it ends
 //
-//   length           from the first sample of a residence to its last. The average is over the
+//   length           from the first sample of a residence to its last, as the paper's camera would
+//                    see it (long_residence.hpp). The average is over the
 //                    pinned residences that have ended, also those of which the beginning was not
 //                    seen. The table `lengths` has the distribution of all residences of which it
 //                    was seen, also of the shorter ones

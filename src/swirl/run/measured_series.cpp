@@ -38,22 +38,37 @@ std::string rate_remark(const Observation& observation, bool has_rotation, doubl
             if (!observation.has_rate(*row.quantity))
                 here[needed(*row.quantity)].push_back(row.quantity->name);
         }
+        for (const ReportTable& table : report.tables)
+            for (const ReportColumn& column : table.columns) {
+                const double minimum = needed(*column.quantity);
+                // The rows of the measurement stand for its tables.
+                if (observation.has_rate(*column.quantity) || here.contains(minimum)) continue;
+                here[minimum].push_back(*table.name == '\0' ? name : name + "." + table.name);
+            }
         for (const auto& [minimum, names] : here)
-            if (names.size() == rows)
+            if (rows > 0 && names.size() == rows)
                 missing[minimum].push_back(name);
             else
                 missing[minimum].insert(missing[minimum].end(), names.begin(), names.end());
     }
-    if (missing.empty()) return "";
-    std::string text;
+    std::string few, remark;
     for (const auto& [minimum, names] : missing)
-        text +=
-            fmt::format("{}{} ({:.0f})", text.empty() ? "" : "; ", fmt::join(names, ", "), minimum);
-    return fmt::format(
-        "{} too few for these values, which are n/a (in brackets the rate that they need): {}.\n"
-        "hint: record {} frames per period, or use `swirl run --measure`.",
-        rate > 0.0 ? fmt::format("{:.3g} frames per period are", rate) : "a single frame is", text,
-        samples_per_period);
+        if (minimum < never_enough)
+            few += fmt::format("{}{} ({:.0f})", few.empty() ? "" : "; ", fmt::join(names, ", "),
+                               minimum);
+    if (!few.empty())
+        remark = fmt::format(
+            "{} too few for these values, which are n/a (in brackets the rate that they need): "
+            "{}.\nhint: record {} frames per period, or use `swirl run --measure`.",
+            rate > 0.0 ? fmt::format("{:.3g} frames per period are", rate) : "a single frame is",
+            few, samples_per_period);
+    if (missing.contains(never_enough))
+        remark += fmt::format(
+            "{}positions alone do not show these values, which are n/a, because differences of "
+            "positions miss the collisions between two frames: {}.\nhint: record 100 or more "
+            "frames per period, so that velocities can be smoothed.",
+            remark.empty() ? "" : "\n", fmt::join(missing[never_enough], ", "));
+    return remark;
 }
 
 /// The whole periods that the frames show; each frame stands for a step of time. A recording begins
