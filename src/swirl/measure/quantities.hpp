@@ -244,8 +244,8 @@ inline constexpr Quantity rows[] = {
 
     {"diffusion.lag", "r/v", as_axis, run, {0, 0}, ""},
     {"diffusion.displacement", "r²", not_at_all, time, {0, 0}, ""},
-    {"diffusion.rotation", "rad", not_at_all, time, {16, 16}, ""},
-    {"diffusion.rotation_variance", "rad²", not_at_all, time, {16, 16}, ""},
+    {"diffusion.rotation", "rad", not_at_all, time, {0, 0}, ""},
+    {"diffusion.rotation_variance", "rad²", not_at_all, time, {0, 0}, ""},
 
     {"energy.wall_power", "m v³/r", as_mean, collision, {0, 0},
      "work of the wall per time"},

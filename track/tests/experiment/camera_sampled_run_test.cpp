@@ -34,24 +34,21 @@ TEST(CameraSampledRun, DenseExactSamplingMatchesTheRun) {
     EXPECT_NEAR(mean(seen, "rigid_by_time"), mean(exact, "rigid_by_time"), 0.003);
 }
 
-TEST(CameraSampledRun, PositionErrorsAddTheExpectedTemperature) {
+TEST(CameraSampledRun, PositionErrorsAddTheExpectedDisplacement) {
     RunConfig config = small_container();
     config.path = PathShape::polygon;
-    const auto temperature = [&config](double error) {
+    const auto displacement = [&config](double error) {
         return camera_sampled_run(config, {64, error},
-                                  {"temperature"})["measured"]["temperature"]["granular"]["mean"]
+                                  {"diffusion"})["measured"]["diffusion"]["displacement"][0]
             .get<double>();
     };
-    // A velocity over two steps of T/64 has the variance 2σ²/(2T/64)² per coordinate.
-    const double step = config.period / 64.0, error = 0.02;
-    const double added = 2.0 * error * error / (4.0 * step * step);
-    // One run determines it to about a sixth of its value: noise moves some discs to another cell.
+    // Both ends have the variance σ² in each of two coordinates.
+    const double error = 0.02, added = 4.0 * error * error;
     std::vector<double> shares;
     for (config.seed = 1; config.seed <= 16; ++config.seed)
-        shares.push_back((temperature(error) - temperature(0.0)) / added);
+        shares.push_back((displacement(error) - displacement(0.0)) / added);
     const Estimate share = estimate_of(shares);
-    // The mean flow of up to 314 cells takes one degree of freedom each from about 4000 positions.
-    EXPECT_NEAR(share.mean, 0.96, 0.04 + 3.0 * share.error);
+    EXPECT_NEAR(share.mean, 1.0, 3.0 * share.error);
     EXPECT_LT(share.error, 0.06);
 }
 
