@@ -204,9 +204,14 @@ class Folders(unittest.TestCase):
             folder = self.copy_of(kind)
             faulted = continuing(kind, folder)[number]
             with self.subTest(kind=kind, call=faulted[:2], fails=f"{call} {at}", error=errno.errorcode[error]):
+                for earlier in continuing(kind, folder)[:number]:
+                    run(earlier, folder, self.inputs)  # which complete the folder of a stopped call
                 done = run(faulted, folder, self.inputs, LD_PRELOAD=SHIM, FAULT_UNDER=folder,
                            FAULT_CALL=call, FAULT_AT=str(at), FAULT_ERRNO=str(error))
                 if done.returncode == 0:
+                    # A folder of a stopped call has no files of the later calls.
+                    for later in continuing(kind, folder)[number + 1:]:
+                        self.assertEqual(run(later, folder, self.inputs).returncode, 0)
                     self.assert_undisturbed(kind, folder)
                 else:
                     self.assertRegex(done.stderr, r"(?m)^(error: |\w*Error: )")

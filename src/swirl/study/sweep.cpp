@@ -104,6 +104,7 @@ class SweepWorker {
           writer_(part_of_sweep(folder, "results", plan)) {}
 
     SweepOutcome run() {
+        remove_checkpoints_of_done_points();
         std::vector<std::vector<std::size_t>> own, others;
         // Without chains, each point is one.
         const auto add = [&](std::vector<std::size_t> chain, std::size_t k) {
@@ -135,6 +136,17 @@ class SweepWorker {
     }
 
   private:
+    /// A call that ended between the result of a point and its checkpoint leaves the latter.
+    void remove_checkpoints_of_done_points() const {
+        const std::vector<bool> left = numbered_files(part_of_sweep(folder_, "checkpoints", plan_),
+                                                      ".checkpoint", plan_.points());
+        for (std::size_t point = 0; point < left.size(); ++point) {
+            if (!left[point]) continue;
+            const std::shared_ptr<SweepLock> lock = SweepLock::try_lock(locks_, point);
+            if (lock && is_done(point)) remove_checkpoint(files_of_point(folder_, plan_, point));
+        }
+    }
+
     /// The points with a whole result. Those that this call surely does not run are not checked.
     std::vector<bool> results_before() const {
         std::vector<bool> listed(share_.only ? plan_.points() : 0);
